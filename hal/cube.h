@@ -1,0 +1,24 @@
+// Nodes [first, first + count) that work on one interval together, and the sums they make. NX's own g*
+// calls always take the whole machine; these are built from csend and crecv, by dimension exchange over
+// the hypercube that the cube's nodes form (nodes beyond the largest power of two fold in first).
+#pragma once
+
+#include <span>
+
+namespace mars::hal {
+
+struct Cube {
+  int first = 0;
+  int count = 1;
+
+  bool operator==(const Cube&) const = default;
+};
+
+// Element-wise sum of every member's `values`, left in `values` on all of them. All members call, in the
+// same order, with equal lengths; `work` is as long as `values`. Every member gets the same bits.
+void cube_sum(const Cube& cube, std::span<double> values, std::span<double> work);
+
+// Element-wise maximum, likewise.
+void cube_high(const Cube& cube, std::span<double> values, std::span<double> work);
+
+}  // namespace mars::hal

@@ -1,0 +1,130 @@
+// What crosses the wire between host and node: message types and their bodies, plain little-endian structs
+// followed by arrays where said. The node owns this page; the host includes it and nothing else of the
+// firmware. A node boots, sends Hello and then only obeys:
+//
+//   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
+//   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
+//   node -> node   edge-box counts, triangles, CZB lines (types of their own, + the sender's id)
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace mars::node {
+
+enum MessageType : long {
+  kHello = 100,
+  kLoad,
+  kFilmBlock,
+  kLoaded,
+  kRender,
+  kCredit,
+  kStrip,
+  kFault,
+  kStop,
+  // from node to node: this + the sender's id, for NX receives by type alone
+  kTriangles = 10'000'000,
+  kDepthLines = 20'000'000,
+};
+
+// Who a node is. Strings are zero-ended.
+struct Hello {
+  std::int32_t node;
+  std::int32_t machine;       // lowest node id on the same machine
+  std::uint64_t memory;       // bytes it may use for one frame's triangles and edge boxes
+  std::array<char, 64> host;  // name of its machine
+  std::array<char, 64> binding;  // processors it is bound to, as hwloc lists them; "" if free
+  std::array<char, 16> simd;  // widest instruction set its kernels use
+};
+
+enum class Mapping : std::uint32_t { greedy, optimal };
+
+// Prepares a film of `film_bytes`. Nodes that lead a machine get the block next, as kFilmBlock.
+struct Load {
+  std::uint64_t film_bytes;
+  std::uint64_t memory;   // bytes for one frame's triangles and edge boxes; 0: as the node offered
+  std::int32_t credits;   // strips a node may have on the way to the host
+  Mapping mapping;
+};
+
+// Frames of one interval for one cube: the first is rendered by all its nodes as the keyframe, the others go
+// whole to single nodes; inbetween number k of the film (first_inbetween counts those before) to the cube's
+// node k mod count. Followed by frame_count frame numbers (uint32), ascending.
+struct Render {
+  std::uint32_t interval;
+  std::int32_t cube_first;
+  std::int32_t cube_count;
+  std::uint32_t frame_count;
+  std::uint64_t first_inbetween;
+};
+
+// Gives back `count` strips' credit.
+struct Credit {
+  std::int32_t count;
+};
+
+// Seconds spent in the steps of one frame on one node.
+struct PhaseTimes {
+  double dice;      // patches to triangles and their counts
+  double sum;       // global sum of EBC
+  double map;       // mapping of scanlines
+  double exchange;  // triangles to the homes of their lines
+  double fill;      // edge boxes into place
+  double scanline;  // visibility and shading
+  double depth;     // CZB exchange
+  double credit;    // waiting for the host's credit
+};
+
+// What was done for one frame by one node.
+struct WorkCounts {
+  std::uint64_t patches;          // diced
+  std::uint64_t vertices;
+  std::uint64_t triangles;        // made from its own patches, touching a sample
+  std::uint64_t edge_boxes_diced; // of those triangles
+  std::uint64_t edge_boxes;       // drawn on its own lines
+  std::uint64_t pixels;           // shaded
+  std::uint64_t bytes_to_nodes;
+  std::uint64_t bytes_to_host;    // with this strip
+  std::uint64_t memory;           // bytes of the frame's arena in use at its fullest
+  std::uint32_t passes;           // over line ranges; 1 unless memory was short
+  std::uint32_t credits_waited;   // strips that had to wait for credit
+};
+
+enum class FrameKind : std::uint32_t { keyframe, inbetween };
+
+// One node's part of one frame: its CFB pixels (keyframes only), then its MFB pixels, each as runs.
+// Followed by constant_runs + moving_runs Run, then as many pixels as the runs count, in their order,
+// each one uint32: red in the lowest byte, then green, blue, 0.
+struct Strip {
+  std::uint32_t frame;
+  std::uint32_t interval;
+  FrameKind kind;
+  std::int32_t node;
+  std::int32_t cube_first;
+  std::int32_t cube_count;        // a keyframe is whole when this many strips have come
+  std::uint32_t first_line;       // the node's home lines [first_line, last_line); all for an inbetween
+  std::uint32_t last_line;
+  std::uint32_t constant_runs;
+  std::uint32_t moving_runs;
+  std::uint64_t pixels;
+  std::uint64_t edge_box_total;   // EBC's last entry (keyframes)
+  double load_ratio;              // max / average load of the mapping (keyframes; 1 for an inbetween)
+  PhaseTimes times;
+  WorkCounts work;
+};
+
+// `count` pixels of line `line` from column `first`.
+struct Run {
+  std::uint32_t line;
+  std::uint16_t first;
+  std::uint16_t count;
+};
+
+// Why a node cannot go on; the whole run stops.
+struct Fault {
+  std::int32_t node;
+  std::int32_t frame;  // -1: before any
+  std::array<char, 1024> reason;
+};
+
+}  // namespace mars::node
