@@ -1,0 +1,235 @@
+#include "node/film.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "hal/failure.h"
+
+namespace mars::node {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the film block is little-endian and read in place");
+
+constexpr std::array<char, 8> kMagic = {'M', 'A', 'R', 'S', 'F', 'I', 'L', 'M'};
+constexpr std::size_t kAlignment = 64;
+constexpr double kLargest = 1e12;  // of any number in a film: squares and products stay far inside a float
+
+enum Section : std::size_t {
+  kSettings, kPatches, kShapes, kSegments, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges,
+  kIntervals, kMoving, kNames, kSections
+};
+
+struct Place {
+  std::uint64_t offset;
+  std::uint64_t count;
+};
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint32_t version;
+  std::uint32_t sections;
+  std::array<Place, kSections> place;
+};
+
+std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
+
+template <typename Items>
+void append(std::vector<std::byte>& block, Place& place, const Items& items) {
+  const auto bytes = std::as_bytes(std::span(items));
+  place = {aligned(block.size()), items.size()};
+  block.resize(place.offset);
+  block.insert(block.end(), bytes.begin(), bytes.end());
+}
+
+[[noreturn]] void broken(const std::string& where, const std::string& what) {
+  throw Failure("is not a sound compiled film: " + what, where, "compile the film again with `mars compile`");
+}
+
+void require(bool holds, const std::string& where, const char* what) {
+  if (!holds) broken(where, what);
+}
+
+template <typename T>
+std::span<const T> section(std::span<const std::byte> block, const Place& place, const std::string& where) {
+  const bool inside = place.offset % kAlignment == 0 && place.offset <= block.size() &&
+                      place.count <= (block.size() - place.offset) / sizeof(T);
+  require(inside, where, "a section lies outside the file");
+  return {reinterpret_cast<const T*>(block.data() + place.offset), static_cast<std::size_t>(place.count)};
+}
+
+Header read_header(std::span<const std::byte> block, const std::string& where) {
+  Header header;
+  require(block.size() >= sizeof header, where, "it is too short");
+  std::memcpy(&header, block.data(), sizeof header);
+  require(header.magic == kMagic, where, "it does not begin as one");
+  require(header.version == kFilmVersion, where, "it has another version");
+  require(header.sections == kSections, where, "it has another number of sections");
+  return header;
+}
+
+template <typename Range>
+bool all_finite(const Range& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [](auto number) { return number >= -kLargest && number <= kLargest; });
+}
+
+bool sound(const Material& m) {
+  return all_finite(m.color) && all_finite(std::array{m.ambient, m.diffuse, m.specular}) && m.exponent >= 0 &&
+         m.exponent <= 65535 && (m.sides == 1 || m.sides == 2);
+}
+
+bool sound(const Matrix& matrix) {
+  return std::all_of(matrix.m.begin(), matrix.m.end(), [](const auto& row) { return all_finite(row); });
+}
+
+bool sound(const Camera& camera) {
+  return sound(camera.world_to_eye) && camera.focal > 0 && camera.focal <= 1e6 && camera.near >= 1e-9 &&
+         camera.far > camera.near && camera.far <= kLargest;
+}
+
+bool sound(const Light& light) { return light.kind <= 1 && all_finite(light.vector) && all_finite(light.color); }
+
+bool sound(const Patch& patch) {
+  return std::all_of(patch.points.begin(), patch.points.end(), [](const auto& p) { return all_finite(p); });
+}
+
+template <typename T>
+bool all_sound(std::span<const T> items) {
+  return std::all_of(items.begin(), items.end(), [](const T& item) { return sound(item); });
+}
+
+bool sound(const FilmSettings& s) {
+  return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
+         s.dice <= 256 && all_finite(s.background) && s.rate > 0 && s.rate <= 1e6f;
+}
+
+// Whether a track lies within `changes`, starts at frame 0, ascends, and names values below `values`.
+bool sound(const Track& track, std::span<const Change> changes, std::size_t values) {
+  if (track.count == 0 || track.first > changes.size() || track.count > changes.size() - track.first) return false;
+  const auto steps = changes.subspan(track.first, track.count);
+  const auto not_later = [](const Change& a, const Change& b) { return a.frame >= b.frame; };
+  return steps[0].frame == 0 && std::adjacent_find(steps.begin(), steps.end(), not_later) == steps.end() &&
+         std::all_of(steps.begin(), steps.end(), [&](const Change& c) { return c.value < values; });
+}
+
+}  // namespace
+
+std::vector<std::byte> pack(const FilmData& film) {
+  check(film.changes.size() <= std::numeric_limits<std::uint32_t>::max(), "a film's changes fit 32 bits");
+  Header header{kMagic, kFilmVersion, kSections, {}};
+  std::vector<std::byte> block(sizeof header);
+  const auto add = [&](Section number, const auto& items) {
+    append(block, header.place[number], items);
+  };
+  add(kSettings, std::array{film.settings});
+  add(kPatches, film.patches);
+  add(kShapes, film.shapes);
+  add(kSegments, film.segments);
+  add(kMaterials, film.materials);
+  add(kMatrices, film.matrices);
+  add(kCameras, film.cameras);
+  add(kLights, film.lights);
+  add(kLightTracks, film.light_tracks);
+  add(kChanges, film.changes);
+  add(kIntervals, film.intervals);
+  add(kMoving, film.moving);
+  add(kNames, film.names);
+  block.resize(aligned(block.size()));
+  std::memcpy(block.data(), &header, sizeof header);
+  return block;
+}
+
+FilmView::FilmView(std::span<const std::byte> block, const std::string& where, bool trusted) {
+  const Header header = read_header(block, where);
+  const auto read = [&]<typename T>(Section number, std::span<const T>& items) {
+    items = section<T>(block, header.place[number], where);
+  };
+  const auto settings = section<FilmSettings>(block, header.place[kSettings], where);
+  require(settings.size() == 1, where, "it has no settings");
+  settings_ = settings.data();
+  read(kPatches, patches_);
+  read(kShapes, shapes_);
+  read(kSegments, segments_);
+  read(kMaterials, materials_);
+  read(kMatrices, matrices_);
+  read(kCameras, cameras_);
+  read(kLights, lights_);
+  read(kLightTracks, light_tracks_);
+  read(kChanges, changes_);
+  read(kIntervals, intervals_);
+  read(kMoving, moving_);
+  read(kNames, names_);
+  if (!trusted) check_all(where);
+}
+
+void FilmView::check_all(const std::string& where) const {
+  require(sound(*settings_), where, "its settings are out of range");
+  require(all_sound(patches_), where, "a patch is not finite");
+  require(all_sound(materials_), where, "a material is out of range");
+  require(all_sound(matrices_), where, "a matrix is not finite");
+  require(all_sound(cameras_), where, "a camera is out of range");
+  require(all_sound(lights_), where, "a light is out of range");
+  require(names_.empty() ? segments_.empty() : names_.back() == '\0', where, "its names do not end");
+  require(sound(settings_->camera, changes_, cameras_.size()), where, "the camera's track is broken");
+  for (const Track& track : light_tracks_)
+    require(sound(track, changes_, lights_.size()), where, "a light's track is broken");
+  for (const Shape& shape : shapes_)
+    require(shape.first_patch <= patches_.size() && shape.patch_count <= patches_.size() - shape.first_patch, where,
+            "a shape has no such patches");
+  for (const Segment& segment : segments_) {
+    require(segment.shape < shapes_.size(), where, "a segment has no such shape");
+    require(segment.name < names_.size(), where, "a segment has no such name");
+    require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
+    require(sound(segment.look, changes_, materials_.size()), where, "a segment's material is broken");
+  }
+  require(patch_instances() <= std::numeric_limits<std::uint32_t>::max(), where, "it has too many patches");
+  std::uint64_t next = 0;
+  for (const Interval& interval : intervals_) {
+    require(interval.first_frame == next && interval.frame_count > 0, where, "its intervals leave a gap");
+    next += interval.frame_count;
+    const bool inside = interval.first_moving <= moving_.size() &&
+                        interval.moving_count <= moving_.size() - interval.first_moving;
+    require(inside, where, "an interval has no such moving segments");
+    const auto list = moving(interval);
+    const bool ascending = std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+    require(ascending && (list.empty() || list.back() < segments_.size()), where, "an interval's movers are broken");
+  }
+  require(next == settings_->frames, where, "its intervals do not cover its frames");
+}
+
+std::span<const std::uint32_t> FilmView::moving(const Interval& interval) const {
+  return moving_.subspan(interval.first_moving, interval.moving_count);
+}
+
+std::string_view FilmView::name(const Segment& segment) const { return names_.data() + segment.name; }
+
+std::uint32_t FilmView::value_at(const Track& track, std::uint32_t frame) const {
+  const auto steps = changes_.subspan(track.first, track.count);
+  const auto later = std::upper_bound(steps.begin(), steps.end(), frame,
+                                      [](std::uint32_t f, const Change& change) { return f < change.frame; });
+  return std::prev(later)->value;
+}
+
+const Matrix& FilmView::matrix_at(const Segment& segment, std::uint32_t frame) const {
+  return matrices_[value_at(segment.motion, frame)];
+}
+
+const Material& FilmView::material_at(const Segment& segment, std::uint32_t frame) const {
+  return materials_[value_at(segment.look, frame)];
+}
+
+const Camera& FilmView::camera_at(std::uint32_t frame) const {
+  return cameras_[value_at(settings_->camera, frame)];
+}
+
+std::uint64_t FilmView::patch_instances() const {
+  std::uint64_t patches = 0;
+  for (const Segment& segment : segments_) patches += shapes_[segment.shape].patch_count;
+  return patches;
+}
+
+}  // namespace mars::node
