@@ -92,16 +92,18 @@ struct WorkCounts {
 
 enum class FrameKind : std::uint32_t { keyframe, inbetween };
 
-// One node's part of one frame: its CFB pixels (keyframes only), then its MFB pixels, each as runs.
-// Followed by constant_runs + moving_runs Run, then as many pixels as the runs count, in their order,
-// each one uint32: red in the lowest byte, then green, blue, 0.
+// One node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
+// its moving parts (MFB). Followed by all pixels, each one uint32 (red in the lowest byte, then green, blue,
+// 0), then by constant_runs + moving_runs Run that say where they go, in the same order.
 struct Strip {
   std::uint32_t frame;
   std::uint32_t interval;
   FrameKind kind;
   std::int32_t node;
   std::int32_t cube_first;
-  std::int32_t cube_count;        // a keyframe is whole when this many strips have come
+  std::int32_t cube_count;
+  std::uint32_t strips;           // that this node sends for this frame: one a pass over line ranges
+  std::uint32_t last;             // 1 if this is the last of them; a frame is whole when all nodes' last came
   std::uint32_t first_line;       // the node's home lines [first_line, last_line); all for an inbetween
   std::uint32_t last_line;
   std::uint32_t constant_runs;
