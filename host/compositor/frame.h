@@ -1,0 +1,31 @@
+// A picture the size of the film on its way from the compositor to the sinks. Its pixels stay where they
+// are from one use to the next, so that the compositor needs to mend only the blocks it had overwritten.
+// Pixels are rows from the top, each one uint32: red in the lowest byte, then green, blue, 0.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/compositor/block_flags.h"
+
+namespace mars::host {
+
+struct Frame {
+  Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block);
+
+  std::uint32_t number = 0;  // of the film's frames, from 0
+  std::uint32_t width;
+  std::uint32_t height;
+  std::vector<std::uint32_t> pixels;
+
+  // Blocks that may differ from frame `changed_since`; all of them when that is none.
+  BlockFlags changed;
+  std::optional<std::uint32_t> changed_since;
+
+  // The compositor's: the saved background these pixels show (0: none yet) wherever no block is flagged.
+  std::uint64_t background = 0;
+  BlockFlags overwritten;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,175 @@
+#include "host/sinks/png_file.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+#include <string>
+
+#include "hal/failure.h"
+#include "host/sinks/whole_file.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+namespace {
+
+// libpng leaves a failing call by longjmp, which must not pass a C++ object: the functions between setjmp and
+// libpng hold plain data only, and what grows lives with their caller.
+struct Trouble {
+  char reason[200] = "";
+};
+
+void on_error(png_structp png, png_const_charp reason) {
+  auto* trouble = static_cast<Trouble*>(png_get_error_ptr(png));
+  std::strncpy(trouble->reason, reason, sizeof trouble->reason - 1);
+  std::longjmp(*png_set_longjmp_fn(png, std::longjmp, sizeof(std::jmp_buf)), 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+void append_bytes(png_structp png, png_bytep data, std::size_t size) {
+  auto* bytes = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
+  const auto* first = reinterpret_cast<const std::byte*>(data);
+  bytes->insert(bytes->end(), first, first + size);
+}
+
+void nothing_to_flush(png_structp) {}
+
+struct Source {
+  const std::byte* next;
+  const std::byte* end;
+};
+
+void take_bytes(png_structp png, png_bytep data, std::size_t size) {
+  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (static_cast<std::size_t>(source->end - source->next) < size) png_error(png, "the file ends too early");
+  std::memcpy(data, source->next, size);
+  source->next += size;
+}
+
+class Writer {
+ public:
+  Writer() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &trouble_, on_error, on_warning)) {
+    check(png_ != nullptr, "libpng starts");
+    info_ = png_create_info_struct(png_);
+  }
+  ~Writer() { png_destroy_write_struct(&png_, &info_); }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  // `row` has room for 3 * width bytes.
+  bool encode(std::uint32_t width, std::uint32_t height, const std::uint32_t* pixels, png_bytep row,
+              std::vector<std::byte>* bytes) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_set_write_fn(png_, bytes, append_bytes, nothing_to_flush);
+    png_set_IHDR(png_, info_, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_compression_level(png_, 1);
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_write_info(png_, info_);
+    for (std::size_t line = 0; line < height; ++line) {
+      pack_row(pixels + line * width, width, row);
+      png_write_row(png_, row);
+    }
+    png_write_end(png_, info_);
+    return true;
+  }
+
+  const char* reason() const { return trouble_.reason; }
+
+ private:
+  static void pack_row(const std::uint32_t* pixels, std::uint32_t width, png_bytep row) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      row[3 * x] = static_cast<png_byte>(pixels[x]);
+      row[3 * x + 1] = static_cast<png_byte>(pixels[x] >> 8);
+      row[3 * x + 2] = static_cast<png_byte>(pixels[x] >> 16);
+    }
+  }
+
+  Trouble trouble_;
+  png_structp png_;
+  png_infop info_ = nullptr;
+};
+
+class Reader {
+ public:
+  Reader() : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &trouble_, on_error, on_warning)) {
+    check(png_ != nullptr, "libpng starts");
+    info_ = png_create_info_struct(png_);
+  }
+  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  // Up to the size of the picture and what rows will look like: four bytes a pixel.
+  bool begin(Source* source, Image* image) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_set_read_fn(png_, source, take_bytes);
+    png_set_user_limits(png_, node::kMaxSide, node::kMaxSide);
+    png_read_info(png_, info_);
+    image->width = png_get_image_width(png_, info_);
+    image->height = png_get_image_height(png_, info_);
+    png_set_expand(png_);
+    png_set_scale_16(png_);
+    png_set_gray_to_rgb(png_);
+    png_set_strip_alpha(png_);
+    png_set_filler(png_, 0, PNG_FILLER_AFTER);
+    passes_ = png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    return true;
+  }
+
+  bool decode(std::uint32_t width, std::uint32_t height, std::uint32_t* pixels) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    for (int pass = 0; pass < passes_; ++pass) {
+      for (std::size_t line = 0; line < height; ++line) {
+        png_read_row(png_, reinterpret_cast<png_bytep>(pixels + line * width), nullptr);
+      }
+    }
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+  const char* reason() const { return trouble_.reason; }
+
+ private:
+  Trouble trouble_;
+  png_structp png_;
+  png_infop info_ = nullptr;
+  int passes_ = 1;
+};
+
+}  // namespace
+
+std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
+                                  std::span<const std::uint32_t> pixels) {
+  check(pixels.size() == std::size_t{width} * height, "a picture has width * height pixels");
+  std::vector<png_byte> row(std::size_t{width} * 3);
+  std::vector<std::byte> bytes;
+  bytes.reserve(pixels.size());
+  Writer writer;
+  if (!writer.encode(width, height, pixels.data(), row.data(), &bytes)) {
+    throw Failure(std::string("libpng cannot encode a picture: ") + writer.reason(), "", "");
+  }
+  return bytes;
+}
+
+Image read_png(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_whole_file(path);
+  const auto torn = [&](const Reader& reader) {
+    return Failure(std::string("not a whole PNG picture: ") + reader.reason(), path.string(),
+                   "render it again");
+  };
+  Source source{bytes.data(), bytes.data() + bytes.size()};
+  Image image;
+  Reader reader;
+  if (!reader.begin(&source, &image)) throw torn(reader);
+  image.pixels.resize(std::size_t{image.width} * image.height);
+  if (!reader.decode(image.width, image.height, image.pixels.data())) throw torn(reader);
+  return image;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,22 @@
+// Where finished frames go: files, later a screen or a studio. A true seam: the sink pool knows no more.
+#pragma once
+
+#include "host/compositor/frame.h"
+
+namespace mars::host {
+
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  // Called from several threads at once, each with a frame of its own, in any order of frames. Throws
+  // Failure where the frame could not be taken.
+  virtual void take(const Frame& frame) = 0;
+};
+
+// Takes frames to nowhere, to measure what comes before.
+class NothingSink : public Sink {
+ public:
+  void take(const Frame&) override {}
+};
+
+}  // namespace mars::host

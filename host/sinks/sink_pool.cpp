@@ -1,0 +1,94 @@
+#include "host/sinks/sink_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) {
+  check(shape.frames >= 1 && shape.threads >= 1, "a sink pool has a frame and a thread");
+  for (std::uint32_t i = 0; i < shape.frames; ++i) {
+    frames_.push_back(std::make_unique<Frame>(shape.width, shape.height, shape.block));
+    free_.push_back(frames_.back().get());
+  }
+  for (std::uint32_t i = 0; i < shape.threads; ++i) threads_.emplace_back([this] { work(); });
+}
+
+SinkPool::~SinkPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    waiting_.clear();
+  }
+  submitted_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+Frame* SinkPool::free_frame(std::uint64_t background) {
+  const std::lock_guard lock(mutex_);
+  tell_failure();
+  if (free_.empty()) return nullptr;
+  auto best = std::find_if(free_.begin(), free_.end(),
+                           [&](const Frame* frame) { return frame->background == background; });
+  if (best == free_.end()) best = free_.end() - 1;
+  Frame* frame = *best;
+  free_.erase(best);
+  return frame;
+}
+
+void SinkPool::submit(Frame* frame) {
+  {
+    const std::lock_guard lock(mutex_);
+    tell_failure();
+    waiting_.push_back(frame);
+  }
+  submitted_.notify_one();
+}
+
+std::vector<std::uint32_t> SinkPool::taken() {
+  const std::lock_guard lock(mutex_);
+  tell_failure();
+  return std::exchange(taken_, {});
+}
+
+void SinkPool::finish() {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [this] { return failure_ || (waiting_.empty() && busy_ == 0); });
+  tell_failure();
+}
+
+void SinkPool::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    submitted_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
+    if (stop_) return;
+    take(lock);
+    idle_.notify_all();
+  }
+}
+
+void SinkPool::take(std::unique_lock<std::mutex>& lock) {
+  Frame* frame = waiting_.front();
+  waiting_.pop_front();
+  ++busy_;
+  lock.unlock();
+  std::exception_ptr failure;
+  try {
+    sink_.take(*frame);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  --busy_;
+  free_.push_back(frame);
+  if (!failure) taken_.push_back(frame->number);
+  if (failure && !failure_) failure_ = failure;
+}
+
+void SinkPool::tell_failure() {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,70 @@
+// A fixed number of frame buffers and of threads that hand finished frames to a sink: the host's memory is
+// bounded, and its loop never waits for a file. The loop (one thread) asks for a free frame, composes it,
+// submits it, and asks now and then which frames were taken, to give their credit back to the nodes.
+// A sink's failure reaches the loop as an exception from whichever of these calls comes next.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "host/sinks/sink.h"
+
+namespace mars::host {
+
+class SinkPool {
+ public:
+  struct Shape {
+    std::uint32_t width;  // pixels
+    std::uint32_t height;
+    std::uint32_t block;    // side of a flag's block in pixels
+    std::uint32_t frames;   // buffers, at least 1
+    std::uint32_t threads;  // at least 1
+  };
+
+  // `sink` must outlive the pool.
+  SinkPool(Sink& sink, const Shape& shape);
+  // Waits for frames that a thread has begun; those still queued are dropped.
+  ~SinkPool();
+  SinkPool(const SinkPool&) = delete;
+  SinkPool& operator=(const SinkPool&) = delete;
+
+  const Shape& shape() const { return shape_; }
+
+  // A frame to compose, the caller's until submitted, preferably one that shows the saved background of that
+  // name; nullptr when all are with the sink.
+  Frame* free_frame(std::uint64_t background = 0);
+  void submit(Frame* frame);
+  // Numbers of the frames the sink has taken since the last call.
+  std::vector<std::uint32_t> taken();
+  // Waits until every submitted frame was taken.
+  void finish();
+
+ private:
+  void work();
+  void take(std::unique_lock<std::mutex>& lock);
+  void tell_failure();
+
+  Sink& sink_;
+  const Shape shape_;
+  std::vector<std::unique_ptr<Frame>> frames_;
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable submitted_;
+  std::condition_variable idle_;
+  std::vector<Frame*> free_;
+  std::deque<Frame*> waiting_;
+  std::vector<std::uint32_t> taken_;
+  std::size_t busy_ = 0;  // threads within the sink
+  bool stop_ = false;
+  std::exception_ptr failure_;
+
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace mars::host

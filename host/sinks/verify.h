@@ -1,0 +1,26 @@
+// Looks a folder of frames over: is every frame the manifest names there, whole and of the right size? The
+// hash over all pixels tells two renderings of one film apart, or the same.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mars::host {
+
+struct Verdict {
+  struct Trouble {
+    std::uint32_t frame;
+    std::string reason;
+  };
+
+  std::uint32_t expected = 0;     // frames
+  std::vector<Trouble> troubles;  // frames that are missing, torn or of another size
+  std::string hash;               // XXH3's 128 bits over the pixels of all frames in order; "" with troubles
+};
+
+// Throws Failure where there is no folder or no manifest.
+Verdict verify_folder(const std::filesystem::path& folder);
+
+}  // namespace mars::host

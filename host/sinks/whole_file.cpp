@@ -1,0 +1,132 @@
+#include "host/sinks/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+namespace {
+
+// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags, const char* act)
+      : path_(path), act_(act), number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (number_ < 0) fail_file(act, path, errno);
+  }
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  void write_all(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t done = write(number_, bytes.data(), bytes.size());
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) fail_file(act_, path_, errno);
+      bytes = bytes.subspan(static_cast<std::size_t>(done));
+    }
+  }
+
+  std::vector<std::byte> read_all() {
+    std::vector<std::byte> bytes;
+    std::size_t used = 0;
+    while (true) {
+      bytes.resize(std::max<std::size_t>(used * 2, 1 << 16));
+      const ssize_t done = read(number_, bytes.data() + used, bytes.size() - used);
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) fail_file(act_, path_, errno);
+      used += static_cast<std::size_t>(done);
+      if (done == 0) break;
+    }
+    bytes.resize(used);
+    return bytes;
+  }
+
+  // Network file systems may tell only here that the disk is full.
+  void close_checked() {
+    const int closed = close(number_);
+    number_ = -1;
+    if (closed != 0) fail_file(act_, path_, errno);
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  const char* act_;
+  int number_;
+};
+
+const char* remedy_for(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose a folder on another disk";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a folder you may write to, or change its permissions";
+    case ENOENT:
+      return "check the name";
+    case ENOTDIR:
+    case EISDIR:
+    case EEXIST:
+      return "something of another kind has this name: choose another";
+    default:
+      return "";
+  }
+}
+
+// Removes the temporary file unless it was renamed.
+class Part {
+ public:
+  explicit Part(const std::filesystem::path& path) : target_(path), path_(path) { path_ += kPartSuffix; }
+  ~Part() {
+    if (!renamed_) unlink(path_.c_str());
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  void rename_to_target() {
+    if (rename(path_.c_str(), target_.c_str()) != 0) fail_file("write", target_, errno);
+    renamed_ = true;
+  }
+
+ private:
+  const std::filesystem::path& target_;
+  std::filesystem::path path_;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  Part part(path);
+  Descriptor file(part.path(), O_WRONLY | O_CREAT | O_TRUNC, "write");
+  file.write_all(bytes);
+  file.close_checked();
+  part.rename_to_target();
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  write_whole_file(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+std::vector<std::byte> read_whole_file(const std::filesystem::path& path) {
+  return Descriptor(path, O_RDONLY, "read").read_all();
+}
+
+void fail_file(const char* act, const std::filesystem::path& path, int error) {
+  throw Failure(std::string("cannot ") + act + ": " + std::strerror(error), path.string(), remedy_for(error));
+}
+
+}  // namespace mars::host
