@@ -1,0 +1,181 @@
+#include "node/bezier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace mars::node {
+namespace {
+
+// All rates' tables in one block: for each rate, seven arrays of rate + 1.
+class BasisTables {
+ public:
+  BasisTables() : numbers_(static_cast<std::size_t>(7 * (kMaxRate + 1) * (kMaxRate + 2) / 2)) {
+    float* next = numbers_.data();
+    for (int rate = 1; rate <= kMaxRate; ++rate) next = fill(rate, next);
+  }
+
+  const Basis& at(int rate) const { return bases_[static_cast<std::size_t>(rate)]; }
+
+ private:
+  float* fill(int rate, float* next) {
+    Basis& basis = bases_[static_cast<std::size_t>(rate)];
+    basis.rate = rate;
+    float* row[7];
+    for (float*& r : row) r = std::exchange(next, next + rate + 1);
+    std::copy(row, row + 4, basis.cubic);
+    std::copy(row + 4, row + 7, basis.quadratic);
+    for (int i = 0; i <= rate; ++i) {
+      const double t = static_cast<double>(i) / rate, s = 1.0 - t;
+      const double value[7] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t, s * s, 2 * s * t, t * t};
+      for (int k = 0; k < 7; ++k) row[k][i] = static_cast<float>(value[k]);
+    }
+    return next;
+  }
+
+  std::vector<float> numbers_;
+  std::array<Basis, kMaxRate + 1> bases_{};
+};
+
+float square_length(float x, float y, float z) { return x * x + y * y + z * z; }
+
+// |a - 2 b + c|^2
+float bend(const float* a, const float* b, const float* c) {
+  return square_length(a[0] - 2 * b[0] + c[0], a[1] - 2 * b[1] + c[1], a[2] - 2 * b[2] + c[2]);
+}
+
+// Greatest |second difference|^2 of four points `stride` apart.
+float curve_bend(const float (*p)[3], int stride) {
+  return std::max(bend(p[0], p[stride], p[2 * stride]), bend(p[stride], p[2 * stride], p[3 * stride]));
+}
+
+// Greatest |mixed difference|^2 of the patch's nine cells.
+float twist(const EyePatch& patch) {
+  float greatest = 0;
+  for (int cell = 0; cell < 11; ++cell) {
+    if (cell % 4 == 3) continue;
+    const float *a = patch.point[cell], *b = patch.point[cell + 1], *c = patch.point[cell + 4],
+                *d = patch.point[cell + 5];
+    greatest = std::max(greatest, square_length(a[0] - b[0] - c[0] + d[0], a[1] - b[1] - c[1] + d[1],
+                                                a[2] - b[2] - c[2] + d[2]));
+  }
+  return greatest;
+}
+
+// Pixels a unit length shows at most, at the nearest of `count` points.
+float magnification(const float (*p)[3], int count, const Projection& projection) {
+  float nearest = -p[0][2];
+  for (int i = 1; i < count; ++i) nearest = std::min(nearest, -p[i][2]);
+  return projection.scale / std::max(nearest, projection.near);
+}
+
+// Steps for a second derivative of `bound` pixels: ceil(sqrt(bound / (8 tolerance))).
+int steps(float bound) {
+  const float rate = std::sqrt(bound / (8 * kTolerance));
+  if (!(rate < kMaxRate)) return kMaxRate;
+  const int whole = static_cast<int>(rate);
+  return std::max(1, static_cast<float>(whole) < rate ? whole + 1 : whole);
+}
+
+bool comes_after(const Curve& curve) {
+  const auto& p = curve.point;
+  for (const auto& [a, b] : {std::pair{0, 3}, std::pair{1, 2}})
+    for (int axis = 0; axis < 3; ++axis)
+      if (p[a][axis] != p[b][axis]) return p[a][axis] > p[b][axis];
+  return false;
+}
+
+}  // namespace
+
+EyeMatrix eye_matrix(const Matrix& world_to_eye, const Matrix& to_world) {
+  EyeMatrix out;
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto& e = world_to_eye.m[r];
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto& w = to_world.m;
+      out.m[r][c] = static_cast<float>(e[0] * w[0][c] + e[1] * w[1][c] + e[2] * w[2][c] + (c == 3 ? e[3] : 0.0));
+    }
+  }
+  return out;
+}
+
+bool mirrors(const EyeMatrix& matrix) {
+  const auto& m = matrix.m;
+  const auto minor = [&](int a, int b) {
+    return static_cast<double>(m[1][a]) * m[2][b] - static_cast<double>(m[1][b]) * m[2][a];
+  };
+  return m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1) < 0;
+}
+
+EyePatch to_eye(const EyeMatrix& matrix, const Patch& patch) {
+  EyePatch out;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const auto& p = patch.points[i];
+    for (int r = 0; r < 3; ++r) {
+      const float* m = matrix.m[r];
+      out.point[i][r] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
+    }
+  }
+  return out;
+}
+
+const Basis& basis(int rate) {
+  static const BasisTables tables;
+  return tables.at(rate);
+}
+
+Edge edge(const EyePatch& patch, Side side) {
+  constexpr int first[] = {0, 3, 12, 0};
+  constexpr int stride[] = {1, 4, 1, 4};
+  const auto s = static_cast<std::size_t>(side);
+  Edge out{};
+  for (int i = 0; i < 4; ++i) std::copy_n(patch.point[first[s] + i * stride[s]], 3, out.curve.point[i]);
+  out.reversed = comes_after(out.curve);
+  if (out.reversed) {
+    std::swap(out.curve.point[0], out.curve.point[3]);
+    std::swap(out.curve.point[1], out.curve.point[2]);
+  }
+  return out;
+}
+
+int edge_rate(const Curve& curve, const Projection& projection) {
+  const float second = 6 * std::sqrt(curve_bend(curve.point, 1));
+  return steps(second * magnification(curve.point, 4, projection));
+}
+
+Rates rates(const EyePatch& patch, const Projection& projection, int fixed) {
+  if (fixed > 0) return {fixed, fixed, {fixed, fixed, fixed, fixed}};
+  float along_u = 0, along_v = 0;
+  for (int i = 0; i < 4; ++i) {
+    along_u = std::max(along_u, curve_bend(patch.point + 4 * i, 1));
+    along_v = std::max(along_v, curve_bend(patch.point + i, 4));
+  }
+  const float scale = magnification(patch.point, 16, projection);
+  const float mixed = 9 * std::sqrt(twist(patch));
+  Rates out{};
+  out.u = steps((6 * std::sqrt(along_u) + mixed) * scale);
+  out.v = steps((6 * std::sqrt(along_v) + mixed) * scale);
+  for (const Side side : {Side::bottom, Side::right, Side::top, Side::left})
+    out.side[static_cast<int>(side)] = edge_rate(edge(patch, side).curve, projection);
+  return out;
+}
+
+bool unseen(const EyePatch& patch, const Projection& projection, float width, float height) {
+  // Half-spaces of places that cannot be drawn: nearer, farther, left, right, above, below, with a pixel's margin.
+  bool all[6] = {true, true, true, true, true, true};
+  const float left = projection.center[0] + 1, right = width + 1 - projection.center[0];
+  const float above = projection.center[1] + 1, below = height + 1 - projection.center[1];
+  for (const auto& p : patch.point) {
+    const float w = -p[2], x = projection.scale * p[0], y = -projection.scale * p[1];
+    all[0] &= w < projection.near;
+    all[1] &= w > projection.far;
+    all[2] &= x < -left * w;
+    all[3] &= x > right * w;
+    all[4] &= y < -above * w;
+    all[5] &= y > below * w;
+  }
+  return std::any_of(all, all + 6, [](bool outside) { return outside; });
+}
+
+}  // namespace mars::node

@@ -1,0 +1,64 @@
+// Bicubic Bezier patches in eye space: moving them there, and how finely each must be diced. Pure shape: no
+// message, no film, no picture. Rates are numbers of steps.
+#pragma once
+
+#include "node/film.h"
+#include "node/kernels.h"
+
+namespace mars::node {
+
+inline constexpr int kMaxRate = 256;
+// A diced curve strays from the true one by no more than this many pixels (edges), or twice this (insides).
+inline constexpr float kTolerance = 0.125f;
+
+struct EyeMatrix {
+  float m[3][4];
+};
+
+// Point (i, j) is point[4 * j + i], i along u.
+struct EyePatch {
+  float point[16][3];
+};
+
+// Four control points of a curve.
+struct Curve {
+  float point[4][3];
+};
+
+enum class Side { bottom, right, top, left };  // v = 0, u = 1, v = 1, u = 0
+
+struct Rates {
+  int u;
+  int v;
+  int side[4];  // indexed by Side
+};
+
+// world_to_eye * to_world, rounded once.
+EyeMatrix eye_matrix(const Matrix& world_to_eye, const Matrix& to_world);
+// Whether the map turns shapes inside out.
+bool mirrors(const EyeMatrix& matrix);
+
+EyePatch to_eye(const EyeMatrix& matrix, const Patch& patch);
+
+// Basis of `rate` steps, 1..kMaxRate; tables live as long as the program.
+const Basis& basis(int rate);
+
+// An edge in its one canonical direction, which depends on its four points alone; `reversed` tells whether
+// that runs against u or v.
+struct Edge {
+  Curve curve;
+  bool reversed;
+};
+Edge edge(const EyePatch& patch, Side side);
+
+// Steps so that chords stay within kTolerance of the curve on the screen (Filip, Magedson & Markot, "Surface
+// algorithms using bounds on derivatives", 1986), from the four points alone; direction does not matter.
+int edge_rate(const Curve& curve, const Projection& projection);
+
+// Rates of the sides and of the inside. `fixed`: N for all, 0 for adaptive.
+Rates rates(const EyePatch& patch, const Projection& projection, int fixed);
+
+// Whether the patch surely leaves no mark on a picture of width x height: its hull lies outside.
+bool unseen(const EyePatch& patch, const Projection& projection, float width, float height);
+
+}  // namespace mars::node

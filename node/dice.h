@@ -1,0 +1,69 @@
+// Dices one patch at a time to vertices and triangles: a grid inside, each side at its own rate and in its
+// own canonical direction, and triangles that stitch the two. A patch that is flat in one direction becomes a
+// single strip between two sides. The same patch always gives the same triangles in the same order.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "node/bezier.h"
+#include "node/kernels.h"
+
+namespace mars::node {
+
+// Vertices of one diced triangle, counter-clockwise seen from outside in an eye space that is not mirrored.
+struct Corner3 {
+  std::uint32_t a, b, c;
+};
+
+class Dicer {
+ public:
+  explicit Dicer(const Kernels& kernels);
+
+  // Vertices (projected) and triangles of `patch`; both hold until the next call. Normals are the outside's.
+  void dice(const EyePatch& patch, const Projection& projection, int fixed_rate);
+
+  const Vertices& vertices() const { return vertices_; }
+  int vertex_count() const { return vertex_count_; }
+  std::span<const Corner3> triangles() const { return {triangles_.get(), triangle_count_}; }
+
+ private:
+  // A row of vertices along one side of a stitched band, with the place of each along that side:
+  // vertex k is first + k * stride, at (from + k) / of.
+  struct Chain {
+    std::int32_t first;
+    std::int32_t stride;
+    std::int32_t steps;
+    std::int32_t from;
+    std::int32_t of;
+  };
+
+  void lay_out(const Rates& rates);
+  void evaluate_inside(const EyePatch& patch);
+  void evaluate_side(const EyePatch& patch, Side side);
+  void mend_normals(const EyePatch& patch);
+  void mend_normal(const EyePatch& patch, int vertex, float u, float v);
+  void triangulate();
+  void fill_inside();
+  void stitch(const Chain& outer, const Chain& inner);
+  void add(std::int32_t a, std::int32_t b, std::int32_t c);
+
+  Chain side_chain(Side side) const;   // counter-clockwise round the patch
+  Chain inner_chain(Side side) const;  // the inside's outermost row along that side
+
+  const Kernels& kernels_;
+  std::unique_ptr<float[]> numbers_;
+  std::unique_ptr<std::int32_t[]> places_;
+  std::unique_ptr<std::uint8_t[]> flags_;
+  std::unique_ptr<Corner3[]> triangles_;
+  Vertices vertices_;
+  Rates rates_{};
+  int columns_ = 0;       // of the inside grid; 0 for a strip
+  int rows_ = 0;
+  int side_at_[4] = {};   // first vertex of each side, in the direction of u or v
+  int vertex_count_ = 0;
+  std::size_t triangle_count_ = 0;
+};
+
+}  // namespace mars::node
