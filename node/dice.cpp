@@ -82,18 +82,18 @@ void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_
 // Decides between grid and strip, and where each side's vertices stand.
 void Dicer::lay_out(const Rates& wanted) {
   rates_ = wanted;
-  const int* side = rates_.side;
-  const bool strip_u = rates_.v == 1 && side[static_cast<int>(Side::left)] == 1 && side[static_cast<int>(Side::right)] == 1;
-  const bool strip_v = rates_.u == 1 && side[static_cast<int>(Side::bottom)] == 1 && side[static_cast<int>(Side::top)] == 1;
+  const auto side = [&](Side s) { return rates_.side[static_cast<int>(s)]; };
+  flat_in_v_ = rates_.v == 1 && side(Side::left) == 1 && side(Side::right) == 1;
+  const bool flat_in_u = rates_.u == 1 && side(Side::bottom) == 1 && side(Side::top) == 1;
   rates_.u = std::max(rates_.u, 2);
   rates_.v = std::max(rates_.v, 2);
-  const bool strip = strip_u || strip_v;
+  const bool strip = flat_in_v_ || flat_in_u;
   columns_ = strip ? 0 : rates_.u - 1;
   rows_ = strip ? 0 : rates_.v - 1;
   vertex_count_ = columns_ * rows_;
   for (int s = 0; s < 4; ++s) {
     side_at_[s] = vertex_count_;
-    vertex_count_ += side[s] + 1;
+    vertex_count_ += rates_.side[s] + 1;
   }
 }
 
@@ -165,9 +165,8 @@ void Dicer::triangulate() {
     for (const Side side : kSides) stitch(side_chain(side), inner_chain(side));
     return;
   }
-  const bool flat_in_v = rates_.side[static_cast<int>(Side::left)] == 1 && rates_.side[static_cast<int>(Side::right)] == 1;
-  const Side near = flat_in_v ? Side::bottom : Side::right;
-  Chain opposite = side_chain(flat_in_v ? Side::top : Side::left);
+  const Side near = flat_in_v_ ? Side::bottom : Side::right;
+  Chain opposite = side_chain(flat_in_v_ ? Side::top : Side::left);
   opposite.first += opposite.steps * opposite.stride;  // both run the same way
   opposite.stride = -opposite.stride;
   stitch(side_chain(near), opposite);

@@ -59,6 +59,7 @@ class Dicer {
   std::unique_ptr<Corner3[]> triangles_;
   Vertices vertices_;
   Rates rates_{};
+  bool flat_in_v_ = false;
   int columns_ = 0;       // of the inside grid; 0 for a strip
   int rows_ = 0;
   int side_at_[4] = {};   // first vertex of each side, in the direction of u or v
