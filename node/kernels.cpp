@@ -60,9 +60,12 @@ void project(const Projection& p, const Vertices& v, int count) {
   }
 }
 
-void draw(const EdgeBox* boxes, std::uint32_t count, float* __restrict depth, std::uint32_t* __restrict ids) {
+Extent draw(const EdgeBox* boxes, std::uint32_t count, float* __restrict depth, std::uint32_t* __restrict ids) {
+  Extent extent{0xffffffffu, 0};
   for (std::uint32_t b = 0; b < count; ++b) {
     const EdgeBox& box = boxes[b];
+    extent.first = box.first < extent.first ? box.first : extent.first;
+    extent.last = box.last > extent.last ? box.last : extent.last;
     const std::int32_t from_first = kSampleOffset - box.x0;
     for (std::int32_t column = box.first; column < box.last; ++column) {
       const auto dx = static_cast<float>(column * kSubpixels + from_first);
@@ -72,6 +75,7 @@ void draw(const EdgeBox* boxes, std::uint32_t count, float* __restrict depth, st
       ids[column] = nearer ? box.triangle : ids[column];
     }
   }
+  return extent;
 }
 
 // Samples of one look that are shaded together: what is interpolated for each.
@@ -208,8 +212,9 @@ void interpolate(const Triangle& triangle, std::int32_t line, std::int32_t first
   batch.count += last - first;
 }
 
-Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, std::uint32_t first,
-             std::uint32_t last, Run* runs, std::uint32_t* pixels) {
+Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+             std::uint32_t* pixels) {
+  const std::uint32_t last = extent.last;
   Shaded done{0, 0};
   Batch batch;
   std::uint32_t look = 0;
@@ -219,7 +224,7 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
     done.pixels += static_cast<std::uint32_t>(batch.count);
     batch.count = 0;
   };
-  for (std::uint32_t column = first; column < last;) {
+  for (std::uint32_t column = extent.first; column < last;) {
     if (ids[column] == kNoTriangle) {
       ++column;
       continue;

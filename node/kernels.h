@@ -62,6 +62,12 @@ struct Shading {
   Projection projection;
 };
 
+// Columns [first, last); none where last <= first.
+struct Extent {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
 struct Shaded {
   std::uint32_t runs;
   std::uint32_t pixels;
@@ -78,12 +84,13 @@ struct Kernels {
   void (*project)(const Projection& projection, const Vertices& vertices, int count);
 
   // Draws `count` edge boxes of one line, in order: a sample nearer than depth[x] takes over depth and id.
-  void (*draw)(const EdgeBox* boxes, std::uint32_t count, float* depth, std::uint32_t* ids);
+  // Says which columns the boxes span.
+  Extent (*draw)(const EdgeBox* boxes, std::uint32_t count, float* depth, std::uint32_t* ids);
 
-  // Shades the samples of line `line` in [first, last) whose id is not kNoTriangle, their runs to `runs` and
+  // Shades the samples of line `line` within `extent` whose id is not kNoTriangle, their runs to `runs` and
   // their pixels to `pixels`; says how many of each.
-  Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, std::uint32_t first,
-                  std::uint32_t last, Run* runs, std::uint32_t* pixels);
+  Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+                  std::uint32_t* pixels);
 };
 
 // The widest kernels that this CPU runs and that are not wider than `limit` ("sse2", "avx2", "avx512";

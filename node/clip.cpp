@@ -1,0 +1,55 @@
+#include "node/clip.h"
+
+#include <algorithm>
+
+namespace mars::node {
+namespace {
+
+// Inside where factor . place + offset >= 0.
+struct Plane4 {
+  float x, y, z, offset;
+
+  float distance(const ClipVertex& v) const { return x * v.place[0] + y * v.place[1] + z * v.place[2] + offset; }
+};
+
+bool comes_before(const ClipVertex& a, const ClipVertex& b) {
+  return std::lexicographical_compare(a.place, a.place + 3, b.place, b.place + 3);
+}
+
+ClipVertex cut(const ClipVertex& a, const ClipVertex& b, const Plane4& plane) {
+  if (comes_before(b, a)) return cut(b, a, plane);
+  const float from = plane.distance(a), to = plane.distance(b);
+  const float t = from / (from - to);
+  ClipVertex out;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.place[axis] = a.place[axis] + t * (b.place[axis] - a.place[axis]);
+    out.normal[axis] = a.normal[axis] + t * (b.normal[axis] - a.normal[axis]);
+  }
+  return out;
+}
+
+void clip_by(const Plane4& plane, ClipPolygon& polygon) {
+  ClipPolygon out;
+  for (int i = 0; i < polygon.count; ++i) {
+    const ClipVertex& here = polygon.vertex[static_cast<std::size_t>(i)];
+    const ClipVertex& next = polygon.vertex[static_cast<std::size_t>((i + 1) % polygon.count)];
+    const bool here_inside = plane.distance(here) >= 0, next_inside = plane.distance(next) >= 0;
+    if (here_inside) out.vertex[static_cast<std::size_t>(out.count++)] = here;
+    if (here_inside != next_inside) out.vertex[static_cast<std::size_t>(out.count++)] = cut(here, next, plane);
+  }
+  polygon = out;
+}
+
+}  // namespace
+
+void clip(const Projection& p, ClipPolygon& polygon) {
+  const Plane4 planes[] = {{0, 0, -1, -p.near},         {0, 0, 1, p.far},
+                           {p.scale, 0, -p.guard, 0},   {-p.scale, 0, -p.guard, 0},
+                           {0, p.scale, -p.guard, 0},   {0, -p.scale, -p.guard, 0}};
+  for (const Plane4& plane : planes) {
+    if (polygon.count == 0) return;
+    clip_by(plane, polygon);
+  }
+}
+
+}  // namespace mars::node

@@ -1,0 +1,33 @@
+#include "node/polygons.h"
+
+namespace mars::node {
+
+PolygonMaker::PolygonMaker(const Kernels& kernels) : kernels_(kernels), dicer_(kernels) {}
+
+void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work) {
+  const FilmView& film = scene.film();
+  const SetUp set_up(kernels_, scene.projection(), scene.width(), scene.height());
+  const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
+  const int fixed_rate = static_cast<int>(film.settings().dice);
+  for (std::size_t s = 0; s < film.segments().size(); ++s) {
+    if (scene.moves(s) != (part == Part::moving)) continue;
+    const Shape& shape = film.shapes()[film.segments()[s].shape];
+    const std::uint32_t first = scene.first_patch(s);
+    std::uint32_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
+    if (i >= shape.patch_count) continue;
+    const EyeMatrix matrix = scene.matrix(s);
+    const std::uint32_t look = scene.look(s);
+    PatchIdentity identity{0, look, mirrors(matrix), film.materials()[look].sides == 1};
+    for (; i < shape.patch_count; i += scatter.count) {
+      const EyePatch patch = to_eye(matrix, film.patches()[shape.first_patch + i]);
+      if (unseen(patch, scene.projection(), width, height)) continue;
+      identity.patch = first + i;
+      dicer_.dice(patch, scene.projection(), fixed_rate);
+      set_up.add(dicer_, identity, out);
+      ++work.patches;
+      work.vertices += static_cast<std::uint64_t>(dicer_.vertex_count());
+    }
+  }
+}
+
+}  // namespace mars::node

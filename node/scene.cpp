@@ -1,0 +1,109 @@
+#include "node/scene.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace mars::node {
+namespace {
+
+constexpr float kGuardPixels = 32768;  // screen places stay below 2^24 / 256, exact in a float
+
+EyeLight to_eye(const Light& light, const Matrix& world_to_eye) {
+  EyeLight out{light.kind == 1, {}, {light.color[0], light.color[1], light.color[2]}};
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto& row = world_to_eye.m[r];
+    const double offset = out.point ? row[3] : 0.0;
+    out.vector[r] = static_cast<float>(row[0] * light.vector[0] + row[1] * light.vector[1] + row[2] * light.vector[2] +
+                                       offset);
+  }
+  return out;
+}
+
+}  // namespace
+
+Projection projection_of(const Camera& camera, std::int32_t width, std::int32_t height) {
+  return {static_cast<float>(camera.focal * height / 2), {width / 2.0f, height / 2.0f},
+          static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels};
+}
+
+Scene::Scene(const FilmView& film) : film_(film) {
+  first_patch_.reserve(film.segments().size());
+  std::uint32_t next = 0;
+  for (const Segment& segment : film.segments()) {
+    first_patch_.push_back(next);
+    next += film.shapes()[segment.shape].patch_count;
+  }
+  bounds_.reserve(film.shapes().size());
+  for (const Shape& shape : film.shapes())
+    bounds_.push_back(bounds_of(film.patches().subspan(shape.first_patch, shape.patch_count)));
+  moves_.resize(film.segments().size());
+  lights_.resize(film.light_tracks().size());
+}
+
+Scene::Bounds Scene::bounds_of(std::span<const Patch> patches) {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  Bounds bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  for (const Patch& patch : patches)
+    for (const auto& point : patch.points)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        bounds.low[axis] = std::min(bounds.low[axis], point[axis]);
+        bounds.high[axis] = std::max(bounds.high[axis], point[axis]);
+      }
+  return bounds;
+}
+
+void Scene::set_interval(std::uint32_t number) {
+  for (const std::uint32_t segment : movers_) moves_[segment] = 0;
+  movers_ = film_.moving(film_.intervals()[number]);
+  for (const std::uint32_t segment : movers_) moves_[segment] = 1;
+}
+
+void Scene::set_frame(std::uint32_t frame) {
+  frame_ = frame;
+  const Camera& camera = film_.camera_at(frame);
+  projection_ = projection_of(camera, width(), height());
+  for (std::size_t i = 0; i < lights_.size(); ++i)
+    lights_[i] = to_eye(film_.lights()[film_.value_at(film_.light_tracks()[i], frame)], camera.world_to_eye);
+}
+
+EyeMatrix Scene::matrix(std::size_t segment) const {
+  return eye_matrix(film_.camera_at(frame_).world_to_eye, film_.matrix_at(film_.segments()[segment], frame_));
+}
+
+std::uint32_t Scene::look(std::size_t segment) const {
+  return film_.value_at(film_.segments()[segment].look, frame_);
+}
+
+LineRange Scene::lines_of_movers(std::span<const std::uint32_t> frames) const {
+  LineRange lines{film_.settings().height, 0};
+  for (const std::uint32_t frame : frames)
+    for (const std::uint32_t segment : movers_) {
+      const LineRange one = lines_of(segment, frame);
+      lines = {std::min(lines.first, one.first), std::max(lines.last, one.last)};
+    }
+  return lines.first < lines.last ? lines : LineRange{0, 0};
+}
+
+LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame) const {
+  const Camera& camera = film_.camera_at(frame);
+  const Projection p = projection_of(camera, width(), height());
+  const EyeMatrix m = eye_matrix(camera.world_to_eye, film_.matrix_at(film_.segments()[segment], frame));
+  const Bounds& box = bounds_[film_.segments()[segment].shape];
+  const auto all = static_cast<float>(height());
+  float top = all, bottom = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    float place[3];
+    for (int axis = 0; axis < 3; ++axis) place[axis] = (corner >> axis & 1 ? box.high : box.low)[axis];
+    const auto row = [&](int r) { return m.m[r][0] * place[0] + m.m[r][1] * place[1] + m.m[r][2] * place[2] + m.m[r][3]; };
+    const float w = -row(2);
+    if (!(w >= p.near)) return {0, film_.settings().height};
+    const float y = p.center[1] - p.scale * row(1) / w;
+    top = std::min(top, y);
+    bottom = std::max(bottom, y);
+  }
+  constexpr float kMargin = 1;  // pixels, for snapping and rounding
+  const float first = std::clamp(top - kMargin, 0.0f, all), last = std::clamp(bottom + kMargin + 1, 0.0f, all);
+  return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
+}
+
+}  // namespace mars::node

@@ -1,0 +1,60 @@
+// The film as a node sees it: which segments move in the interval at hand, and camera, lights and matrices of
+// the frame at hand, in eye space.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "node/bezier.h"
+#include "node/film.h"
+#include "node/kernels.h"
+#include "node/mapping.h"
+
+namespace mars::node {
+
+class Scene {
+ public:
+  explicit Scene(const FilmView& film);
+
+  void set_interval(std::uint32_t number);
+  void set_frame(std::uint32_t frame);
+
+  const FilmView& film() const { return film_; }
+  std::int32_t width() const { return static_cast<std::int32_t>(film_.settings().width); }
+  std::int32_t height() const { return static_cast<std::int32_t>(film_.settings().height); }
+  const Projection& projection() const { return projection_; }
+  std::span<const EyeLight> lights() const { return lights_; }
+
+  bool moves(std::size_t segment) const { return moves_[segment] != 0; }
+  // Number of the segment's first patch among all of the film.
+  std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
+  EyeMatrix matrix(std::size_t segment) const;
+  std::uint32_t look(std::size_t segment) const;
+
+  // Lines that the interval's moving parts can touch at any of `frames`; a bound, never too small.
+  LineRange lines_of_movers(std::span<const std::uint32_t> frames) const;
+
+ private:
+  // Corners of the box round a shape's control points.
+  struct Bounds {
+    float low[3];
+    float high[3];
+  };
+  static Bounds bounds_of(std::span<const Patch> patches);
+  LineRange lines_of(std::size_t segment, std::uint32_t frame) const;
+
+  FilmView film_;
+  std::vector<std::uint32_t> first_patch_;
+  std::vector<Bounds> bounds_;  // of shapes
+  std::vector<std::uint8_t> moves_;
+  std::span<const std::uint32_t> movers_;
+  std::uint32_t frame_ = 0;
+  Projection projection_{};
+  std::vector<EyeLight> lights_;
+};
+
+// How `camera` shows the world on a picture of width x height.
+Projection projection_of(const Camera& camera, std::int32_t width, std::int32_t height);
+
+}  // namespace mars::node
