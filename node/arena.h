@@ -14,15 +14,16 @@ class Arena {
   // `bytes` of address space; the machine gives pages as they are first touched. Throws Failure.
   explicit Arena(std::size_t bytes);
 
-  // `count` uninitialised items; check()s that they fit: callers plan with room() first.
+  // `count` uninitialised items; check()s that they fit: callers plan first.
   template <typename T>
   std::span<T> take(std::size_t count) {
     return {reinterpret_cast<T*>(take_bytes(count * sizeof(T))), count};
   }
-  // How many T could be taken now.
+  // All that could be taken now, not yet taken: whoever does not know how much it needs fills it from the front
+  // and then takes that much.
   template <typename T>
-  std::size_t room() const {
-    return (size_ - used_) / sizeof(T);
+  std::span<T> rest() const {
+    return {reinterpret_cast<T*>(block_.get() + used_), (size_ - used_) / sizeof(T)};
   }
 
   std::size_t mark() const { return used_; }

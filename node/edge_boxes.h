@@ -44,6 +44,17 @@ class Crossings {
 // Adds the boxes of `triangle` to counts[row]; how many there were.
 std::uint32_t count_edge_boxes(const Crossings& crossings, std::span<std::uint32_t> counts);
 
+// Whether any box lies on lines for which `wanted(row)`.
+template <typename Wanted>
+bool has_edge_box(const Crossings& crossings, const Wanted& wanted) {
+  for (std::int32_t row = crossings.first_row; row < crossings.last_row; ++row) {
+    if (!wanted(row)) continue;
+    const auto columns = crossings.columns(row);
+    if (columns.first < columns.last) return true;
+  }
+  return false;
+}
+
 // Puts the boxes of triangles[number] on lines [lines.first, lines.last) at boxes[cursor[row - lines.first]++].
 void place_edge_boxes(const Triangle& triangle, std::uint32_t number, std::int32_t width, const LineRange& lines,
                       std::span<std::uint64_t> cursor, std::span<EdgeBox> boxes);

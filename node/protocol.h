@@ -12,8 +12,9 @@
 
 namespace mars::node {
 
+// Commands and answers are below 30, so that one NX type selector can name a set of them.
 enum MessageType : long {
-  kHello = 100,
+  kHello = 1,
   kLoad,
   kFilmBlock,
   kLoaded,
@@ -26,6 +27,12 @@ enum MessageType : long {
   kTriangles = 10'000'000,
   kDepthLines = 20'000'000,
 };
+
+// The NX type selector for any of several types below 30.
+template <typename... Types>
+constexpr long any_of(Types... types) {
+  return static_cast<long>(-0x80000000L + (0L + ... + (1L << types)));
+}
 
 // Who a node is. Strings are zero-ended.
 struct Hello {
@@ -42,7 +49,7 @@ enum class Mapping : std::uint32_t { greedy, optimal };
 // Prepares a film of `film_bytes`. Nodes that lead a machine get the block next, as kFilmBlock.
 struct Load {
   std::uint64_t film_bytes;
-  std::uint64_t memory;   // bytes for one frame's triangles and edge boxes; 0: as the node offered
+  std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
   std::int32_t credits;   // strips a node may have on the way to the host
   Mapping mapping;
 };

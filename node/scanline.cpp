@@ -20,28 +20,27 @@ class PatchOrder {
   PatchOrder(std::span<const Triangle> triangles, std::span<Head> heads) : triangles_(triangles), heads_(heads) {
     const auto empty = std::remove_if(heads_.begin(), heads_.end(), [](const Head& h) { return h.next == h.end; });
     heads_ = heads_.first(static_cast<std::size_t>(empty - heads_.begin()));
-    std::make_heap(heads_.begin(), heads_.end(), later());
   }
 
   template <typename Visit>
   void visit_all(const Visit& visit) {
+    const auto later = [this](const Head& a, const Head& b) {
+      return triangles_[a.next].patch > triangles_[b.next].patch;
+    };
+    std::make_heap(heads_.begin(), heads_.end(), later);
     while (!heads_.empty()) {
-      std::pop_heap(heads_.begin(), heads_.end(), later());
+      std::pop_heap(heads_.begin(), heads_.end(), later);
       Head& head = heads_.back();
       const std::uint32_t patch = triangles_[head.next].patch;
       while (head.next != head.end && triangles_[head.next].patch == patch) visit(head.next++);
       if (head.next == head.end)
         heads_ = heads_.first(heads_.size() - 1);
       else
-        std::push_heap(heads_.begin(), heads_.end(), later());
+        std::push_heap(heads_.begin(), heads_.end(), later);
     }
   }
 
  private:
-  auto later() const {
-    return [this](const Head& a, const Head& b) { return triangles_[a.next].patch > triangles_[b.next].patch; };
-  }
-
   std::span<const Triangle> triangles_;
   std::span<Head> heads_;
 };

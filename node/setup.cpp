@@ -36,14 +36,6 @@ std::int64_t determinant(const Triangle& t) {
   return x1 * y2 - x2 * y1;
 }
 
-bool touches(const Crossings& crossings, std::span<const std::uint8_t> wanted) {
-  for (std::int32_t row = crossings.first_row; row < crossings.last_row; ++row) {
-    const auto columns = crossings.columns(row);
-    if (wanted[static_cast<std::size_t>(row)] && columns.first < columns.last) return true;
-  }
-  return false;
-}
-
 // A handful of vertices on the stack, as kernels want them.
 struct FewVertices {
   float numbers[7][9];
@@ -133,7 +125,8 @@ void SetUp::add_triangle(const Vertices& v, const Corner3& corners, std::uint32_
 void SetUp::keep(const Triangle& triangle, SetUps& out) const {
   const Crossings crossings(triangle, width_, height_);
   if (out.line_counts.empty()) {
-    if (!touches(crossings, out.wanted_lines)) return;
+    const auto wanted = [&](std::int32_t row) { return out.wanted_lines[static_cast<std::size_t>(row)] != 0; };
+    if (!has_edge_box(crossings, wanted)) return;
   } else {
     const std::uint32_t boxes = count_edge_boxes(crossings, out.line_counts);
     if (boxes == 0) return;

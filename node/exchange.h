@@ -1,0 +1,38 @@
+// What nodes of a cube give each other in a keyframe: triangles, each once to every home of its scanlines, and
+// afterwards CZB lines to those that will draw inbetweens.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hal/cube.h"
+#include "node/arena.h"
+#include "node/mapping.h"
+#include "node/scanline.h"
+
+namespace mars::node {
+
+class Exchange {
+ public:
+  explicit Exchange(int nodes);
+
+  // `own`: the calling node's triangles, one source. `homes`: lines of each of the cube's nodes, of which
+  // `most_boxes` edge boxes lie on the caller's. Returns the triangles with a box on the caller's lines, in
+  // `arena`, which must have room for them and for a copy of what is sent.
+  Polygons triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
+                     std::int32_t width, std::uint64_t most_boxes, Arena& arena);
+
+  // Lines `needed` of CZB from their homes to the cube's nodes for which draws[index] is set.
+  void depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
+                   std::span<const std::uint8_t> draws, ZBuffer& buffer);
+
+ private:
+  void send_triangles(int index, const hal::Cube& cube, const Polygons& own, const LineRange& home,
+                      std::int32_t width, Arena& arena);
+  void wait_all();
+
+  std::vector<long> pending_;  // message ids
+  std::vector<Polygons::Source> sources_;
+};
+
+}  // namespace mars::node

@@ -1,0 +1,50 @@
+#include "node/outbox.h"
+
+#include "hal/nx.h"
+
+namespace mars::node {
+
+Outbox::Outbox(std::size_t width, std::size_t height, int credits)
+    : slots_{Slot{StripBuffer(width, height)}, Slot{StripBuffer(width, height)}}, credits_(credits) {}
+
+StripBuffer& Outbox::begin() {
+  current_ = (current_ + 1) % slots_.size();
+  Slot& slot = slots_[current_];
+  wait(slot);
+  slot.buffer.clear();
+  return slot.buffer;
+}
+
+void Outbox::send(Strip header) {
+  wait_for_credit(header);
+  Slot& slot = slots_[current_];
+  const auto message = slot.buffer.finish(header);
+  slot.message = isend(kStrip, message.data(), static_cast<long>(message.size()), myhost(), 0);
+  --credits_;
+}
+
+void Outbox::wait_for_credit(Strip& header) {
+  const double start = dclock();
+  while (iprobe(kCredit)) receive_credit();
+  if (credits_ > 0) return;
+  header.work.credits_waited = 1;
+  while (credits_ == 0) receive_credit();
+  header.times.credit = dclock() - start;
+}
+
+void Outbox::receive_credit() {
+  Credit credit;
+  crecv(kCredit, &credit, sizeof credit);
+  credits_ += credit.count;
+}
+
+void Outbox::flush() {
+  for (Slot& slot : slots_) wait(slot);
+}
+
+void Outbox::wait(Slot& slot) {
+  if (slot.message >= 0) msgwait(slot.message);
+  slot.message = -1;
+}
+
+}  // namespace mars::node

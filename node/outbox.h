@@ -1,0 +1,38 @@
+// Strips on their way to the host, two buffers in turn, and the credits that bound how many may be on the way.
+#pragma once
+
+#include <array>
+
+#include "node/strip_buffer.h"
+
+namespace mars::node {
+
+class Outbox {
+ public:
+  Outbox(std::size_t width, std::size_t height, int credits);
+
+  // An empty buffer; waits until the strip last sent from it is gone.
+  StripBuffer& begin();
+  // Sends what begin() gave under `header`, waiting for credit first; the wait is told in the header.
+  void send(Strip header);
+
+  // Receives one Credit message, waiting for it.
+  void receive_credit();
+  // Waits until all is gone.
+  void flush();
+
+ private:
+  struct Slot {
+    StripBuffer buffer;
+    long message = -1;  // -1: nothing on the way
+  };
+
+  void wait_for_credit(Strip& header);
+  static void wait(Slot& slot);
+
+  std::array<Slot, 2> slots_;
+  std::size_t current_ = 0;
+  int credits_;
+};
+
+}  // namespace mars::node

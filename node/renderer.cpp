@@ -1,0 +1,243 @@
+#include "node/renderer.h"
+
+#include <algorithm>
+
+#include "hal/failure.h"
+#include "hal/nx.h"
+#include "hal/process.h"
+
+namespace mars::node {
+namespace {
+
+// Part `number` of `parts` of a range; the parts for twice as many parts lie within these.
+LineRange part_of(const LineRange& range, std::uint32_t number, std::uint32_t parts) {
+  const auto at = [&](std::uint32_t n) {
+    return range.first + static_cast<std::uint32_t>(std::uint64_t{range.count()} * n / parts);
+  };
+  return {at(number), at(number + 1)};
+}
+
+// Passes that keep one strip's message far below 2 GiB, whatever is seen.
+std::uint32_t passes_for_message(std::uint64_t width, std::uint64_t height) {
+  constexpr std::uint64_t kPixel = 2 * (sizeof(std::uint32_t) + sizeof(Run) / 2);  // CFB and MFB, shortest runs
+  std::uint32_t passes = 1;
+  while (width * height * kPixel / passes >= std::uint64_t{1} << 31) passes *= 2;
+  return passes;
+}
+
+}  // namespace
+
+Renderer::Renderer(const FilmView& film, const Load& load, const Kernels& kernels)
+    : scene_(film),
+      kernels_(kernels),
+      mapping_(load.mapping),
+      polygon_maker_(kernels),
+      arena_(load.memory),
+      z_buffer_(kernels, scene_.width(), scene_.height()),
+      exchange_(static_cast<int>(numnodes())),
+      outbox_(film.settings().width, film.settings().height, load.credits),
+      draws_(static_cast<std::size_t>(numnodes())),
+      line_counts_(film.settings().height),
+      ebc_(film.settings().height + 1),
+      wanted_lines_(film.settings().height) {
+  const auto nodes = static_cast<std::size_t>(numnodes());
+  for (auto* numbers : {&sums_, &work_}) numbers->resize(film.settings().height + nodes);
+  for (auto* ranges : {&homes_, &pass_homes_}) ranges->resize(nodes);
+}
+
+void Renderer::render(const Render& command, std::span<const std::uint32_t> frames) {
+  const hal::Cube cube{command.cube_first, command.cube_count};
+  const auto index = static_cast<std::uint64_t>(mynode() - cube.first);
+  const auto inbetweens = frames.subspan(1);
+  const auto artist = [&](std::size_t k) { return (command.first_inbetween + k) % static_cast<std::uint64_t>(cube.count); };
+  command_ = command;
+  scene_.set_interval(command.interval);
+  lines_of_movers_ = scene_.lines_of_movers(inbetweens);
+  std::fill(draws_.begin(), draws_.end(), std::uint8_t{0});
+  for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[artist(k)] = 1;
+
+  frame_ = frames.front();
+  draw_frame(FrameKind::keyframe, cube);
+  for (std::size_t k = 0; k < inbetweens.size(); ++k) {
+    if (artist(k) != index) continue;
+    frame_ = inbetweens[k];
+    draw_frame(FrameKind::inbetween, {static_cast<int>(mynode()), 1});
+  }
+}
+
+void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
+  clock_ = dclock();
+  sent_before_ = hal::traffic().to_nodes.bytes;
+  scene_.set_frame(frame_);
+  strip_ = {};
+  strip_.kind = kind;
+  arena_.release(0);
+  arena_.forget_fullest();
+
+  std::fill(line_counts_.begin(), line_counts_.end(), 0u);
+  Polygons own = make_polygons(cube, {});
+  clock(strip_.times.dice);
+  sum_counts(cube);
+  clock(strip_.times.sum);
+  const auto homes = std::span(homes_).first(static_cast<std::size_t>(cube.count));
+  map_lines(mapping_, ebc_, homes);
+  strip_.load_ratio = load_ratio(ebc_, homes);
+  const std::uint32_t passes = plan_passes(cube);
+  clock(strip_.times.map);
+
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    if (passes > 1) {
+      arena_.release(0);
+      mark_lines(pass, passes);
+      own = make_polygons(cube, wanted_lines_);
+      clock(strip_.times.dice);
+    }
+    draw_pass(cube, own, pass, passes);
+  }
+}
+
+// Triangles of the node's patches: of all in a keyframe, of the moving ones in an inbetween. The first time
+// in a frame their boxes are counted; later, for passes, only those on `wanted_lines` are kept.
+Polygons Renderer::make_polygons(const hal::Cube& cube, std::span<const std::uint8_t> wanted_lines) {
+  const bool counting = wanted_lines.empty();
+  SetUps out{.triangles = arena_.rest<Triangle>(), .line_counts = {}, .wanted_lines = wanted_lines};
+  if (counting) out.line_counts = line_counts_;
+  WorkCounts work{};
+  const Scatter scatter{static_cast<std::uint32_t>(mynode() - cube.first), static_cast<std::uint32_t>(cube.count)};
+  if (strip_.kind == FrameKind::keyframe) polygon_maker_.make(scene_, Part::stationary, scatter, out, work);
+  const auto stationary = static_cast<std::uint32_t>(out.stored);
+  polygon_maker_.make(scene_, Part::moving, scatter, out, work);
+  own_source_ = {0, stationary, static_cast<std::uint32_t>(out.stored) - stationary};
+  if (counting) {
+    strip_.work = work;
+    strip_.work.triangles = out.touching;
+    strip_.work.edge_boxes_diced = out.edge_boxes;
+  } else {
+    check(out.stored == out.touching, "a pass's triangles fit the memory planned for it");
+  }
+  return {arena_.take<Triangle>(out.stored), {&own_source_, 1}};
+}
+
+// Prefix sum, then global sum of EBC; with it travels each node's memory for its own triangles.
+void Renderer::sum_counts(const hal::Cube& cube) {
+  const std::size_t lines = line_counts_.size();
+  const auto nodes = static_cast<std::size_t>(cube.count);
+  const auto sums = std::span(sums_).first(lines + nodes);
+  double total = 0;
+  for (std::size_t line = 0; line < lines; ++line) sums[line] = total += line_counts_[line];
+  std::fill(sums.begin() + static_cast<std::ptrdiff_t>(lines), sums.end(), 0.0);
+  const std::uint64_t copies = cube.count > 1 ? strip_.work.edge_boxes_diced + nodes : 0;
+  sums[lines + static_cast<std::size_t>(mynode() - cube.first)] =
+      static_cast<double>((strip_.work.triangles + copies) * sizeof(Triangle));
+  if (cube.count > 1) hal::cube_sum(cube, sums, std::span(work_).first(sums.size()));
+  for (std::size_t line = 0; line < lines; ++line) ebc_[line + 1] = static_cast<std::uint64_t>(sums[line]);
+  strip_.edge_box_total = ebc_[lines];
+}
+
+// How many passes over parts of the lines the cube needs, the same number on every node. Nodes ask each other
+// only where one pass might not do for one of them, which all can tell from the sums.
+std::uint32_t Renderer::plan_passes(const hal::Cube& cube) {
+  const std::size_t lines = line_counts_.size();
+  const std::uint64_t height = lines;
+  std::uint32_t passes = passes_for_message(static_cast<std::uint64_t>(scene_.width()), height);
+  bool fits = true;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(cube.count); ++n) {
+    const std::uint64_t boxes = ebc_[homes_[n].last] - ebc_[homes_[n].first];
+    const std::uint64_t received = cube.count > 1 ? boxes + 1 : 0;
+    const double need = sums_[lines + n] + static_cast<double>(received * sizeof(Triangle) + boxes * sizeof(EdgeBox) +
+                                                               height * 64 + 4096);
+    fits &= need <= static_cast<double>(arena_.size());
+  }
+  if (fits) return passes;
+  while (memory_for(cube, passes) > arena_.size() && passes < 2 * height) passes *= 2;
+  if (memory_for(cube, passes) > arena_.size())
+    throw Failure("one line's edge boxes need " + std::to_string((memory_for(cube, passes) >> 20) + 1) +
+                      " MiB, but a frame has " + std::to_string(arena_.size() >> 20) + " MiB",
+                  "memory", "set MARS_MEMORY to more MiB");
+  double most = passes, work = 0;
+  if (cube.count > 1) hal::cube_high(cube, {&most, 1}, {&work, 1});
+  return static_cast<std::uint32_t>(most);
+}
+
+// A bound on the bytes that this node uses in any of `passes` passes: a triangle has at least one edge box.
+std::uint64_t Renderer::memory_for(const hal::Cube& cube, std::uint32_t passes) const {
+  const auto nodes = static_cast<std::size_t>(cube.count);
+  const LineRange& home = homes_[static_cast<std::size_t>(mynode() - cube.first)];
+  std::uint64_t most = 0;
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    std::uint64_t own_boxes = 0;
+    for (const LineRange& range : std::span(homes_).first(nodes)) {
+      const LineRange part = part_of(range, pass, passes);
+      for (std::uint32_t line = part.first; line < part.last; ++line) own_boxes += line_counts_[line];
+    }
+    const LineRange part = part_of(home, pass, passes);
+    const std::uint64_t boxes = ebc_[part.last] - ebc_[part.first];
+    std::uint64_t triangles = std::min(own_boxes, strip_.work.triangles);
+    if (nodes > 1) triangles += own_boxes + nodes + boxes + 1;
+    most = std::max(most, triangles * sizeof(Triangle) + boxes * sizeof(EdgeBox));
+  }
+  return most + line_counts_.size() * 64 + 4096;
+}
+
+void Renderer::mark_lines(std::uint32_t pass, std::uint32_t passes) {
+  std::fill(wanted_lines_.begin(), wanted_lines_.end(), std::uint8_t{0});
+  for (const LineRange& home : homes_) {
+    const LineRange part = part_of(home, pass, passes);
+    std::fill(wanted_lines_.begin() + part.first, wanted_lines_.begin() + part.last, std::uint8_t{1});
+  }
+}
+
+void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes) {
+  const auto nodes = static_cast<std::size_t>(cube.count);
+  const auto pass_homes = std::span(pass_homes_).first(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) pass_homes[n] = part_of(homes_[n], pass, passes);
+  const LineRange lines = pass_homes[static_cast<std::size_t>(mynode() - cube.first)];
+  const std::uint64_t boxes = ebc_[lines.last] - ebc_[lines.first];
+
+  const Polygons polygons = nodes > 1 ? exchange_.triangles(cube, own, pass_homes, scene_.width(), boxes, arena_) : own;
+  clock(strip_.times.exchange);
+  const LineBoxes line_boxes = fill_lines(polygons, lines, ebc_, scene_.width(), arena_);
+  strip_.work.edge_boxes += boxes;
+  clock(strip_.times.fill);
+
+  StripBuffer& buffer = outbox_.begin();
+  const Shading look = shading(polygons);
+  if (strip_.kind == FrameKind::keyframe) z_buffer_.draw_stationary(line_boxes, look, buffer);
+  strip_.constant_runs = static_cast<std::uint32_t>(buffer.run_count());
+  z_buffer_.draw_moving(line_boxes, look, buffer);
+  clock(strip_.times.scanline);
+
+  const bool last = pass + 1 == passes;
+  if (last && strip_.kind == FrameKind::keyframe && nodes > 1) share_depth(cube);
+  strip_.frame = frame_;
+  strip_.interval = command_.interval;
+  strip_.node = static_cast<std::int32_t>(mynode());
+  strip_.cube_first = cube.first;
+  strip_.cube_count = cube.count;
+  strip_.strips = passes;
+  strip_.last = last ? 1 : 0;
+  strip_.first_line = lines.first;
+  strip_.last_line = lines.last;
+  strip_.work.passes = passes;
+  strip_.work.memory = arena_.fullest();
+  strip_.work.bytes_to_nodes = hal::traffic().to_nodes.bytes - sent_before_;
+  outbox_.send(strip_);
+}
+
+void Renderer::share_depth(const hal::Cube& cube) {
+  exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, z_buffer_);
+  clock(strip_.times.depth);
+}
+
+Shading Renderer::shading(const Polygons& polygons) const {
+  return {polygons.triangles.data(), scene_.film().materials().data(), scene_.lights().data(),
+          static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
+}
+
+void Renderer::clock(double& phase) {
+  const double now = dclock();
+  phase += now - clock_;
+  clock_ = now;
+}
+
+}  // namespace mars::node

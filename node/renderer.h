@@ -1,0 +1,68 @@
+// One node's way through the frames of an interval: the keyframe together with the other nodes of its cube
+// (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/cube.h"
+#include "node/arena.h"
+#include "node/exchange.h"
+#include "node/outbox.h"
+#include "node/polygons.h"
+#include "node/scanline.h"
+#include "node/scene.h"
+
+namespace mars::node {
+
+class Renderer {
+ public:
+  Renderer(const FilmView& film, const Load& load, const Kernels& kernels);
+
+  // Draws the caller's share of `frames` (see Render) and sends it.
+  void render(const Render& command, std::span<const std::uint32_t> frames);
+
+  Outbox& outbox() { return outbox_; }
+  // The frame at hand, for a fault's report.
+  std::uint32_t frame() const { return frame_; }
+
+ private:
+  void draw_frame(FrameKind kind, const hal::Cube& cube);
+  Polygons make_polygons(const hal::Cube& cube, std::span<const std::uint8_t> wanted_lines);
+  void sum_counts(const hal::Cube& cube);
+  std::uint32_t plan_passes(const hal::Cube& cube);
+  std::uint64_t memory_for(const hal::Cube& cube, std::uint32_t passes) const;
+  void draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
+  void share_depth(const hal::Cube& cube);
+  void mark_lines(std::uint32_t pass, std::uint32_t passes);
+  Shading shading(const Polygons& polygons) const;
+  // Adds the time since the last call to `phase`.
+  void clock(double& phase);
+
+  Scene scene_;
+  const Kernels& kernels_;
+  Mapping mapping_;
+  PolygonMaker polygon_maker_;
+  Arena arena_;
+  ZBuffer z_buffer_;
+  Exchange exchange_;
+  Outbox outbox_;
+
+  std::uint32_t frame_ = 0;
+  Render command_{};
+  LineRange lines_of_movers_;               // in the interval's inbetweens
+  std::vector<std::uint8_t> draws_;         // which of the cube's nodes draw inbetweens of the interval
+  std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
+  std::vector<double> sums_, work_;         // EBC as it is summed, then each node's memory for its own triangles
+  std::vector<std::uint64_t> ebc_;          // prefix-summed over all nodes
+  std::vector<LineRange> homes_;
+  std::vector<LineRange> pass_homes_;
+  std::vector<std::uint8_t> wanted_lines_;
+  Polygons::Source own_source_{};
+  Strip strip_{};  // of the frame at hand
+  std::uint64_t sent_before_ = 0;
+  double clock_ = 0;
+};
+
+}  // namespace mars::node
