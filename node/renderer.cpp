@@ -88,7 +88,7 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     if (passes > 1) {
       arena_.release(0);
-      mark_lines(pass, passes);
+      mark_lines(cube, pass, passes);
       own = make_polygons(cube, wanted_lines_);
       clock(strip_.times.dice);
     }
@@ -179,9 +179,9 @@ std::uint64_t Renderer::memory_for(const hal::Cube& cube, std::uint32_t passes) 
   return most + line_counts_.size() * 64 + 4096;
 }
 
-void Renderer::mark_lines(std::uint32_t pass, std::uint32_t passes) {
+void Renderer::mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes) {
   std::fill(wanted_lines_.begin(), wanted_lines_.end(), std::uint8_t{0});
-  for (const LineRange& home : homes_) {
+  for (const LineRange& home : std::span(homes_).first(static_cast<std::size_t>(cube.count))) {
     const LineRange part = part_of(home, pass, passes);
     std::fill(wanted_lines_.begin() + part.first, wanted_lines_.begin() + part.last, std::uint8_t{1});
   }

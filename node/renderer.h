@@ -35,7 +35,7 @@ class Renderer {
   std::uint64_t memory_for(const hal::Cube& cube, std::uint32_t passes) const;
   void draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
   void share_depth(const hal::Cube& cube);
-  void mark_lines(std::uint32_t pass, std::uint32_t passes);
+  void mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes);
   Shading shading(const Polygons& polygons) const;
   // Adds the time since the last call to `phase`.
   void clock(double& phase);

@@ -1,0 +1,245 @@
+#include "host/farm/farm.h"
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <list>
+#include <string>
+#include <unordered_map>
+
+#include "hal/failure.h"
+#include "hal/nx.h"
+#include "host/farm/assembly.h"
+#include "host/farm/schedule.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::int32_t kCredits = 4;         // strips a node may have on the way
+constexpr std::size_t kUnitsAhead = 2;       // given to a cube at a time, so that it never waits for the host
+
+void send_to_all(long type, const void* data, std::size_t bytes) {
+  for (long node = 0; node < numnodes(); ++node) csend(type, data, static_cast<long>(bytes), node, 0);
+}
+
+[[noreturn]] void receive_fault() {
+  node::Fault fault;
+  crecv(node::kFault, &fault, sizeof fault);
+  fault.reason.back() = '\0';
+  const std::string at = "node " + std::to_string(fault.node);
+  throw Failure(fault.reason.data(), fault.frame < 0 ? at : at + ", frame " + std::to_string(fault.frame), "");
+}
+
+// Waits for a message of `type` from every node; faults end the waiting.
+template <typename Receive>
+void receive_from_all(long type, const Receive& receive) {
+  for (long i = 0; i < numnodes(); ++i) {
+    cprobe(node::any_of(type, long{node::kFault}));
+    if (infotype() == node::kFault) receive_fault();
+    receive();
+  }
+}
+
+std::vector<node::Hello> receive_hellos() {
+  std::vector<node::Hello> hellos(static_cast<std::size_t>(numnodes()));
+  receive_from_all(node::kHello, [&] {
+    node::Hello hello;
+    crecv(node::kHello, &hello, sizeof hello);
+    hellos.at(static_cast<std::size_t>(hello.node)) = hello;
+  });
+  return hellos;
+}
+
+void load_film(std::span<const std::byte> block, const FarmOptions& options, std::span<const node::Hello> hellos) {
+  const auto least = std::min_element(hellos.begin(), hellos.end(),
+                                      [](const auto& a, const auto& b) { return a.memory < b.memory; });
+  const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping};
+  send_to_all(node::kLoad, &load, sizeof load);
+  std::vector<long> sends;
+  for (const node::Hello& hello : hellos)
+    if (hello.machine == hello.node)
+      sends.push_back(isend(node::kFilmBlock, block.data(), static_cast<long>(block.size()), hello.node, 0));
+  receive_from_all(node::kLoaded, [] { crecv(node::kLoaded, nullptr, 0); });
+  for (const long send : sends) msgwait(send);
+}
+
+class Farm {
+ public:
+  Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sinks, const FarmListener& listener,
+       FarmReport& report);
+
+  void run();
+
+ private:
+  void give_units();
+  void give(std::size_t cube);
+  void receive_strip();
+  bool compose_one();
+  void note_taken();
+  Assembly& assembly_of(const node::Strip& strip);
+  std::vector<std::byte> buffer_of(std::size_t bytes);
+
+  SinkPool& sinks_;
+  const FarmListener& listener_;
+  FarmReport& report_;
+  std::uint32_t background_;
+
+  std::vector<Unit> units_;
+  std::size_t next_unit_ = 0;
+  std::vector<hal::Cube> cubes_;
+  std::vector<std::size_t> units_given_;  // to each cube and not done
+  struct Running {
+    std::size_t cube;
+    std::uint32_t interval;
+    Assembly assembly;
+  };
+  std::list<Running> running_;
+  struct OnTheWay {
+    FinishedFrame frame;
+    std::vector<std::int32_t> nodes;  // whose credit it holds
+  };
+  std::unordered_map<std::uint32_t, OnTheWay> with_sinks_;
+  std::vector<std::vector<std::byte>> spare_buffers_;
+  std::size_t frames_left_;
+  double start_;
+};
+
+Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sinks, const FarmListener& listener,
+           FarmReport& report)
+    : sinks_(sinks),
+      listener_(listener),
+      report_(report),
+      background_(pixel_of(film.settings().background)),
+      units_(make_units(film, options.frames, options.coherence)),
+      cubes_(make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units_.size())),
+      units_given_(cubes_.size()),
+      frames_left_(options.frames.size()),
+      start_(dclock()) {}
+
+void Farm::run() {
+  while (frames_left_ > 0) {
+    give_units();
+    note_taken();
+    if (compose_one()) continue;
+    if (iprobe(node::any_of(node::kStrip, node::kFault)))
+      receive_strip();
+    else
+      flick();
+  }
+  report_.render_seconds = dclock() - start_;
+  sinks_.finish();
+  note_taken();
+}
+
+void Farm::give_units() {
+  for (std::size_t cube = 0; cube < cubes_.size(); ++cube)
+    while (units_given_[cube] < kUnitsAhead && next_unit_ < units_.size()) give(cube);
+}
+
+void Farm::give(std::size_t number) {
+  const Unit& unit = units_[next_unit_++];
+  const hal::Cube& cube = cubes_[number];
+  const auto frames = static_cast<std::uint32_t>(unit.frames.size());
+  const node::Render command{unit.interval, cube.first, cube.count, frames, unit.first_inbetween};
+  std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
+  std::memcpy(message.data(), &command, sizeof command);
+  std::memcpy(message.data() + sizeof command, unit.frames.data(), frames * sizeof(std::uint32_t));
+  const SinkPool::Shape& shape = sinks_.shape();
+  running_.push_back({number, unit.interval,
+                      Assembly(unit, cube, Compositor(shape.width, shape.height, shape.block, background_))});
+  ++units_given_[number];
+  for (int node = cube.first; node < cube.first + cube.count; ++node)
+    csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
+}
+
+void Farm::receive_strip() {
+  if (infotype() == node::kFault) receive_fault();
+  std::vector<std::byte> bytes = buffer_of(static_cast<std::size_t>(infocount()));
+  crecv(node::kStrip, bytes.data(), static_cast<long>(bytes.size()));
+  StripMessage strip(std::move(bytes));
+  const node::Strip header = strip.header();
+  report_.strips.push_back(header);
+  assembly_of(header).receive(std::move(strip));
+  // A frame's credit is held until the sinks have it; that of its earlier strips is not.
+  const node::Credit credit{1};
+  if (header.last == 0) csend(node::kCredit, &credit, sizeof credit, header.node, 0);
+}
+
+Assembly& Farm::assembly_of(const node::Strip& strip) {
+  const auto wants = [&](const Running& r) { return r.assembly.wants(strip.frame); };
+  const auto found = std::find_if(running_.begin(), running_.end(), wants);
+  if (found == running_.end())
+    throw Failure("a strip came for a frame that was not asked for", "frame " + std::to_string(strip.frame),
+                  "please report it");
+  return found->assembly;
+}
+
+// Composes one frame if one is ready and a buffer is free; whether it did.
+bool Farm::compose_one() {
+  const auto ready = std::find_if(running_.begin(), running_.end(), [](const Running& r) { return r.assembly.ready(); });
+  if (ready == running_.end()) return false;
+  Frame* frame = sinks_.free_frame(ready->assembly.background_name());
+  if (frame == nullptr) return false;
+  Assembly::Composed composed = ready->assembly.compose(*frame);
+  const FinishedFrame finished{composed.frame, ready->interval, composed.kind, dclock() - start_};
+  report_.frames.push_back(finished);
+  with_sinks_[composed.frame] = {finished, std::move(composed.nodes)};
+  sinks_.submit(frame);
+  --frames_left_;
+  std::move(composed.bytes.begin(), composed.bytes.end(), std::back_inserter(spare_buffers_));
+  if (ready->assembly.done()) {
+    --units_given_[ready->cube];
+    running_.erase(ready);
+  }
+  return true;
+}
+
+void Farm::note_taken() {
+  const node::Credit credit{1};
+  for (const std::uint32_t number : sinks_.taken()) {
+    const auto found = with_sinks_.find(number);
+    for (const std::int32_t node : found->second.nodes) csend(node::kCredit, &credit, sizeof credit, node, 0);
+    if (listener_.finished) listener_.finished(found->second.frame);
+    with_sinks_.erase(found);
+  }
+}
+
+std::vector<std::byte> Farm::buffer_of(std::size_t bytes) {
+  std::vector<std::byte> buffer;
+  if (!spare_buffers_.empty()) {
+    buffer = std::move(spare_buffers_.back());
+    spare_buffers_.pop_back();
+  }
+  buffer.resize(bytes);
+  return buffer;
+}
+
+}  // namespace
+
+std::uint32_t pixel_of(const std::array<float, 3>& color) {
+  std::uint32_t pixel = 0;
+  for (int c = 0; c < 3; ++c) {
+    const float level = std::clamp(color[static_cast<std::size_t>(c)], 0.0f, 1.0f) * 255.0f + 0.5f;
+    pixel |= static_cast<std::uint32_t>(level) << (8 * c);
+  }
+  return pixel;
+}
+
+FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions& options, SinkPool& sinks,
+                       const FarmListener& listener) {
+  const node::FilmView film(film_block, "film");
+  FarmReport report;
+  report.film_bytes = film_block.size();
+  report.nodes = receive_hellos();
+  const double booted = dclock();
+  if (listener.booted) listener.booted(report.nodes);
+  load_film(film_block, options, report.nodes);
+  report.load_seconds = dclock() - booted;
+  const double start = dclock();
+  Farm(film, options, sinks, listener, report).run();
+  report.total_seconds = dclock() - start;
+  send_to_all(node::kStop, nullptr, 0);
+  return report;
+}
+
+}  // namespace mars::host

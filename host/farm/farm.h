@@ -1,0 +1,56 @@
+// The host's side of a rendering: boots the nodes, sends the film, gives units to cubes of nodes, composes
+// their strips to frames, hands these to the sinks and gives credit back when they were taken.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/sinks/sink_pool.h"
+#include "node/film.h"
+#include "node/protocol.h"
+
+namespace mars::host {
+
+struct FarmOptions {
+  node::Mapping mapping = node::Mapping::greedy;
+  bool coherence = true;
+  std::uint32_t cubes = 0;            // that work at a time; 0: as many as pay
+  std::vector<std::uint32_t> frames;  // ascending, within the film, at least one
+  std::uint64_t memory = 0;           // bytes for a frame on a node; 0: as the node with the least offers
+};
+
+struct FinishedFrame {
+  std::uint32_t number;
+  std::uint32_t interval;
+  node::FrameKind kind;
+  double seconds;  // since the first command, when its last strip had come and it was composed
+};
+
+// Called from the thread that runs the farm.
+struct FarmListener {
+  std::function<void(std::span<const node::Hello>)> booted;
+  std::function<void(const FinishedFrame&)> finished;  // the sinks have it
+};
+
+struct FarmReport {
+  std::vector<node::Hello> nodes;
+  std::vector<node::Strip> strips;  // as they came
+  std::vector<FinishedFrame> frames;
+  std::uint64_t film_bytes = 0;
+  double load_seconds = 0;    // from the last node's Hello until all have the film
+  double render_seconds = 0;  // from the first command until the last frame was composed
+  double total_seconds = 0;   // until the sinks had taken it
+};
+
+// The calling HAL process is the host. Throws Failure when a node or a sink fails; the nodes are then still
+// waiting, for whoever ends the run.
+FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions& options, SinkPool& sinks,
+                       const FarmListener& listener);
+
+// The pixel (protocol.h) of a colour 0..1.
+std::uint32_t pixel_of(const std::array<float, 3>& color);
+
+}  // namespace mars::host
