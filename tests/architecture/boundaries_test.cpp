@@ -1,0 +1,137 @@
+// Which folder may know what: scans the includes of every source file. MAP.md says the same in words.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Source {
+  std::string path;  // from the root, with /
+  std::vector<std::string> includes;
+  std::string text;
+};
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<Source> read_sources() {
+  std::vector<Source> sources;
+  const std::regex include(R"((?:^|\n)\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  for (const char* folder : {"hal", "host", "node", "topology"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(MARS_SOURCE_DIR) / folder)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending != ".h" && ending != ".cpp") continue;
+      Source source{fs::relative(entry.path(), MARS_SOURCE_DIR).generic_string(), {}, read(entry.path())};
+      for (std::sregex_iterator i(source.text.begin(), source.text.end(), include), end; i != end; ++i)
+        source.includes.push_back((*i)[1]);
+      sources.push_back(std::move(source));
+    }
+  }
+  return sources;
+}
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> all = read_sources();
+  return all;
+}
+
+bool begins(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
+
+using Files = std::set<std::string>;
+
+Files files_including(const std::regex& header) {
+  Files files;
+  for (const Source& source : sources())
+    for (const std::string& include : source.includes)
+      if (std::regex_search(include, header)) files.insert(source.path);
+  return files;
+}
+
+void expect_within(const Files& files, const std::string& folder) {
+  EXPECT_FALSE(files.empty()) << "nothing to scan: the test is broken";
+  for (const std::string& file : files) EXPECT_TRUE(begins(file, folder)) << file;
+}
+
+// Every include that begins with a folder of ours, from files below `from`, must satisfy `allowed`.
+void expect_includes(const std::string& from, const std::function<bool(const std::string&)>& allowed) {
+  int seen = 0;
+  for (const Source& source : sources()) {
+    if (!begins(source.path, from)) continue;
+    ++seen;
+    for (const std::string& include : source.includes) {
+      const bool ours = begins(include, "hal/") || begins(include, "host/") || begins(include, "node/") ||
+                        begins(include, "topology/") || begins(include, "tests/");
+      if (ours) EXPECT_TRUE(allowed(include)) << source.path << " includes " << include;
+    }
+  }
+  EXPECT_GT(seen, 0) << "no files below " << from;
+}
+
+TEST(Boundaries, MpiOnlyInItsBackend) { expect_within(files_including(std::regex("(^|/)mpi\\.h$")), "hal/mpi/"); }
+
+TEST(Boundaries, HwlocOnlyInTopology) { expect_within(files_including(std::regex("hwloc")), "topology/"); }
+
+TEST(Boundaries, PngInOneHostFile) {
+  const Files files = files_including(std::regex("(^|/)png\\.h$"));
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_TRUE(begins(*files.begin(), "host/"));
+}
+
+TEST(Boundaries, GetenvInOneSettingsFile) {
+  Files files;
+  for (const Source& source : sources())
+    if (std::regex_search(source.text, std::regex("\\b(secure_)?getenv\\s*\\("))) files.insert(source.path);
+  EXPECT_EQ(files, Files{"hal/settings.cpp"});
+}
+
+TEST(Boundaries, TopologyDependsOnNothing) {
+  expect_includes("topology/", [](const std::string& i) { return begins(i, "topology/"); });
+}
+
+TEST(Boundaries, HalDependsOnTopologyAlone) {
+  expect_includes("hal/", [](const std::string& i) { return begins(i, "hal/") || begins(i, "topology/"); });
+}
+
+TEST(Boundaries, NodeDependsOnHalAlone) {
+  expect_includes("node/", [](const std::string& i) {
+    const bool backend = begins(i, "hal/mpi/") || begins(i, "hal/threads/") || i == "hal/settings.h";
+    return begins(i, "node/") || (begins(i, "hal/") && !backend);
+  });
+}
+
+TEST(Boundaries, NodeOpensNoFileAndPrintsNothing) {
+  const std::regex world(R"(^(fstream|iostream|ostream|cstdio|stdio\.h|filesystem|fcntl\.h|unistd\.h)$)");
+  for (const std::string& file : files_including(world)) EXPECT_FALSE(begins(file, "node/")) << file;
+}
+
+// Of the node, the host knows the protocol, the film and pure shape; only programs link both sides.
+TEST(Boundaries, HostAndNodeShareTheProtocol) {
+  const Files shared = {"node/protocol.h", "node/film.h", "node/bezier.h", "node/dice.h"};
+  for (const Source& source : sources()) {
+    if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;
+    for (const std::string& include : source.includes) {
+      if (begins(include, "node/")) EXPECT_TRUE(shared.count(include)) << source.path << " includes " << include;
+      EXPECT_FALSE(begins(include, "hal/mpi/") || begins(include, "hal/threads/")) << source.path;
+    }
+  }
+}
+
+// Kernels are compiled for several CPUs: what they share with others must be plain.
+TEST(Boundaries, KernelsIncludeNoTemplates) {
+  for (const Source& source : sources()) {
+    if (source.path != "node/kernels.cpp") continue;
+    EXPECT_EQ(source.includes, (std::vector<std::string>{"cmath", "node/kernels.h"}));
+  }
+}
+
+}  // namespace
