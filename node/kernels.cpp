@@ -7,40 +7,52 @@
 namespace mars::node {
 namespace {
 
-void evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at) {
-  float* __restrict place[3] = {out.place[0] + at, out.place[1] + at, out.place[2] + at};
-  float* __restrict normal[3] = {out.normal[0] + at, out.normal[1] + at, out.normal[2] + at};
-  const int count = last - first;
-  for (int k = 0; k < count; ++k) {
-    float c[4], q[3], along[3], across[3];
-    for (int i = 0; i < 4; ++i) c[i] = basis.cubic[i][first + k];
-    for (int i = 0; i < 3; ++i) q[i] = basis.quadratic[i][first + k];
-    for (int axis = 0; axis < 3; ++axis) {
-      place[axis][k] = c[0] * row.point[0][axis] + c[1] * row.point[1][axis] + c[2] * row.point[2][axis] +
-                       c[3] * row.point[3][axis];
-      along[axis] = q[0] * row.slope[0][axis] + q[1] * row.slope[1][axis] + q[2] * row.slope[2][axis];
-      across[axis] = c[0] * row.cross[0][axis] + c[1] * row.cross[1][axis] + c[2] * row.cross[2][axis] +
-                     c[3] * row.cross[3][axis];
-    }
-    const float nx = along[1] * across[2] - along[2] * across[1];
-    const float ny = along[2] * across[0] - along[0] * across[2];
-    const float nz = along[0] * across[1] - along[1] * across[0];
-    const float square = nx * nx + ny * ny + nz * nz;
-    const float lengths = (along[0] * along[0] + along[1] * along[1] + along[2] * along[2]) *
-                          (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+// One component of a cubic and of a quadratic with these coefficients at step k.
+struct Cubic {
+  const float *a, *b, *c, *d;
+  float at(int k, const float (*p)[3], int axis) const {
+    return a[k] * p[0][axis] + b[k] * p[1][axis] + c[k] * p[2][axis] + d[k] * p[3][axis];
+  }
+};
+struct Quadratic {
+  const float *a, *b, *c;
+  float at(int k, const float (*p)[3], int axis) const {
+    return a[k] * p[0][axis] + b[k] * p[1][axis] + c[k] * p[2][axis];
+  }
+};
+
+void evaluate(const Row& given, const Basis& basis, int first, int last, const Vertices& out, int at) {
+  const Row row = given;
+  const Cubic cubic{basis.cubic[0] + first, basis.cubic[1] + first, basis.cubic[2] + first, basis.cubic[3] + first};
+  const Quadratic quadratic{basis.quadratic[0] + first, basis.quadratic[1] + first, basis.quadratic[2] + first};
+  float *px = out.place[0] + at, *py = out.place[1] + at, *pz = out.place[2] + at;
+  float *nx = out.normal[0] + at, *ny = out.normal[1] + at, *nz = out.normal[2] + at;
+#pragma GCC ivdep  // components are arrays of their own
+  for (int k = 0; k < last - first; ++k) {
+    px[k] = cubic.at(k, row.point, 0);
+    py[k] = cubic.at(k, row.point, 1);
+    pz[k] = cubic.at(k, row.point, 2);
+    const float ux = quadratic.at(k, row.slope, 0), uy = quadratic.at(k, row.slope, 1), uz = quadratic.at(k, row.slope, 2);
+    const float vx = cubic.at(k, row.cross, 0), vy = cubic.at(k, row.cross, 1), vz = cubic.at(k, row.cross, 2);
+    const float x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    const float square = x * x + y * y + z * z;
+    const float lengths = (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz);
     // Where the two directions vanish or coincide there is no normal: the caller looks beside the place.
-    const float scale = square > 1e-12f * lengths ? row.sign / std::sqrt(square) : 0.0f;
-    normal[0][k] = nx * scale;
-    normal[1][k] = ny * scale;
-    normal[2][k] = nz * scale;
+    const float unit = row.sign / std::sqrt(square);
+    const float scale = square > 1e-12f * lengths ? unit : 0.0f;
+    nx[k] = x * scale;
+    ny[k] = y * scale;
+    nz[k] = z * scale;
   }
 }
 
-void project(const Projection& p, const Vertices& v, int count) {
-  const float *__restrict px = v.place[0], *__restrict py = v.place[1], *__restrict pz = v.place[2];
-  float* __restrict inverse_w = v.inverse_w;
-  std::int32_t *__restrict x = v.x, *__restrict y = v.y;
-  std::uint8_t* __restrict outside = v.outside;
+void project(const Projection& given, const Vertices& v, int count) {
+  const Projection p = given;
+  const float *px = v.place[0], *py = v.place[1], *pz = v.place[2];
+  float* inverse_w = v.inverse_w;
+  std::int32_t *x = v.x, *y = v.y;
+  std::uint8_t* outside = v.outside;
+#pragma GCC ivdep
   for (int k = 0; k < count; ++k) {
     const float w = -pz[k];
     const float inverse = 1.0f / w;
