@@ -63,11 +63,23 @@ float twist(const EyePatch& patch) {
   return greatest;
 }
 
-// Pixels a unit length shows at most, at the nearest of `count` points.
+// A bound from below for the distance from the eye to the hull of `count` points.
+float distance(const float (*p)[3], int count) {
+  float middle[3] = {0, 0, 0}, radius = 0;
+  for (int i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) middle[axis] += p[i][axis];
+  for (float& m : middle) m /= static_cast<float>(count);
+  for (int i = 0; i < count; ++i)
+    radius = std::max(radius, square_length(p[i][0] - middle[0], p[i][1] - middle[1], p[i][2] - middle[2]));
+  return std::sqrt(square_length(middle[0], middle[1], middle[2])) - std::sqrt(radius);
+}
+
+// Pixels a unit length shows at most anywhere in the hull of `count` points: what is seen lies no nearer than
+// the nearest point, nor than its distance from the eye allows within the picture's corners.
 float magnification(const float (*p)[3], int count, const Projection& projection) {
   float nearest = -p[0][2];
   for (int i = 1; i < count; ++i) nearest = std::min(nearest, -p[i][2]);
-  return projection.scale / std::max(nearest, projection.near);
+  return projection.scale / std::max({nearest, projection.near, projection.corner * distance(p, count)});
 }
 
 // Steps for a second derivative of `bound` pixels: ceil(sqrt(bound / (8 tolerance))).

@@ -45,7 +45,8 @@ struct Projection {
   float center[2];
   float near;
   float far;
-  float guard;  // pixels from the centre
+  float guard;   // pixels from the centre
+  float corner;  // cosine of the angle between the view axis and the picture's corner
 };
 
 struct EyeLight {

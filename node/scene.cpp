@@ -1,6 +1,7 @@
 #include "node/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mars::node {
@@ -22,8 +23,10 @@ EyeLight to_eye(const Light& light, const Matrix& world_to_eye) {
 }  // namespace
 
 Projection projection_of(const Camera& camera, std::int32_t width, std::int32_t height) {
-  return {static_cast<float>(camera.focal * height / 2), {width / 2.0f, height / 2.0f},
-          static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels};
+  const auto scale = static_cast<float>(camera.focal * height / 2);
+  const float x = static_cast<float>(width) / 2, y = static_cast<float>(height) / 2;
+  const float corner = scale / std::sqrt(scale * scale + x * x + y * y);
+  return {scale, {x, y}, static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels, corner};
 }
 
 Scene::Scene(const FilmView& film) : film_(film) {
