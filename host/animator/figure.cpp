@@ -1,0 +1,124 @@
+#include "host/animator/figure.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "host/document/fields.h"
+
+namespace mars::host {
+namespace {
+
+const Joint kFree{};  // how a whole figure turns
+
+}  // namespace
+
+glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose) {
+  const glm::dvec3 z_axis = glm::normalize(glm::cross(joint.x_axis, joint.y_axis));
+  return rotation_by_degrees(joint.x_axis, pose.x) * rotation_by_degrees(joint.y_axis, pose.y) *
+         rotation_by_degrees(z_axis, pose.z);
+}
+
+std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Limits& limits = joint.limits[axis];
+    if (pose[axis] >= limits.lower && pose[axis] <= limits.upper) continue;
+    return "turns " + shown(pose[axis]) + " degrees about " + "xyz"[axis] + ", outside its limits " +
+           shown(limits.lower) + " to " + shown(limits.upper);
+  }
+  return std::nullopt;
+}
+
+Frame segment_frame(const Frame& joint_frame, const Joint& joint) {
+  const glm::dmat3 axes(joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis));
+  return {joint_frame.turn * axes, joint_frame.place};
+}
+
+node::Matrix t_matrix(const Frame& frame, const Box& sbb) {
+  const glm::dvec3 extent = sbb.max - sbb.min;
+  const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
+  node::Matrix matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) matrix.m[row][column] = frame.turn[column][row] * extent[column];
+    matrix.m[row][3] = origin[row];
+  }
+  return matrix;
+}
+
+JointMotion::JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses) : joint_(&joint), poses_(&poses) {}
+
+glm::dmat3 JointMotion::at(std::uint32_t frame) {
+  if (poses_->empty()) return orientation(*joint_, joint_->rest());
+  const Stretch stretch = stretch_at(*poses_, frame);
+  const glm::dvec3& from = (*poses_)[stretch.from].value;
+  if (from == (*poses_)[stretch.to].value) return orientation(*joint_, from);
+  return joint_->freedoms() == 1 ? orientation(*joint_, hinge_pose(stretch)) : between(stretch);
+}
+
+// One freedom: the angle itself goes from key to key, so that whole turns are possible; an ease that overshoots
+// stops at the limits.
+glm::dvec3 JointMotion::hinge_pose(const Stretch& stretch) const {
+  const glm::dvec3& from = (*poses_)[stretch.from].value;
+  glm::dvec3 pose = from + stretch.part * ((*poses_)[stretch.to].value - from);
+  for (int axis = 0; axis < 3; ++axis)
+    pose[axis] = std::clamp(pose[axis], joint_->limits[axis].lower, joint_->limits[axis].upper);
+  return pose;
+}
+
+glm::dmat3 JointMotion::between(const Stretch& stretch) {
+  if (from_ != stretch.from) {
+    from_ = stretch.from;
+    start_ = orientation(*joint_, (*poses_)[stretch.from].value);
+    turn_ = turn_between(start_, orientation(*joint_, (*poses_)[stretch.to].value));
+  }
+  if (turn_.angle == 0) return start_;
+  return rotation(turn_.axis, stretch.part * turn_.angle) * start_;
+}
+
+Figure::Figure(const Model& model, const FigureMotion& motion)
+    : model_(&model), motion_(&motion), root_turn_(kFree, motion.turn) {
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+    turns_.push_back(JointMotion(model.joints[joint], motion.pose[joint]).at(0));
+    if (motion.pose[joint].size() < 2) continue;
+    keyed_.push_back(joint);
+    motions_.emplace_back(model.joints[joint], motion.pose[joint]);
+  }
+  still_ = keyed_.empty() && motion.place.size() < 2 && motion.turn.size() < 2;
+  frames_.resize(model.joints.size());
+  moved_.resize(model.joints.size());
+}
+
+void Figure::turn_keyed_joints(std::uint32_t frame) {
+  for (std::size_t i = 0; i < keyed_.size(); ++i) {
+    const glm::dmat3 turn = motions_[i].at(frame);
+    if (turn == turns_[keyed_[i]]) continue;
+    turns_[keyed_[i]] = turn;
+    moved_[keyed_[i]] = true;
+  }
+}
+
+bool Figure::move_root(std::uint32_t frame) {
+  const Frame now{root_turn_.at(frame), value_at(motion_->place, frame)};
+  const bool moved = first_ || now.turn != root_.turn || now.place != root_.place;
+  root_ = now;
+  first_ = false;
+  return moved;
+}
+
+bool Figure::move_to(std::uint32_t frame) {
+  std::fill(moved_.begin(), moved_.end(), char{false});
+  turn_keyed_joints(frame);
+  const bool root_moved = move_root(frame);
+  bool any = false;
+  for (std::size_t number = 0; number < frames_.size(); ++number) {
+    const Joint& joint = model_->joints[number];
+    const bool rooted = joint.parent == kNone;
+    if (rooted ? root_moved : moved_[joint.parent]) moved_[number] = true;
+    if (!moved_[number]) continue;
+    any = true;
+    const Frame& parent = rooted ? root_ : frames_[joint.parent];
+    frames_[number] = {parent.turn * turns_[number], parent.turn * joint.place + parent.place};
+  }
+  return any;
+}
+
+}  // namespace mars::host

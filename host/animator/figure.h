@@ -1,0 +1,91 @@
+// A figure in motion: the frames of all joints of a model at a frame of the film, and from them the T-matrices
+// of its segments. Joints turn relative to their parents, so limbs never come apart (thesis 3.4).
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/animator/channel.h"
+#include "host/animator/rotation.h"
+#include "host/model/model.h"
+
+namespace mars::host {
+
+// Where a joint stands in the world: p' = turn p + place.
+struct Frame {
+  glm::dmat3 turn{1};
+  glm::dvec3 place{0, 0, 0};
+};
+
+// A joint's turn against its parent for a pose in degrees: Rot(x, a) Rot(y, b) Rot(z, c).
+glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose);
+
+// "turns 170 degrees about y, outside its limits 0 to 150", if the pose breaks a limit.
+std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose);
+
+// The base segment's box-scaled coordinates to the world: F [X Y Z].
+Frame segment_frame(const Frame& joint_frame, const Joint& joint);
+
+// The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
+node::Matrix t_matrix(const Frame& frame, const Box& sbb);
+
+// What an animator set for one figure.
+struct FigureMotion {
+  Channel<glm::dvec3> place;              // in the world, at least one key
+  Channel<glm::dvec3> turn;               // degrees about x, y, z as a free joint's pose; at least one key
+  std::vector<Channel<glm::dvec3>> pose;  // one a joint; without a key it rests
+};
+
+// A joint's turn over the frames. Keeps the turn between the two keys it was last asked about.
+class JointMotion {
+ public:
+  // Both must outlive it. `poses` may be empty.
+  JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses);
+
+  glm::dmat3 at(std::uint32_t frame);
+
+ private:
+  glm::dmat3 between(const Stretch& stretch);
+  glm::dvec3 hinge_pose(const Stretch& stretch) const;
+
+  const Joint* joint_;
+  const Channel<glm::dvec3>* poses_;
+  std::size_t from_ = kNone;  // key at which the kept turn begins
+  glm::dmat3 start_{1};
+  Turn turn_{{1, 0, 0}, 0};
+};
+
+// Plays a figure: frame by frame, in any order.
+class Figure {
+ public:
+  // Both must outlive it.
+  Figure(const Model& model, const FigureMotion& motion);
+
+  // True if any joint now stands elsewhere than at the frame before.
+  bool move_to(std::uint32_t frame);
+
+  const Frame& frame_of(std::size_t joint) const { return frames_[joint]; }
+  bool moved(std::size_t joint) const { return moved_[joint]; }  // by the last move_to
+  bool still() const { return still_; }                          // has no two keys of anything
+
+ private:
+  void turn_keyed_joints(std::uint32_t frame);
+  bool move_root(std::uint32_t frame);
+
+  const Model* model_;
+  const FigureMotion* motion_;
+  JointMotion root_turn_;
+  Frame root_;
+  bool first_ = true;
+  bool still_;
+  std::vector<std::size_t> keyed_;     // joints with two keys or more
+  std::vector<JointMotion> motions_;   // one a keyed joint
+  std::vector<glm::dmat3> turns_;      // of all joints, against their parents
+  std::vector<Frame> frames_;
+  std::vector<char> moved_;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,158 @@
+#include "host/document/fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <vector>
+
+namespace mars::host {
+namespace {
+
+// Levenshtein's distance, two neighbours exchanged counting once, of names cut at 64 bytes.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  a = a.substr(0, 64);
+  b = b.substr(0, 64);
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, now);
+  }
+  return last[b.size()];
+}
+
+std::string listed(std::span<const std::string_view> names) {
+  std::string list;
+  for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list.size() > 300 ? list.substr(0, 300) + " ..." : list;
+}
+
+std::string in_quotes(std::string_view name) {
+  return "'" + std::string(name.substr(0, 80)) + (name.size() > 80 ? "...'" : "'");
+}
+
+}  // namespace
+
+std::string shown(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", number);
+  return text;
+}
+
+std::optional<std::string> near_name(std::string_view wanted, std::span<const std::string_view> names) {
+  std::size_t nearest = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  std::optional<std::string> found;
+  for (const std::string_view name : names) {
+    const std::size_t longer = std::max(name.size(), wanted.size());
+    if (longer - std::min(name.size(), wanted.size()) >= nearest) continue;
+    const std::size_t distance = edit_distance(wanted, name);
+    if (distance >= nearest || distance >= longer) continue;
+    nearest = distance;
+    found = name;
+  }
+  return found;
+}
+
+std::string did_you_mean(std::string_view wanted, std::span<const std::string_view> names,
+                         const std::string& otherwise) {
+  const auto name = near_name(wanted, names);
+  return name ? "did you mean " + in_quotes(*name) + "?" : otherwise;
+}
+
+void require_kind(const Element& element, Kind kind) {
+  if (element.kind() != kind)
+    element.refuse(std::string("is ") + name_of(element.kind()) + ", not " + name_of(kind),
+                   std::string("write ") + name_of(kind));
+}
+
+void require_size(const Element& element, std::size_t size) {
+  require_kind(element, Kind::list);
+  if (element.size() != size)
+    element.refuse("has " + std::to_string(element.size()) + " items", "write " + std::to_string(size) + " of them");
+}
+
+double read_number(const Element& element, Range range) {
+  require_kind(element, Kind::number);
+  const double number = element.number();
+  if (!(number >= range.lowest && number <= range.highest))
+    element.refuse("is " + shown(number), "write a number from " + shown(range.lowest) + " to " + shown(range.highest));
+  return number;
+}
+
+std::uint32_t read_count(const Element& element, std::uint32_t lowest, std::uint32_t highest) {
+  const double number = read_number(element, {double(lowest), double(highest)});
+  if (number != std::floor(number)) element.refuse("is " + shown(number), "write a whole number");
+  return static_cast<std::uint32_t>(number);
+}
+
+glm::dvec3 read_vector(const Element& element, Range range) {
+  require_size(element, 3);
+  glm::dvec3 vector;
+  int axis = 0;
+  for (const Element item : element) vector[axis++] = read_number(item, range);
+  return vector;
+}
+
+std::string read_text(const Element& element) {
+  require_kind(element, Kind::text);
+  if (element.text().empty()) element.refuse("is an empty text", "write a name");
+  return std::string(element.text());
+}
+
+std::size_t read_choice(const Element& element, std::span<const std::string_view> choices) {
+  const std::string wanted = read_text(element);
+  const auto at = std::find(choices.begin(), choices.end(), wanted);
+  if (at == choices.end())
+    element.refuse("is " + in_quotes(wanted), did_you_mean(wanted, choices, "choose one of: " + listed(choices)));
+  return static_cast<std::size_t>(at - choices.begin());
+}
+
+Fields::Fields(const Element& object, const Keys& keys) : object_(object), keys_(keys) {
+  require_kind(object, Kind::object);
+  for (const Element child : object) {
+    if (std::find(keys.names.begin(), keys.names.end(), child.key()) != keys.names.end()) continue;
+    child.refuse(std::string("is no key of a ") + keys.of,
+                 did_you_mean(child.key(), keys.names, "its keys are: " + listed(keys.names)));
+  }
+}
+
+Element Fields::required(std::string_view key) const {
+  const auto found = find(key);
+  if (!found) object_.refuse("has no " + in_quotes(key), std::string("a ") + keys_.of + " needs it");
+  return *found;
+}
+
+double Fields::number(std::string_view key, double otherwise, Range range) const {
+  const auto found = find(key);
+  return found ? read_number(*found, range) : otherwise;
+}
+
+std::uint32_t Fields::count(std::string_view key, std::uint32_t otherwise, std::uint32_t lowest,
+                            std::uint32_t highest) const {
+  const auto found = find(key);
+  return found ? read_count(*found, lowest, highest) : otherwise;
+}
+
+glm::dvec3 Fields::vector(std::string_view key, const glm::dvec3& otherwise, Range range) const {
+  const auto found = find(key);
+  return found ? read_vector(*found, range) : otherwise;
+}
+
+std::string Fields::text(std::string_view key, const std::string& otherwise) const {
+  const auto found = find(key);
+  return found ? read_text(*found) : otherwise;
+}
+
+std::size_t Fields::choice(std::string_view key, std::size_t otherwise,
+                           std::span<const std::string_view> choices) const {
+  const auto found = find(key);
+  return found ? read_choice(*found, choices) : otherwise;
+}
+
+}  // namespace mars::host

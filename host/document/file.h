@@ -1,0 +1,14 @@
+// A whole file into memory, for every reader of models and films. What cannot be read is one Failure that names
+// the file. (Files are written by host/sinks/whole_file.h.)
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace mars::host {
+
+// Refuses what is missing, no regular file, or larger than `largest` bytes.
+std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = std::uintmax_t{1} << 34);
+
+}  // namespace mars::host

@@ -1,0 +1,360 @@
+#include "host/film/compile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <unordered_map>
+
+#include "hal/failure.h"
+#include "host/film/film_file.h"
+#include "host/film/intervals.h"
+#include "host/film/read_film.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::size_t kMostMatrices = std::size_t{1} << 26;  // 6 GB
+constexpr double kFarthestMatrix = 1e12;                      // as node/film.h allows
+const Frame kIdentity{};
+
+// Appends to a film's values and to one track of changes those that differ from the one before.
+template <typename Value>
+class TrackWriter {
+ public:
+  explicit TrackWriter(std::vector<Value>& values) : values_(values) {}
+
+  void add(std::uint32_t frame, const Value& value) {
+    if (!changes_.empty() && value == values_.back()) return;
+    changes_.push_back({frame, static_cast<std::uint32_t>(values_.size())});
+    values_.push_back(value);
+  }
+
+  node::Track write(std::vector<node::Change>& changes) const { return append_changes(changes, changes_); }
+
+  static node::Track append_changes(std::vector<node::Change>& changes, const std::vector<node::Change>& more) {
+    if (changes.size() + more.size() > std::numeric_limits<std::uint32_t>::max())
+      throw Failure("changes too often", "", "make the film shorter, or move fewer segments");
+    const node::Track track{static_cast<std::uint32_t>(changes.size()), static_cast<std::uint32_t>(more.size())};
+    changes.insert(changes.end(), more.begin(), more.end());
+    return track;
+  }
+
+ private:
+  std::vector<Value>& values_;
+  std::vector<node::Change> changes_;
+};
+
+std::array<float, 3> floats(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
+
+// Along the great circle; half a turn goes about any axis across.
+glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame) {
+  const Stretch stretch = stretch_at(channel, frame);
+  const glm::dvec3& from = channel[stretch.from].value;
+  const glm::dvec3& to = channel[stretch.to].value;
+  if (from == to) return from;
+  const glm::dvec3 across = glm::cross(from, to);
+  const double sine = glm::length(across), angle = std::atan2(sine, glm::dot(from, to));
+  if (angle < 1e-12) return from;
+  const glm::dvec3 other = std::abs(from.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 axis = sine > 1e-12 ? across / sine : glm::normalize(glm::cross(from, other));
+  return rotation(axis, stretch.part * angle) * from;
+}
+
+class Compiler {
+ public:
+  Compiler(const Film& film, const CompileOptions& options) : film_(film), options_(options) {}
+
+  CompiledFilm compile() {
+    add_settings();
+    add_camera();
+    for (const LightMotion& light : film_.lights) add_light(light);
+    for (const Actor& actor : film_.actors) add_actor(actor);
+    cut_intervals(data_, options_.cutting.value_or(film_.cutting), keyframes());
+    return packed();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const std::string& element, const std::string& remedy) const {
+    throw Failure(what, film_.source.empty() ? element : film_.source + ": " + element, remedy);
+  }
+
+  void add_settings() {
+    const auto size = options_.size.value_or(std::array{film_.width, film_.height});
+    for (const std::uint32_t side : size)
+      if (side < 1 || side > node::kMaxSide)
+        fail("is " + std::to_string(size[0]) + "x" + std::to_string(size[1]), "size",
+             "each side must have 1 to 16384 pixels");
+    data_.settings = {size[0], size[1], film_.frames, film_.dice, floats(film_.background), float(film_.rate), {}};
+  }
+
+  node::Camera camera_at(std::uint32_t frame) const {
+    const CameraMotion& motion = film_.camera;
+    const glm::dvec3 eye = value_at(motion.eye, frame), ahead = value_at(motion.at, frame) - eye;
+    const double distance = glm::length(ahead);
+    const glm::dvec3 up = value_at(motion.up, frame);
+    const double length = glm::length(up);
+    const auto refuse = [&](const char* what, const char* remedy) {
+      fail(what, "camera, frame " + std::to_string(frame), remedy);
+    };
+    if (distance < 1e-9) refuse("has its eye where it looks at", "move eye or at");
+    const glm::dvec3 forward = ahead / distance;
+    const glm::dvec3 right = glm::cross(forward, up) / length;
+    if (length < 1e-9 || glm::length(right) < 1e-6) refuse("looks along its up vector", "choose another up");
+    const glm::dvec3 x = glm::normalize(right), axes[3] = {x, glm::cross(x, forward), -forward};
+    node::Camera camera;
+    for (int row = 0; row < 3; ++row)
+      camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
+    const double half = value_at(motion.fov, frame) * (3.14159265358979323846 / 360);
+    camera.focal = std::cos(half) / std::sin(half);
+    camera.near = motion.near;
+    camera.far = motion.far;
+    return camera;
+  }
+
+  // Frames at which a value may differ from the frame before: 0, then up to the last key.
+  template <typename... Channels>
+  std::uint32_t frames_to_see(const Channels&... channels) const {
+    const auto last = [](const auto& channel) { return channel.size() < 2 ? 0 : channel.back().frame; };
+    return std::min(film_.frames, std::max({std::uint32_t(last(channels))...}) + 1);
+  }
+
+  void add_camera() {
+    const CameraMotion& motion = film_.camera;
+    TrackWriter<node::Camera> track(data_.cameras);
+    const std::uint32_t frames = frames_to_see(motion.eye, motion.at, motion.up, motion.fov);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, camera_at(frame));
+    data_.settings.camera = track.write(data_.changes);
+  }
+
+  void add_light(const LightMotion& light) {
+    TrackWriter<node::Light> track(data_.lights);
+    const std::uint32_t frames = frames_to_see(light.vector, light.color, light.intensity);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+      const glm::dvec3 vector =
+          light.directional ? direction_at(light.vector, frame) : value_at(light.vector, frame);
+      const glm::dvec3 color = value_at(light.intensity, frame) * value_at(light.color, frame);
+      track.add(frame, {light.directional ? 0u : 1u, floats(vector), floats(glm::max(color, 0.0))});
+    }
+    data_.light_tracks.push_back(track.write(data_.changes));
+  }
+
+  static node::Material material_at(const MaterialMotion& motion, std::uint32_t frame) {
+    // An ease that overshoots must not leave what a material can be.
+    const auto within = [&](const Channel<double>& channel, double highest) {
+      return float(std::clamp(value_at(channel, frame), 0.0, highest));
+    };
+    return {floats(glm::clamp(value_at(motion.color, frame), 0.0, 1.0)),
+            within(motion.ambient, 10), within(motion.diffuse, 10), within(motion.specular, 10),
+            within(motion.exponent, 10000), motion.sides};
+  }
+
+  node::Track look_of(const MaterialMotion& motion) {
+    TrackWriter<node::Material> track(data_.materials);
+    const std::uint32_t frames =
+        frames_to_see(motion.color, motion.ambient, motion.diffuse, motion.specular, motion.exponent);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, material_at(motion, frame));
+    return track.write(data_.changes);
+  }
+
+  node::Track look_of(const node::Material& material) {
+    TrackWriter<node::Material> track(data_.materials);
+    track.add(0, material);
+    return track.write(data_.changes);
+  }
+
+  // Segments of one material share a track. `key` names the material among all of the film's and its models'.
+  template <typename Material>
+  node::Track shared_look(const std::string& key, const Material& material) {
+    const auto known = looks_.find(key);
+    return known != looks_.end() ? known->second : looks_.emplace(key, look_of(material)).first->second;
+  }
+
+  node::Track find_look(const Actor& actor, std::string name) {
+    bool of_film = !actor.material.empty();
+    if (of_film) name = actor.material;
+    const auto instead = std::find_if(actor.materials.begin(), actor.materials.end(),
+                                      [&](const auto& change) { return change.first == name; });
+    if (!of_film && instead != actor.materials.end()) {
+      name = instead->second;
+      of_film = true;
+    }
+    if (name.empty()) return shared_look("", kDefaultMaterial);
+    if (!of_film)
+      for (const NamedMaterial& own : film_.models[actor.model].materials)
+        if (own.name == name) return shared_look(std::to_string(actor.model) + "/" + name, own.material);
+    for (const MaterialMotion& motion : film_.materials)
+      if (motion.name == name) return shared_look("/" + name, motion);
+    fail("uses the material '" + name + "', which there is not", "actor '" + actor.name + "'",
+         "add it to the film's materials");
+  }
+
+  // Shapes with the same patches, bit for bit, are one shape of the compiled film.
+  std::uint32_t add_shape(const Shape& shape) {
+    const std::string_view bits(reinterpret_cast<const char*>(shape.patches.data()),
+                                shape.patches.size() * sizeof(node::Patch));
+    const auto [known, is_new] = shapes_.try_emplace(bits, data_.shapes.size());
+    if (is_new) {
+      data_.shapes.push_back({std::uint32_t(data_.patches.size()), std::uint32_t(shape.patches.size())});
+      data_.patches.insert(data_.patches.end(), shape.patches.begin(), shape.patches.end());
+    }
+    return known->second;
+  }
+
+  const std::vector<std::uint32_t>& shapes_of(std::size_t model) {
+    auto& numbers = model_shapes_.try_emplace(model).first->second;
+    if (numbers.empty())
+      for (const Shape& shape : film_.models[model].shapes) numbers.push_back(add_shape(shape));
+    return numbers;
+  }
+
+  // One segment being written: its joint, and its matrices so far.
+  struct Writing {
+    std::size_t joint;
+    std::size_t segment;
+    std::vector<node::Change> changes;
+  };
+
+  void add_matrix(Writing& writing, std::uint32_t frame, const node::Matrix& matrix) {
+    if (!writing.changes.empty() && matrix == data_.matrices[writing.changes.back().value]) return;
+    for (const auto& row : matrix.m)
+      for (const double number : row)
+        if (!(std::abs(number) <= kFarthestMatrix))
+          fail("stands farther than 1e12 from the origin",
+               std::string(&data_.names[data_.segments[writing.segment].name]) + ", frame " + std::to_string(frame),
+               "use smaller places and boxes");
+    if (data_.matrices.size() >= kMostMatrices)
+      fail("has more than 67 million different T-matrices", "actors", "make the film shorter, or move fewer segments");
+    writing.changes.push_back({frame, static_cast<std::uint32_t>(data_.matrices.size())});
+    data_.matrices.push_back(matrix);
+  }
+
+  std::vector<Writing> add_segments(const Actor& actor) {
+    const Model& model = film_.models[actor.model];
+    const auto& shapes = shapes_of(actor.model);
+    std::vector<Writing> writings;
+    for (std::size_t number = 0; number < model.joints.size(); ++number) {
+      const Joint& joint = model.joints[number];
+      if (!joint.segment) continue;
+      writings.push_back({number, data_.segments.size(), {}});
+      data_.segments.push_back({shapes[joint.segment->shape], add_name(actor.name + "/" + joint.name), {},
+                                find_look(actor, joint.segment->material)});
+    }
+    return writings;
+  }
+
+  std::uint32_t add_name(const std::string& name) {
+    if (data_.names.size() + name.size() + 1 > std::numeric_limits<std::uint32_t>::max())
+      fail("have names of more than 4 GB", "actors", "shorten them");
+    const auto offset = static_cast<std::uint32_t>(data_.names.size());
+    data_.names.insert(data_.names.end(), name.c_str(), name.c_str() + name.size() + 1);
+    return offset;
+  }
+
+  void add_actor(const Actor& actor) {
+    std::vector<Writing> writings = add_segments(actor);
+    actor.matrices.empty() ? play(actor, writings) : copy(actor, writings);
+    for (const Writing& writing : writings)
+      data_.segments[writing.segment].motion =
+          TrackWriter<node::Matrix>::append_changes(data_.changes, writing.changes);
+    const std::uint64_t patches = patches_of(film_.models[actor.model]);
+    instances_ += patches;
+    joints_ += film_.models[actor.model].joints.size();
+    if (instances_ > std::numeric_limits<std::uint32_t>::max() || joints_ > std::numeric_limits<std::uint32_t>::max())
+      fail("have more than 4294967295 patches", "actors", "use fewer actors");
+  }
+
+  static std::uint64_t patches_of(const Model& model) {
+    std::uint64_t patches = 0;
+    for (const Joint& joint : model.joints)
+      if (joint.segment) patches += model.shapes[joint.segment->shape].patches.size();
+    return patches;
+  }
+
+  void play(const Actor& actor, std::vector<Writing>& writings) {
+    const Model& model = film_.models[actor.model];
+    Figure figure(model, actor.motion);
+    const std::uint32_t frames = figure.still() ? 1 : film_.frames;
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+      if (!figure.move_to(frame)) continue;
+      for (Writing& writing : writings) {
+        if (!figure.moved(writing.joint)) continue;
+        const Joint& joint = model.joints[writing.joint];
+        add_matrix(writing, frame, t_matrix(segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
+      }
+    }
+  }
+
+  void copy(const Actor& actor, std::vector<Writing>& writings) {
+    for (Writing& writing : writings)
+      for (const Key<Frame>& key : actor.matrices[writing.joint])
+        if (key.frame < film_.frames)
+          add_matrix(writing, key.frame,
+                     t_matrix(key.value, film_.models[actor.model].joints[writing.joint].segment->sbb));
+  }
+
+  std::vector<std::uint32_t> keyframes() const {
+    std::vector<std::uint32_t> frames;
+    const auto add = [&](const auto& channel) {
+      for (const auto& key : channel) frames.push_back(key.frame);
+    };
+    const auto add_all = [&](const auto&... channels) { (add(channels), ...); };
+    add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov);
+    for (const LightMotion& light : film_.lights) add_all(light.vector, light.color, light.intensity);
+    for (const MaterialMotion& m : film_.materials) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
+    for (const Actor& actor : film_.actors) {
+      add_all(actor.motion.place, actor.motion.turn);
+      for (const auto& poses : actor.motion.pose) add(poses);
+    }
+    std::sort(frames.begin(), frames.end());
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+    return frames;
+  }
+
+  CompiledFilm packed() const {
+    const std::vector<std::byte> block = node::pack(data_);
+    CompiledFilm film;
+    film.lines.resize(block.size() / sizeof(CompiledFilm::Line));
+    check(film.block().size() == block.size(), "a packed film is whole lines of 64 bytes");
+    std::memcpy(film.lines.data(), block.data(), block.size());
+    film.source = film_.source;
+    film.actors = static_cast<std::uint32_t>(film_.actors.size());
+    film.joints = static_cast<std::uint32_t>(joints_);
+    return film;
+  }
+
+  const Film& film_;
+  const CompileOptions& options_;
+  node::FilmData data_;
+  std::unordered_map<std::string, node::Track> looks_;
+  std::unordered_map<std::string_view, std::uint32_t> shapes_;  // by the bits of their patches
+  std::unordered_map<std::size_t, std::vector<std::uint32_t>> model_shapes_;
+  std::uint64_t instances_ = 0;  // patches of all segments
+  std::uint64_t joints_ = 0;     // of all actors
+};
+
+// The same block with another size: what a frame shows does not depend on it.
+void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& size) {
+  const node::FilmView view = film.view();
+  node::FilmSettings settings = view.settings();
+  settings.width = size[0];
+  settings.height = size[1];
+  const auto offset = reinterpret_cast<const std::byte*>(&view.settings()) - film.block().data();
+  std::memcpy(reinterpret_cast<std::byte*>(film.lines.data()) + offset, &settings, sizeof settings);
+}
+
+}  // namespace
+
+CompiledFilm compile(const Film& film, const CompileOptions& options) { return Compiler(film, options).compile(); }
+
+CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {
+  if (!is_compiled_film(path)) return compile(read_film(path), options);
+  if (options.cutting)
+    throw Failure("is compiled, its intervals are cut", path.string(), "choose --intervals with the film file itself");
+  CompiledFilm film = load_compiled_film(path);
+  if (options.size) resize(film, *options.size);
+  return film;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,45 @@
+// From a film as described to the film as nodes read it (node/film.h): T-matrices computed once, only what
+// changes from frame to frame kept, render intervals cut. And the door to either kind of file: `load_film`.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/film/film.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+// What a person may choose against the film file.
+struct CompileOptions {
+  std::optional<Cutting> cutting;
+  std::optional<std::array<std::uint32_t, 2>> size;  // pixels, each 1..node::kMaxSide
+};
+
+// The packed block, aligned to 64 bytes, and what it does not tell.
+struct CompiledFilm {
+  struct alignas(64) Line {
+    std::array<std::byte, 64> bytes;
+  };
+
+  std::vector<Line> lines;
+  std::string source;        // file, for messages
+  std::uint32_t actors = 0;
+  std::uint32_t joints = 0;  // of all actors
+
+  std::span<const std::byte> block() const { return std::as_bytes(std::span(lines)); }
+  node::FilmView view() const { return {block(), source, true}; }
+};
+
+CompiledFilm compile(const Film& film, const CompileOptions& options = {});
+
+// A film file or a .mars file, known by its content. The intervals of a .mars file are cut for good.
+CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options = {});
+
+}  // namespace mars::host

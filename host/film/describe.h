@@ -1,0 +1,12 @@
+// What `mars info` prints of a compiled film.
+#pragma once
+
+#include <string>
+
+#include "host/film/compile.h"
+
+namespace mars::host {
+
+std::string describe(const CompiledFilm& film);
+
+}  // namespace mars::host

@@ -1,0 +1,72 @@
+// A film as a person describes it: settings, camera, lights, materials, models and actors with their keys; what a
+// film file (docs/film-format.md) holds, with names resolved. compile.h makes the compiled film from it.
+// World: right-handed, z up. Angles in degrees, colours 0..1 as shown, frames from 0.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/animator/figure.h"
+#include "host/model/model.h"
+
+namespace mars::host {
+
+// Where render intervals are cut: where it saves work, or at the animator's keyframes.
+enum class Cutting { automatic, keyframes };
+
+struct CameraMotion {
+  Channel<glm::dvec3> eye;
+  Channel<glm::dvec3> at;
+  Channel<glm::dvec3> up;
+  Channel<double> fov;  // vertical, degrees
+  double near = 0.1;    // nothing nearer or farther is drawn
+  double far = 10000;
+};
+
+struct LightMotion {
+  bool directional = true;
+  Channel<glm::dvec3> vector;  // to the light if directional, never zero; else its place
+  Channel<glm::dvec3> color;
+  Channel<double> intensity;
+};
+
+struct MaterialMotion {
+  std::string name;
+  Channel<glm::dvec3> color;
+  Channel<double> ambient;
+  Channel<double> diffuse;
+  Channel<double> specular;
+  Channel<double> exponent;
+  std::uint32_t sides = 2;
+};
+
+// A model in the film. Either `motion` moves its joints, or `matrices` its segments.
+struct Actor {
+  std::string name;
+  std::size_t model;
+  FigureMotion motion;
+  std::vector<Channel<Frame>> matrices;  // one a joint, each with a key at frame 0 where it has a segment; or none
+  std::string material;                  // of the film, for all segments; "": the model's
+  std::vector<std::pair<std::string, std::string>> materials;  // else: the model's name, and the film's instead
+};
+
+struct Film {
+  std::string source;  // file, for messages
+  std::uint32_t frames = 1;
+  double rate = 24;
+  std::uint32_t width = 960;
+  std::uint32_t height = 540;
+  glm::dvec3 background{0, 0, 0};
+  Cutting cutting = Cutting::automatic;
+  std::uint32_t dice = 0;  // 0: adaptive; N: every patch N x N quads
+  CameraMotion camera;
+  std::vector<LightMotion> lights;
+  std::vector<MaterialMotion> materials;
+  std::vector<Model> models;
+  std::vector<Actor> actors;
+};
+
+}  // namespace mars::host

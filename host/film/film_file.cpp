@@ -1,0 +1,85 @@
+#include "host/film/film_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+#include "hal/failure.h"
+#include "host/document/file.h"
+#include "host/sinks/checksum.h"
+#include "host/sinks/whole_file.h"
+
+namespace mars::host {
+namespace {
+
+// As PNG's: no text file begins so, and a transfer as text breaks it.
+constexpr std::array<char, 8> kMagic = {'\x89', 'M', 'A', 'R', 'S', '\r', '\n', '\x1a'};
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint32_t version;  // of the block
+  std::uint32_t actors;
+  std::uint32_t joints;
+  std::uint32_t zero;
+  std::uint64_t block_bytes;
+  std::array<char, 32> checksum;  // of all before it and of the block
+};
+static_assert(sizeof(Header) == sizeof(CompiledFilm::Line));
+
+std::array<char, 32> checksum_over(const Header& header, std::span<const std::byte> block) {
+  Checksum checksum;
+  checksum.add(std::as_bytes(std::span(&header, 1)).first(offsetof(Header, checksum)));
+  checksum.add(block);
+  const std::string digits = checksum.digits();
+  check(digits.size() == 32, "a checksum has 32 digits");
+  std::array<char, 32> copy;
+  std::copy(digits.begin(), digits.end(), copy.begin());
+  return copy;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
+  throw Failure("is no sound compiled film: " + what, path.string(), "compile the film again with `mars compile`");
+}
+
+}  // namespace
+
+void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
+  Header header{kMagic, node::kFilmVersion, film.actors, film.joints, 0, film.block().size(), {}};
+  header.checksum = checksum_over(header, film.block());
+  std::vector<std::byte> bytes(sizeof header + film.block().size());
+  std::memcpy(bytes.data(), &header, sizeof header);
+  std::memcpy(bytes.data() + sizeof header, film.lines.data(), film.block().size());
+  write_whole_file(path, std::span<const std::byte>(bytes));
+}
+
+bool is_compiled_film(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::array<char, 8> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return start == kMagic;
+}
+
+CompiledFilm load_compiled_film(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  Header header;
+  if (bytes.size() < sizeof header) refuse(path, "it is cut short");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (header.magic != kMagic) refuse(path, "it does not begin as one");
+  if (header.version != node::kFilmVersion)
+    refuse(path, "it has version " + std::to_string(header.version) + ", this program reads " +
+                     std::to_string(node::kFilmVersion));
+  if (header.block_bytes != bytes.size() - sizeof header || header.block_bytes % sizeof(CompiledFilm::Line) != 0)
+    refuse(path, bytes.size() - sizeof header < header.block_bytes ? "it is cut short" : "its size is wrong");
+  CompiledFilm film;
+  film.lines.resize(header.block_bytes / sizeof(CompiledFilm::Line));
+  std::memcpy(film.lines.data(), bytes.data() + sizeof header, header.block_bytes);
+  if (checksum_over(header, film.block()) != header.checksum) refuse(path, "its checksum is wrong");
+  film.source = path.string();
+  film.actors = header.actors;
+  film.joints = header.joints;
+  node::FilmView(film.block(), film.source);  // checks every index
+  return film;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,18 @@
+// Compiled films on disk: .mars files. A header of 64 bytes with a checksum, then the block of node/film.h.
+// Written whole or not at all; read only if every bit is as it was written.
+#pragma once
+
+#include <filesystem>
+
+#include "host/film/compile.h"
+
+namespace mars::host {
+
+void save_film(const CompiledFilm& film, const std::filesystem::path& path);
+
+// Whether the file begins as a .mars file; false if it cannot be read.
+bool is_compiled_film(const std::filesystem::path& path);
+
+CompiledFilm load_compiled_film(const std::filesystem::path& path);
+
+}  // namespace mars::host

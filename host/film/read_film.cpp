@@ -1,0 +1,360 @@
+#include "host/film/read_film.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "host/film/read_keys.h"
+#include "host/model/read_model.h"
+#include "node/film.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::string_view kFilmNames[] = {"frames", "rate",   "size",      "background", "intervals", "dice",
+                                           "camera", "lights", "materials", "models",     "actors"};
+constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "near", "far", "keys"};
+constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "ease"};
+constexpr std::string_view kLightNames[] = {"direction", "place", "color", "intensity", "keys"};
+constexpr std::string_view kLightKeyNames[] = {"frame", "direction", "place", "color", "intensity", "ease"};
+constexpr std::string_view kFilmMaterialNames[] = {"color", "ambient", "diffuse", "specular", "exponent", "sides",
+                                                   "keys"};
+constexpr std::string_view kMaterialKeyNames[] = {"frame",    "color",    "ambient", "diffuse",
+                                                  "specular", "exponent", "ease"};
+constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",    "pose",
+                                            "material", "materials", "keys",  "matrices"};
+constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "ease"};
+constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
+
+constexpr Keys kKeys[] = {{"film", kFilmNames},
+                          {"camera", kCameraNames},
+                          {"camera_key", kCameraKeyNames},
+                          {"light", kLightNames},
+                          {"light_key", kLightKeyNames},
+                          {"film_material", kFilmMaterialNames},
+                          {"material_key", kMaterialKeyNames},
+                          {"actor", kActorNames},
+                          {"actor_key", kActorKeyNames},
+                          {"matrices_key", kMatricesNames}};
+enum KeySet { kFilm, kCamera, kCameraKey, kLight, kLightKey, kFilmMaterial, kMaterialKey, kActor, kActorKey, kMatrices };
+
+constexpr Range kColors{0, 1};
+constexpr Range kShares{0, 10};
+constexpr Range kExponents{0, 10000};
+constexpr Range kIntensities{0, 1000};
+constexpr Range kDegrees{-1e6, 1e6};
+constexpr std::size_t kMostLights = 64;
+const glm::dvec3 kDefaultLight{-0.4, -0.7, 0.8};
+
+// Readers of one value, as settle() and add_key() want them.
+glm::dvec3 place_of(const Element& element) { return read_vector(element); }
+glm::dvec3 color_of(const Element& element) { return read_vector(element, kColors); }
+glm::dvec3 angles_of(const Element& element) { return read_vector(element, kDegrees); }
+double share_of(const Element& element) { return read_number(element, kShares); }
+double exponent_of(const Element& element) { return read_number(element, kExponents); }
+double intensity_of(const Element& element) { return read_number(element, kIntensities); }
+double fov_of(const Element& element) { return read_number(element, {0.01, 179}); }
+
+glm::dvec3 direction_of(const Element& element) {
+  const glm::dvec3 direction = read_vector(element);
+  const double length = glm::length(direction);
+  if (length < 1e-9) element.refuse("has no length", "write a vector to the light");
+  return direction / length;
+}
+
+void read_size(const Element& element, Film& film) {
+  require_size(element, 2);
+  auto side = element.begin();
+  film.width = read_count(*side, 1, node::kMaxSide);
+  film.height = read_count(*++side, 1, node::kMaxSide);
+}
+
+std::uint32_t read_dice(const Element& element) {
+  constexpr std::string_view adaptive[] = {"adaptive"};
+  if (element.kind() == Kind::number) return read_count(element, 1, 256);
+  if (element.kind() == Kind::text) return static_cast<std::uint32_t>(read_choice(element, adaptive));
+  element.refuse(std::string("is ") + name_of(element.kind()), "write \"adaptive\" or a number of quads a side");
+}
+
+CameraMotion read_camera(const Element& element) {
+  const Fields fields(element, kKeys[kCamera]);
+  CameraMotion camera;
+  if (const auto keys = fields.find("keys"))
+    read_keys(*keys, kKeys[kCameraKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+      add_key(camera.eye, key, "eye", frame, ease, place_of);
+      add_key(camera.at, key, "at", frame, ease, place_of);
+      add_key(camera.up, key, "up", frame, ease, place_of);
+      add_key(camera.fov, key, "fov", frame, ease, fov_of);
+    });
+  if (camera.eye.empty()) fields.required("eye");
+  settle(camera.eye, fields, "eye", {}, place_of);
+  settle(camera.at, fields, "at", {}, place_of);
+  settle(camera.up, fields, "up", {0, 0, 1}, place_of);
+  settle(camera.fov, fields, "fov", 40.0, fov_of);
+  camera.near = fields.number("near", camera.near, {1e-6, 1e9});
+  camera.far = fields.number("far", camera.far, {1e-6, 1e10});
+  if (camera.far <= camera.near)
+    element.refuse("has far " + shown(camera.far) + ", not beyond near " + shown(camera.near), "make far larger");
+  return camera;
+}
+
+LightMotion read_light(const Element& element) {
+  const Fields fields(element, kKeys[kLight]);
+  LightMotion light;
+  Channel<glm::dvec3> direction, place;
+  if (const auto keys = fields.find("keys"))
+    read_keys(*keys, kKeys[kLightKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+      add_key(direction, key, "direction", frame, ease, direction_of);
+      add_key(place, key, "place", frame, ease, place_of);
+      add_key(light.color, key, "color", frame, ease, color_of);
+      add_key(light.intensity, key, "intensity", frame, ease, intensity_of);
+    });
+  light.directional = !direction.empty() || fields.find("direction");
+  const bool point = !place.empty() || fields.find("place");
+  if (light.directional == point)
+    element.refuse(point ? "has both a direction and a place" : "has neither a direction nor a place",
+                   "give direction to the light if it is far away, or its place if it is near");
+  settle(direction, fields, "direction", {}, direction_of);
+  settle(place, fields, "place", {}, place_of);
+  light.vector = point ? place : direction;
+  settle(light.color, fields, "color", {1, 1, 1}, color_of);
+  settle(light.intensity, fields, "intensity", 1.0, intensity_of);
+  return light;
+}
+
+std::vector<LightMotion> read_lights(const Element& list) {
+  require_kind(list, Kind::list);
+  if (list.size() > kMostLights) list.refuse("has " + std::to_string(list.size()) + " lights", "at most 64");
+  std::vector<LightMotion> lights;
+  for (const Element element : list) lights.push_back(read_light(element));
+  return lights;
+}
+
+LightMotion default_light() {
+  return {true, constant(glm::normalize(kDefaultLight)), constant(glm::dvec3(1, 1, 1)), constant(1.0)};
+}
+
+MaterialMotion read_film_material(const Element& element) {
+  const Fields fields(element, kKeys[kFilmMaterial]);
+  MaterialMotion material;
+  material.name = checked_name(element, element.key());
+  if (const auto keys = fields.find("keys"))
+    read_keys(*keys, kKeys[kMaterialKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+      add_key(material.color, key, "color", frame, ease, color_of);
+      add_key(material.ambient, key, "ambient", frame, ease, share_of);
+      add_key(material.diffuse, key, "diffuse", frame, ease, share_of);
+      add_key(material.specular, key, "specular", frame, ease, share_of);
+      add_key(material.exponent, key, "exponent", frame, ease, exponent_of);
+    });
+  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, color_of);
+  settle(material.ambient, fields, "ambient", 0.10, share_of);
+  settle(material.diffuse, fields, "diffuse", 0.65, share_of);
+  settle(material.specular, fields, "specular", 0.45, share_of);
+  settle(material.exponent, fields, "exponent", 32.0, exponent_of);
+  material.sides = fields.count("sides", 2, 1, 2);
+  return material;
+}
+
+// Reads the actors once the models and materials are known.
+class ActorReader {
+ public:
+  ActorReader(const Film& film, std::vector<std::string> model_names)
+      : film_(film), model_names_(std::move(model_names)), joints_(film.models.size()) {
+    for (std::size_t i = 0; i < model_names_.size(); ++i) models_.emplace(model_names_[i], i);
+    for (const MaterialMotion& material : film.materials) materials_.push_back(material.name);
+  }
+
+  Actor read(const Element& element) {
+    const Fields fields(element, kKeys[kActor]);
+    Actor actor;
+    actor.name = read_name(fields.required("name"));
+    if (!names_.insert(actor.name).second)
+      element.refuse("is a second actor named '" + actor.name + "'", "give every actor its own name");
+    actor.model = find_model(fields.required("model"));
+    if (const auto material = fields.find("material")) actor.material = film_material(*material);
+    if (const auto materials = fields.find("materials")) read_materials(*materials, actor);
+    read_motion(fields, actor);
+    return actor;
+  }
+
+ private:
+  const Model& model_of(const Actor& actor) const { return film_.models[actor.model]; }
+
+  std::size_t find_model(const Element& element) const {
+    const std::string name = read_text(element);
+    if (const auto found = models_.find(name); found != models_.end()) return found->second;
+    const std::vector<std::string_view> names(model_names_.begin(), model_names_.end());
+    element.refuse("is '" + name + "', which is none of the film's models",
+                   did_you_mean(name, names, "add it to the film's models"));
+  }
+
+  std::string film_material(const Element& element) const {
+    const std::string name = read_text(element);
+    if (std::find(materials_.begin(), materials_.end(), name) == materials_.end())
+      element.refuse("is '" + name + "', which is none of the film's materials",
+                     did_you_mean(name, materials_, "add it to the film's materials"));
+    return name;
+  }
+
+  void read_materials(const Element& element, Actor& actor) const {
+    require_kind(element, Kind::object);
+    std::vector<std::string_view> used;
+    for (const Joint& joint : model_of(actor).joints)
+      if (joint.segment && !joint.segment->material.empty()) used.push_back(joint.segment->material);
+    for (const Element item : element) {
+      if (std::find(used.begin(), used.end(), item.key()) == used.end())
+        item.refuse("is no material that a segment of its model uses",
+                    did_you_mean(item.key(), used, "name a material of the model's segments"));
+      actor.materials.emplace_back(item.key(), film_material(item));
+    }
+  }
+
+  void read_motion(const Fields& fields, Actor& actor) {
+    actor.motion.pose.resize(model_of(actor).joints.size());
+    if (const auto matrices = fields.find("matrices")) {
+      for (const std::string_view key : {"keys", "place", "turn", "pose"})
+        if (const auto other = fields.find(key))
+          other->refuse("stands beside matrices", "move an actor by keys or by matrices, not by both");
+      read_matrices(*matrices, actor);
+    }
+    if (const auto keys = fields.find("keys"))
+      read_keys(*keys, kKeys[kActorKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+        add_key(actor.motion.place, key, "place", frame, ease, place_of);
+        add_key(actor.motion.turn, key, "turn", frame, ease, angles_of);
+        if (const auto pose = key.find("pose")) read_pose(*pose, frame, ease, actor);
+      });
+    settle(actor.motion.place, fields, "place", {}, place_of);
+    settle(actor.motion.turn, fields, "turn", {}, angles_of);
+    if (const auto pose = fields.find("pose")) read_still_pose(*pose, actor);
+  }
+
+  void read_still_pose(const Element& element, Actor& actor) {
+    require_kind(element, Kind::object);
+    for (const Element item : element)
+      if (!actor.motion.pose[find_joint(item, actor)].empty())
+        item.refuse("is also set by keys", "take it out here, or out of every key");
+    read_pose(element, 0, kLinear, actor);
+  }
+
+  void read_pose(const Element& element, std::uint32_t frame, const Ease& ease, Actor& actor) {
+    require_kind(element, Kind::object);
+    for (const Element item : element) {
+      const std::size_t number = find_joint(item, actor);
+      const glm::dvec3 pose = read_vector(item, kDegrees);
+      const Joint& joint = model_of(actor).joints[number];
+      if (const auto broken = broken_limit(joint, pose))
+        item.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
+      actor.motion.pose[number].push_back({frame, pose, ease});
+    }
+  }
+
+  // `item` is named after a joint of the actor's model.
+  std::size_t find_joint(const Element& item, const Actor& actor) {
+    auto& numbers = joints_[actor.model];
+    const auto& joints = model_of(actor).joints;
+    if (numbers.empty())
+      for (std::size_t i = 0; i < joints.size(); ++i) numbers.emplace(joints[i].name, i);
+    if (const auto found = numbers.find(item.key()); found != numbers.end()) return found->second;
+    std::vector<std::string_view> names;
+    for (const Joint& joint : joints) names.push_back(joint.name);
+    item.refuse("is no joint of the model '" + model_names_[actor.model] + "'",
+                did_you_mean(item.key(), names, "name a joint of this model"));
+  }
+
+  static Frame read_matrix(const Element& element) {
+    require_size(element, 3);
+    Frame frame;
+    int row = 0;
+    for (const Element numbers : element) {
+      require_size(numbers, 4);
+      int column = 0;
+      for (const Element number : numbers) {
+        (column < 3 ? frame.turn[column][row] : frame.place[row]) = read_number(number);
+        ++column;
+      }
+      ++row;
+    }
+    return frame;
+  }
+
+  void read_matrices(const Element& list, Actor& actor) {
+    const auto& joints = model_of(actor).joints;
+    actor.matrices.resize(joints.size());
+    read_keys(list, kKeys[kMatrices], [&](const Fields& key, std::uint32_t frame, const Ease&) {
+      const Element segments = key.required("segments");
+      require_kind(segments, Kind::object);
+      for (const Element item : segments) {
+        const std::size_t joint = find_joint(item, actor);
+        if (!joints[joint].segment) item.refuse("has no segment", "give matrices of joints that have one");
+        actor.matrices[joint].push_back({frame, read_matrix(item), kLinear});
+      }
+    });
+    for (std::size_t joint = 0; joint < joints.size(); ++joint)
+      if (joints[joint].segment && (actor.matrices[joint].empty() || actor.matrices[joint][0].frame != 0))
+        list.refuse("has no matrix of '" + joints[joint].name + "' at frame 0",
+                    "give every segment its matrix at frame 0, then only what changes");
+  }
+
+  const Film& film_;
+  std::vector<std::string> model_names_;
+  std::unordered_map<std::string, std::size_t> models_;
+  std::vector<std::string_view> materials_;
+  std::vector<std::unordered_map<std::string_view, std::size_t>> joints_;  // of each model, filled when asked
+  std::unordered_set<std::string> names_;
+};
+
+Model read_film_model(const Element& element, const Film& film, const std::filesystem::path& folder) {
+  std::vector<std::string_view> materials;
+  for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
+  if (element.kind() == Kind::text) return load_model(folder / read_text(element), materials);
+  if (element.kind() != Kind::object)
+    element.refuse(std::string("is ") + name_of(element.kind()), "name a model file, or write the model here");
+  return read_model(element, materials);
+}
+
+void read_settings(const Fields& fields, Film& film) {
+  film.frames = read_count(fields.required("frames"), 1, kMostFrames);
+  film.rate = fields.number("rate", film.rate, {0.001, 1000});
+  film.background = fields.vector("background", film.background, kColors);
+  if (const auto size = fields.find("size")) read_size(*size, film);
+  if (const auto dice = fields.find("dice")) film.dice = read_dice(*dice);
+  constexpr std::string_view cuttings[] = {"auto", "keyframes"};
+  film.cutting = static_cast<Cutting>(fields.choice("intervals", 0, cuttings));
+}
+
+}  // namespace
+
+std::span<const Keys> film_keys() { return kKeys; }
+
+Film read_film(const Element& element, const std::filesystem::path& folder) {
+  const Fields fields(element, kKeys[kFilm]);
+  Film film;
+  film.source = element.document().name();
+  read_settings(fields, film);
+  film.camera = read_camera(fields.required("camera"));
+  film.lights = {default_light()};
+  if (const auto lights = fields.find("lights")) film.lights = read_lights(*lights);
+  if (const auto materials = fields.find("materials")) {
+    require_kind(*materials, Kind::object);
+    for (const Element material : *materials) film.materials.push_back(read_film_material(material));
+  }
+  std::vector<std::string> model_names;
+  const Element models = fields.required("models");
+  require_kind(models, Kind::object);
+  for (const Element model : models) {
+    model_names.push_back(checked_name(model, model.key()));
+    film.models.push_back(read_film_model(model, film, folder));
+  }
+  const Element actors = fields.required("actors");
+  require_kind(actors, Kind::list);
+  ActorReader reader(film, std::move(model_names));
+  for (const Element actor : actors) film.actors.push_back(reader.read(actor));
+  return film;
+}
+
+Film read_film(const std::filesystem::path& path) {
+  const Document document = read_document(path);
+  return read_film(document.root(), path.parent_path());
+}
+
+}  // namespace mars::host

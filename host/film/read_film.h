@@ -1,0 +1,19 @@
+// Film files (docs/film-format.md): from JSON to a Film. Every name is resolved, every range and limit checked.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "host/document/fields.h"
+#include "host/film/film.h"
+
+namespace mars::host {
+
+// Model files are found beside the film file.
+Film read_film(const std::filesystem::path& path);
+Film read_film(const Element& element, const std::filesystem::path& folder);
+
+// What the objects of a film file may hold, as docs/schema/film.schema.json names them.
+std::span<const Keys> film_keys();
+
+}  // namespace mars::host

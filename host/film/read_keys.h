@@ -1,0 +1,52 @@
+// Reading of keyed values: "keys" lists whose items hold any of some channels, beside the same keys in the object
+// itself for channels that no key names.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <string>
+#include <string_view>
+
+#include "host/animator/channel.h"
+#include "host/document/fields.h"
+
+namespace mars::host {
+
+inline constexpr std::uint32_t kMostFrames = 1'000'000;
+
+// "linear", "in", "out", "both" or [x1, y1, x2, y2]; linear if there is none.
+Ease read_ease(const Fields& fields);
+
+// Calls take(fields, frame, ease) for each item of the list, whose frames must ascend.
+template <typename Take>
+void read_keys(const Element& list, const Keys& keys, Take take) {
+  require_kind(list, Kind::list);
+  std::int64_t before = -1;
+  for (const Element item : list) {
+    const Fields fields(item, keys);
+    const Element frame_element = fields.required("frame");
+    const std::uint32_t frame = read_count(frame_element, 0, kMostFrames);
+    if (frame <= before)
+      frame_element.refuse("is " + std::to_string(frame) + " after " + std::to_string(before),
+                           "write keys in ascending frames, one for each");
+    before = frame;
+    take(fields, frame, read_ease(fields));
+  }
+}
+
+// Adds the value of `key`, if it is there, to the channel.
+template <typename Value, typename Read>
+void add_key(Channel<Value>& channel, const Fields& fields, std::string_view key, std::uint32_t frame,
+             const Ease& ease, Read read) {
+  if (const auto element = fields.find(key)) channel.push_back({frame, read(*element), ease});
+}
+
+// A channel that no key names takes the object's own value, else `otherwise`.
+template <typename Value, typename Read>
+void settle(Channel<Value>& channel, const Fields& fields, std::string_view key, const Value& otherwise, Read read) {
+  const auto element = fields.find(key);
+  if (element && !channel.empty())
+    element->refuse("is also set by keys", "take it out here, or out of every key");
+  if (channel.empty()) channel = constant(element ? read(*element) : otherwise);
+}
+
+}  // namespace mars::host

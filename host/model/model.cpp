@@ -1,0 +1,17 @@
+#include "host/model/model.h"
+
+#include <algorithm>
+
+namespace mars::host {
+
+glm::dvec3 Joint::rest() const {
+  glm::dvec3 pose;
+  for (int axis = 0; axis < 3; ++axis) pose[axis] = std::clamp(0.0, limits[axis].lower, limits[axis].upper);
+  return pose;
+}
+
+int Joint::freedoms() const {
+  return static_cast<int>(std::count_if(limits.begin(), limits.end(), [](const Limits& l) { return l.free(); }));
+}
+
+}  // namespace mars::host

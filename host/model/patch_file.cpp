@@ -1,0 +1,162 @@
+#include "host/model/patch_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "hal/failure.h"
+#include "host/document/fields.h"
+#include "host/document/file.h"
+#include "host/sinks/whole_file.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
+constexpr std::size_t kMostPatches = 10'000'000;
+
+// Words of a text between white space, with the line they stand in.
+class Words {
+ public:
+  Words(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {}
+
+  bool at_end() {
+    while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front()))) {
+      line_ += rest_.front() == '\n';
+      rest_.remove_prefix(1);
+    }
+    return rest_.empty();
+  }
+
+  double number(const char* of) {
+    if (at_end()) fail(std::string("ends before ") + of, "the file may be cut short");
+    const std::string_view word = rest_.substr(0, std::min(rest_.find_first_of(" \t\r\n\v\f"), rest_.size()));
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size())
+      fail("has " + quoted(word) + " for " + of, "write a number");
+    if (!(std::abs(value) <= kFarthest)) fail("has " + quoted(word) + " for " + of, "at most 1e9 from the origin");
+    rest_.remove_prefix(word.size());
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
+    throw Failure(problem, name_ + ":" + std::to_string(line_), remedy);
+  }
+
+ private:
+  static std::string quoted(std::string_view word) {
+    std::string text(word.substr(0, 40));
+    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
+    return "'" + text + "'";
+  }
+
+  std::string_view rest_;
+  std::string name_;
+  std::size_t line_ = 1;
+};
+
+using Points = std::vector<glm::dvec3>;
+
+Points read_points(Words& words) {
+  const double count = words.number("the number of patches");
+  if (!(count >= 1 && count <= kMostPatches && count == std::floor(count)))
+    words.fail("has no sensible number of patches", "begin with the number of patches, a whole number from 1");
+  Points points;
+  for (std::size_t patch = 0; patch < static_cast<std::size_t>(count); ++patch) {
+    const double u = words.number("a patch's first degree"), v = words.number("a patch's second degree");
+    if (u != 3 || v != 3)
+      words.fail("has a patch of degrees " + shown(u) + " " + shown(v), "only bicubic patches, 3 3, can be read");
+    for (int point = 0; point < 16; ++point) {
+      const double x = words.number("x"), y = words.number("y"), z = words.number("z");
+      points.emplace_back(x, y, z);
+    }
+  }
+  if (!words.at_end()) words.fail("goes on after its last patch", "check the number of patches in its first line");
+  return points;
+}
+
+// Where the points are flat, the box is one unit thick and they lie on its lower side.
+Box bounds_of(const Points& points) {
+  Box box{points[0], points[0]};
+  for (const glm::dvec3& point : points)
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = std::min(box.min[axis], point[axis]);
+      box.max[axis] = std::max(box.max[axis], point[axis]);
+    }
+  for (int axis = 0; axis < 3; ++axis)
+    if (box.min[axis] == box.max[axis]) box.max[axis] += 1;
+  return box;
+}
+
+template <typename Number>
+void append(std::string& text, Number number) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+void append_point(std::string& text, const auto& point) {
+  text += '[';
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) text += ", ";
+    append(text, point[axis]);
+  }
+  text += ']';
+}
+
+std::string quoted_name(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + '"';
+}
+
+std::string model_text(const PatchFile& file, const std::string& name) {
+  std::string text = "{\n  \"joints\": [\n    {\"name\": " + quoted_name(name) +
+                     ", \"segment\": {\"shape\": \"imported\", \"sbb\": [";
+  append_point(text, file.bounds.min);
+  text += ", ";
+  append_point(text, file.bounds.max);
+  text += "]}}\n  ],\n  \"shapes\": {\n    \"imported\": [";
+  for (std::size_t number = 0; number < file.patches.size(); ++number) {
+    text += number == 0 ? "\n      [" : ",\n      [";
+    for (std::size_t i = 0; i < 16; ++i) {
+      if (i > 0) text += ", ";
+      append_point(text, file.patches[number].points[i]);
+    }
+    text += ']';
+  }
+  return text + "\n    ]\n  }\n}\n";
+}
+
+}  // namespace
+
+PatchFile read_patch_file(const std::filesystem::path& path) {
+  const std::string text = read_file(path, kLargestFile);
+  Words words(text, path.string());
+  const Points points = read_points(words);
+  PatchFile file{std::vector<node::Patch>(points.size() / 16), bounds_of(points)};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double extent = file.bounds.max[axis] - file.bounds.min[axis];
+      file.patches[i / 16].points[i % 16][axis] =
+          static_cast<float>((points[i][axis] - file.bounds.min[axis]) / extent);
+    }
+  return file;
+}
+
+std::string import_patches(const std::filesystem::path& from, const std::filesystem::path& to, std::string joint) {
+  if (joint.empty()) joint = from.stem().string();
+  const bool plain = !joint.empty() && joint.size() <= 100 && joint.find('/') == std::string::npos &&
+                     std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
+  if (!plain) throw Failure("cannot name a joint", joint, "choose a name of 1 to 100 bytes without '/'");
+  const PatchFile file = read_patch_file(from);
+  write_whole_file(to, model_text(file, joint));
+  return to.string() + ": model of one joint '" + joint + "', " + std::to_string(file.patches.size()) + " patches";
+}
+
+}  // namespace mars::host

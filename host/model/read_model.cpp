@@ -1,0 +1,299 @@
+#include "host/model/read_model.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "host/model/primitives.h"
+#include "host/model/teapot.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials"};
+constexpr std::string_view kJointNames[] = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"};
+constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
+constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "top", "tube", "lid"};
+
+constexpr Keys kKeys[] = {{"model", kModelNames},
+                          {"joint", kJointNames},
+                          {"limits", kLimitsNames},
+                          {"segment", kSegmentNames},
+                          {"material", kMaterialKeys}};
+constexpr const Keys& kModel = kKeys[0];
+constexpr const Keys& kJoint = kKeys[1];
+constexpr const Keys& kLimits = kKeys[2];
+constexpr const Keys& kSegment = kKeys[3];
+constexpr const Keys& kMaterial = kKeys[4];
+
+constexpr Range kDegrees{-1e6, 1e6};
+constexpr double kLeastSine = 1e-3;  // between a joint's axes
+
+// A primitive: its option's key ("" for none), default and range, and its maker.
+struct Primitive {
+  std::string_view name;
+  std::string_view option;
+  double otherwise;
+  Range range;
+  std::vector<node::Patch> (*make)(double);
+};
+
+constexpr Primitive kPrimitives[] = {
+    {"box", "", 0, {}, [](double) { return make_box(); }},
+    {"sphere", "", 0, {}, [](double) { return make_sphere(); }},
+    {"cylinder", "", 0, {}, [](double) { return make_cylinder(); }},
+    {"cone", "top", 0, {0, 1}, make_cone},
+    {"torus", "tube", 0.125, {0.001, 0.2499}, make_torus},
+    {"teapot", "lid", 1.077, {0.1, 2}, make_teapot},
+};
+
+std::vector<std::string_view> names_of(const auto& items) {
+  std::vector<std::string_view> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+node::Patch read_patch(const Element& element) {
+  require_size(element, 16);
+  node::Patch patch;
+  std::size_t number = 0;
+  for (const Element item : element) {
+    const glm::dvec3 point = read_vector(item, {0, 1});
+    for (int axis = 0; axis < 3; ++axis) patch.points[number][axis] = static_cast<float>(point[axis]);
+    ++number;
+  }
+  return patch;
+}
+
+class ModelReader {
+ public:
+  explicit ModelReader(std::span<const std::string_view> film_materials)
+      : material_names_(film_materials.begin(), film_materials.end()) {}
+
+  Model read(const Element& element) {
+    const Fields fields(element, kModel);
+    if (const auto materials = fields.find("materials")) read_materials(*materials);
+    if (const auto shapes = fields.find("shapes")) read_shapes(*shapes);
+    read_joints(fields.required("joints"));
+    return std::move(model_);
+  }
+
+ private:
+  void read_materials(const Element& element) {
+    require_kind(element, Kind::object);
+    for (const Element item : element)
+      model_.materials.push_back({checked_name(item, item.key()), read_material(Fields(item, kMaterial))});
+    for (const NamedMaterial& material : model_.materials) material_names_.push_back(material.name);
+  }
+
+  void read_shapes(const Element& element) {
+    require_kind(element, Kind::object);
+    for (const Element item : element) {
+      const std::string name = checked_name(item, item.key());
+      if (std::any_of(std::begin(kPrimitives), std::end(kPrimitives), [&](const Primitive& p) { return p.name == name; }))
+        item.refuse("has the name of a primitive", "choose another name");
+      require_kind(item, Kind::list);
+      if (item.size() == 0) item.refuse("has no patches", "give at least one, or take the shape out");
+      Shape& shape = model_.shapes.emplace_back(Shape{name, {}});
+      shape.patches.reserve(item.size());
+      for (const Element patch : item) shape.patches.push_back(read_patch(patch));
+    }
+    own_shapes_ = model_.shapes.size();
+  }
+
+  // The shape that `fields` names: one of the model's own, or a primitive, made once for each value of its option.
+  std::size_t read_shape(const Fields& fields) {
+    const Element element = fields.required("shape");
+    const std::string name = read_text(element);
+    const Primitive* primitive = std::find_if(std::begin(kPrimitives), std::end(kPrimitives),
+                                              [&](const Primitive& p) { return p.name == name; });
+    refuse_other_options(fields, primitive == std::end(kPrimitives) ? "" : primitive->option, name);
+    if (primitive == std::end(kPrimitives)) return find_own_shape(element, name);
+    const double option =
+        primitive->option.empty() ? 0 : fields.number(primitive->option, primitive->otherwise, primitive->range);
+    const auto [made, is_new] = primitives_.try_emplace(name + " " + std::to_string(option), model_.shapes.size());
+    if (is_new) model_.shapes.push_back({name, primitive->make(option)});
+    return made->second;
+  }
+
+  std::size_t find_own_shape(const Element& element, const std::string& name) const {
+    for (std::size_t i = 0; i < own_shapes_; ++i)
+      if (model_.shapes[i].name == name) return i;
+    std::vector<std::string_view> names = names_of(kPrimitives);
+    for (std::size_t i = 0; i < own_shapes_; ++i) names.push_back(model_.shapes[i].name);
+    element.refuse("is '" + name + "', neither a primitive nor a shape of this model",
+                   did_you_mean(name, names, "give its patches in the model's shapes"));
+  }
+
+  static void refuse_other_options(const Fields& fields, std::string_view own, const std::string& shape) {
+    for (const Primitive& other : kPrimitives)
+      if (const auto option = fields.find(other.option); option && other.option != own)
+        option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape, "take it out");
+  }
+
+  static Box read_box(const Element& element) {
+    require_size(element, 2);
+    const auto corners = element.begin();
+    auto second = corners;
+    ++second;
+    const Box box{read_vector(*corners), read_vector(*second)};
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(box.min[axis] < box.max[axis]))
+        element.refuse(std::string("has no extent along ") + "xyz"[axis],
+                       "write [[least x, y, z], [greatest x, y, z]], each least below its greatest");
+    return box;
+  }
+
+  Segment read_segment(const Element& element) {
+    const Fields fields(element, kSegment);
+    Segment segment{read_shape(fields), {}, fields.text("material", "")};
+    if (const auto sbb = fields.find("sbb")) segment.sbb = read_box(*sbb);
+    const auto known = std::find(material_names_.begin(), material_names_.end(), segment.material);
+    if (!segment.material.empty() && known == material_names_.end())
+      fields.find("material")->refuse("is '" + segment.material + "', which is no material of the model or the film",
+                                      did_you_mean(segment.material, material_names_, "add it to the materials"));
+    return segment;
+  }
+
+  static std::array<Limits, 3> read_limits(const Element& element) {
+    const Fields fields(element, kLimits);
+    std::array<Limits, 3> limits;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      limits[axis] = {0, 0};
+      const auto range = fields.find(kLimitsNames[axis]);
+      if (!range) continue;
+      require_size(*range, 2);
+      auto bound = range->begin();
+      limits[axis].lower = read_number(*bound, kDegrees);
+      limits[axis].upper = read_number(*++bound, kDegrees);
+      if (limits[axis].lower > limits[axis].upper)
+        range->refuse("has its lower limit above its upper", "write [lower, upper] in degrees");
+    }
+    return limits;
+  }
+
+  static void read_axes(const Fields& fields, Joint& joint) {
+    const auto unit = [&](std::string_view key, const glm::dvec3& otherwise) {
+      const glm::dvec3 axis = fields.vector(key, otherwise);
+      const double length = glm::length(axis);
+      if (length < 1e-9) fields.find(key)->refuse("has no length", "write a vector of the joint's axis");
+      return axis / length;
+    };
+    joint.x_axis = unit("x_axis", joint.x_axis);
+    joint.y_axis = unit("y_axis", joint.y_axis);
+    if (glm::length(glm::cross(joint.x_axis, joint.y_axis)) < kLeastSine)
+      fields.element().refuse("has parallel x and y axes", "give x_axis and y_axis different directions");
+  }
+
+  Joint read_joint(const Element& element) {
+    const Fields fields(element, kJoint);
+    Joint joint;
+    joint.name = read_name(fields.required("name"));
+    joint.place = fields.vector("place", joint.place);
+    read_axes(fields, joint);
+    if (const auto limits = fields.find("limits")) joint.limits = read_limits(*limits);
+    if (const auto segment = fields.find("segment")) joint.segment = read_segment(*segment);
+    return joint;
+  }
+
+  void read_joints(const Element& list) {
+    require_kind(list, Kind::list);
+    if (list.size() == 0) list.refuse("is empty", "a model has at least one joint");
+    std::vector<Element> elements;
+    for (const Element element : list) {
+      Joint joint = read_joint(element);
+      const auto [first, is_new] = numbers_.try_emplace(joint.name, elements.size());
+      if (!is_new)
+        element.refuse("is a second joint named '" + joint.name + "', the first is in line " +
+                           std::to_string(elements[first->second].line()), "give every joint its own name");
+      elements.push_back(element);
+      model_.joints.push_back(std::move(joint));
+    }
+    for (std::size_t i = 0; i < elements.size(); ++i) model_.joints[i].parent = find_parent(elements[i]);
+    put_parents_first(elements);
+  }
+
+  std::size_t find_parent(const Element& element) const {
+    const auto parent = element.find("parent");
+    if (!parent) return kNone;
+    const std::string name = read_text(*parent);
+    const auto found = numbers_.find(name);
+    if (found != numbers_.end()) return found->second;
+    parent->refuse("is '" + name + "', which is no joint of this model",
+                   did_you_mean(name, names_of(model_.joints), "name a joint of this model, or leave parent out"));
+  }
+
+  // Orders the joints as in the file, but each after its ancestors.
+  void put_parents_first(const std::vector<Element>& elements) {
+    const auto& joints = model_.joints;
+    enum class State : char { unseen, waiting, placed };
+    std::vector<State> state(joints.size(), State::unseen);
+    std::vector<std::size_t> order, chain, now_at(joints.size());
+    for (std::size_t first = 0; first < joints.size(); ++first) {
+      for (std::size_t at = first; at != kNone && state[at] != State::placed; at = joints[at].parent) {
+        if (state[at] == State::waiting)
+          elements[at].refuse("joint '" + joints[at].name + "' is its own ancestor", "break the cycle of parents");
+        state[at] = State::waiting;
+        chain.push_back(at);
+      }
+      for (; !chain.empty(); chain.pop_back()) {
+        state[chain.back()] = State::placed;
+        now_at[chain.back()] = order.size();
+        order.push_back(chain.back());
+      }
+    }
+    std::vector<Joint> sorted;
+    sorted.reserve(joints.size());
+    for (const std::size_t at : order) {
+      sorted.push_back(std::move(model_.joints[at]));
+      if (sorted.back().parent != kNone) sorted.back().parent = now_at[sorted.back().parent];
+    }
+    model_.joints = std::move(sorted);
+  }
+
+  Model model_;
+  std::size_t own_shapes_ = 0;  // those of the file come first
+  std::vector<std::string_view> material_names_;
+  std::unordered_map<std::string, std::size_t> primitives_;  // name and option: number of the shape
+  std::unordered_map<std::string, std::size_t> numbers_;     // of joints, as in the file
+};
+
+}  // namespace
+
+std::span<const Keys> model_keys() { return kKeys; }
+
+std::string checked_name(const Element& element, std::string_view name) {
+  if (name.empty()) element.refuse("has an empty name", "write a name");
+  if (name.size() > 100) element.refuse("has a name of " + std::to_string(name.size()) + " bytes", "at most 100 bytes");
+  if (name.find('/') != std::string_view::npos) element.refuse("has a name with '/'", "use '-' or '_' instead");
+  return std::string(name);
+}
+
+std::string read_name(const Element& element) { return checked_name(element, read_text(element)); }
+
+node::Material read_material(const Fields& fields) {
+  constexpr Range share{0, 10};
+  const glm::dvec3 color = fields.vector("color", {0.8, 0.8, 0.8}, {0, 1});
+  node::Material material = kDefaultMaterial;
+  for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
+  material.ambient = static_cast<float>(fields.number("ambient", 0.10, share));
+  material.diffuse = static_cast<float>(fields.number("diffuse", 0.65, share));
+  material.specular = static_cast<float>(fields.number("specular", 0.45, share));
+  material.exponent = static_cast<float>(fields.number("exponent", 32, {0, 10000}));
+  material.sides = fields.count("sides", 2, 1, 2);
+  return material;
+}
+
+Model read_model(const Element& element, std::span<const std::string_view> film_materials) {
+  return ModelReader(film_materials).read(element);
+}
+
+Model load_model(const std::filesystem::path& path, std::span<const std::string_view> film_materials) {
+  const Document document = read_document(path);
+  return read_model(document.root(), film_materials);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,31 @@
+// Model files (docs/model-format.md): from JSON to a Model. Every name is resolved and every range checked here,
+// so that what follows may trust a Model.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "host/document/fields.h"
+#include "host/model/model.h"
+
+namespace mars::host {
+
+// `film_materials`: names that segments may use beside the model's own.
+Model read_model(const Element& element, std::span<const std::string_view> film_materials = {});
+Model load_model(const std::filesystem::path& path, std::span<const std::string_view> film_materials = {});
+
+// The object under its material keys; others than those of `keys` are refused.
+node::Material read_material(const Fields& fields);
+
+// A joint's, material's or shape's name: no longer than 100 bytes, without '/'.
+std::string read_name(const Element& element);
+std::string checked_name(const Element& element, std::string_view name);
+
+// What the objects of a model file may hold, as docs/schema/model.schema.json names them.
+std::span<const Keys> model_keys();
+
+inline constexpr std::string_view kMaterialKeys[] = {"color", "ambient", "diffuse", "specular", "exponent", "sides"};
+
+}  // namespace mars::host
