@@ -34,7 +34,9 @@ std::string listed(std::span<const std::string_view> names) {
 }
 
 std::string in_quotes(std::string_view name) {
-  return "'" + std::string(name.substr(0, 80)) + (name.size() > 80 ? "...'" : "'");
+  std::string text = "'";
+  text += name.substr(0, 80);
+  return text += name.size() > 80 ? "...'" : "'";
 }
 
 }  // namespace
