@@ -11,12 +11,15 @@ std::string one_line(const std::string& problem, const std::string& where, const
 }  // namespace
 
 Failure::Failure(std::string what, std::string at, std::string mend)
-    : std::runtime_error(one_line(what, at, mend)), problem(std::move(what)), where(std::move(at)), remedy(std::move(mend)) {}
+    : std::runtime_error(one_line(what, at, mend)),
+      problem(std::move(what)),
+      where(std::move(at)),
+      remedy(std::move(mend)) {}
 
 void check(bool holds, const char* rule, std::source_location at) {
   if (holds) return;
-  throw std::logic_error(std::string("a rule of MARS itself is broken: ") + rule + " (" + at.file_name() + ":" +
-                         std::to_string(at.line()) + ", please report it)");
+  throw std::logic_error(std::string("a rule of MARS itself is broken: ") + rule + " (" + at.file_name() +
+                         ":" + std::to_string(at.line()) + ", please report it)");
 }
 
 }  // namespace mars

@@ -1,0 +1,62 @@
+// What carries messages: the contract that a process (process.h) asks of a backend and each folder below hal/
+// implements: mpi/, threads/. One Backend object is one rank; all its calls come from one thread. Ranks are
+// the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are 0..2^31-1 and lengths bytes; what types
+// mean is not a backend's affair. Between one sender and one receiver messages arrive in the order sent.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hal/shared_memory.h"
+
+namespace mars::hal {
+
+struct Envelope {
+  int from = 0;
+  int type = 0;
+  std::size_t length = 0;
+};
+
+// Names a send that start_send began, until `sent` has said true.
+using Ticket = int;
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  virtual int rank() const = 0;
+  virtual int nodes() const = 0;
+  int host() const { return nodes(); }
+
+  // Sends a copy: `data` may be used again on return. Never waits for the receiver. `to` may be this rank.
+  virtual void send(int to, int type, const void* data, std::size_t length) = 0;
+
+  // Starts to send without a copy where the backend can: `data` stays untouched until sent(ticket), which
+  // then frees the ticket. Neither waits.
+  virtual Ticket start_send(int to, int type, const void* data, std::size_t length) = 0;
+  virtual bool sent(Ticket ticket) = 0;
+
+  // The next arrived message, if there is one; the same until it is taken.
+  virtual std::optional<Envelope> peek() = 0;
+  // Takes the message that peek told of into `buffer`, which is at least its length.
+  virtual void take(void* buffer) = 0;
+
+  // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, about a
+  // millisecond at most, and no longer than until something happens where the backend can know.
+  virtual void idle(int turn) = 0;
+
+  virtual Neighbourhood neighbourhood() = 0;
+  // Collective over the nodes of one machine, as is the last release: see SharedMemory.
+  virtual std::shared_ptr<std::byte> share(std::size_t bytes) = 0;
+
+  // The orderly end: called again and again, with messages taken in between, until it says true: all ranks
+  // have come here, and no message is on its way to or from this one. Nothing is sent after the first call.
+  virtual bool finish() = 0;
+
+  // Ends all ranks at once, telling `reason`. Never waits for any of them.
+  [[noreturn]] virtual void abort(const std::string& reason) = 0;
+};
+
+}  // namespace mars::hal

@@ -1,0 +1,291 @@
+#include "hal/process.h"
+
+#include <cstring>
+#include <utility>
+
+#include "hal/failure.h"
+#include "hal/message_types.h"
+
+namespace mars::hal {
+namespace {
+
+thread_local Process* bound_process = nullptr;
+
+std::string name_of(int rank, int host) { return rank == host ? "the host" : "node " + std::to_string(rank); }
+
+std::string bytes_text(std::size_t bytes) {
+  return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
+}
+
+}  // namespace
+
+Process& process() {
+  if (bound_process == nullptr) {
+    throw Failure("a message call on a thread that is neither a node nor the host", "",
+                  "make NX calls only on the thread that runs a node's or the host's body");
+  }
+  return *bound_process;
+}
+
+const Traffic& traffic() { return process().traffic(); }
+
+Process::Process(Backend& backend) : backend_(backend) {
+  check(bound_process == nullptr, "a thread is at most one process");
+  check(backend.nodes() <= kInternalTypes, "every node has an internal type");
+  bound_process = this;
+}
+
+Process::~Process() { bound_process = nullptr; }
+
+void Process::fail(const char* call, const std::string& what, const std::string& remedy) const {
+  throw Failure(what, name_of(backend_.rank(), backend_.host()) + ", " + call, remedy);
+}
+
+std::size_t Process::check_length(const char* call, long length) const {
+  if (length < 0) fail(call, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+  return static_cast<std::size_t>(length);
+}
+
+Process::Receivers Process::check_send(const char* call, long type, long length, long node, long pid) const {
+  if (type_class(type) == TypeClass::reserved) {
+    fail(call, "message type " + std::to_string(type) + " is reserved",
+         "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
+  }
+  check_length(call, length);
+  if (pid != 0 && pid != -1) {
+    fail(call, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
+  }
+  if (node == -1) return {0, backend_.nodes(), true};
+  if (node < 0 || node > backend_.host()) {
+    fail(call, "there is no node " + std::to_string(node),
+         "nodes are 0 to " + std::to_string(backend_.nodes() - 1) +
+             ", the host is myhost(), -1 is all others");
+  }
+  return {static_cast<int>(node), static_cast<int>(node) + 1, false};
+}
+
+std::int32_t Process::check_typesel(const char* call, long typesel) const {
+  const std::int32_t narrow = narrow_typesel(typesel);
+  if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) {
+    fail(call, "typesel " + std::to_string(narrow) + " is a reserved type",
+         "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
+  }
+  return narrow;
+}
+
+void Process::check_fits(const Request& request, const Envelope& envelope) const {
+  if (envelope.length <= request.capacity) return;
+  fail(request.call,
+       "a message of " + bytes_text(envelope.length) + ", type " + std::to_string(envelope.type) + ", from " +
+           name_of(envelope.from, backend_.host()) + " does not fit a receive of " +
+           bytes_text(request.capacity),
+       "receive into a longer buffer, or cprobe first and ask infocount");
+}
+
+void Process::count(int to, std::size_t length) {
+  Traffic::Count& sent = to == backend_.host() ? traffic_.to_host : traffic_.to_nodes;
+  ++sent.messages;
+  sent.bytes += length;
+}
+
+void Process::send(const Receivers& receivers, int type, const void* data, std::size_t length) {
+  for (int to = receivers.first; to < receivers.last; ++to) {
+    if (receivers.several && to == backend_.rank()) continue;
+    count(to, length);
+    backend_.send(to, type, data, length);
+  }
+}
+
+void Process::csend(long type, const void* buffer, long length, long node, long pid) {
+  const Receivers receivers = check_send("csend", type, length, node, pid);
+  send(receivers, static_cast<int>(type), buffer, static_cast<std::size_t>(length));
+}
+
+long Process::isend(long type, const void* buffer, long length, long node, long pid) {
+  const Receivers receivers = check_send("isend", type, length, node, pid);
+  const auto bytes = static_cast<std::size_t>(length);
+  Request& request = new_request("isend");
+  if (receivers.several) {
+    send(receivers, static_cast<int>(type), buffer, bytes);
+    request.state = Request::State::sent;
+  } else {
+    count(receivers.first, bytes);
+    request.ticket = backend_.start_send(receivers.first, static_cast<int>(type), buffer, bytes);
+    request.state = Request::State::sending;
+  }
+  return request.mid();
+}
+
+void Process::crecv(long typesel, void* buffer, long length) {
+  const std::int32_t narrow = check_typesel("crecv", typesel);
+  wait(receive("crecv", narrow, buffer, check_length("crecv", length)));
+}
+
+long Process::irecv(long typesel, void* buffer, long length) {
+  const std::int32_t narrow = check_typesel("irecv", typesel);
+  return receive("irecv", narrow, buffer, check_length("irecv", length)).mid();
+}
+
+Request& Process::new_request(const char* call) {
+  Request* request = requests_.acquire(call);
+  if (request == nullptr)
+    fail(call, "all message ids are in use", "free them by msgwait, or msgdone until it is 1");
+  return *request;
+}
+
+Request& Process::known_request(const char* call, long mid) {
+  Request* request = requests_.find(mid);
+  if (request == nullptr) {
+    fail(call, "there is no message id " + std::to_string(mid),
+         "an id is free after its msgwait, or its msgdone that was 1");
+  }
+  return *request;
+}
+
+// Starts a receive: done at once if its message is here already.
+Request& Process::receive(const char* call, std::int32_t typesel, void* buffer, std::size_t length) {
+  Request& request = new_request(call);
+  request.state = Request::State::receiving;
+  request.typesel = typesel;
+  request.buffer = buffer;
+  request.capacity = length;
+  Message* message = unexpected_.find([typesel](int type) { return selects(typesel, type); });
+  if (message == nullptr) {
+    requests_.post(request);
+    return request;
+  }
+  if (message->envelope.length > length) requests_.release(request);
+  check_fits(request, message->envelope);
+  unexpected_.remove(message);
+  if (message->envelope.length > 0) std::memcpy(buffer, message->bytes(), message->envelope.length);
+  request.envelope = message->envelope;
+  request.state = Request::State::received;
+  pool_.release(message);
+  return request;
+}
+
+bool Process::done(Request& request) {
+  if (request.state == Request::State::sending && backend_.sent(request.ticket)) {
+    request.state = Request::State::sent;
+  }
+  return request.state == Request::State::sent || request.state == Request::State::received;
+}
+
+void Process::conclude(Request& request) {
+  if (request.state == Request::State::received) info_ = request.envelope;
+  requests_.release(request);
+}
+
+void Process::wait(Request& request) {
+  for (int turn = 0; !done(request);) {
+    if (arrive()) {
+      turn = 0;
+    } else {
+      backend_.idle(turn++);
+    }
+  }
+  conclude(request);
+}
+
+void Process::msgwait(long mid) { wait(known_request("msgwait", mid)); }
+
+bool Process::msgdone(long mid) {
+  Request& request = known_request("msgdone", mid);
+  while (!done(request) && arrive()) {
+  }
+  if (!done(request)) return false;
+  conclude(request);
+  return true;
+}
+
+void Process::cprobe(long typesel) {
+  const std::int32_t narrow = check_typesel("cprobe", typesel);
+  for (int turn = 0; !look(narrow); ++turn) backend_.idle(turn);
+}
+
+bool Process::iprobe(long typesel) { return look(check_typesel("iprobe", typesel)); }
+
+// Leaves a message that it finds in the backend, so that the receive after a probe takes it from there.
+bool Process::look(std::int32_t typesel) {
+  if (const Message* message = unexpected_.find([typesel](int type) { return selects(typesel, type); })) {
+    info_ = message->envelope;
+    return true;
+  }
+  do {
+    const std::optional<Envelope> next = backend_.peek();
+    if (next && selects(typesel, next->type) && requests_.posted_for(next->type) == nullptr) {
+      info_ = *next;
+      quiet_turns_ = 0;
+      return true;
+    }
+  } while (arrive());
+  return false;
+}
+
+// Takes the next arrived message to where it belongs; false if there is none.
+bool Process::arrive() {
+  const std::optional<Envelope> next = backend_.peek();
+  if (!next) return false;
+  quiet_turns_ = 0;
+  if (Request* request = requests_.posted_for(next->type)) {
+    receive_into(*request, *next);
+  } else if (type_class(next->type) == TypeClass::force) {
+    discard(*next);
+  } else {
+    keep(*next);
+  }
+  return true;
+}
+
+void Process::receive_into(Request& request, const Envelope& envelope) {
+  requests_.unpost(request);
+  if (envelope.length > request.capacity) requests_.release(request);
+  check_fits(request, envelope);
+  backend_.take(request.buffer);
+  request.envelope = envelope;
+  request.state = Request::State::received;
+}
+
+void Process::keep(const Envelope& envelope) {
+  Message* message = pool_.acquire(envelope);
+  backend_.take(message->bytes());
+  unexpected_.push(message);
+}
+
+void Process::discard(const Envelope& envelope) {
+  Message* message = pool_.acquire(envelope);
+  backend_.take(message->bytes());
+  pool_.release(message);
+}
+
+void Process::flick() { backend_.idle(quiet_turns_++); }
+
+void Process::send_internal(int to, const void* data, std::size_t length) {
+  count(to, length);
+  backend_.send(to, kFirstInternalType + backend_.rank(), data, length);
+}
+
+void Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
+  Request& request = receive(call, kFirstInternalType + from, data, length);
+  const Envelope before = std::exchange(info_, {});
+  wait(request);
+  const std::size_t came = std::exchange(info_, before).length;
+  if (came == length) return;
+  fail(call,
+       name_of(from, backend_.host()) + " gave " + bytes_text(came) + " where " + bytes_text(length) +
+           " belong",
+       "all nodes call the same collectives in the same order with the same lengths");
+}
+
+void Process::finish() {
+  for (int turn = 0; !backend_.finish();) {
+    if (const std::optional<Envelope> next = backend_.peek()) {
+      discard(*next);
+      turn = 0;
+    } else {
+      backend_.idle(turn++);
+    }
+  }
+}
+
+}  // namespace mars::hal

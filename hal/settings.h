@@ -1,0 +1,41 @@
+// What MARS takes from the environment: the one table of MARS_* variables and the only reader of it.
+// Programs' main files read it and hand the values on; no library does.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mars::hal {
+
+struct Setting {
+  const char* name;
+  const char* meaning;
+  const char* fallback;  // what happens without it, as people read it
+};
+
+std::span<const Setting> settings_table();
+
+// The widest instruction set that kernels may use.
+enum class SimdLimit { sse2, avx2, avx512 };
+
+struct Settings {
+  std::optional<std::uint64_t> memory;  // bytes a node may use for one frame; none: the program decides
+  SimdLimit simd = SimdLimit::avx512;   // the processor's own limit holds besides
+};
+
+// Lines "NAME=value", as the process got them.
+std::vector<std::string> environment();
+
+// Throws a Failure that names the variable and what it may be.
+Settings read_settings(std::span<const std::string> environment);
+
+// A line about each MARS_* variable that is not in the table, with the nearest name that is.
+std::vector<std::string> unknown_settings(std::span<const std::string> environment);
+
+// The table as text, for help and documentation.
+std::string settings_text();
+
+}  // namespace mars::hal

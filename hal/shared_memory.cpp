@@ -1,0 +1,11 @@
+#include "hal/shared_memory.h"
+
+#include "hal/process.h"
+
+namespace mars::hal {
+
+Neighbourhood neighbourhood() { return process().backend().neighbourhood(); }
+
+SharedMemory::SharedMemory(std::size_t bytes) : block_(process().backend().share(bytes)), size_(bytes) {}
+
+}  // namespace mars::hal

@@ -1,0 +1,153 @@
+#include "hal/threads/threads_backend.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "hal/failure.h"
+
+namespace mars::hal {
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+std::shared_ptr<std::byte> zeroed_block(std::size_t bytes) try {
+  auto* block = static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)));
+  if (bytes > 0) std::memset(block, 0, bytes);
+  return {block, [](std::byte* old) { ::operator delete(old, std::align_val_t(kAlignment)); }};
+} catch (const std::bad_alloc&) {
+  throw Failure("there is no memory for " + std::to_string(bytes) + " bytes that the nodes share", "",
+                "use a machine with more memory, or a smaller film");
+}
+
+}  // namespace
+
+int ThreadsBackend::nodes() const { return world_.nodes(); }
+
+void ThreadsBackend::send(int to, int type, const void* data, std::size_t length) {
+  world_.check_running();
+  {
+    const std::lock_guard lock(mutex_);
+    while (!returned_.empty()) pool_.release(returned_.pop());
+  }
+  world_.rank(to).deliver(pool_.copy({rank_, type, length}, data));
+}
+
+// A copy is needed here too: were the sender stopped, its buffer would be gone under the receiver's hands.
+Ticket ThreadsBackend::start_send(int to, int type, const void* data, std::size_t length) {
+  send(to, type, data, length);
+  return 0;
+}
+
+std::optional<Envelope> ThreadsBackend::peek() {
+  world_.check_running();
+  if (inbox_.empty()) {
+    const std::lock_guard lock(mutex_);
+    inbox_.append(arrived_);
+  }
+  if (inbox_.empty()) return std::nullopt;
+  return inbox_.front()->envelope;
+}
+
+void ThreadsBackend::take(void* buffer) {
+  Message* message = inbox_.pop();
+  if (message->envelope.length > 0) std::memcpy(buffer, message->bytes(), message->envelope.length);
+  world_.rank(message->envelope.from).give_back(message);
+}
+
+void ThreadsBackend::idle(int turn) {
+  world_.check_running();
+  const std::chrono::microseconds longest(std::min(1000, 20 << std::min(turn, 6)));
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, longest, [this] { return has_news_; });
+  has_news_ = false;
+}
+
+void ThreadsBackend::deliver(Message* message) {
+  {
+    const std::lock_guard lock(mutex_);
+    arrived_.push(message);
+    has_news_ = true;
+  }
+  news_.notify_one();
+}
+
+void ThreadsBackend::give_back(Message* message) {
+  const std::lock_guard lock(mutex_);
+  returned_.push(message);
+}
+
+void ThreadsBackend::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    has_news_ = true;
+  }
+  news_.notify_one();
+}
+
+Neighbourhood ThreadsBackend::neighbourhood() {
+  check(rank_ != host(), "the host is not one of a machine's nodes");
+  return {0, rank_, nodes(), false};
+}
+
+std::shared_ptr<std::byte> ThreadsBackend::share(std::size_t bytes) {
+  check(rank_ != host(), "the host takes no part in shared memory");
+  return world_.share(shared_++, bytes);
+}
+
+bool ThreadsBackend::finish() {
+  world_.check_running();
+  if (!std::exchange(finishing_, true)) world_.finish_one();
+  return world_.finished() && !peek();
+}
+
+void ThreadsBackend::abort(const std::string& reason) {
+  const Failure failure(reason, "", "");
+  world_.stop(std::make_exception_ptr(failure));
+  throw failure;
+}
+
+ThreadsWorld::ThreadsWorld(int nodes) {
+  check(nodes >= 1, "there is at least one node");
+  for (int rank = 0; rank <= nodes; ++rank) ranks_.push_back(std::make_unique<ThreadsBackend>(*this, rank));
+}
+
+void ThreadsWorld::stop(std::exception_ptr reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (failure_ == nullptr) failure_ = std::move(reason);
+  }
+  stopped_ = true;
+  wake_all();
+}
+
+std::exception_ptr ThreadsWorld::failure() {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void ThreadsWorld::check_running() const {
+  if (stopped_) throw Failure("stopped, because another rank failed", "", "");
+}
+
+void ThreadsWorld::finish_one() {
+  ++finished_;
+  if (finished()) wake_all();
+}
+
+void ThreadsWorld::wake_all() {
+  for (const auto& rank : ranks_) rank->wake();
+}
+
+std::shared_ptr<std::byte> ThreadsWorld::share(int index, std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (index == static_cast<int>(blocks_.size())) blocks_.push_back({zeroed_block(bytes), bytes, 0});
+  Block& block = blocks_[index];
+  check(block.size == bytes, "all nodes of a machine share the same number of bytes");
+  std::shared_ptr<std::byte> mine = block.bytes;
+  if (++block.holders == nodes()) block.bytes.reset();
+  return mine;
+}
+
+}  // namespace mars::hal

@@ -1,0 +1,99 @@
+// Ranks as threads of one process: the backend for one machine without MPI, for tests and for programs that
+// want host and nodes in one. A message is copied into a buffer of the sender, queued in the receiver's
+// mailbox, copied out by the receiver and its buffer given back; waiting is on a condition variable. When the
+// world is stopped, every rank's next call throws a Failure.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "hal/backend.h"
+#include "hal/message_pool.h"
+
+namespace mars::hal {
+
+class ThreadsWorld;
+
+class ThreadsBackend : public Backend {
+ public:
+  ThreadsBackend(ThreadsWorld& world, int rank) : world_(world), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int nodes() const override;
+  void send(int to, int type, const void* data, std::size_t length) override;
+  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(Ticket) override { return true; }
+  std::optional<Envelope> peek() override;
+  void take(void* buffer) override;
+  void idle(int turn) override;
+  Neighbourhood neighbourhood() override;
+  std::shared_ptr<std::byte> share(std::size_t bytes) override;
+  bool finish() override;
+  [[noreturn]] void abort(const std::string& reason) override;
+
+  // From any thread: a message of this rank's mailbox or pool; news that end a wait.
+  void deliver(Message* message);
+  void give_back(Message* message);
+  void wake();
+
+ private:
+  ThreadsWorld& world_;
+  const int rank_;
+
+  // This thread's alone.
+  MessagePool pool_;
+  MessageList inbox_;  // arrived and seen
+  int shared_ = 0;     // blocks of shared memory so far
+  bool finishing_ = false;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable news_;
+  bool has_news_ = false;
+  MessageList arrived_;
+  MessageList returned_;  // of pool_
+};
+
+// What the ranks have in common. Outlives their threads.
+class ThreadsWorld {
+ public:
+  explicit ThreadsWorld(int nodes);
+
+  int nodes() const { return static_cast<int>(ranks_.size()) - 1; }
+  ThreadsBackend& rank(int rank) { return *ranks_[rank]; }
+
+  // Ends all waits; the first reason is kept.
+  void stop(std::exception_ptr reason);
+  std::exception_ptr failure();
+  // Throws a Failure once stopped.
+  void check_running() const;
+
+  // Counts a rank that has come to its end; true when all have.
+  void finish_one();
+  bool finished() const { return finished_ == static_cast<int>(ranks_.size()); }
+
+  // The block that is the `index`-th of every node.
+  std::shared_ptr<std::byte> share(int index, std::size_t bytes);
+
+ private:
+  struct Block {
+    std::shared_ptr<std::byte> bytes;  // until every node has it
+    std::size_t size;
+    int holders;
+  };
+
+  void wake_all();
+
+  std::vector<std::unique_ptr<ThreadsBackend>> ranks_;
+  std::atomic<bool> stopped_ = false;
+  std::atomic<int> finished_ = 0;
+  std::mutex mutex_;  // of what follows
+  std::exception_ptr failure_;
+  std::deque<Block> blocks_;
+};
+
+}  // namespace mars::hal

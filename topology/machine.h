@@ -1,0 +1,62 @@
+// The machine this process runs on, as hwloc sees it, restricted to the processors the process was given; or
+// a made-up machine from one hwloc string, so that placement is testable anywhere. Cores are numbered 0.. in
+// hwloc's logical order, in which close cores (cache, NUMA domain) have close numbers. Failing calls throw
+// std::runtime_error with the whole story.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+struct hwloc_topology;
+
+namespace mars::topology {
+
+// Cores [first, first + count) of a machine.
+struct Place {
+  int first = 0;
+  int count = 0;
+
+  bool operator==(const Place&) const = default;
+};
+
+class Machine {
+ public:
+  // This machine: what the cgroup and the affinity of the calling process leave of it.
+  static Machine here();
+  // A machine as hwloc describes synthetic ones, e.g. "numa:2 l3:1 core:4 pu:2".
+  static Machine synthetic(const std::string& description);
+
+  Machine(Machine&&) noexcept;
+  Machine& operator=(Machine&&) noexcept;
+  ~Machine();
+
+  int cores() const;             // whole cores; processors where the machine does not tell its cores
+  int processors() const;        // hardware threads
+  int numa_domains() const;      // at least 1
+  std::uint64_t memory() const;  // bytes, of these NUMA domains; 0: unknown
+
+  // The cores of process `k` of `n`: a run of neighbouring cores, in order of k, so that processes whose
+  // numbers differ in a low bit are close. Of the cores beyond n, up to `reserved` at the end stay free (for
+  // the host's sinks). None where the processes exceed the cores: they are better left to the scheduler.
+  std::optional<Place> place(int k, int n, int reserved) const;
+
+  // Binds the calling thread, or the whole calling process, to a place.
+  void bind_thread(const Place& place) const;
+  void bind_process(const Place& place) const;
+
+  // "core 3" or "cores 0-1", in logical numbers (lstopo -l shows them).
+  static std::string text(const Place& place);
+
+ private:
+  explicit Machine(hwloc_topology* topology);
+  void bind(const Place& place, int flags) const;
+
+  struct Unload {
+    void operator()(hwloc_topology* topology) const;
+  };
+  std::unique_ptr<hwloc_topology, Unload> topology_;
+};
+
+}  // namespace mars::topology
