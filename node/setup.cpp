@@ -1,6 +1,6 @@
 #include "node/setup.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "node/clip.h"
 
@@ -29,11 +29,39 @@ class PlaneMaker {
   float x1_, x2_, y1_, y2_, inverse_;
 };
 
-// Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
+// Twice the area in 1/65536 square pixel; the sign tells which way the vertices run.
 std::int64_t determinant(const Triangle& t) {
   const std::int64_t x1 = t.x[1] - t.x[0], x2 = t.x[2] - t.x[0];
   const std::int64_t y1 = t.y[1] - t.y[0], y2 = t.y[2] - t.y[0];
   return x1 * y2 - x2 * y1;
+}
+
+float sum_of_sizes(const float* a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]); }
+
+// Whether the surface's outside by the vertices' normals is turned to the eye, on average.
+bool normals_face_eye(const Vertices& v, const Corner3& corners) {
+  float toward = 0;
+  for (const std::uint32_t corner : {corners.a, corners.b, corners.c})
+    for (int axis = 0; axis < 3; ++axis) toward -= v.normal[axis][corner] * v.place[axis][corner];
+  return toward > 0;
+}
+
+// Whether the eye is on the side of the triangle to which (b - a) x (c - a) points. Asked of the places before
+// snapping, which can turn a thin triangle over; where even these are in a line but for rounding (beside the
+// tip of a cone), the normals tell. Else such a triangle would be lit from behind.
+bool faces_eye(const Vertices& v, const Corner3& corners) {
+  constexpr float kRounding = 1e-6f;
+  float a[3], b[3], c[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    a[axis] = v.place[axis][corners.a];
+    b[axis] = v.place[axis][corners.b] - a[axis];
+    c[axis] = v.place[axis][corners.c] - a[axis];
+  }
+  const float volume =
+      a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  const float away = sum_of_sizes(a);
+  const float doubt = kRounding * away * away * (sum_of_sizes(b) + sum_of_sizes(c));
+  return std::abs(volume) > doubt ? volume < 0 : normals_face_eye(v, corners);
 }
 
 // A handful of vertices on the stack, as kernels want them.
@@ -57,17 +85,19 @@ void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) 
   const Vertices& v = diced.vertices();
   std::uint32_t index = 0;
   for (const Corner3& corners : diced.triangles()) {
+    const bool faces = faces_eye(v, corners);
+    const Facing facing{index++, faces};
+    if (identity.one_sided && faces == identity.mirrored) continue;
     const int outside = v.outside[corners.a] + v.outside[corners.b] + v.outside[corners.c];
     if (outside == 0)
-      add_triangle(v, corners, index, identity, out);
+      add_triangle(v, corners, facing, identity, out);
     else
-      add_clipped(v, corners, index, identity, out);
-    ++index;
+      add_clipped(v, corners, facing, identity, out);
   }
 }
 
-void SetUp::add_clipped(const Vertices& v, const Corner3& corners, std::uint32_t index, const PatchIdentity& identity,
-                        SetUps& out) const {
+void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const Facing& facing,
+                        const PatchIdentity& identity, SetUps& out) const {
   ClipPolygon polygon;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c}) {
     ClipVertex& vertex = polygon.vertex[static_cast<std::size_t>(polygon.count++)];
@@ -90,11 +120,11 @@ void SetUp::add_clipped(const Vertices& v, const Corner3& corners, std::uint32_t
   kernels_.project(wider, few.view(), polygon.count);
   for (std::uint32_t i = 1; static_cast<int>(i) + 1 < polygon.count; ++i) {
     const bool whole = few.flags[0] + few.flags[i] + few.flags[i + 1] == 0;  // not where numbers overflowed
-    if (whole) add_triangle(few.view(), {0, i, i + 1}, index, identity, out);
+    if (whole) add_triangle(few.view(), {0, i, i + 1}, facing, identity, out);
   }
 }
 
-void SetUp::add_triangle(const Vertices& v, const Corner3& corners, std::uint32_t index,
+void SetUp::add_triangle(const Vertices& v, const Corner3& corners, const Facing& facing,
                          const PatchIdentity& identity, SetUps& out) const {
   const std::uint32_t corner[3] = {corners.a, corners.b, corners.c};
   Triangle t;
@@ -104,20 +134,17 @@ void SetUp::add_triangle(const Vertices& v, const Corner3& corners, std::uint32_
   }
   const std::int64_t area = determinant(t);
   if (area == 0) return;
-  const bool from_outside = (area < 0) != identity.mirrored;
-  if (identity.one_sided && !from_outside) return;
   const PlaneMaker plane(t, static_cast<float>(area));
   float w[3];
   for (int i = 0; i < 3; ++i) w[i] = v.inverse_w[corner[i]];
   t.depth = plane(w[0], w[1], w[2]);
-  // The dicer's normal is the cross product of the tangents, which a mirroring matrix turns inwards.
-  const float sign = area < 0 ? 1.0f : -1.0f;
+  const float sign = facing.eye ? 1.0f : -1.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const float* n = v.normal[axis];
     t.normal[axis] = plane(sign * (n[corner[0]] * w[0]), sign * (n[corner[1]] * w[1]), sign * (n[corner[2]] * w[2]));
   }
   t.patch = identity.patch;
-  t.index = index;
+  t.index = facing.index;
   t.look = identity.look;
   keep(t, out);
 }

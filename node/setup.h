@@ -36,9 +36,14 @@ class SetUp {
   void add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const;
 
  private:
-  void add_clipped(const Vertices& vertices, const Corner3& corners, std::uint32_t index,
+  // A diced triangle's number, and whether the cross product of the tangents points to the eye's side.
+  struct Facing {
+    std::uint32_t index;
+    bool eye;
+  };
+  void add_clipped(const Vertices& vertices, const Corner3& corners, const Facing& facing,
                    const PatchIdentity& identity, SetUps& out) const;
-  void add_triangle(const Vertices& vertices, const Corner3& corners, std::uint32_t index,
+  void add_triangle(const Vertices& vertices, const Corner3& corners, const Facing& facing,
                     const PatchIdentity& identity, SetUps& out) const;
   void keep(const Triangle& triangle, SetUps& out) const;
 

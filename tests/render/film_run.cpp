@@ -1,0 +1,88 @@
+#include "tests/render/film_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <mutex>
+#include <numeric>
+
+#include "host/sinks/png_file.h"
+#include "host/sinks/sink_pool.h"
+#include "node/firmware.h"
+
+namespace mars::test {
+namespace {
+
+// Keeps every frame.
+class MemorySink : public host::Sink {
+ public:
+  void take(const host::Frame& frame) override {
+    const std::lock_guard lock(mutex_);
+    frames_[frame.number] = frame.pixels;
+  }
+  std::map<std::uint32_t, Pixels> release() { return std::move(frames_); }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::uint32_t, Pixels> frames_;
+};
+
+void write_png(const std::string& path, const node::FilmSettings& settings, const Pixels& pixels) {
+  const auto bytes = host::encode_png(settings.width, settings.height, pixels);
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+Pixels difference(const Pixels& a, const Pixels& b) {
+  Pixels out(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] == b[i] ? 0 : 0xffffff;
+  return out;
+}
+
+}  // namespace
+
+FilmBlock::FilmBlock(const node::FilmData& film) {
+  const auto packed = node::pack(film);
+  size_ = packed.size();
+  words_.resize((size_ + 7) / 8);
+  std::memcpy(words_.data(), packed.data(), size_);
+}
+
+FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
+  const node::FilmSettings settings = node::FilmView(film, "test film").settings();
+  host::FarmOptions farm = options.farm;
+  if (farm.frames.empty()) {
+    farm.frames.resize(settings.frames);
+    std::iota(farm.frames.begin(), farm.frames.end(), 0u);
+  }
+  MemorySink sink;
+  FilmRun run;
+  const auto host = [&] {
+    host::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
+    run.report = host::render_film(film, farm, pool, {});
+  };
+  const auto node = [&] {
+    if (options.around_node) options.around_node();
+    node::run_node({"test", "", options.memory, options.simd});
+  };
+  hal::run_threads(options.nodes, host, node, options.wrap);
+  run.frames = sink.release();
+  return run;
+}
+
+void expect_same(const FilmRun& rendered, const FilmRun& expected, const node::FilmSettings& settings,
+                 const std::string& name) {
+  for (const auto& [number, pixels] : rendered.frames) {
+    const auto twin = expected.frames.find(number);
+    ASSERT_NE(twin, expected.frames.end()) << name << ": frame " << number;
+    if (pixels == twin->second) continue;
+    const std::string stem = name + "-" + std::to_string(number);
+    write_png(stem + "-rendered.png", settings, pixels);
+    write_png(stem + "-expected.png", settings, twin->second);
+    write_png(stem + "-difference.png", settings, difference(pixels, twin->second));
+    ADD_FAILURE() << name << ": frame " << number << " differs; see " << stem << "-*.png";
+    return;
+  }
+}
+
+}  // namespace mars::test

@@ -1,0 +1,144 @@
+// Promise 1: a film's frames are the same bits however the work is divided, and the same as every frame drawn
+// from scratch by one node.
+#include <gtest/gtest.h>
+
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+
+namespace mars::test {
+namespace {
+
+struct Case {
+  const char* name;
+  node::FilmData film;
+};
+
+std::vector<Case> cases() {
+  return {{"crowd", crowd(320, 180, 7, 7)},
+          {"short-intervals", crowd(193, 127, 9, 2)},
+          {"flight", flight(240, 135, 5)},
+          {"ties", ties(160, 120)},
+          {"one-pixel", crowd(1, 1, 3, 3)},
+          {"one-line", crowd(301, 1, 3, 3)},
+          {"one-column", crowd(1, 203, 3, 3)},
+          {"one-frame", crowd(128, 96, 1, 1)},
+          {"nothing", nothing(64, 48, 3)}};
+}
+
+RunOptions from_scratch() {
+  RunOptions options;
+  options.farm.coherence = false;
+  options.simd = "sse2";
+  return options;
+}
+
+class Identity : public testing::TestWithParam<Case> {
+ protected:
+  void expect_as_from_scratch(const RunOptions& options, const std::string& how) {
+    const FilmBlock block(GetParam().film);
+    static std::map<std::string, FilmRun> expected;
+    FilmRun& plain = expected[GetParam().name];
+    if (plain.frames.empty()) plain = run_film(block.bytes(), from_scratch());
+    const FilmRun run = run_film(block.bytes(), options);
+    ASSERT_EQ(run.frames.size(), GetParam().film.settings.frames);
+    expect_same(run, plain, GetParam().film.settings, std::string(GetParam().name) + "-" + how);
+  }
+};
+
+TEST_P(Identity, AnyNumberOfNodes) {
+  for (const int nodes : {1, 2, 3, 5, 8}) {
+    RunOptions options;
+    options.nodes = nodes;
+    expect_as_from_scratch(options, std::to_string(nodes) + "-nodes");
+  }
+}
+
+TEST_P(Identity, AnyMappingAndCubes) {
+  for (const std::uint32_t cubes : {1u, 2u, 5u}) {
+    RunOptions options;
+    options.nodes = 5;
+    options.farm.cubes = cubes;
+    options.farm.mapping = cubes == 2 ? node::Mapping::greedy : node::Mapping::optimal;
+    expect_as_from_scratch(options, std::to_string(cubes) + "-cubes");
+  }
+}
+
+TEST_P(Identity, AnyBlockSize) {
+  for (const std::uint32_t block : {1u, 7u, 64u, 5000u}) {
+    RunOptions options;
+    options.nodes = 3;
+    options.block = block;
+    expect_as_from_scratch(options, "block-" + std::to_string(block));
+  }
+}
+
+TEST_P(Identity, AnyInstructionSet) {
+  for (const char* simd : {"sse2", "avx2", "avx512"}) {
+    RunOptions options;
+    options.nodes = 2;
+    options.simd = simd;
+    expect_as_from_scratch(options, simd);
+  }
+}
+
+TEST_P(Identity, WithoutCoherenceOnManyNodes) {
+  RunOptions options;
+  options.nodes = 5;
+  options.farm.coherence = false;
+  options.farm.cubes = 1;
+  expect_as_from_scratch(options, "scratch-5-nodes");
+}
+
+TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
+  std::uint32_t passes = 1;
+  for (const int nodes : {1, 3}) {
+    RunOptions options;
+    options.nodes = nodes;
+    options.memory = 300'000 + 200 * GetParam().film.settings.height;
+    const FilmBlock block(GetParam().film);
+    const FilmRun run = run_film(block.bytes(), options);
+    expect_same(run, run_film(block.bytes(), from_scratch()), GetParam().film.settings, "passes");
+    for (const node::Strip& strip : run.report.strips) {
+      passes = std::max(passes, strip.strips);
+      EXPECT_LE(strip.work.memory, options.memory);
+    }
+  }
+  if (std::string(GetParam().name) == "crowd") {
+    EXPECT_GT(passes, 1u) << "the memory was not short: the test shows nothing";
+  }
+}
+
+TEST_P(Identity, OnlySomeFrames) {
+  const FilmBlock block(GetParam().film);
+  RunOptions options;
+  options.nodes = 3;
+  options.farm.frames = {GetParam().film.settings.frames - 1};
+  if (GetParam().film.settings.frames > 2) options.farm.frames = {1, GetParam().film.settings.frames - 1};
+  const FilmRun run = run_film(block.bytes(), options);
+  EXPECT_EQ(run.frames.size(), options.farm.frames.size());
+  expect_same(run, run_film(block.bytes(), from_scratch()), GetParam().film.settings, "some-frames");
+}
+
+INSTANTIATE_TEST_SUITE_P(Films, Identity, testing::ValuesIn(cases()), [](const auto& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+// Memory so short that a single line does not fit is the user's fault, told as such; nobody hangs.
+TEST(Memory, TooShortForOneLineIsOneClearFailure) {
+  const FilmBlock block(crowd(640, 360, 2, 2));
+  RunOptions options;
+  options.nodes = 3;
+  options.memory = 60'000;
+  try {
+    run_film(block.bytes(), options);
+    FAIL() << "rendered within 60 kB";
+  } catch (const std::exception& failure) {
+    EXPECT_NE(std::string(failure.what()).find("MARS_MEMORY"), std::string::npos) << failure.what();
+    EXPECT_NE(std::string(failure.what()).find("node "), std::string::npos) << failure.what();
+  }
+}
+
+}  // namespace
+}  // namespace mars::test

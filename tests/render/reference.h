@@ -1,0 +1,39 @@
+// The plain twin of the renderer: every triangle against every sample of its box, exact integers for coverage,
+// the rule of ties written out, Phong's formula in double precision. It shares with the nodes what defines the
+// polygons (dicing, clipping, set-up) and nothing of how they are drawn, divided or sent.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "node/film.h"
+#include "node/triangle.h"
+
+namespace mars::test {
+
+struct ReferenceSample {
+  std::optional<std::size_t> triangle;  // index into triangles; none: background
+  float depth = 0;
+};
+
+struct Reference {
+  std::vector<node::Triangle> triangles;
+  std::vector<bool> moving;              // of each triangle
+  std::vector<ReferenceSample> samples;  // rows from the top
+  std::uint32_t width = 0;
+
+  const ReferenceSample& at(std::uint32_t column, std::uint32_t row) const { return samples[row * width + column]; }
+};
+
+// Draws `frame`; which segments move comes from the film's intervals.
+Reference draw_reference(const node::FilmView& film, std::uint32_t frame);
+
+// The colour (red, green, blue, 0..255, not rounded) of a sample that shows a triangle.
+struct Color {
+  double channel[3];
+};
+Color shade_reference(const node::FilmView& film, std::uint32_t frame, const Reference& reference,
+                      std::uint32_t column, std::uint32_t row);
+
+}  // namespace mars::test
