@@ -10,6 +10,9 @@ namespace {
 // Cut vertices lie on the planes but for rounding: they pass a projection this much wider.
 constexpr float kSlack = 1.001f;
 
+// Triangles no higher than this many 1/256 pixel may have been turned over by snapping.
+constexpr std::int64_t kThin = 4;
+
 // The plane through values f0, f1, f2 at the triangle's vertices.
 class PlaneMaker {
  public:
@@ -29,7 +32,7 @@ class PlaneMaker {
   float x1_, x2_, y1_, y2_, inverse_;
 };
 
-// Twice the area in 1/65536 square pixel; the sign tells which way the vertices run.
+// Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
 std::int64_t determinant(const Triangle& t) {
   const std::int64_t x1 = t.x[1] - t.x[0], x2 = t.x[2] - t.x[0];
   const std::int64_t y1 = t.y[1] - t.y[0], y2 = t.y[2] - t.y[0];
@@ -85,14 +88,12 @@ void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) 
   const Vertices& v = diced.vertices();
   std::uint32_t index = 0;
   for (const Corner3& corners : diced.triangles()) {
-    const bool faces = faces_eye(v, corners);
-    const Facing facing{index++, faces};
-    if (identity.one_sided && faces == identity.mirrored) continue;
     const int outside = v.outside[corners.a] + v.outside[corners.b] + v.outside[corners.c];
     if (outside == 0)
-      add_triangle(v, corners, facing, identity, out);
+      add_triangle(v, corners, {index, std::nullopt}, identity, out);
     else
-      add_clipped(v, corners, facing, identity, out);
+      add_clipped(v, corners, {index, faces_eye(v, corners)}, identity, out);
+    ++index;
   }
 }
 
@@ -134,11 +135,15 @@ void SetUp::add_triangle(const Vertices& v, const Corner3& corners, const Facing
   }
   const std::int64_t area = determinant(t);
   if (area == 0) return;
+  const bool sure = std::abs(area) > kThin * (std::abs(t.x[1] - t.x[0]) + std::abs(t.y[1] - t.y[0]) +
+                                              std::abs(t.x[2] - t.x[0]) + std::abs(t.y[2] - t.y[0]));
+  const bool faces = facing.eye ? *facing.eye : sure ? area < 0 : faces_eye(v, corners);
+  if (identity.one_sided && faces == identity.mirrored) return;
   const PlaneMaker plane(t, static_cast<float>(area));
   float w[3];
   for (int i = 0; i < 3; ++i) w[i] = v.inverse_w[corner[i]];
   t.depth = plane(w[0], w[1], w[2]);
-  const float sign = facing.eye ? 1.0f : -1.0f;
+  const float sign = faces ? 1.0f : -1.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const float* n = v.normal[axis];
     t.normal[axis] = plane(sign * (n[corner[0]] * w[0]), sign * (n[corner[1]] * w[1]), sign * (n[corner[2]] * w[2]));

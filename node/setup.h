@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "node/dice.h"
@@ -36,10 +37,11 @@ class SetUp {
   void add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const;
 
  private:
-  // A diced triangle's number, and whether the cross product of the tangents points to the eye's side.
+  // A diced triangle's number, and whether its outside by the order of its vertices is turned to the eye, if
+  // that is known already (pieces of a clipped one share it).
   struct Facing {
     std::uint32_t index;
-    bool eye;
+    std::optional<bool> eye;
   };
   void add_clipped(const Vertices& vertices, const Corner3& corners, const Facing& facing,
                    const PatchIdentity& identity, SetUps& out) const;
