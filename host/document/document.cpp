@@ -46,9 +46,9 @@ std::string short_message(std::string message) {
   return message;
 }
 
-std::string remedy_for(const std::string& token) {
+std::string remedy_for(const std::string& token, const std::string& message) {
   if (token.find('/') != std::string::npos) return "JSON has no comments: take them out";
-  if (token.empty() || token == "<end of input>") return "the file may be cut short";
+  if (message.find("end of input") != std::string::npos) return "the file may be cut short";
   return "write plain JSON: keys and texts in double quotes, no trailing commas, no NaN";
 }
 
@@ -85,7 +85,7 @@ class Builder {
     return close(), true;
   }
   bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) {
-    fail("is not JSON: " + short_message(error.what()), remedy_for(token));
+    fail("is not JSON: " + short_message(error.what()), remedy_for(token, error.what()));
   }
 
  private:

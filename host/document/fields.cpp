@@ -48,7 +48,7 @@ std::string shown(double number) {
 }
 
 std::optional<std::string> near_name(std::string_view wanted, std::span<const std::string_view> names) {
-  std::size_t nearest = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  std::size_t nearest = (wanted.size() + 2) / 3 + 1;
   std::optional<std::string> found;
   for (const std::string_view name : names) {
     const std::size_t longer = std::max(name.size(), wanted.size());

@@ -1,0 +1,115 @@
+#include "host/document/document.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "host/document/fields.h"
+#include "host/document/file.h"
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+std::string parse_failure(const std::string& json) {
+  return failure_of([&] { Document(json, "a.json"); });
+}
+
+TEST(Document, ElementsKnowTheirLineAndPath) {
+  const Document document("{\n  \"actors\": [\n    1,\n    {\"left knee\": [2,\n3\n]}\n  ]\n}", "a.json");
+  const Element actors = *document.root().find("actors");
+  EXPECT_EQ(actors.size(), 2u);
+  EXPECT_EQ(actors.line(), 2u);
+  auto child = actors.begin();
+  EXPECT_EQ((*child).line(), 3u);
+  const Element knee = *(*++child).find("left knee");
+  EXPECT_EQ(knee.path(), "actors[1][\"left knee\"]");
+  auto number = knee.begin();
+  EXPECT_EQ((*++number).line(), 5u) << "a number before a newline belongs to its own line";
+  EXPECT_EQ((*number).where(), "a.json:5: actors[1][\"left knee\"][1]");
+  EXPECT_EQ((*number).number(), 3);
+}
+
+struct Malformed {
+  const char* json;
+  const char* told;
+};
+
+class MalformedDocument : public testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedDocument, IsOneClearError) {
+  const std::string failure = parse_failure(GetParam().json);
+  EXPECT_TRUE(holds(failure, "a.json")) << failure;
+  EXPECT_TRUE(holds(failure, GetParam().told)) << failure;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, MalformedDocument,
+    testing::Values(Malformed{"", "is empty"}, Malformed{" \n\t", "is empty"},
+                    Malformed{"{", "may be cut short"}, Malformed{"{\"a\": [1, 2", "may be cut short"},
+                    Malformed{"{\n\"a\": tru}", "a.json:2"}, Malformed{"{\"a\": NaN}", "not JSON"},
+                    Malformed{"{\"a\": 1e999}", "number overflow"}, Malformed{"{\"a\": -Infinity}", "not JSON"},
+                    Malformed{"// hello\n{}", "no comments"}, Malformed{"{\"a\": 1,}", "trailing commas"},
+                    Malformed{"{} {}", "not JSON"}, Malformed{"\xff\xfe{}", "not JSON"},
+                    Malformed{"{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", "a.json:3: a: stands twice"},
+                    Malformed{"[1, {\"k\": [{\"a\": 1, \"a\": 2}]}]", "[1].k[0].a: stands twice"},
+                    Malformed{"{\"a\\u0000b\": 1}", "control character"}));
+
+TEST(Document, RefusesDeepNestingAndBinaryFiles) {
+  EXPECT_TRUE(holds(parse_failure(std::string(100'000, '[')), "64 deep"));
+  EXPECT_EQ(parse_failure(std::string(64, '[') + std::string(64, ']')), "");
+  EXPECT_TRUE(holds(parse_failure(std::string("\x7f" "ELF\0\0", 6)), "binary"));
+  EXPECT_TRUE(holds(parse_failure("[\"" + std::string(5000, 'x') + "\"]"), "5000 bytes"));
+}
+
+TEST(Document, FindsADoubleKeyAmongManyQuickly) {
+  std::string json = "{";
+  for (int i = 0; i < 200'000; ++i) json += "\"key" + std::to_string(i) + "\": 0,\n";
+  EXPECT_EQ(parse_failure(json + "\"last\": 1}"), "");
+  EXPECT_TRUE(holds(parse_failure(json + "\"key77\": 1}"), "first in line 78"));
+}
+
+constexpr std::string_view kNames[] = {"place", "limits", "segment"};
+constexpr Keys kTestKeys{"thing", kNames};
+
+std::string thing_failure(const std::string& json) {
+  return failure_of([&] {
+    const Document document(json, "a.json");
+    const Fields fields(document.root(), kTestKeys);
+    fields.vector("place", {});
+    fields.count("limits", 0, 1, 9);
+    constexpr std::string_view shapes[] = {"sphere", "torus"};
+    fields.choice("segment", 0, shapes);
+    fields.required("place");
+  });
+}
+
+TEST(Fields, TellWhatIsWrongAndWhatWouldBeRight) {
+  EXPECT_EQ(thing_failure("{\"place\": [1, 2, 3], \"limits\": 3, \"segment\": \"torus\"}"), "");
+  EXPECT_TRUE(holds(thing_failure("{\"palce\": 1}"), "did you mean 'place'?"));
+  EXPECT_TRUE(holds(thing_failure("{\"zzzzzz\": 1}"), "its keys are: place, limits, segment"));
+  EXPECT_TRUE(holds(thing_failure("{}"), "has no 'place'"));
+  EXPECT_TRUE(holds(thing_failure("[]"), "is a list, not an object"));
+  EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2]}"), "has 2 items"));
+  EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2, 1e308]}"), "place[2]: is 1e+308"));
+  EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2, \"x\"]}"), "is a text, not a number"));
+  EXPECT_TRUE(holds(thing_failure("{\"limits\": 2.5}"), "whole number"));
+  EXPECT_TRUE(holds(thing_failure("{\"limits\": 10}"), "from 1 to 9"));
+  EXPECT_TRUE(holds(thing_failure("{\"segment\": \"sfere\"}"), "did you mean 'sphere'?"));
+}
+
+TEST(File, RefusesWhatIsNoFile) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  EXPECT_TRUE(holds(failure_of([&] { read_file(folder); }), "is a directory"));
+  EXPECT_TRUE(holds(failure_of([&] { read_file(folder / "no-such-file.json"); }), "no such file"));
+  EXPECT_TRUE(holds(failure_of([&] { read_file("/dev/zero"); }), "not a regular file"));
+  const std::filesystem::path file = folder / "mars_document_test.json";
+  std::ofstream(file) << "12345";
+  EXPECT_TRUE(holds(failure_of([&] { read_file(file, 4); }), "5 bytes, too many"));
+  EXPECT_EQ(read_file(file, 5), "12345");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,83 @@
+#include "host/model/patch_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "host/model/read_model.h"
+#include "host/model/teapot.h"
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PatchFileTest : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& text) const {
+    std::ofstream(folder_ / "in.bpt") << text;
+    return folder_ / "in.bpt";
+  }
+  std::string failure(const std::string& text) const {
+    const fs::path path = write(text);
+    return failure_of([&] { read_patch_file(path); });
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / "mars_patch_file_test";
+};
+
+std::string one_patch(const std::string& degrees = "3 3") {
+  std::string text = "1\n" + degrees + "\n";
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) text += std::to_string(10 + 2 * i) + " " + std::to_string(-j) + " 7\r\n";
+  return text;
+}
+
+TEST_F(PatchFileTest, ScalesIntoTheUnitCube) {
+  const PatchFile file = read_patch_file(write(one_patch()));
+  ASSERT_EQ(file.patches.size(), 1u);
+  EXPECT_EQ(file.bounds.min, glm::dvec3(10, -3, 7));
+  EXPECT_EQ(file.bounds.max, glm::dvec3(16, 0, 8)) << "flat in z: one unit thick";
+  EXPECT_EQ(file.patches[0].points[0], (std::array<float, 3>{0, 1, 0}));
+  EXPECT_EQ(file.patches[0].points[15], (std::array<float, 3>{1, 0, 0}));
+}
+
+TEST_F(PatchFileTest, TellsTheLineOfWhatIsWrong) {
+  EXPECT_TRUE(holds(failure(""), "ends before the number of patches"));
+  EXPECT_TRUE(holds(failure("x"), "has 'x' for the number of patches"));
+  EXPECT_TRUE(holds(failure("0"), "no sensible number"));
+  EXPECT_TRUE(holds(failure("1e300"), "at most 1e9"));
+  EXPECT_TRUE(holds(failure("9999999\n3 3\n"), "cut short"));
+  EXPECT_TRUE(holds(failure(one_patch("2 3")), ":2: has a patch of degrees 2 3"));
+  EXPECT_TRUE(holds(failure(one_patch() + "1\n"), "goes on after its last patch"));
+  EXPECT_TRUE(holds(failure("1\n3 3\n0 0 nan"), "in.bpt:3"));
+}
+
+TEST_F(PatchFileTest, ImportsAModelThatCanBeRead) {
+  import_patches(write(one_patch()), folder_ / "model.json", "");
+  const Model model = load_model(folder_ / "model.json");
+  ASSERT_EQ(model.joints.size(), 1u);
+  EXPECT_EQ(model.joints[0].name, "in");
+  EXPECT_EQ(model.joints[0].segment->sbb.min, glm::dvec3(10, -3, 7));
+  EXPECT_EQ(model.shapes[0].patches[0].points, read_patch_file(folder_ / "in.bpt").patches[0].points);
+  EXPECT_TRUE(holds(failure_of([&] { import_patches(folder_ / "in.bpt", folder_ / "x.json", "a/b"); }), "'/'"));
+}
+
+TEST_F(PatchFileTest, TheTeapotOfOthersIsOurs) {
+  const fs::path path = fs::path(MARS_SOURCE_DIR) / "../shared/data/teapot.bpt";
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
+  const PatchFile file = read_patch_file(path);
+  const auto ours = make_teapot(1);
+  ASSERT_EQ(file.patches.size(), ours.size());
+  EXPECT_EQ(file.bounds.min, kTeapotBounds.min);
+  EXPECT_EQ(file.bounds.max, kTeapotBounds.max);
+  for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_EQ(file.patches[i].points, ours[i].points);
+}
+
+}  // namespace
+}  // namespace mars::host
