@@ -38,6 +38,8 @@ class Assembly {
   Composed compose(Frame& frame);
 
   bool done() const { return frames_left_ == 0; }
+  // The compositor, for another unit.
+  Compositor release() { return std::move(compositor_); }
   const hal::Cube& cube() const { return cube_; }
 
  private:

@@ -78,6 +78,7 @@ class Farm {
   void note_taken();
   Assembly& assembly_of(const node::Strip& strip);
   std::vector<std::byte> buffer_of(std::size_t bytes);
+  Compositor spare_compositor();
 
   SinkPool& sinks_;
   const FarmListener& listener_;
@@ -100,6 +101,7 @@ class Farm {
   };
   std::unordered_map<std::uint32_t, OnTheWay> with_sinks_;
   std::vector<std::vector<std::byte>> spare_buffers_;
+  std::vector<Compositor> spare_compositors_;
   std::size_t frames_left_;
   double start_;
 };
@@ -144,9 +146,7 @@ void Farm::give(std::size_t number) {
   std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
   std::memcpy(message.data(), &command, sizeof command);
   std::memcpy(message.data() + sizeof command, unit.frames.data(), frames * sizeof(std::uint32_t));
-  const SinkPool::Shape& shape = sinks_.shape();
-  running_.push_back({number, unit.interval,
-                      Assembly(unit, cube, Compositor(shape.width, shape.height, shape.block, background_))});
+  running_.push_back({number, unit.interval, Assembly(unit, cube, spare_compositor())});
   ++units_given_[number];
   for (int node = cube.first; node < cube.first + cube.count; ++node)
     csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
@@ -189,6 +189,7 @@ bool Farm::compose_one() {
   std::move(composed.bytes.begin(), composed.bytes.end(), std::back_inserter(spare_buffers_));
   if (ready->assembly.done()) {
     --units_given_[ready->cube];
+    spare_compositors_.push_back(ready->assembly.release());
     running_.erase(ready);
   }
   return true;
@@ -212,6 +213,14 @@ std::vector<std::byte> Farm::buffer_of(std::size_t bytes) {
   }
   buffer.resize(bytes);
   return buffer;
+}
+
+Compositor Farm::spare_compositor() {
+  const SinkPool::Shape& shape = sinks_.shape();
+  if (spare_compositors_.empty()) return {shape.width, shape.height, shape.block, background_};
+  Compositor spare = std::move(spare_compositors_.back());
+  spare_compositors_.pop_back();
+  return spare;
 }
 
 }  // namespace
