@@ -28,12 +28,12 @@ std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& po
   return std::nullopt;
 }
 
-Frame segment_frame(const Frame& joint_frame, const Joint& joint) {
+Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
   const glm::dmat3 axes(joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis));
   return {joint_frame.turn * axes, joint_frame.place};
 }
 
-node::Matrix t_matrix(const Frame& frame, const Box& sbb) {
+node::Matrix t_matrix(const Axes& frame, const Box& sbb) {
   const glm::dvec3 extent = sbb.max - sbb.min;
   const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
   node::Matrix matrix;
@@ -97,7 +97,7 @@ void Figure::turn_keyed_joints(std::uint32_t frame) {
 }
 
 bool Figure::move_root(std::uint32_t frame) {
-  const Frame now{root_turn_.at(frame), value_at(motion_->place, frame)};
+  const Axes now{root_turn_.at(frame), value_at(motion_->place, frame)};
   const bool moved = first_ || now.turn != root_.turn || now.place != root_.place;
   root_ = now;
   first_ = false;
@@ -115,7 +115,7 @@ bool Figure::move_to(std::uint32_t frame) {
     if (rooted ? root_moved : moved_[joint.parent]) moved_[number] = true;
     if (!moved_[number]) continue;
     any = true;
-    const Frame& parent = rooted ? root_ : frames_[joint.parent];
+    const Axes& parent = rooted ? root_ : frames_[joint.parent];
     frames_[number] = {parent.turn * turns_[number], parent.turn * joint.place + parent.place};
   }
   return any;

@@ -15,7 +15,7 @@
 namespace mars::host {
 
 // Where a joint stands in the world: p' = turn p + place.
-struct Frame {
+struct Axes {
   glm::dmat3 turn{1};
   glm::dvec3 place{0, 0, 0};
 };
@@ -27,10 +27,10 @@ glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose);
 std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose);
 
 // The base segment's box-scaled coordinates to the world: F [X Y Z].
-Frame segment_frame(const Frame& joint_frame, const Joint& joint);
+Axes segment_frame(const Axes& joint_frame, const Joint& joint);
 
 // The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
-node::Matrix t_matrix(const Frame& frame, const Box& sbb);
+node::Matrix t_matrix(const Axes& frame, const Box& sbb);
 
 // What an animator set for one figure.
 struct FigureMotion {
@@ -67,7 +67,7 @@ class Figure {
   // True if any joint now stands elsewhere than at the frame before.
   bool move_to(std::uint32_t frame);
 
-  const Frame& frame_of(std::size_t joint) const { return frames_[joint]; }
+  const Axes& frame_of(std::size_t joint) const { return frames_[joint]; }
   bool moved(std::size_t joint) const { return moved_[joint]; }  // by the last move_to
   bool still() const { return still_; }                          // has no two keys of anything
 
@@ -78,13 +78,13 @@ class Figure {
   const Model* model_;
   const FigureMotion* motion_;
   JointMotion root_turn_;
-  Frame root_;
+  Axes root_;
   bool first_ = true;
   bool still_;
   std::vector<std::size_t> keyed_;     // joints with two keys or more
   std::vector<JointMotion> motions_;   // one a keyed joint
   std::vector<glm::dmat3> turns_;      // of all joints, against their parents
-  std::vector<Frame> frames_;
+  std::vector<Axes> frames_;
   std::vector<char> moved_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostMatrices = std::size_t{1} << 26;  // 6 GB
 constexpr double kFarthestMatrix = 1e12;                      // as node/film.h allows
-const Frame kIdentity{};
+const Axes kIdentity{};
 
 // Appends to a film's values and to one track of changes those that differ from the one before.
 template <typename Value>
@@ -288,7 +288,7 @@ class Compiler {
 
   void copy(const Actor& actor, std::vector<Writing>& writings) {
     for (Writing& writing : writings)
-      for (const Key<Frame>& key : actor.matrices[writing.joint])
+      for (const Key<Axes>& key : actor.matrices[writing.joint])
         if (key.frame < film_.frames)
           add_matrix(writing, key.frame,
                      t_matrix(key.value, film_.models[actor.model].joints[writing.joint].segment->sbb));

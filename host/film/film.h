@@ -48,7 +48,7 @@ struct Actor {
   std::string name;
   std::size_t model;
   FigureMotion motion;
-  std::vector<Channel<Frame>> matrices;  // one a joint, each with a key at frame 0 where it has a segment; or none
+  std::vector<Channel<Axes>> matrices;  // one a joint, each with a key at frame 0 where it has a segment; or none
   std::string material;                  // of the film, for all segments; "": the model's
   std::vector<std::pair<std::string, std::string>> materials;  // else: the model's name, and the film's instead
 };

@@ -261,9 +261,9 @@ class ActorReader {
                 did_you_mean(item.key(), names, "name a joint of this model"));
   }
 
-  static Frame read_matrix(const Element& element) {
+  static Axes read_matrix(const Element& element) {
     require_size(element, 3);
-    Frame frame;
+    Axes frame;
     int row = 0;
     for (const Element numbers : element) {
       require_size(numbers, 4);

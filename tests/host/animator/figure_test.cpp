@@ -65,7 +65,7 @@ TEST(SegmentFrame, SkewAxesShearTheSegmentButNoChild) {
   arm.model.joints[0].y_axis = glm::normalize(glm::dvec3(1, 1, 0));
   Figure figure(arm.model, arm.motion);
   figure.move_to(0);
-  const Frame sheared = segment_frame(figure.frame_of(0), arm.model.joints[0]);
+  const Axes sheared = segment_frame(figure.frame_of(0), arm.model.joints[0]);
   EXPECT_LT(distance(sheared.turn * glm::dvec3(0, 1, 0), {std::sqrt(0.5), std::sqrt(0.5), 0}), 1e-15);
   EXPECT_LT(distance(sheared.turn * glm::dvec3(0, 0, 1), {0, 0, std::sqrt(0.5)}), 1e-15) << "Z = X x Y";
   EXPECT_EQ(figure.frame_of(1).turn, glm::dmat3(1));
@@ -90,7 +90,7 @@ TEST(Figure, LimbsNeverComeApart) {
     figure.move_to(frame);
     for (const std::size_t joint : {1u, 2u}) {
       EXPECT_NEAR(distance(figure.frame_of(joint).place, figure.frame_of(joint - 1).place), 1, 1e-14);
-      const Frame& parent = figure.frame_of(joint - 1);
+      const Axes& parent = figure.frame_of(joint - 1);
       EXPECT_LT(distance(figure.frame_of(joint).place, parent.turn * glm::dvec3(1, 0, 0) + parent.place), 1e-14);
     }
   }
@@ -134,7 +134,7 @@ TEST(Figure, FramesDoNotDependOnTheOrderAskedFor) {
   arm.key(0, 100, {0, 0, 0});
   arm.motion.place = {{0, {0, 0, 0}, kBoth}, {100, {5, 6, 7}, kLinear}};
   Figure forward(arm.model, arm.motion), backward(arm.model, arm.motion);
-  std::vector<Frame> seen;
+  std::vector<Axes> seen;
   for (std::uint32_t frame = 0; frame <= 100; ++frame) {
     forward.move_to(frame);
     seen.push_back(forward.frame_of(2));
