@@ -11,13 +11,15 @@ namespace {
 
 thread_local Process* bound_process = nullptr;
 
-std::string name_of(int rank, int host) { return rank == host ? "the host" : "node " + std::to_string(rank); }
-
 std::string bytes_text(std::size_t bytes) {
   return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
 }
 
 }  // namespace
+
+std::string rank_name(int rank, int host) {
+  return rank == host ? "the host" : "node " + std::to_string(rank);
+}
 
 Process& process() {
   if (bound_process == nullptr) {
@@ -38,7 +40,7 @@ Process::Process(Backend& backend) : backend_(backend) {
 Process::~Process() { bound_process = nullptr; }
 
 void Process::fail(const char* call, const std::string& what, const std::string& remedy) const {
-  throw Failure(what, name_of(backend_.rank(), backend_.host()) + ", " + call, remedy);
+  throw Failure(what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
 }
 
 std::size_t Process::check_length(const char* call, long length) const {
@@ -77,7 +79,7 @@ void Process::check_fits(const Request& request, const Envelope& envelope) const
   if (envelope.length <= request.capacity) return;
   fail(request.call,
        "a message of " + bytes_text(envelope.length) + ", type " + std::to_string(envelope.type) + ", from " +
-           name_of(envelope.from, backend_.host()) + " does not fit a receive of " +
+           rank_name(envelope.from, backend_.host()) + " does not fit a receive of " +
            bytes_text(request.capacity),
        "receive into a longer buffer, or cprobe first and ask infocount");
 }
@@ -272,7 +274,7 @@ void Process::receive_internal(const char* call, int from, void* data, std::size
   const std::size_t came = std::exchange(info_, before).length;
   if (came == length) return;
   fail(call,
-       name_of(from, backend_.host()) + " gave " + bytes_text(came) + " where " + bytes_text(length) +
+       rank_name(from, backend_.host()) + " gave " + bytes_text(came) + " where " + bytes_text(length) +
            " belong",
        "all nodes call the same collectives in the same order with the same lengths");
 }

@@ -103,6 +103,9 @@ class Process {
 // The calling thread's process; a Failure when it has none.
 Process& process();
 
+// "node 3" or "the host".
+std::string rank_name(int rank, int host);
+
 // What the calling process has sent so far.
 const Traffic& traffic();
 

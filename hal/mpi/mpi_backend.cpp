@@ -1,0 +1,297 @@
+#include "hal/mpi/mpi_backend.h"
+
+#include <sched.h>
+#include <sys/statvfs.h>
+
+#include <algorithm>
+#include <chrono>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "hal/failure.h"
+#include "hal/message_types.h"
+#include "hal/mpi/mpi_call.h"
+#include "hal/mpi/patience.h"
+
+namespace mars::hal {
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+// Every few calls look at as many of the copies on their way: all are seen soon, at a small price each.
+constexpr std::size_t kReclaimAtOnce = 4;
+
+struct Affinity {
+  cpu_set_t some;   // processors that at least one rank may use
+  cpu_set_t every;  // processors that every rank may use
+};
+
+// Of the ranks of `comm`.
+Affinity affinity(MPI_Comm comm) {
+  cpu_set_t mine;
+  CPU_ZERO(&mine);
+  sched_getaffinity(0, sizeof mine, &mine);
+  Affinity all;
+  succeed(MPI_Allreduce(&mine, &all.some, sizeof mine, MPI_BYTE, MPI_BOR, comm), "MPI_Allreduce");
+  succeed(MPI_Allreduce(&mine, &all.every, sizeof mine, MPI_BYTE, MPI_BAND, comm), "MPI_Allreduce");
+  return all;
+}
+
+int size_of(MPI_Comm comm) {
+  int size = 0;
+  succeed(MPI_Comm_size(comm, &size), "MPI_Comm_size");
+  return size;
+}
+
+int rank_in(MPI_Comm comm) {
+  int rank = 0;
+  succeed(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
+  return rank;
+}
+
+int highest_tag(MPI_Comm comm) {
+  int* highest = nullptr;
+  int known = 0;
+  succeed(MPI_Comm_get_attr(comm, MPI_TAG_UB, &highest, &known), "MPI_Comm_get_attr");
+  return known ? *highest : 32767;
+}
+
+MPI_Comm split_by_machine(MPI_Comm comm, int key) {
+  MPI_Comm machine = MPI_COMM_NULL;
+  succeed(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, key, MPI_INFO_NULL, &machine),
+          "MPI_Comm_split_type");
+  return machine;
+}
+
+}  // namespace
+
+MpiBackend::MpiBackend(int host_rank) : host_rank_(host_rank) {
+  succeed(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "MPI_Comm_dup");
+  succeed(MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  nodes_ = size_of(all_) - 1;
+  rank_ = id(rank_in(all_));
+  last_tag_ = highest_tag(all_) - nodes_;
+  sent_to_.resize(nodes_ + 1);
+  look_around();
+}
+
+void MpiBackend::look_around() {
+  MPI_Comm ranks_here = split_by_machine(all_, rank_);
+  const cpu_set_t usable = affinity(ranks_here).some;
+  oversubscribed_ = size_of(ranks_here) > CPU_COUNT(&usable);
+  succeed(MPI_Comm_free(&ranks_here), "MPI_Comm_free");
+
+  MPI_Comm nodes = MPI_COMM_NULL;
+  succeed(MPI_Comm_split(all_, rank_ == host() ? MPI_UNDEFINED : 0, rank_, &nodes), "MPI_Comm_split");
+  if (nodes == MPI_COMM_NULL) return;
+  machine_ = split_by_machine(nodes, rank_);
+  succeed(MPI_Comm_free(&nodes), "MPI_Comm_free");
+  const Affinity given = affinity(machine_);
+  neighbourhood_ = {rank_, rank_in(machine_), size_of(machine_), !CPU_EQUAL(&given.some, &given.every)};
+  succeed(MPI_Bcast(&neighbourhood_.machine, 1, MPI_INT, 0, machine_), "MPI_Bcast");
+}
+
+MpiBackend::~MpiBackend() {
+  if (ending_ != Ending::ended) return;
+  if (machine_ != MPI_COMM_NULL) MPI_Comm_free(&machine_);
+  MPI_Comm_free(&all_);
+}
+
+int MpiBackend::mpi_rank(int id) const { return id == host() ? host_rank_ : id + (id >= host_rank_); }
+
+int MpiBackend::id(int mpi_rank) const {
+  return mpi_rank == host_rank_ ? host() : mpi_rank - (mpi_rank > host_rank_);
+}
+
+// An MPI need not have tags as large as internal types are, so these are the highest that it has.
+int MpiBackend::tag(int type) const {
+  if (type_class(type) == TypeClass::reserved) return last_tag_ + 1 + (type - kFirstInternalType);
+  if (type <= last_tag_) return type;
+  throw Failure("message type " + std::to_string(type) + " is above " + std::to_string(last_tag_) +
+                    ", the highest that this MPI carries",
+                "", "use lower types, or an MPI with a higher MPI_TAG_UB");
+}
+
+int MpiBackend::type(int tag) const {
+  return tag <= last_tag_ ? tag : kFirstInternalType + (tag - last_tag_ - 1);
+}
+
+MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t length) {
+  if (length > INT_MAX) {
+    throw Failure("a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
+                  "send at most 2147483647 bytes at once");
+  }
+  const int receiver = mpi_rank(to);
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, receiver, tag(type), all_, &request),
+          "MPI_Isend");
+  ++sent_to_[receiver];
+  return request;
+}
+
+bool MpiBackend::test(MPI_Request& request) {
+  int done = 0;
+  succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+  return done != 0;
+}
+
+void MpiBackend::wait(MPI_Request& request) {
+  for (int turn = 0; !test(request); ++turn) idle(turn);
+}
+
+void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
+  reclaim_some();
+  Message* message = pool_.copy({rank_, type, length}, data);
+  MPI_Request request = isend(to, type, message->bytes(), length);
+  if (test(request)) {
+    pool_.release(message);
+  } else {
+    pending_.push_back({request, message});
+  }
+}
+
+void MpiBackend::reclaim_some() {
+  for (std::size_t looks = std::min(kReclaimAtOnce, pending_.size()); looks > 0; --looks) {
+    if (next_pending_ >= pending_.size()) next_pending_ = 0;
+    if (!test(pending_[next_pending_].request)) {
+      ++next_pending_;
+      continue;
+    }
+    pool_.release(pending_[next_pending_].message);
+    pending_[next_pending_] = pending_.back();
+    pending_.pop_back();
+    if (pending_.empty()) return;
+  }
+}
+
+Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
+  const MPI_Request request = isend(to, type, data, length);
+  if (free_tickets_.empty()) {
+    free_tickets_.push_back(static_cast<Ticket>(tickets_.size()));
+    tickets_.push_back(MPI_REQUEST_NULL);
+    free_tickets_.reserve(tickets_.size());
+  }
+  const Ticket ticket = free_tickets_.back();
+  free_tickets_.pop_back();
+  tickets_[ticket] = request;
+  return ticket;
+}
+
+bool MpiBackend::sent(Ticket ticket) {
+  if (!test(tickets_[ticket])) return false;
+  free_tickets_.push_back(ticket);
+  return true;
+}
+
+std::optional<Envelope> MpiBackend::peek() {
+  reclaim_some();
+  if (peeked_) return peeked_;
+  int arrived = 0;
+  MPI_Status status;
+  succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
+  if (arrived == 0) return std::nullopt;
+  int length = 0;
+  succeed(MPI_Get_count(&status, MPI_BYTE, &length), "MPI_Get_count");
+  peeked_ = Envelope{id(status.MPI_SOURCE), type(status.MPI_TAG), static_cast<std::size_t>(length)};
+  return peeked_;
+}
+
+void MpiBackend::take(void* buffer) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Irecv(buffer, static_cast<int>(peeked_->length), MPI_BYTE, mpi_rank(peeked_->from),
+                    tag(peeked_->type), all_, &request),
+          "MPI_Irecv");
+  wait(request);
+  peeked_.reset();
+  ++taken_;
+}
+
+void MpiBackend::idle(int turn) { wait_a_turn(turn, oversubscribed_); }
+
+Neighbourhood MpiBackend::neighbourhood() {
+  check(rank_ != host(), "the host is not one of a machine's nodes");
+  return neighbourhood_;
+}
+
+void MpiBackend::meet_neighbours() {
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Ibarrier(machine_, &request), "MPI_Ibarrier");
+  wait(request);
+}
+
+// MPI takes the memory without asking whether it is there, and using it would end in a bus error.
+void MpiBackend::check_shared_space(std::size_t bytes) {
+  struct statvfs space = {};
+  std::uint64_t free_bytes = UINT64_MAX;
+  if (neighbourhood_.count > 1 && statvfs("/dev/shm", &space) == 0)
+    free_bytes = space.f_bavail * space.f_frsize;
+  succeed(MPI_Bcast(&free_bytes, 1, MPI_UINT64_T, 0, machine_), "MPI_Bcast");
+  if (bytes <= free_bytes) return;
+  throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes: /dev/shm has " +
+                    std::to_string(free_bytes) + " left",
+                "node " + std::to_string(rank_),
+                "enlarge /dev/shm (mount -o remount,size=..., or a container's --shm-size), or empty it");
+}
+
+std::shared_ptr<std::byte> MpiBackend::share(std::size_t bytes) {
+  check(rank_ != host(), "the host takes no part in shared memory");
+  meet_neighbours();
+  const std::size_t room = bytes + kAlignment;
+  check_shared_space(room);
+  MPI_Win window = MPI_WIN_NULL;
+  void* block = nullptr;
+  const bool leads = neighbourhood_.index == 0;
+  succeed(MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(room) : 0, 1, MPI_INFO_NULL, machine_, &block,
+                                  &window),
+          "MPI_Win_allocate_shared");
+  MPI_Aint size = 0;
+  int unit = 0;
+  succeed(MPI_Win_shared_query(window, 0, &size, &unit, &block), "MPI_Win_shared_query");
+  // Windows are mapped at pages, so every node skips the same few bytes.
+  std::size_t left = room;
+  std::align(kAlignment, bytes, block, left);
+  if (leads) std::memset(block, 0, bytes);
+  meet_neighbours();
+  return {static_cast<std::byte*>(block), [this, window](std::byte*) { release_window(window); }};
+}
+
+// On the way out of a failure the neighbours may never come to a collective call: the job's end frees all.
+void MpiBackend::release_window(MPI_Win window) {
+  if (std::uncaught_exceptions() > 0) return;
+  meet_neighbours();
+  succeed(MPI_Win_free(&window), "MPI_Win_free");
+}
+
+bool MpiBackend::finish() {
+  switch (ending_) {
+    case Ending::not_yet:
+      succeed(MPI_Ireduce_scatter_block(sent_to_.data(), &expected_, 1, MPI_INT64_T, MPI_SUM, all_,
+                                        &ending_request_),
+              "MPI_Ireduce_scatter_block");
+      ending_ = Ending::counting;
+      return false;
+    case Ending::counting:
+      reclaim_some();
+      if (ending_request_ != MPI_REQUEST_NULL && !test(ending_request_)) return false;
+      if (taken_ < expected_ || !pending_.empty()) return false;
+      succeed(MPI_Ibarrier(all_, &ending_request_), "MPI_Ibarrier");
+      ending_ = Ending::leaving;
+      return false;
+    case Ending::leaving:
+      if (!test(ending_request_)) return false;
+      ending_ = Ending::ended;
+      return true;
+    case Ending::ended:
+      return true;
+  }
+  return true;
+}
+
+void MpiBackend::abort(const std::string& reason) { abort_job(reason); }
+
+}  // namespace mars::hal

@@ -1,0 +1,83 @@
+// Ranks as MPI processes. Messages travel as MPI messages whose tag is their type; receiving is probe, then
+// receive of just what was probed, which is safe because one thread a process makes all MPI calls. Waiting
+// never spins for long (see idle), also inside of what MPI itself would spin for.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <mpi.h>
+
+#include "hal/backend.h"
+#include "hal/message_pool.h"
+
+namespace mars::hal {
+
+class MpiBackend : public Backend {
+ public:
+  // Collective over all ranks; `host_rank` is the MPI rank of the host.
+  explicit MpiBackend(int host_rank);
+  // Collective after an orderly finish; after a failure it leaves all to the end of the job.
+  ~MpiBackend() override;
+  MpiBackend(const MpiBackend&) = delete;
+  MpiBackend& operator=(const MpiBackend&) = delete;
+
+  int rank() const override { return rank_; }
+  int nodes() const override { return nodes_; }
+  void send(int to, int type, const void* data, std::size_t length) override;
+  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(Ticket ticket) override;
+  std::optional<Envelope> peek() override;
+  void take(void* buffer) override;
+  void idle(int turn) override;
+  Neighbourhood neighbourhood() override;
+  std::shared_ptr<std::byte> share(std::size_t bytes) override;
+  bool finish() override;
+  [[noreturn]] void abort(const std::string& reason) override;
+
+ private:
+  // A copy on its way.
+  struct Pending {
+    MPI_Request request;
+    Message* message;
+  };
+  enum class Ending { not_yet, counting, leaving, ended };
+
+  void look_around();
+  MPI_Request isend(int to, int type, const void* data, std::size_t length);
+  void reclaim_some();
+  bool test(MPI_Request& request);
+  void wait(MPI_Request& request);
+  void meet_neighbours();
+  void check_shared_space(std::size_t bytes);
+  void release_window(MPI_Win window);
+
+  int mpi_rank(int id) const;
+  int id(int mpi_rank) const;
+  int tag(int type) const;
+  int type(int tag) const;
+
+  MPI_Comm all_ = MPI_COMM_NULL;
+  MPI_Comm machine_ = MPI_COMM_NULL;  // this machine's nodes; null at the host
+  int host_rank_;
+  int nodes_ = 0;
+  int rank_ = 0;      // id of this rank
+  int last_tag_ = 0;  // the tags up to it are types; those of internal types come after
+  bool oversubscribed_ = false;
+  Neighbourhood neighbourhood_;
+
+  MessagePool pool_;
+  std::vector<Pending> pending_;
+  std::size_t next_pending_ = 0;      // to look at
+  std::vector<MPI_Request> tickets_;  // by ticket
+  std::vector<Ticket> free_tickets_;
+  std::optional<Envelope> peeked_;
+
+  std::vector<std::int64_t> sent_to_;  // messages, by MPI rank
+  std::int64_t taken_ = 0;             // messages
+  Ending ending_ = Ending::not_yet;
+  MPI_Request ending_request_ = MPI_REQUEST_NULL;
+  std::int64_t expected_ = 0;  // messages sent to this rank in all
+};
+
+}  // namespace mars::hal

@@ -1,0 +1,28 @@
+#include "hal/mpi/mpi_call.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "hal/failure.h"
+
+namespace mars::hal {
+
+void succeed(int code, const char* call) {
+  if (code == MPI_SUCCESS) return;
+  char reason[MPI_MAX_ERROR_STRING] = "";
+  int length = 0;
+  MPI_Error_string(code, reason, &length);
+  int rank = -1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  throw Failure(std::string(call) + " failed: " + reason, "MPI rank " + std::to_string(rank),
+                "the cluster's MPI or network is at fault; see what mpirun says besides");
+}
+
+void abort_job(const std::string& reason) {
+  std::fprintf(stderr, "mars: %s\n", reason.c_str());
+  std::fflush(nullptr);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::_Exit(1);
+}
+
+}  // namespace mars::hal

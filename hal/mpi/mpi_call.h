@@ -1,0 +1,16 @@
+// Our MPI calls return their errors instead of ending the job; succeed() makes a Failure of one.
+#pragma once
+
+#include <string>
+
+#include <mpi.h>
+
+namespace mars::hal {
+
+// Throws a Failure naming `call` and MPI's own reason unless `code` is success.
+void succeed(int code, const char* call);
+
+// Tells `reason` on standard error and ends all ranks with exit code 1, waiting for none.
+[[noreturn]] void abort_job(const std::string& reason);
+
+}  // namespace mars::hal

@@ -1,0 +1,38 @@
+#include "hal/mpi/patience.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace mars::hal {
+namespace {
+
+struct Patience {
+  int at_once;  // turns
+  int yields;   // turns after these
+};
+constexpr Patience kEnoughProcessors = {500, 500};
+constexpr Patience kTooFewProcessors = {1, 50};
+
+constexpr int kShortestSleep = 10;  // microseconds
+constexpr int kLongestSleep = 1000;
+constexpr int kSleepsUntilLonger = 4;  // each length is slept so often before it doubles
+
+}  // namespace
+
+void wait_a_turn(int turn, bool oversubscribed) {
+  const Patience patience = oversubscribed ? kTooFewProcessors : kEnoughProcessors;
+  if (turn < patience.at_once) return;
+  const int sleeps = turn - patience.at_once - patience.yields;
+  if (sleeps < 0) {
+    sched_yield();
+    return;
+  }
+  const int doublings = std::min(sleeps / kSleepsUntilLonger, 10);
+  std::this_thread::sleep_for(
+      std::chrono::microseconds(std::min(kShortestSleep << doublings, kLongestSleep)));
+}
+
+}  // namespace mars::hal
