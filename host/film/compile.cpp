@@ -62,6 +62,14 @@ glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame)
   return rotation(axis, stretch.part * angle) * from;
 }
 
+std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size, const std::string& source) {
+  for (const std::uint32_t side : size)
+    if (side < 1 || side > node::kMaxSide)
+      throw Failure("cannot be " + std::to_string(size[0]) + "x" + std::to_string(size[1]) + " pixels", source,
+                    "each side must have 1 to 16384 pixels");
+  return size;
+}
+
 class Compiler {
  public:
   Compiler(const Film& film, const CompileOptions& options) : film_(film), options_(options) {}
@@ -81,11 +89,7 @@ class Compiler {
   }
 
   void add_settings() {
-    const auto size = options_.size.value_or(std::array{film_.width, film_.height});
-    for (const std::uint32_t side : size)
-      if (side < 1 || side > node::kMaxSide)
-        fail("is " + std::to_string(size[0]) + "x" + std::to_string(size[1]), "size",
-             "each side must have 1 to 16384 pixels");
+    const auto size = checked_size(options_.size.value_or(std::array{film_.width, film_.height}), film_.source);
     data_.settings = {size[0], size[1], film_.frames, film_.dice, floats(film_.background), float(film_.rate), {}};
   }
 
@@ -302,7 +306,8 @@ class Compiler {
     const auto add_all = [&](const auto&... channels) { (add(channels), ...); };
     add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov);
     for (const LightMotion& light : film_.lights) add_all(light.vector, light.color, light.intensity);
-    for (const MaterialMotion& m : film_.materials) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
+    for (const MaterialMotion& m : film_.materials)
+      if (looks_.contains("/" + m.name)) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
     for (const Actor& actor : film_.actors) {
       add_all(actor.motion.place, actor.motion.turn);
       for (const auto& poses : actor.motion.pose) add(poses);
@@ -335,7 +340,8 @@ class Compiler {
 };
 
 // The same block with another size: what a frame shows does not depend on it.
-void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& size) {
+void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& wanted) {
+  const auto size = checked_size(wanted, film.source);
   const node::FilmView view = film.view();
   node::FilmSettings settings = view.settings();
   settings.width = size[0];

@@ -1,0 +1,152 @@
+#include "host/film/compile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/host/document/failure_of.h"
+#include "tests/host/film/small_film.h"
+
+namespace mars::host {
+namespace {
+
+std::uint32_t changes_of(const node::FilmView& film, std::size_t segment) {
+  return film.segments()[segment].motion.count;
+}
+
+TEST(Compile, StoresOnlyWhatChanges) {
+  const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm", "keys": [
+      {"frame": 4, "pose": {"b": [0, 0, 0]}}, {"frame": 8, "pose": {"b": [0, 80, 0]}},
+      {"frame": 12, "pose": {"b": [0, 80, 0]}}]}, {"name": "y", "model": "arm", "place": [0, 5, 0]})"));
+  const node::FilmView view = film.view();
+  ASSERT_EQ(view.segments().size(), 4u);
+  EXPECT_EQ(view.shapes().size(), 2u) << "actors of one model share its shapes";
+  EXPECT_EQ(changes_of(view, 0), 1u);
+  EXPECT_EQ(changes_of(view, 1), 5u) << "frames 0, 5, 6, 7, 8";
+  EXPECT_EQ(changes_of(view, 2), 1u);
+  EXPECT_EQ(view.name(view.segments()[3]), "y/b");
+  EXPECT_EQ(film.actors, 2u);
+  EXPECT_EQ(film.joints, 4u);
+}
+
+TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
+  const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
+      {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})"));
+  const node::FilmView view = film.view();
+  const auto color = [&](std::size_t segment) { return view.material_at(view.segments()[segment], 0).color[1]; };
+  EXPECT_EQ(color(0), 0.8f) << "the default material";
+  EXPECT_EQ(color(1), 0.0f);
+  EXPECT_EQ(color(2), 0.8f);
+  EXPECT_EQ(view.material_at(view.segments()[2], 4).ambient, float(1.0 / 3));
+  EXPECT_EQ(view.material_at(view.segments()[4], 4).ambient, 0.1f);
+  EXPECT_EQ(view.material_at(view.segments()[5], 19).ambient, 1.0f);
+}
+
+TEST(Compile, CameraLooksAtItsPlace) {
+  const CompiledFilm film = compiled(R"({"frames": 1, "models": {}, "actors": [],
+      "camera": {"eye": [3, -4, 12], "at": [0, 0, 0], "fov": 90}})");
+  const node::Camera& camera = film.view().camera_at(0);
+  const auto at = [&](const glm::dvec3& p) {
+    glm::dvec3 q;
+    for (int row = 0; row < 3; ++row) {
+      const auto& m = camera.world_to_eye.m[row];
+      q[row] = m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
+    }
+    return q;
+  };
+  EXPECT_NEAR(camera.focal, 1, 1e-15);
+  EXPECT_NEAR(at({0, 0, 0}).z, -13, 1e-12);
+  EXPECT_NEAR(at({0, 0, 0}).x, 0, 1e-12);
+  EXPECT_GT(at({0, 0, 1}).y, 0.1) << "z is up";
+  EXPECT_NEAR(at({0, 0, 1}).x, 0, 1e-12);
+  EXPECT_GT(at({4, 3, 0}).x, 1) << "x to the right";
+}
+
+TEST(Compile, RefusesACameraThatCannotLook) {
+  const auto told = [](const std::string& camera) {
+    return failure_of([&] { compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": )" + camera + "}"); });
+  };
+  EXPECT_TRUE(holds(told(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
+  EXPECT_TRUE(holds(told(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
+  const std::string through = R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
+  EXPECT_TRUE(holds(told(through), "frame 4"));
+}
+
+TEST(Compile, LightsTurnOnTheGreatCircle) {
+  const CompiledFilm film = compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
+      "lights": [{"keys": [{"frame": 0, "direction": [1, 0, 0]}, {"frame": 10, "direction": [-1, 0, 0]}]}]})");
+  const node::FilmView view = film.view();
+  for (std::uint32_t frame = 0; frame <= 10; ++frame) {
+    const node::Light& light = view.lights()[view.value_at(view.light_tracks()[0], frame)];
+    EXPECT_NEAR(light.vector[0], std::cos(frame * std::acos(-1.0) / 10), 1e-6);
+    EXPECT_NEAR(std::hypot(light.vector[0], light.vector[1], light.vector[2]), 1, 1e-6);
+  }
+}
+
+TEST(Compile, OvershootKeepsMaterialsWithinWhatTheyCanBe) {
+  const CompiledFilm film = compiled(R"({"frames": 20, "camera": {"eye": [0, 9, 0]},
+      "materials": {"m": {"keys": [{"frame": 0, "color": [0, 0, 0], "exponent": 1, "ease": [0.5, -3, 0.5, 4]},
+                                   {"frame": 19, "color": [1, 1, 1], "exponent": 0}]}},
+      "models": {"b": {"joints": [{"name": "b", "segment": {"shape": "box", "material": "m"}}]}},
+      "actors": [{"name": "b", "model": "b"}]})");
+  for (const node::Material& material : film.view().materials()) {
+    EXPECT_GE(material.color[0], 0);
+    EXPECT_LE(material.color[0], 1);
+    EXPECT_GE(material.exponent, 0);
+  }
+  EXPECT_NO_THROW(node::FilmView(film.block(), "f"));
+}
+
+std::string matrix_text(const Axes& frame) {
+  std::string text = "[";
+  for (int row = 0; row < 3; ++row) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%s[%.17g, %.17g, %.17g, %.17g]", row ? ", " : "", frame.turn[0][row],
+                  frame.turn[1][row], frame.turn[2][row], frame.place[row]);
+    text += line;
+  }
+  return text + "]";
+}
+
+TEST(Compile, RawMatricesEqualAKeyedFilm) {
+  const std::string keyed = arm_film(R"({"name": "x", "model": "arm", "keys": [
+      {"frame": 0, "place": [0, 0, 0], "pose": {"a": [0, 0, 0], "b": [0, 0, 0]}, "ease": "both"},
+      {"frame": 7, "pose": {"a": [10, 100, -50], "b": [0, 370, 0]}},
+      {"frame": 19, "place": [1, 2, 3], "pose": {"a": [180, 0, 0]}}]})");
+  const Film film = film_of(keyed);
+  Figure figure(film.models[0], film.actors[0].motion);
+  std::string matrices;
+  for (std::uint32_t frame = 0; frame < film.frames; ++frame) {
+    figure.move_to(frame);
+    matrices += (frame ? ", " : "") + ("{\"frame\": " + std::to_string(frame)) + ", \"segments\": {";
+    for (std::size_t joint = 0; joint < 2; ++joint)
+      matrices += (joint ? ", \"b\": " : "\"a\": ") +
+                  matrix_text(segment_frame(figure.frame_of(joint), film.models[0].joints[joint]));
+    matrices += "}}";
+  }
+  const CompiledFilm one = compile(film);
+  const CompiledFilm other = compiled(arm_film(R"({"name": "x", "model": "arm", "matrices": [)" + matrices + "]}"));
+  for (std::size_t segment = 0; segment < 2; ++segment)
+    for (std::uint32_t frame = 0; frame < film.frames; ++frame)
+      EXPECT_EQ(one.view().matrix_at(one.view().segments()[segment], frame),
+                other.view().matrix_at(other.view().segments()[segment], frame));
+}
+
+TEST(Compile, SizeMayBeChosenAgainstTheFilm) {
+  EXPECT_EQ(compiled(arm_film(""), {{}, {{7680, 4320}}}).view().settings().width, 7680u);
+  EXPECT_TRUE(holds(failure_of([] { compiled(arm_film(""), {{}, {{0, 5}}}); }), "1 to 16384 pixels"));
+}
+
+TEST(Compile, PlacesThatAddUpTooFarAreRefused) {
+  std::string joints = R"({"name": "j0"})";
+  for (int i = 1; i < 2000; ++i)
+    joints += ", {\"name\": \"j" + std::to_string(i) + "\", \"parent\": \"j" + std::to_string(i - 1) +
+              "\", \"place\": [1e9, 0, 0], \"segment\": {\"shape\": \"box\"}}";
+  const std::string film = R"({"frames": 1, "camera": {"eye": [0, 9, 0]}, "models": {"m": {"joints": [)" + joints +
+                           R"(]}}, "actors": [{"name": "x", "model": "m"}]})";
+  EXPECT_TRUE(holds(failure_of([&] { compiled(film); }), "x/j1001, frame 0: stands farther"));
+}
+
+}  // namespace
+}  // namespace mars::host

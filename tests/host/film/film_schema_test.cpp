@@ -1,0 +1,79 @@
+// The published schemas name exactly the keys that the readers know, and every example is read and compiled.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "host/film/compile.h"
+#include "host/film/read_film.h"
+#include "host/model/read_model.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> keys_in(const Element& schema) {
+  std::set<std::string> keys;
+  for (const Element property : *schema.find("properties")) keys.emplace(property.key());
+  return keys;
+}
+
+void expect_same_keys(const std::string& name, std::span<const Keys> known) {
+  const Document schema = read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
+  const Element definitions = *schema.root().find("$defs");
+  std::size_t objects = 1;
+  for (const Element definition : definitions) objects += definition.find("properties").has_value();
+  EXPECT_EQ(objects, known.size()) << "objects of " << name;
+  for (const Keys& keys : known) {
+    const auto definition = keys.of == name ? schema.root() : definitions.find(keys.of);
+    ASSERT_TRUE(definition) << keys.of;
+    EXPECT_EQ(keys_in(*definition), std::set<std::string>(keys.names.begin(), keys.names.end())) << keys.of;
+  }
+}
+
+TEST(Schema, NamesTheKeysOfAModel) { expect_same_keys("model", model_keys()); }
+
+TEST(Schema, NamesTheKeysOfAFilm) { expect_same_keys("film", film_keys()); }
+
+std::vector<fs::path> json_files(const char* folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(fs::path(MARS_SOURCE_DIR) / folder))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  EXPECT_FALSE(files.empty());
+  return files;
+}
+
+TEST(Examples, AllCompile) {
+  for (const fs::path& path : json_files("examples")) {
+    const CompiledFilm film = load_film(path);
+    EXPECT_NO_THROW(node::FilmView(film.block(), path.string())) << path;
+    EXPECT_GT(film.view().patch_instances(), 0u) << path;
+    EXPECT_LT(fs::file_size(path), 200'000u) << path;
+  }
+  for (const fs::path& path : json_files("examples/models")) EXPECT_FALSE(load_model(path).joints.empty()) << path;
+}
+
+TEST(Examples, MeasuringScenesHaveTheirTriangles) {
+  const auto triangles = [](const char* name) {
+    const CompiledFilm film = load_film(fs::path(MARS_SOURCE_DIR) / "examples" / name);
+    const std::uint64_t dice = film.view().settings().dice;
+    return film.view().patch_instances() * 2 * dice * dice;
+  };
+  EXPECT_EQ(triangles("s1.json"), 16'384u);
+  EXPECT_EQ(triangles("s1m.json"), 262'144u);
+  EXPECT_EQ(triangles("s2.json"), 1'638'400u);
+  const CompiledFilm s3 = load_film(fs::path(MARS_SOURCE_DIR) / "examples/s3.json");
+  ASSERT_EQ(s3.view().intervals().size(), 1u);
+  EXPECT_EQ(s3.view().intervals()[0].moving_count, 1u);
+}
+
+TEST(Examples, TheCaterpillarHasFortyJointsAndMovesAlone) {
+  const CompiledFilm film = load_film(fs::path(MARS_SOURCE_DIR) / "examples/demo.json");
+  EXPECT_EQ(load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/caterpillar.json").joints.size(), 40u);
+  for (const std::uint32_t segment : film.view().moving(film.view().intervals()[0]))
+    EXPECT_EQ(film.view().name(film.view().segments()[segment]).substr(0, 12), "caterpillar/");
+}
+
+}  // namespace
+}  // namespace mars::host

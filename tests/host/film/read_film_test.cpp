@@ -1,0 +1,134 @@
+#include "host/film/read_film.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/host/document/failure_of.h"
+#include "tests/host/film/small_film.h"
+
+namespace mars::host {
+namespace {
+
+constexpr const char* kWhole = R"({
+  "frames": 12, "rate": 25, "size": [320, 200], "background": [0.1, 0.2, 0.3], "intervals": "keyframes", "dice": 7,
+  "camera": {"at": [0, 0, 1], "fov": 50, "near": 0.5, "far": 500,
+             "keys": [{"frame": 0, "eye": [0, -9, 2]}, {"frame": 8, "eye": [1, -9, 2], "ease": "both"}]},
+  "lights": [{"direction": [0, 0, 2], "intensity": 0.5}, {"keys": [{"frame": 0, "place": [1, 2, 3]}]}],
+  "materials": {"gold": {"color": [1, 0.8, 0.2], "keys": [{"frame": 2, "exponent": 8}]}},
+  "models": {"m": {"joints": [{"name": "root", "segment": {"shape": "sphere", "material": "gold"}},
+                              {"name": "tip", "parent": "root", "limits": {"y": [0, 90]}}]}},
+  "actors": [{"name": "one", "model": "m", "place": [1, 1, 1],
+              "keys": [{"frame": 0, "pose": {"tip": [0, 10, 0]}, "ease": [0.2, 0, 0.8, 1]},
+                       {"frame": 9, "turn": [0, 0, 90], "pose": {"tip": [0, 80, 0], "root": [1, 2, 3]}}]},
+             {"name": "two", "model": "m", "matrices": [
+               {"frame": 0, "segments": {"root": [[1, 0, 0, 5], [0, 1, 0, 6], [0, 0, 1, 7]]}}]}]
+})";
+
+TEST(ReadFilm, TakesEveryKey) {
+  const Film film = film_of(kWhole);
+  EXPECT_EQ(film.frames, 12u);
+  EXPECT_EQ(film.rate, 25);
+  EXPECT_EQ(film.height, 200u);
+  EXPECT_EQ(film.cutting, Cutting::keyframes);
+  EXPECT_EQ(film.dice, 7u);
+  EXPECT_EQ(film.camera.eye.size(), 2u);
+  EXPECT_EQ(film.camera.eye[1].ease, kBoth);
+  EXPECT_EQ(film.camera.up[0].value, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(film.lights[0].vector[0].value, glm::dvec3(0, 0, 1)) << "made a unit vector";
+  EXPECT_FALSE(film.lights[1].directional);
+  const Actor& actor = film.actors[0];
+  EXPECT_EQ(actor.motion.place.size(), 1u);
+  EXPECT_EQ(actor.motion.turn[0].frame, 9u) << "a key sets only what it names";
+  EXPECT_EQ(actor.motion.pose[0].size(), 1u);
+  EXPECT_EQ(actor.motion.pose[1].size(), 2u);
+  EXPECT_EQ(actor.motion.pose[1][0].ease, (Ease{0.2, 0, 0.8, 1}));
+  EXPECT_EQ(film.actors[1].matrices[0][0].value.place, glm::dvec3(5, 6, 7));
+}
+
+struct Broken {
+  const char* actor;
+  const char* told;
+};
+
+class BrokenActor : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenActor, IsOneClearError) {
+  const std::string failure = failure_of([] { film_of(arm_film(GetParam().actor)); });
+  EXPECT_TRUE(holds(failure, "f.json:8: actors")) << failure;
+  EXPECT_TRUE(holds(failure, GetParam().told)) << failure;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BrokenActor,
+    testing::Values(
+        Broken{R"({"model": "arm"})", "has no 'name'"}, Broken{R"({"name": "x", "model": "amr"})", "did you mean 'arm'?"},
+        Broken{R"({"name": "x", "model": "arm"}, {"name": "x", "model": "arm"})", "second actor named 'x'"},
+        Broken{R"({"name": "x", "model": "arm", "material": "rad"})", "did you mean 'red'?"},
+        Broken{R"({"name": "x", "model": "arm", "materials": {"blue": "red"}})", "no material that a segment"},
+        Broken{R"({"name": "x", "model": "arm", "place": [1e10, 0, 0]})", "actors[0].place[0]: is 1e+10"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"knee": [0, 0, 0]}})", "no joint of the model 'arm'"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"b": [0, 401, 0]}})",
+               "actors[0].pose.b: joint 'b' turns 401 degrees about y, outside its limits -10 to 400"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"b": 5}})", "is a number, not a list"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"pose": {}}]})", "has no 'frame'"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 5}, {"frame": 5}]})", "ascending"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": -1}]})", "from 0"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 1.5}]})", "whole number"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": "bath"}]})", "did you mean 'both'?"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": [2, 0, 0, 1]}]})", "from 0 to 1"},
+        Broken{R"({"name": "x", "model": "arm", "place": [0, 0, 0], "keys": [{"frame": 1, "place": [0, 0, 0]}]})",
+               "is also set by keys"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"b": [0, 0, 0]}, "keys": [{"frame": 1, "pose": {"b": [0, 1, 0]}}]})",
+               "actors[0].pose.b: is also set by keys"},
+        Broken{R"({"name": "x", "model": "arm", "matrices": []})", "has no matrix of 'a' at frame 0"},
+        Broken{R"({"name": "x", "model": "arm", "matrices": [], "keys": []})", "stands beside matrices"},
+        Broken{R"({"name": "x", "model": "arm", "matrices": [{"frame": 0, "segments": {"a": [[1, 0, 0]]}}]})",
+               "has 1 items"}));
+
+TEST(ReadFilm, TellsWhatElseIsWrong) {
+  const auto told = [](const std::string& json) { return failure_of([&] { film_of(json); }); };
+  const std::string rest = R"(, "models": {}, "actors": []})";
+  EXPECT_TRUE(holds(told("{}"), "has no 'frames'"));
+  EXPECT_TRUE(holds(told("{\"frames\": 0}"), "from 1 to 1000000"));
+  EXPECT_TRUE(holds(told("{\"frames\": 1, \"size\": [0, 5]}"), "size[0]: is 0"));
+  EXPECT_TRUE(holds(told("{\"frames\": 1, \"size\": [99999, 5]}"), "to 16384"));
+  EXPECT_TRUE(holds(told("{\"frames\": 1, \"dice\": \"adaptiv\"}"), "did you mean 'adaptive'?"));
+  EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {})" + rest), "camera: has no 'eye'"));
+  EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest), "not beyond"));
+  const std::string camera = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "lights": [)";
+  EXPECT_TRUE(holds(told(camera + "{}]" + rest), "neither a direction nor a place"));
+  EXPECT_TRUE(holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
+  EXPECT_TRUE(holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
+  EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
+                    "/nowhere/m.json: there is no such file"));
+}
+
+std::string outcome_of(const std::string& json) {
+  try {
+    compiled(json);
+    return "film";
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+}
+
+TEST(ReadFilm, CutShortAnywhereIsOneClearError) {
+  const std::string whole = kWhole;
+  EXPECT_EQ(outcome_of(whole), "film");
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    EXPECT_TRUE(holds(outcome_of(whole.substr(0, length)), "f.json")) << length;
+}
+
+TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 20'000; ++round) {
+    std::string json = kWhole;
+    for (int flips = 1 + round % 3; flips > 0; --flips) json[random() % json.size()] = char(random());
+    const std::string outcome = outcome_of(json);
+    EXPECT_TRUE(outcome == "film" || holds(outcome, "f.json") || holds(outcome, "/nowhere")) << outcome;
+  }
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,32 @@
+// Small films as text, read and compiled, for tests.
+#pragma once
+
+#include <string>
+
+#include "host/film/compile.h"
+#include "host/film/read_film.h"
+
+namespace mars::host {
+
+inline Film film_of(const std::string& json) {
+  const Document document(json, "f.json");
+  return read_film(document.root(), "/nowhere");
+}
+
+inline CompiledFilm compiled(const std::string& json, const CompileOptions& options = {}) {
+  return compile(film_of(json), options);
+}
+
+// A film of an arm of two joints, `a` free and `b` a hinge about y, with more keys, and these actors.
+inline std::string arm_film(const std::string& actors, const std::string& more = "\"frames\": 20") {
+  return "{" + more + R"(,
+"camera": {"eye": [0, -9, 2]},
+"materials": {"red": {"color": [1, 0, 0]}, "glow": {"keys": [{"frame": 3, "ambient": 0}, {"frame": 6, "ambient": 1}]}},
+"models": {"arm": {"joints": [
+  {"name": "a", "segment": {"shape": "box"}},
+  {"name": "b", "parent": "a", "place": [1, 0, 0], "limits": {"y": [-10, 400]},
+   "segment": {"shape": "sphere", "sbb": [[-1, -1, -1], [1, 1, 1]], "material": "red"}}]}},
+"actors": [)" + actors + "]}";
+}
+
+}  // namespace mars::host
