@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "host/document/file.h"
 #include "host/film/compile.h"
 #include "host/film/read_film.h"
 #include "host/model/read_model.h"
@@ -52,6 +53,20 @@ TEST(Examples, AllCompile) {
     EXPECT_LT(fs::file_size(path), 200'000u) << path;
   }
   for (const fs::path& path : json_files("examples/models")) EXPECT_FALSE(load_model(path).joints.empty()) << path;
+}
+
+// The first block of JSON on a page of docs/.
+std::string worked_example(const char* page) {
+  const std::string text = read_file(fs::path(MARS_SOURCE_DIR) / "docs" / page);
+  const std::size_t start = text.find("```json") + 7;
+  return text.substr(start, text.find("```", start) - start);
+}
+
+TEST(Examples, ThoseOfTheDocumentationAreTrue) {
+  const Document film(worked_example("film-format.md"), "film-format.md");
+  EXPECT_EQ(compile(read_film(film.root(), ".")).view().segments().size(), 2u);
+  const Document model(worked_example("model-format.md"), "model-format.md");
+  EXPECT_EQ(read_model(model.root()).joints.size(), 3u);
 }
 
 TEST(Examples, MeasuringScenesHaveTheirTriangles) {
