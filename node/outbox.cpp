@@ -15,7 +15,7 @@ StripBuffer& Outbox::begin() {
   return slot.buffer;
 }
 
-void Outbox::send(Strip header) {
+void Outbox::send(Strip& header) {
   wait_for_credit(header);
   Slot& slot = slots_[current_];
   const auto message = slot.buffer.finish(header);
@@ -27,9 +27,9 @@ void Outbox::wait_for_credit(Strip& header) {
   const double start = dclock();
   while (iprobe(kCredit)) receive_credit();
   if (credits_ > 0) return;
-  header.work.credits_waited = 1;
+  ++header.work.credits_waited;
   while (credits_ == 0) receive_credit();
-  header.times.credit = dclock() - start;
+  header.times.credit += dclock() - start;
 }
 
 void Outbox::receive_credit() {

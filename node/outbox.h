@@ -13,8 +13,8 @@ class Outbox {
 
   // An empty buffer; waits until the strip last sent from it is gone.
   StripBuffer& begin();
-  // Sends what begin() gave under `header`, waiting for credit first; the wait is told in the header.
-  void send(Strip header);
+  // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it.
+  void send(Strip& header);
 
   // Receives one Credit message, waiting for it.
   void receive_credit();

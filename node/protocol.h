@@ -70,7 +70,7 @@ struct Credit {
   std::int32_t count;
 };
 
-// Seconds spent in the steps of one frame on one node.
+// Seconds spent so far in the steps of one frame on one node; the frame's last strip has them all.
 struct PhaseTimes {
   double dice;      // patches to triangles and their counts
   double sum;       // global sum of EBC
@@ -82,7 +82,7 @@ struct PhaseTimes {
   double credit;    // waiting for the host's credit
 };
 
-// What was done for one frame by one node.
+// What one node did so far for one frame; the frame's last strip has it all.
 struct WorkCounts {
   std::uint64_t patches;          // diced
   std::uint64_t vertices;
@@ -91,7 +91,7 @@ struct WorkCounts {
   std::uint64_t edge_boxes;       // drawn on its own lines
   std::uint64_t pixels;           // shaded
   std::uint64_t bytes_to_nodes;
-  std::uint64_t bytes_to_host;    // with this strip
+  std::uint64_t bytes_to_host;    // in strips
   std::uint64_t memory;           // bytes of the frame's arena in use at its fullest
   std::uint32_t passes;           // over line ranges; 1 unless memory was short
   std::uint32_t credits_waited;   // strips that had to wait for credit

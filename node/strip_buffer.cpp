@@ -38,13 +38,13 @@ void StripBuffer::added(const Shaded& shaded) {
   run_count_ += shaded.runs;
 }
 
-std::span<const std::byte> StripBuffer::finish(Strip header) {
+std::span<const std::byte> StripBuffer::finish(Strip& header) {
   header.pixels = pixel_count_;
   header.moving_runs = static_cast<std::uint32_t>(run_count_) - header.constant_runs;
   const std::size_t runs_at = sizeof header + pixel_count_ * sizeof(std::uint32_t);
   const std::size_t size = runs_at + run_count_ * sizeof(Run);
-  header.work.pixels = pixel_count_;
-  header.work.bytes_to_host = size;
+  header.work.pixels += pixel_count_;
+  header.work.bytes_to_host += size;
   std::memcpy(message_.get(), &header, sizeof header);
   if (run_count_ > 0) std::memcpy(message_.get() + runs_at, runs_.get(), run_count_ * sizeof(Run));
   return {message_.get(), size};

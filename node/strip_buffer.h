@@ -26,9 +26,9 @@ class StripBuffer {
   std::uint64_t pixel_count() const { return pixel_count_; }
   std::uint64_t run_count() const { return run_count_; }
 
-  // The message: `header` with its counts of pixels and runs set, what came before
-  // `constant_runs` runs belonging to CFB. Valid until clear().
-  std::span<const std::byte> finish(Strip header);
+  // The message, valid until clear(): `header` (the first constant_runs runs belong to CFB) with the counts of
+  // pixels and runs set, and its work's pixels and bytes to the host grown by what is sent.
+  std::span<const std::byte> finish(Strip& header);
 
  private:
   std::uint32_t* pixels() { return reinterpret_cast<std::uint32_t*>(message_.get() + sizeof(Strip)); }

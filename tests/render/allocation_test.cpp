@@ -1,0 +1,88 @@
+// Promise 5: once a film is loaded and warm, a node allocates nothing, its backend's own memory aside. Counts
+// every operator new of a node's thread, at each strip it sends.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/hal/counting_backend.h"
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+
+namespace {
+
+thread_local long allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* block = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+
+namespace mars::test {
+namespace {
+
+// Notes at each strip how many allocations its rank's thread had made by then outside the backend.
+class AllocationLog : public hal::CountingBackend {
+ public:
+  AllocationLog(hal::Backend& inner, hal::Counts& counts, std::vector<long>& log)
+      : hal::CountingBackend(inner, counts), inner_(inner), log_(log) {}
+
+  void send(int to, int type, const void* data, std::size_t length) override {
+    aside([&] { inner_.send(to, type, data, length); });
+  }
+  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    if (type == node::kStrip) log_.push_back(allocations);
+    hal::Ticket ticket{};
+    aside([&] { ticket = inner_.start_send(to, type, data, length); });
+    return ticket;
+  }
+  void take(void* buffer) override {
+    aside([&] { inner_.take(buffer); });
+  }
+
+ private:
+  template <typename Call>
+  void aside(const Call& call) {
+    const long before = allocations;
+    call();
+    allocations = before;
+  }
+
+  hal::Backend& inner_;
+  std::vector<long>& log_;
+};
+
+TEST(Allocation, NoneInSteadyState) {
+  constexpr int kNodes = 3;
+  const FilmBlock block(crowd(160, 90, 60, 3));
+  std::vector<std::vector<long>> logs(kNodes + 1);
+  for (auto& log : logs) log.reserve(10'000);
+  hal::Counts counts;
+  RunOptions options;
+  options.nodes = kNodes;
+  options.farm.cubes = 1;
+  options.wrap = [&](hal::Backend& inner) {
+    return std::make_unique<AllocationLog>(inner, counts, logs[static_cast<std::size_t>(inner.rank())]);
+  };
+  run_film(block.bytes(), options);
+  for (int node = 0; node < kNodes; ++node) {
+    const auto& log = logs[static_cast<std::size_t>(node)];
+    ASSERT_GT(log.size(), 20u);
+    EXPECT_GT(log.front(), 0) << "the hook counts";
+    EXPECT_EQ(log.back(), log[log.size() / 2]) << "node " << node << " allocated in steady state";
+  }
+}
+
+}  // namespace
+}  // namespace mars::test

@@ -1,0 +1,181 @@
+// Promise 4: the work is really divided, shown by counting what is sent and what each node says it did.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <mutex>
+#include <set>
+
+#include "tests/hal/counting_backend.h"
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+
+namespace mars::test {
+namespace {
+
+using node::FrameKind;
+using node::Strip;
+
+// Reads every strip that is sent: whether its runs lie on the lines it speaks for.
+class StripReader : public hal::CountingBackend {
+ public:
+  StripReader(hal::Backend& inner, hal::Counts& counts) : hal::CountingBackend(inner, counts) {}
+
+  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    if (type == node::kStrip) read(static_cast<const std::byte*>(data), length);
+    return hal::CountingBackend::start_send(to, type, data, length);
+  }
+
+ private:
+  static void read(const std::byte* data, std::size_t length) {
+    Strip strip;
+    std::memcpy(&strip, data, sizeof strip);
+    const std::size_t runs_at = sizeof strip + strip.pixels * sizeof(std::uint32_t);
+    for (std::size_t at = runs_at; at < length; at += sizeof(node::Run)) {
+      node::Run run;
+      std::memcpy(&run, data + at, sizeof run);
+      EXPECT_TRUE(run.line >= strip.first_line && run.line < strip.last_line) << "node " << strip.node;
+    }
+    EXPECT_TRUE(strip.kind == FrameKind::keyframe || strip.constant_runs == 0) << "an inbetween sends no CFB";
+  }
+};
+
+struct Counted {
+  FilmRun run;
+  hal::Counts counts;
+};
+
+void run_counted(const node::FilmData& film, int nodes, Counted& out, std::vector<std::uint32_t> frames = {}) {
+  RunOptions options;
+  options.nodes = nodes;
+  options.farm.cubes = 1;
+  options.farm.frames = std::move(frames);
+  options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts); };
+  out.run = run_film(FilmBlock(film).bytes(), options);
+}
+
+std::vector<Strip> of_kind(const Counted& counted, FrameKind kind) {
+  std::vector<Strip> strips;
+  for (const Strip& strip : counted.run.report.strips)
+    if (strip.kind == kind) strips.push_back(strip);
+  return strips;
+}
+
+class Division : public testing::TestWithParam<int> {
+ protected:
+  static constexpr std::uint32_t kFrames = 6;
+  const node::FilmData film_ = crowd(320, 200, kFrames, kFrames);
+};
+
+TEST_P(Division, EachNodeDicesItsOwnPatchesInAKeyframe) {
+  const int nodes = GetParam();
+  Counted alone, divided;
+  run_counted(film_, 1, alone, {0});
+  run_counted(film_, nodes, divided, {0});
+  const Strip whole = alone.run.report.strips.front();
+  const std::uint64_t share = (FilmBlock(film_).view().patch_instances() + nodes - 1) / nodes;
+  std::uint64_t patches = 0, triangles = 0, vertices = 0;
+  for (const Strip& strip : divided.run.report.strips) {
+    EXPECT_LE(strip.work.patches, share);
+    patches += strip.work.patches;
+    triangles += strip.work.triangles;
+    vertices += strip.work.vertices;
+  }
+  EXPECT_EQ(patches, whole.work.patches);
+  EXPECT_EQ(triangles, whole.work.triangles);
+  EXPECT_EQ(vertices, whole.work.vertices);
+}
+
+TEST_P(Division, EachNodeTouchesItsOwnLines) {
+  Counted counted;
+  run_counted(film_, GetParam(), counted);
+  std::map<std::int32_t, Strip> by_node;
+  for (const Strip& strip : of_kind(counted, FrameKind::keyframe)) by_node[strip.node] = strip;
+  ASSERT_EQ(by_node.size(), static_cast<std::size_t>(GetParam()));
+  std::uint32_t next = 0;
+  for (const auto& [node, strip] : by_node) {
+    EXPECT_EQ(strip.first_line, next) << "lines tile the picture in order of nodes";
+    next = strip.last_line;
+  }
+  EXPECT_EQ(next, film_.settings.height);
+}
+
+TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
+  Counted counted;
+  run_counted(film_, GetParam(), counted, {0});
+  std::uint64_t before = 0, after = 0, most = 0;
+  for (const Strip& strip : counted.run.report.strips) {
+    before += strip.work.edge_boxes_diced;
+    after += strip.work.edge_boxes;
+    most = std::max(most, strip.work.edge_boxes);
+  }
+  const Strip& any = counted.run.report.strips.front();
+  EXPECT_GT(any.edge_box_total, 0u);
+  EXPECT_EQ(before, any.edge_box_total);
+  EXPECT_EQ(after, any.edge_box_total);
+  EXPECT_NEAR(any.load_ratio, static_cast<double>(most) * GetParam() / static_cast<double>(after), 1e-9);
+  EXPECT_LT(any.load_ratio, 1.5) << "the load is about even";
+}
+
+TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
+  const int nodes = GetParam();
+  Counted counted, keyframe;
+  run_counted(film_, nodes, counted);
+  std::uint64_t moving_patches = 0;
+  for (const std::uint32_t s : film_.moving) moving_patches += film_.shapes[film_.segments[s].shape].patch_count;
+  std::set<std::int32_t> artists;
+  const auto inbetweens = of_kind(counted, FrameKind::inbetween);
+  EXPECT_EQ(inbetweens.size(), kFrames - 1u);
+  for (const Strip& strip : inbetweens) {
+    EXPECT_EQ(strip.work.bytes_to_nodes, 0u);
+    EXPECT_GT(strip.work.patches, 0u);
+    EXPECT_LE(strip.work.patches, moving_patches);
+    artists.insert(strip.node);
+  }
+  EXPECT_EQ(artists.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
+  // All triangles that nodes gave each other are the keyframe's: one message for each pair.
+  std::uint64_t triangles = 0;
+  for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = node::kTriangles + from}).messages;
+  EXPECT_EQ(triangles, static_cast<std::uint64_t>(nodes * (nodes - 1)));
+}
+
+TEST_P(Division, BytesReportedAreBytesSent) {
+  const int nodes = GetParam();
+  Counted counted;
+  run_counted(film_, nodes, counted);
+  for (int from = 0; from < nodes; ++from) {
+    std::uint64_t to_nodes = 0, to_host = 0, sent = 0;
+    for (const Strip& strip : counted.run.report.strips)
+      if (strip.node == from) {
+        to_nodes += strip.work.bytes_to_nodes;
+        to_host += strip.work.bytes_to_host;
+      }
+    for (int to = 0; to < nodes; ++to) sent += counted.counts.sent({.from = from, .to = to, .type = {}}).bytes;
+    EXPECT_EQ(to_nodes, sent) << "node " << from;
+    EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = node::kStrip}).bytes) << "node " << from;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
+
+// CZB lines travel only where moving parts can be seen, and only to nodes that draw inbetweens.
+TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
+  FilmMaker maker(200, 200, 2);
+  const std::uint32_t look = maker.add_material(kClay);
+  const std::uint32_t box = maker.add_shape(crowd(8, 8, 1, 1).patches);
+  maker.add_segment(box, look, {placed({-2, -2, -2}, 4)});
+  maker.add_segment(box, look, {placed({-0.2, -4, -1.4}, 0.4), placed({0, -4, -1.4}, 0.4)});
+  maker.set_cameras({looking({0, -9, 0}, {0, 0, 0}, 40)});
+  Counted counted;
+  run_counted(maker.make(), 4, counted);
+  std::uint64_t bytes = 0;
+  for (int from = 0; from < 4; ++from) {
+    const auto sent = counted.counts.sent({.from = from, .to = {}, .type = node::kDepthLines + from});
+    bytes += sent.bytes;
+    EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
+  }
+  EXPECT_GT(bytes, 0u);
+  EXPECT_LT(bytes, 200u * 200 * sizeof(float) / 3) << "the mover passes over less than a third of the lines";
+}
+
+}  // namespace
+}  // namespace mars::test
