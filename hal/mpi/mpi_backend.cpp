@@ -26,6 +26,8 @@ constexpr std::size_t kAlignment = 64;
 // Every few calls look at as many of the copies on their way: all are seen soon, at a small price each.
 constexpr std::size_t kReclaimAtOnce = 4;
 
+constexpr std::size_t kUsuallyPending = 1024;
+
 struct Affinity {
   cpu_set_t some;   // processors that at least one rank may use
   cpu_set_t every;  // processors that every rank may use
@@ -77,6 +79,7 @@ MpiBackend::MpiBackend(int host_rank) : host_rank_(host_rank) {
   rank_ = id(rank_in(all_));
   last_tag_ = highest_tag(all_) - nodes_;
   sent_to_.resize(nodes_ + 1);
+  pending_.reserve(kUsuallyPending);
   look_around();
 }
 

@@ -1,0 +1,102 @@
+// A backend that counts what its rank sends before handing it on: who sent how much of which type to whom.
+//   Counts counts;
+//   run_threads(nodes, host, node, counting(counts));
+//   EXPECT_EQ(counts.sent({.from = 0, .type = node::kTriangles}).messages, ...);
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <tuple>
+
+#include "hal/backend.h"
+#include "hal/threads/run_threads.h"
+
+namespace mars::hal {
+
+// Of all ranks; safe to use from all threads.
+class Counts {
+ public:
+  struct Sent {
+    std::uint64_t messages = 0;
+    std::uint64_t bytes = 0;
+  };
+  // Which messages: what is not given is any. The host's id is the number of nodes.
+  struct Which {
+    std::optional<int> from = {};
+    std::optional<int> to = {};
+    std::optional<int> type = {};
+  };
+
+  void add(int from, int to, int type, std::size_t length) {
+    const std::lock_guard lock(mutex_);
+    Sent& sent = sent_[{from, to, type}];
+    ++sent.messages;
+    sent.bytes += length;
+  }
+
+  Sent sent(const Which& which) const {
+    const std::lock_guard lock(mutex_);
+    Sent sum;
+    for (const auto& [key, sent] : sent_) {
+      const auto& [from, to, type] = key;
+      if (which.from.value_or(from) != from || which.to.value_or(to) != to ||
+          which.type.value_or(type) != type) {
+        continue;
+      }
+      sum.messages += sent.messages;
+      sum.bytes += sent.bytes;
+    }
+    return sum;
+  }
+
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    sent_.clear();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::tuple<int, int, int>, Sent> sent_;  // by from, to, type
+};
+
+class CountingBackend : public Backend {
+ public:
+  CountingBackend(Backend& inner, Counts& counts) : inner_(inner), counts_(counts) {}
+
+  int rank() const override { return inner_.rank(); }
+  int nodes() const override { return inner_.nodes(); }
+  void send(int to, int type, const void* data, std::size_t length) override {
+    counts_.add(rank(), to, type, length);
+    inner_.send(to, type, data, length);
+  }
+  Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    counts_.add(rank(), to, type, length);
+    return inner_.start_send(to, type, data, length);
+  }
+  bool sent(Ticket ticket) override { return inner_.sent(ticket); }
+  std::optional<Envelope> peek() override { return inner_.peek(); }
+  void take(void* buffer) override { inner_.take(buffer); }
+  void idle(int turn) override { inner_.idle(turn); }
+  Neighbourhood neighbourhood() override { return inner_.neighbourhood(); }
+  std::shared_ptr<std::byte> share(std::size_t bytes) override { return inner_.share(bytes); }
+  bool finish() override { return inner_.finish(); }
+  [[noreturn]] void abort(const std::string& reason) override {
+    inner_.abort(reason);
+    std::terminate();
+  }
+
+ private:
+  Backend& inner_;
+  Counts& counts_;
+};
+
+// For run_threads; `counts` outlives the run.
+inline WrapBackend counting(Counts& counts) {
+  return [&counts](Backend& backend) { return std::make_unique<CountingBackend>(backend, counts); };
+}
+
+}  // namespace mars::hal

@@ -1,0 +1,86 @@
+// A rank of jobs that must end with a failure, quickly (mpi_faults_test.cpp): argument 1 says how.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "hal/mpi/start.h"
+#include "hal/nx.h"
+#include "hal/process.h"
+#include "hal/shared_memory.h"
+
+namespace mars::hal {
+namespace {
+
+void wait_for_ever() { crecv(1, nullptr, 0); }
+
+void node_throws() {
+  if (mynode() == 1) throw std::runtime_error("a fault on purpose");
+  wait_for_ever();
+}
+
+void node_throws_sharing_memory() {
+  if (mynode() == myhost()) wait_for_ever();
+  const SharedMemory memory(1000);
+  node_throws();
+}
+
+void host_throws() {
+  if (mynode() == myhost()) throw std::runtime_error("a fault on purpose");
+  wait_for_ever();
+}
+
+void message_too_long() {
+  char bytes[200] = "";
+  if (mynode() == 0) csend(1, bytes, 200, 1, 0);
+  if (mynode() == 1) crecv(1, bytes, 100);
+  wait_for_ever();
+}
+
+// The bytes are never touched.
+void longer_than_mpi() {
+  char byte = 0;
+  if (mynode() == 0) isend(1, &byte, INT32_MAX + 1L, 1, 0);
+  wait_for_ever();
+}
+
+void too_much_shared_memory() {
+  if (mynode() != myhost()) SharedMemory(std::size_t{1} << 50);
+  wait_for_ever();
+}
+
+void nothing() {}
+
+// Nobody receives these.
+void leaves_messages() {
+  static char bytes[1 << 20];
+  csend(1, bytes, sizeof bytes, -1, 0);
+  csend(1, bytes, 8, -1, 0);
+}
+
+int run(int, char** argv) {
+  const std::map<std::string, void (*)()> faults = {
+      {"host", nothing},
+      {"node", nothing},
+      {"node_throws", node_throws},
+      {"node_throws_sharing_memory", node_throws_sharing_memory},
+      {"host_throws", host_throws},
+      {"message_too_long", message_too_long},
+      {"longer_than_mpi", longer_than_mpi},
+      {"too_much_shared_memory", too_much_shared_memory},
+      {"leaves_messages", leaves_messages},
+  };
+  faults.at(argv[1])();
+  return 0;
+}
+
+}  // namespace
+}  // namespace mars::hal
+
+int main(int argc, char** argv) {
+  using mars::hal::Role;
+  const std::string how = argc > 1 ? argv[1] : "";
+  const Role role = how == "host" ? Role::host : how == "node" ? Role::node : Role::by_rank;
+  return mars::hal::run_mpi(argc, argv, role, mars::hal::run);
+}

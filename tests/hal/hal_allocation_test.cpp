@@ -1,0 +1,97 @@
+// Steady traffic allocates nothing, on any rank: after a warm-up, operator new is counted.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hal/cube.h"
+#include "hal/nx.h"
+#include "hal/threads/run_threads.h"
+
+namespace {
+
+std::atomic<long> allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* block = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+
+namespace mars::hal {
+namespace {
+
+struct Buffers {
+  std::vector<char> out = std::vector<char>(200'000, 'x');
+  std::vector<char> in = std::vector<char>(200'000);
+  std::vector<double> values = std::vector<double>(1000);
+  std::vector<double> work = std::vector<double>(1000);
+};
+
+// Messages of many lengths, expected and not, to nodes and the host, and collectives.
+void exchange(Buffers& buffers) {
+  const long next = (mynode() + 1) % numnodes();
+  for (const long length : {0L, 8L, 100L, 5000L, 200'000L}) {
+    csend(1, buffers.out.data(), length, next, 0);
+    csend(2, buffers.out.data(), length, next, 0);
+    const long mid = isend(3, buffers.out.data(), length, next, 0);
+    crecv(3, buffers.in.data(), length);
+    crecv(2, buffers.in.data(), length);
+    cprobe(1);
+    crecv(1, buffers.in.data(), infocount());
+    msgwait(mid);
+    csend(4, buffers.out.data(), length, myhost(), 0);
+  }
+  cube_sum({0, static_cast<int>(numnodes())}, buffers.values, buffers.work);
+  long count = 0;
+  gcol(buffers.out.data(), 1000, buffers.in.data(), 200'000, &count);
+  gsync();
+}
+
+void collect(Buffers& buffers) {
+  for (long i = 0; i < 5 * numnodes(); ++i) crecv(4, buffers.in.data(), 200'000);
+  csend(5, nullptr, 0, -1, 0);
+}
+
+TEST(Allocation, NoneInSteadyState) {
+  constexpr int kWarmUp = 50;
+  constexpr int kRounds = 200;
+  long before = 0;
+  long after = 0;
+  const auto host = [&] {
+    Buffers buffers;
+    for (int round = 0; round < kWarmUp + kRounds; ++round) {
+      if (round == kWarmUp) before = allocations;
+      collect(buffers);
+    }
+    after = allocations;
+    csend(6, nullptr, 0, -1, 0);
+  };
+  const auto node = [] {
+    Buffers buffers;
+    for (int round = 0; round < kWarmUp + kRounds; ++round) {
+      exchange(buffers);
+      crecv(5, nullptr, 0);
+    }
+    crecv(6, nullptr, 0);
+  };
+  run_threads(5, host, node);
+  EXPECT_EQ(after - before, 0);
+}
+
+}  // namespace
+}  // namespace mars::hal

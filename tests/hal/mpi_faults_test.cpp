@@ -1,0 +1,95 @@
+// Jobs that cannot go on end at once, on all ranks, with the reason told once and an exit code.
+#include <stdio.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace mars::hal {
+namespace {
+
+struct Outcome {
+  int code;
+  std::string output;
+  double seconds;
+};
+
+Outcome run_job(const std::string& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string command = MPIEXEC " " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string output;
+  char line[1000];
+  while (fgets(line, sizeof line, pipe) != nullptr) output += line;
+  const int status = pclose(pipe);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output, time.count()};
+}
+
+Outcome run_ranks(int ranks, const std::string& how) {
+  return run_job(std::to_string(ranks) + " " FAULTY_JOB " " + how);
+}
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+void expect_fault(const Outcome& outcome, const std::string& reason) {
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_EQ(count(outcome.output, reason), 1) << outcome.output;
+  EXPECT_LT(outcome.seconds, 20);
+}
+
+const std::string kNeed = "one host and at least one node is needed, and this one has ";
+
+TEST(MpiFaults, NoHost) { expect_fault(run_ranks(3, "node"), kNeed + "0 hosts and 3 nodes"); }
+TEST(MpiFaults, TwoHosts) {
+  expect_fault(run_job("2 " FAULTY_JOB " host : -n 2 " FAULTY_JOB " node"), kNeed + "2 hosts and 2 nodes");
+}
+TEST(MpiFaults, NoNode) { expect_fault(run_ranks(1, "host"), kNeed + "1 hosts and 0 nodes"); }
+TEST(MpiFaults, NoNodeByRank) { expect_fault(run_ranks(1, "node_throws"), kNeed + "1 hosts and 0 nodes"); }
+
+TEST(MpiFaults, HostMayBeAnyRank) {
+  for (const std::string job : {"1 " FAULTY_JOB " host : -n 3 " FAULTY_JOB " node",
+                                "2 " FAULTY_JOB " node : -n 1 " FAULTY_JOB " host"}) {
+    const Outcome outcome = run_job(job);
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+  }
+}
+
+TEST(MpiFaults, ANodeThrows) {
+  expect_fault(run_ranks(4, "node_throws"), "mars: node 1: a fault on purpose");
+}
+TEST(MpiFaults, ANodeThrowsSharingMemory) {
+  expect_fault(run_ranks(4, "node_throws_sharing_memory"), "mars: node 1: a fault on purpose");
+}
+TEST(MpiFaults, TheHostThrows) {
+  expect_fault(run_ranks(4, "host_throws"), "mars: the host: a fault on purpose");
+}
+TEST(MpiFaults, AMessageIsTooLong) {
+  expect_fault(
+      run_ranks(3, "message_too_long"),
+      "mars: node 1, crecv: a message of 200 bytes, type 1, from node 0 does not fit a receive of 100 bytes");
+}
+TEST(MpiFaults, AMessageIsLongerThanMpiCarries) {
+  expect_fault(run_ranks(3, "longer_than_mpi"), "a message of 2147483648 bytes is longer than MPI carries");
+}
+TEST(MpiFaults, TheMachineCannotShareThatMuch) {
+  const Outcome outcome = run_ranks(3, "too_much_shared_memory");
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_NE(outcome.output.find("/dev/shm"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("--shm-size"), std::string::npos) << outcome.output;
+}
+
+TEST(MpiFaults, MessagesThatNobodyReceivesDoNotHinderTheEnd) {
+  const Outcome outcome = run_ranks(4, "leaves_messages");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_LT(outcome.seconds, 20);
+}
+
+}  // namespace
+}  // namespace mars::hal

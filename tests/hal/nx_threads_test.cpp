@@ -1,0 +1,34 @@
+// NX over threads.
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "hal/failure.h"
+#include "hal/threads/run_threads.h"
+#include "tests/hal/nx_bodies.h"
+
+namespace mars::hal {
+namespace {
+
+class NxThreads : public testing::TestWithParam<std::tuple<NxBody, int>> {};
+
+TEST_P(NxThreads, Holds) {
+  const auto [body, nodes] = GetParam();
+  // A rank that gives up must not leave the others waiting.
+  const auto run = [body = body] {
+    body.run();
+    if (testing::Test::HasFatalFailure()) throw Failure("a rank gave up", "", "");
+    meet();
+  };
+  run_threads(nodes, run, run);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, NxThreads,
+                         testing::Combine(testing::ValuesIn(nx_bodies()), testing::Values(1, 2, 3, 5, 8)),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param).name) + "_" +
+                                  std::to_string(std::get<1>(info.param));
+                         });
+
+}  // namespace
+}  // namespace mars::hal
