@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 std::set<std::string> keys_in(const Element& schema) {
   std::set<std::string> keys;
-  for (const Element property : *schema.find("properties")) keys.emplace(property.key());
+  const Element properties = *schema.find("properties");
+  for (const Element property : properties) keys.emplace(property.key());
   return keys;
 }
 
