@@ -190,7 +190,7 @@ LIGHTS = [{"direction": [-0.45, -0.6, 0.9], "color": [1.0, 0.95, 0.86]},
           {"direction": [0.9, -0.1, 0.35], "color": [0.5, 0.65, 1.0], "intensity": 0.35}]
 FLOOR = {"joints": [{"name": "floor", "limits": {},
                      "segment": {"shape": "box", "sbb": [[-80, -40, -0.2], [80, 120, 0]], "material": "floor"}}]}
-GLAZE = {"floor": paint([0.74, 0.76, 0.78], specular=0),
+GLAZE = {"floor": paint([0.74, 0.76, 0.78], specular=0, sides=1),
          "copper": paint([0.90, 0.52, 0.32], specular=0.6, exponent=50),
          "sea": paint([0.26, 0.58, 0.72]), "rose": paint([0.86, 0.40, 0.50]),
          "sand": paint([0.90, 0.78, 0.52]), "violet": paint([0.60, 0.48, 0.84])}
