@@ -26,7 +26,8 @@ Channel<Value> constant(const Value& value) {
   return {{0, value, kLinear}};
 }
 
-// Where a frame lies: `part` of the way from one key to another; from == to, part 0 on a key and where it holds.
+// Where a frame lies: `part` of the way from one key to another; from == to, part 0 on a key and where it
+// holds.
 struct Stretch {
   std::size_t from;
   std::size_t to;

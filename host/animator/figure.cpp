@@ -38,13 +38,15 @@ node::Matrix t_matrix(const Axes& frame, const Box& sbb) {
   const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
   node::Matrix matrix;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) matrix.m[row][column] = frame.turn[column][row] * extent[column];
+    for (int column = 0; column < 3; ++column)
+      matrix.m[row][column] = frame.turn[column][row] * extent[column];
     matrix.m[row][3] = origin[row];
   }
   return matrix;
 }
 
-JointMotion::JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses) : joint_(&joint), poses_(&poses) {}
+JointMotion::JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses)
+    : joint_(&joint), poses_(&poses) {}
 
 glm::dmat3 JointMotion::at(std::uint32_t frame) {
   if (poses_->empty()) return orientation(*joint_, joint_->rest());
@@ -54,8 +56,8 @@ glm::dmat3 JointMotion::at(std::uint32_t frame) {
   return joint_->freedoms() == 1 ? orientation(*joint_, hinge_pose(stretch)) : between(stretch);
 }
 
-// One freedom: the angle itself goes from key to key, so that whole turns are possible; an ease that overshoots
-// stops at the limits.
+// One freedom: the angle itself goes from key to key, so that whole turns are possible; an ease that
+// overshoots stops at the limits.
 glm::dvec3 JointMotion::hinge_pose(const Stretch& stretch) const {
   const glm::dvec3& from = (*poses_)[stretch.from].value;
   glm::dvec3 pose = from + stretch.part * ((*poses_)[stretch.to].value - from);

@@ -1,5 +1,5 @@
-// A figure in motion: the frames of all joints of a model at a frame of the film, and from them the T-matrices
-// of its segments. Joints turn relative to their parents, so limbs never come apart (thesis 3.4).
+// A figure in motion: the frames of all joints of a model at a frame of the film, and from them the
+// T-matrices of its segments. Joints turn relative to their parents, so limbs never come apart (thesis 3.4).
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -81,9 +81,9 @@ class Figure {
   Axes root_;
   bool first_ = true;
   bool still_;
-  std::vector<std::size_t> keyed_;     // joints with two keys or more
-  std::vector<JointMotion> motions_;   // one a keyed joint
-  std::vector<glm::dmat3> turns_;      // of all joints, against their parents
+  std::vector<std::size_t> keyed_;    // joints with two keys or more
+  std::vector<JointMotion> motions_;  // one a keyed joint
+  std::vector<glm::dmat3> turns_;     // of all joints, against their parents
   std::vector<Axes> frames_;
   std::vector<char> moved_;
 };

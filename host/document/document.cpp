@@ -41,7 +41,8 @@ struct Reader {
 // The parser's message without its own name and position, which where() tells better.
 std::string short_message(std::string message) {
   for (const std::string_view lead : {"] ", ": ", "syntax error while parsing "})
-    if (const auto at = message.find(lead); at != std::string::npos && at < 80) message.erase(0, at + lead.size());
+    if (const auto at = message.find(lead); at != std::string::npos && at < 80)
+      message.erase(0, at + lead.size());
   if (message.size() > 160) message = message.substr(0, 160) + " ...";
   return message;
 }
@@ -64,8 +65,12 @@ class Builder {
 
   bool null() { return add(Kind::null), true; }
   bool boolean(bool value) { return add(Kind::boolean).boolean = value, true; }
-  bool number_integer(std::int64_t value) { return add(Kind::number).number = static_cast<double>(value), true; }
-  bool number_unsigned(std::uint64_t value) { return add(Kind::number).number = static_cast<double>(value), true; }
+  bool number_integer(std::int64_t value) {
+    return add(Kind::number).number = static_cast<double>(value), true;
+  }
+  bool number_unsigned(std::uint64_t value) {
+    return add(Kind::number).number = static_cast<double>(value), true;
+  }
   bool number_float(double value, const std::string&) { return add(Kind::number).number = value, true; }
   bool string(std::string& value) {
     const std::uint64_t offset = keep(value);
@@ -103,7 +108,8 @@ class Builder {
   }
 
   std::uint64_t keep(const std::string& text) {
-    if (text.size() > kMaxText) fail("has a text of " + std::to_string(text.size()) + " bytes", "at most 4096 bytes");
+    if (text.size() > kMaxText)
+      fail("has a text of " + std::to_string(text.size()) + " bytes", "at most 4096 bytes");
     if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }))
       fail("has a text with a control character", "take it out");
     if (text.empty()) return 0;
@@ -143,18 +149,23 @@ class Builder {
 
   void refuse_double_keys(std::uint32_t object) {
     const auto& nodes = document_.nodes_;
-    const auto key_of = [&](std::uint32_t child) { return std::string_view(&document_.texts_[nodes[child].key]); };
+    const auto key_of = [&](std::uint32_t child) {
+      return std::string_view(&document_.texts_[nodes[child].key]);
+    };
     children_.clear();
-    for (std::uint32_t child = object + 1; child < nodes.size(); child = nodes[child].end) children_.push_back(child);
+    for (std::uint32_t child = object + 1; child < nodes.size(); child = nodes[child].end)
+      children_.push_back(child);
     std::sort(children_.begin(), children_.end(), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(key_of(a), a) < std::pair(key_of(b), b);
     });
-    const auto twice = std::adjacent_find(children_.begin(), children_.end(),
-                                          [&](std::uint32_t a, std::uint32_t b) { return key_of(a) == key_of(b); });
+    const auto twice =
+        std::adjacent_find(children_.begin(), children_.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return key_of(a) == key_of(b); });
     if (twice == children_.end()) return;
     document_.nodes_[object].end = static_cast<std::uint32_t>(nodes.size());
-    Element(&document_, twice[1]).refuse("stands twice in one object, first in line " +
-                                             std::to_string(nodes[*twice].line), "take one of them out");
+    Element(&document_, twice[1])
+        .refuse("stands twice in one object, first in line " + std::to_string(nodes[*twice].line),
+                "take one of them out");
   }
 
   Document& document_;

@@ -1,6 +1,7 @@
 // A JSON file as a tree of elements that remember where they stand, so that every later error can name file,
-// line, element path (actors[3].keys[1].pose.knee) and remedy. Plain JSON: no comments, no NaN, no key twice in
-// one object; nesting, text and numbers within bounds. Read by fields.h, kept only while a film or model is read.
+// line, element path (actors[3].keys[1].pose.knee) and remedy. Plain JSON: no comments, no NaN, no key twice
+// in one object; nesting, text and numbers within bounds. Read by fields.h, kept only while a film or model
+// is read.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,9 @@
 
 namespace mars::host {
 
-inline constexpr std::size_t kMaxDepth = 64;           // of lists and objects within each other
+inline constexpr std::size_t kMaxDepth = 64;  // of lists and objects within each other
 inline constexpr std::size_t kMaxElements = 60'000'000;
-inline constexpr std::size_t kMaxText = 4096;          // bytes of one string or key
+inline constexpr std::size_t kMaxText = 4096;  // bytes of one string or key
 
 enum class Kind : std::uint8_t { null, boolean, number, text, list, object };
 
@@ -31,10 +32,10 @@ class Element {
   class Iterator;
 
   Kind kind() const;
-  std::uint32_t line() const;   // from 1, where the value begins
-  std::string path() const;     // "" for the whole document
-  std::string where() const;    // "film.json:12: actors[3].place"
-  std::string_view key() const; // its key in the object that holds it, "" in a list
+  std::uint32_t line() const;    // from 1, where the value begins
+  std::string path() const;      // "" for the whole document
+  std::string where() const;     // "film.json:12: actors[3].place"
+  std::string_view key() const;  // its key in the object that holds it, "" in a list
   const Document& document() const { return *document_; }
 
   // Children of a list or object, in the file's order; none in anything else.
@@ -101,9 +102,9 @@ class Document {
       std::uint64_t count;  // of children
       bool boolean;
     };
-    std::uint32_t key;     // offset into texts_; 0: none
+    std::uint32_t key;  // offset into texts_; 0: none
     std::uint32_t parent;
-    std::uint32_t end;     // one past the last descendant
+    std::uint32_t end;  // one past the last descendant
     std::uint32_t line : 29;
     Kind kind : 3;
   };

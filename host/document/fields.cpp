@@ -19,7 +19,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     now[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        now[j] = std::min(now[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, now);
@@ -76,14 +77,16 @@ void require_kind(const Element& element, Kind kind) {
 void require_size(const Element& element, std::size_t size) {
   require_kind(element, Kind::list);
   if (element.size() != size)
-    element.refuse("has " + std::to_string(element.size()) + " items", "write " + std::to_string(size) + " of them");
+    element.refuse("has " + std::to_string(element.size()) + " items",
+                   "write " + std::to_string(size) + " of them");
 }
 
 double read_number(const Element& element, Range range) {
   require_kind(element, Kind::number);
   const double number = element.number();
   if (!(number >= range.lowest && number <= range.highest))
-    element.refuse("is " + shown(number), "write a number from " + shown(range.lowest) + " to " + shown(range.highest));
+    element.refuse("is " + shown(number),
+                   "write a number from " + shown(range.lowest) + " to " + shown(range.highest));
   return number;
 }
 
@@ -111,7 +114,8 @@ std::size_t read_choice(const Element& element, std::span<const std::string_view
   const std::string wanted = read_text(element);
   const auto at = std::find(choices.begin(), choices.end(), wanted);
   if (at == choices.end())
-    element.refuse("is " + in_quotes(wanted), did_you_mean(wanted, choices, "choose one of: " + listed(choices)));
+    element.refuse("is " + in_quotes(wanted),
+                   did_you_mean(wanted, choices, "choose one of: " + listed(choices)));
   return static_cast<std::size_t>(at - choices.begin());
 }
 

@@ -62,7 +62,8 @@ class Fields {
                       std::uint32_t highest) const;
   glm::dvec3 vector(std::string_view key, const glm::dvec3& otherwise, Range range = {}) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
-  std::size_t choice(std::string_view key, std::size_t otherwise, std::span<const std::string_view> choices) const;
+  std::size_t choice(std::string_view key, std::size_t otherwise,
+                     std::span<const std::string_view> choices) const;
 
  private:
   Element object_;

@@ -18,10 +18,14 @@ std::string reason(int error) { return std::generic_category().message(error); }
 std::uintmax_t checked_size(const fs::path& path, std::uintmax_t largest) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw Failure("there is no such file", path.string(), "check its name");
-  if (error) throw Failure("cannot be read: " + error.message(), path.string(), "check its name and permissions");
-  if (fs::is_directory(status)) throw Failure("is a directory, not a file", path.string(), "name a file in it");
-  if (!fs::is_regular_file(status)) throw Failure("is not a regular file", path.string(), "name a file on a disk");
+  if (status.type() == fs::file_type::not_found)
+    throw Failure("there is no such file", path.string(), "check its name");
+  if (error)
+    throw Failure("cannot be read: " + error.message(), path.string(), "check its name and permissions");
+  if (fs::is_directory(status))
+    throw Failure("is a directory, not a file", path.string(), "name a file in it");
+  if (!fs::is_regular_file(status))
+    throw Failure("is not a regular file", path.string(), "name a file on a disk");
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Failure("cannot be read: " + error.message(), path.string(), "check its permissions");
   if (size > largest)
@@ -37,7 +41,8 @@ std::string read_file(const fs::path& path, std::uintmax_t largest) {
   const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw Failure("cannot be read: " + reason(errno), path.string(), "check its permissions");
   content.resize(std::fread(content.data(), 1, content.size(), file.get()));
-  if (std::ferror(file.get())) throw Failure("cannot be read: " + reason(errno), path.string(), "check the disk");
+  if (std::ferror(file.get()))
+    throw Failure("cannot be read: " + reason(errno), path.string(), "check the disk");
   return content;
 }
 

@@ -16,7 +16,7 @@ namespace mars::host {
 namespace {
 
 constexpr std::size_t kMostMatrices = std::size_t{1} << 26;  // 6 GB
-constexpr double kFarthestMatrix = 1e12;                      // as node/film.h allows
+constexpr double kFarthestMatrix = 1e12;                     // as node/film.h allows
 const Axes kIdentity{};
 
 // Appends to a film's values and to one track of changes those that differ from the one before.
@@ -33,10 +33,12 @@ class TrackWriter {
 
   node::Track write(std::vector<node::Change>& changes) const { return append_changes(changes, changes_); }
 
-  static node::Track append_changes(std::vector<node::Change>& changes, const std::vector<node::Change>& more) {
+  static node::Track append_changes(std::vector<node::Change>& changes,
+                                    const std::vector<node::Change>& more) {
     if (changes.size() + more.size() > std::numeric_limits<std::uint32_t>::max())
       throw Failure("changes too often", "", "make the film shorter, or move fewer segments");
-    const node::Track track{static_cast<std::uint32_t>(changes.size()), static_cast<std::uint32_t>(more.size())};
+    const node::Track track{static_cast<std::uint32_t>(changes.size()),
+                            static_cast<std::uint32_t>(more.size())};
     changes.insert(changes.end(), more.begin(), more.end());
     return track;
   }
@@ -62,17 +64,20 @@ glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame)
   return rotation(axis, stretch.part * angle) * from;
 }
 
-std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size, const std::string& source) {
+std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size,
+                                          const std::string& source) {
   for (const std::uint32_t side : size)
     if (side < 1 || side > node::kMaxSide)
-      throw Failure("cannot be " + std::to_string(size[0]) + "x" + std::to_string(size[1]) + " pixels", source,
-                    "each side must have 1 to 16384 pixels");
+      throw Failure("cannot be " + std::to_string(size[0]) + "x" + std::to_string(size[1]) + " pixels",
+                    source, "each side must have 1 to 16384 pixels");
   return size;
 }
 
 class Compiler {
  public:
-  Compiler(const Film& film, const CompileOptions& options) : film_(film), options_(options) {}
+  Compiler(const Film& film, const CompileOptions& options) : film_(film), options_(options) {
+    for (const MaterialMotion& motion : film.materials) film_materials_.emplace(motion.name, &motion);
+  }
 
   CompiledFilm compile() {
     add_settings();
@@ -84,13 +89,16 @@ class Compiler {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what, const std::string& element, const std::string& remedy) const {
+  [[noreturn]] void fail(const std::string& what, const std::string& element,
+                         const std::string& remedy) const {
     throw Failure(what, film_.source.empty() ? element : film_.source + ": " + element, remedy);
   }
 
   void add_settings() {
-    const auto size = checked_size(options_.size.value_or(std::array{film_.width, film_.height}), film_.source);
-    data_.settings = {size[0], size[1], film_.frames, film_.dice, floats(film_.background), float(film_.rate), {}};
+    const auto size =
+        checked_size(options_.size.value_or(std::array{film_.width, film_.height}), film_.source);
+    data_.settings = {size[0],           size[1], film_.frames, film_.dice, floats(film_.background),
+                      float(film_.rate), {}};
   }
 
   node::Camera camera_at(std::uint32_t frame) const {
@@ -150,8 +158,11 @@ class Compiler {
       return float(std::clamp(value_at(channel, frame), 0.0, highest));
     };
     return {floats(glm::clamp(value_at(motion.color, frame), 0.0, 1.0)),
-            within(motion.ambient, 10), within(motion.diffuse, 10), within(motion.specular, 10),
-            within(motion.exponent, 10000), motion.sides};
+            within(motion.ambient, 10),
+            within(motion.diffuse, 10),
+            within(motion.specular, 10),
+            within(motion.exponent, 10000),
+            motion.sides};
   }
 
   node::Track look_of(const MaterialMotion& motion) {
@@ -188,8 +199,8 @@ class Compiler {
     if (!of_film)
       for (const NamedMaterial& own : film_.models[actor.model].materials)
         if (own.name == name) return shared_look(std::to_string(actor.model) + "/" + name, own.material);
-    for (const MaterialMotion& motion : film_.materials)
-      if (motion.name == name) return shared_look("/" + name, motion);
+    if (const auto found = film_materials_.find(name); found != film_materials_.end())
+      return shared_look("/" + name, *found->second);
     fail("uses the material '" + name + "', which there is not", "actor '" + actor.name + "'",
          "add it to the film's materials");
   }
@@ -226,10 +237,12 @@ class Compiler {
       for (const double number : row)
         if (!(std::abs(number) <= kFarthestMatrix))
           fail("stands farther than 1e12 from the origin",
-               std::string(&data_.names[data_.segments[writing.segment].name]) + ", frame " + std::to_string(frame),
+               std::string(&data_.names[data_.segments[writing.segment].name]) + ", frame " +
+                   std::to_string(frame),
                "use smaller places and boxes");
     if (data_.matrices.size() >= kMostMatrices)
-      fail("has more than 67 million different T-matrices", "actors", "make the film shorter, or move fewer segments");
+      fail("has more than 67 million different T-matrices", "actors",
+           "make the film shorter, or move fewer segments");
     writing.changes.push_back({frame, static_cast<std::uint32_t>(data_.matrices.size())});
     data_.matrices.push_back(matrix);
   }
@@ -242,7 +255,9 @@ class Compiler {
       const Joint& joint = model.joints[number];
       if (!joint.segment) continue;
       writings.push_back({number, data_.segments.size(), {}});
-      data_.segments.push_back({shapes[joint.segment->shape], add_name(actor.name + "/" + joint.name), {},
+      data_.segments.push_back({shapes[joint.segment->shape],
+                                add_name(actor.name + "/" + joint.name),
+                                {},
                                 find_look(actor, joint.segment->material)});
     }
     return writings;
@@ -265,7 +280,8 @@ class Compiler {
     const std::uint64_t patches = patches_of(film_.models[actor.model]);
     instances_ += patches;
     joints_ += film_.models[actor.model].joints.size();
-    if (instances_ > std::numeric_limits<std::uint32_t>::max() || joints_ > std::numeric_limits<std::uint32_t>::max())
+    if (instances_ > std::numeric_limits<std::uint32_t>::max() ||
+        joints_ > std::numeric_limits<std::uint32_t>::max())
       fail("have more than 4294967295 patches", "actors", "use fewer actors");
   }
 
@@ -285,7 +301,8 @@ class Compiler {
       for (Writing& writing : writings) {
         if (!figure.moved(writing.joint)) continue;
         const Joint& joint = model.joints[writing.joint];
-        add_matrix(writing, frame, t_matrix(segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
+        add_matrix(writing, frame,
+                   t_matrix(segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
       }
     }
   }
@@ -332,6 +349,7 @@ class Compiler {
   const Film& film_;
   const CompileOptions& options_;
   node::FilmData data_;
+  std::unordered_map<std::string_view, const MaterialMotion*> film_materials_;
   std::unordered_map<std::string, node::Track> looks_;
   std::unordered_map<std::string_view, std::uint32_t> shapes_;  // by the bits of their patches
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> model_shapes_;
@@ -352,12 +370,15 @@ void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& wanted) {
 
 }  // namespace
 
-CompiledFilm compile(const Film& film, const CompileOptions& options) { return Compiler(film, options).compile(); }
+CompiledFilm compile(const Film& film, const CompileOptions& options) {
+  return Compiler(film, options).compile();
+}
 
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {
   if (!is_compiled_film(path)) return compile(read_film(path), options);
   if (options.cutting)
-    throw Failure("is compiled, its intervals are cut", path.string(), "choose --intervals with the film file itself");
+    throw Failure("is compiled, its intervals are cut", path.string(),
+                  "choose --intervals with the film file itself");
   CompiledFilm film = load_compiled_film(path);
   if (options.size) resize(film, *options.size);
   return film;

@@ -29,7 +29,7 @@ struct CompiledFilm {
   };
 
   std::vector<Line> lines;
-  std::string source;        // file, for messages
+  std::string source;  // file, for messages
   std::uint32_t actors = 0;
   std::uint32_t joints = 0;  // of all actors
 

@@ -20,8 +20,10 @@ std::string table_of(const node::FilmView& film) {
   std::string table = "  first frame   frames   moving segments\n";
   std::size_t row = 0;
   for (const node::Interval& interval : film.intervals()) {
-    if (++row > kMostRows) return table + formatted("  ... and %zu more\n", film.intervals().size() - kMostRows);
-    table += formatted("  %11u %8u %17u\n", interval.first_frame, interval.frame_count, interval.moving_count);
+    if (++row > kMostRows)
+      return table + formatted("  ... and %zu more\n", film.intervals().size() - kMostRows);
+    table +=
+        formatted("  %11u %8u %17u\n", interval.first_frame, interval.frame_count, interval.moving_count);
   }
   return table;
 }
@@ -35,11 +37,12 @@ std::string describe(const CompiledFilm& film) {
   text += formatted("size        %u x %u\n", settings.width, settings.height);
   text += formatted("frames      %u at %g a second, %.2f seconds\n", settings.frames, settings.rate,
                     settings.frames / settings.rate);
-  text += settings.dice == 0 ? "dicing      adaptive\n" : formatted("dicing      %u x %u\n", settings.dice, settings.dice);
+  text += settings.dice == 0 ? "dicing      adaptive\n"
+                             : formatted("dicing      %u x %u\n", settings.dice, settings.dice);
   text += formatted("actors      %u with %u joints\n", film.actors, film.joints);
   text += formatted("segments    %zu of %zu shapes\n", view.segments().size(), view.shapes().size());
-  text += formatted("patches     %llu, %zu of them stored\n", static_cast<unsigned long long>(view.patch_instances()),
-                    view.patches().size());
+  text += formatted("patches     %llu, %zu of them stored\n",
+                    static_cast<unsigned long long>(view.patch_instances()), view.patches().size());
   text += formatted("lights      %zu\n", view.light_tracks().size());
   text += formatted("matrices    %zu\n", view.matrices().size());
   text += formatted("bytes       %zu\n", film.block().size());

@@ -1,6 +1,6 @@
-// A film as a person describes it: settings, camera, lights, materials, models and actors with their keys; what a
-// film file (docs/film-format.md) holds, with names resolved. compile.h makes the compiled film from it.
-// World: right-handed, z up. Angles in degrees, colours 0..1 as shown, frames from 0.
+// A film as a person describes it: settings, camera, lights, materials, models and actors with their keys;
+// what a film file (docs/film-format.md) holds, with names resolved. compile.h makes the compiled film from
+// it. World: right-handed, z up. Angles in degrees, colours 0..1 as shown, frames from 0.
 #pragma once
 
 #include <cstdint>
@@ -48,9 +48,11 @@ struct Actor {
   std::string name;
   std::size_t model;
   FigureMotion motion;
-  std::vector<Channel<Axes>> matrices;  // one a joint, each with a key at frame 0 where it has a segment; or none
-  std::string material;                  // of the film, for all segments; "": the model's
-  std::vector<std::pair<std::string, std::string>> materials;  // else: the model's name, and the film's instead
+  // Of each joint, with a key at frame 0 where it has a segment; or empty.
+  std::vector<Channel<Axes>> matrices;
+  std::string material;  // of the film, for all segments; "": the model's
+  // Else: names of the model's materials, and of the film's instead.
+  std::vector<std::pair<std::string, std::string>> materials;
 };
 
 struct Film {

@@ -64,7 +64,8 @@ class Cutter {
     const auto movers = movers_of(starts, interval_of);
     for (std::size_t i = 0; i < starts.size(); ++i) {
       const std::uint32_t end = end_of(starts, i);
-      const bool global = std::find(global_.begin() + starts[i] + 1, global_.begin() + end, true) != global_.begin() + end;
+      const bool global =
+          std::find(global_.begin() + starts[i] + 1, global_.begin() + end, true) != global_.begin() + end;
       const node::Track list = add_list(global ? everything() : movers[i], film);
       film.intervals.push_back({starts[i], end - starts[i], list.first, list.count});
     }
@@ -117,7 +118,8 @@ class Cutter {
     std::vector<Frames> movers(starts.size());
     visit_changes([&](std::uint32_t segment, std::uint32_t frame) {
       Frames& list = movers[interval_of[frame]];
-      if (frame != starts[interval_of[frame]] && (list.empty() || list.back() != segment)) list.push_back(segment);
+      if (frame != starts[interval_of[frame]] && (list.empty() || list.back() != segment))
+        list.push_back(segment);
     });
     return movers;
   }
@@ -144,8 +146,8 @@ class Cutter {
   }
 
   const node::FilmData& film_;
-  std::vector<char> global_;      // frames at which camera or a light changes
-  std::vector<double> weights_;   // patches of each segment
+  std::vector<char> global_;     // frames at which camera or a light changes
+  std::vector<double> weights_;  // patches of each segment
   double all_ = 0;
 };
 

@@ -17,8 +17,8 @@ constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "near", "
 constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "ease"};
 constexpr std::string_view kLightNames[] = {"direction", "place", "color", "intensity", "keys"};
 constexpr std::string_view kLightKeyNames[] = {"frame", "direction", "place", "color", "intensity", "ease"};
-constexpr std::string_view kFilmMaterialNames[] = {"color", "ambient", "diffuse", "specular", "exponent", "sides",
-                                                   "keys"};
+constexpr std::string_view kFilmMaterialNames[] = {"color",    "ambient", "diffuse", "specular",
+                                                   "exponent", "sides",   "keys"};
 constexpr std::string_view kMaterialKeyNames[] = {"frame",    "color",    "ambient", "diffuse",
                                                   "specular", "exponent", "ease"};
 constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",    "pose",
@@ -36,7 +36,18 @@ constexpr Keys kKeys[] = {{"film", kFilmNames},
                           {"actor", kActorNames},
                           {"actor_key", kActorKeyNames},
                           {"matrices_key", kMatricesNames}};
-enum KeySet { kFilm, kCamera, kCameraKey, kLight, kLightKey, kFilmMaterial, kMaterialKey, kActor, kActorKey, kMatrices };
+enum KeySet {
+  kFilm,
+  kCamera,
+  kCameraKey,
+  kLight,
+  kLightKey,
+  kFilmMaterial,
+  kMaterialKey,
+  kActor,
+  kActorKey,
+  kMatrices
+};
 
 constexpr Range kColors{0, 1};
 constexpr Range kShares{0, 10};
@@ -73,7 +84,8 @@ std::uint32_t read_dice(const Element& element) {
   constexpr std::string_view adaptive[] = {"adaptive"};
   if (element.kind() == Kind::number) return read_count(element, 1, 256);
   if (element.kind() == Kind::text) return static_cast<std::uint32_t>(read_choice(element, adaptive));
-  element.refuse(std::string("is ") + name_of(element.kind()), "write \"adaptive\" or a number of quads a side");
+  element.refuse(std::string("is ") + name_of(element.kind()),
+                 "write \"adaptive\" or a number of quads a side");
 }
 
 CameraMotion read_camera(const Element& element) {
@@ -94,7 +106,8 @@ CameraMotion read_camera(const Element& element) {
   camera.near = fields.number("near", camera.near, {1e-6, 1e9});
   camera.far = fields.number("far", camera.far, {1e-6, 1e10});
   if (camera.far <= camera.near)
-    element.refuse("has far " + shown(camera.far) + ", not beyond near " + shown(camera.near), "make far larger");
+    element.refuse("has far " + shown(camera.far) + ", not beyond near " + shown(camera.near),
+                   "make far larger");
   return camera;
 }
 
@@ -161,7 +174,7 @@ class ActorReader {
   ActorReader(const Film& film, std::vector<std::string> model_names)
       : film_(film), model_names_(std::move(model_names)), joints_(film.models.size()) {
     for (std::size_t i = 0; i < model_names_.size(); ++i) models_.emplace(model_names_[i], i);
-    for (const MaterialMotion& material : film.materials) materials_.push_back(material.name);
+    for (const MaterialMotion& material : film.materials) materials_.insert(material.name);
   }
 
   Actor read(const Element& element) {
@@ -190,10 +203,10 @@ class ActorReader {
 
   std::string film_material(const Element& element) const {
     const std::string name = read_text(element);
-    if (std::find(materials_.begin(), materials_.end(), name) == materials_.end())
-      element.refuse("is '" + name + "', which is none of the film's materials",
-                     did_you_mean(name, materials_, "add it to the film's materials"));
-    return name;
+    if (materials_.contains(name)) return name;
+    const std::vector<std::string_view> names(materials_.begin(), materials_.end());
+    element.refuse("is '" + name + "', which is none of the film's materials",
+                   did_you_mean(name, names, "add it to the film's materials"));
   }
 
   void read_materials(const Element& element, Actor& actor) const {
@@ -243,7 +256,8 @@ class ActorReader {
       const glm::dvec3 pose = read_vector(item, kDegrees);
       const Joint& joint = model_of(actor).joints[number];
       if (const auto broken = broken_limit(joint, pose))
-        item.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
+        item.refuse("joint '" + joint.name + "' " + *broken,
+                    "keep it within the limits, or widen them in its model");
       actor.motion.pose[number].push_back({frame, pose, ease});
     }
   }
@@ -298,7 +312,7 @@ class ActorReader {
   const Film& film_;
   std::vector<std::string> model_names_;
   std::unordered_map<std::string, std::size_t> models_;
-  std::vector<std::string_view> materials_;
+  std::unordered_set<std::string_view> materials_;
   std::vector<std::unordered_map<std::string_view, std::size_t>> joints_;  // of each model, filled when asked
   std::unordered_set<std::string> names_;
 };
@@ -308,7 +322,8 @@ Model read_film_model(const Element& element, const Film& film, const std::files
   for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
   if (element.kind() == Kind::text) return load_model(folder / read_text(element), materials);
   if (element.kind() != Kind::object)
-    element.refuse(std::string("is ") + name_of(element.kind()), "name a model file, or write the model here");
+    element.refuse(std::string("is ") + name_of(element.kind()),
+                   "name a model file, or write the model here");
   return read_model(element, materials);
 }
 

@@ -1,4 +1,5 @@
-// Film files (docs/film-format.md): from JSON to a Film. Every name is resolved, every range and limit checked.
+// Film files (docs/film-format.md): from JSON to a Film. Every name is resolved, every range and limit
+// checked.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Reading of keyed values: "keys" lists whose items hold any of some channels, beside the same keys in the object
-// itself for channels that no key names.
+// Reading of keyed values: "keys" lists whose items hold any of some channels, beside the same keys in the
+// object itself for channels that no key names.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -42,7 +42,8 @@ void add_key(Channel<Value>& channel, const Fields& fields, std::string_view key
 
 // A channel that no key names takes the object's own value, else `otherwise`.
 template <typename Value, typename Read>
-void settle(Channel<Value>& channel, const Fields& fields, std::string_view key, const Value& otherwise, Read read) {
+void settle(Channel<Value>& channel, const Fields& fields, std::string_view key, const Value& otherwise,
+            Read read) {
   const auto element = fields.find(key);
   if (element && !channel.empty())
     element->refuse("is also set by keys", "take it out here, or out of every key");

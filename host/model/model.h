@@ -1,11 +1,12 @@
 // A model: a tree of joints, each with at most one base segment. What a model file holds, with names resolved
 // and primitives made into patches.
 //
-// Frames. At rest a joint's frame is parallel to its parent's; place and axes are vectors in the parent's frame.
-// A pose (a, b, c), in degrees, turns it by R = Rot(x, a) Rot(y, b) Rot(z, c) about the unit axes as already
-// turned (column vectors), z along x cross y. So F = F_parent * translate(place) * R, and children are never
-// sheared. The base segment's T-matrix is F * [X Y Z] * (unit cube to sbb), where X and Y are the unit axes and
-// Z = X x Y: skewed axes shear it (thesis 2.3). Limits bound exactly the three numbers of the pose.
+// Frames. At rest a joint's frame is parallel to its parent's; place and axes are vectors in the parent's
+// frame. A pose (a, b, c), in degrees, turns it by R = Rot(x, a) Rot(y, b) Rot(z, c) about the unit axes as
+// already turned (column vectors), z along x cross y. So F = F_parent * translate(place) * R, and children
+// are never sheared. The base segment's T-matrix is F * [X Y Z] * (unit cube to sbb), where X and Y are the
+// unit axes and Z = X x Y: skewed axes shear it (thesis 2.3). Limits bound exactly the three numbers of the
+// pose.
 #pragma once
 
 #include <array>
@@ -43,7 +44,7 @@ struct Shape {
 };
 
 struct Segment {
-  std::size_t shape;     // index into the model's shapes
+  std::size_t shape;  // index into the model's shapes
   Box sbb;
   std::string material;  // of the model, else of the film; "": the default one
 };
@@ -57,8 +58,8 @@ struct Joint {
   std::array<Limits, 3> limits;
   std::optional<Segment> segment;
 
-  glm::dvec3 rest() const;    // the pose nearest to zero that the limits allow
-  int freedoms() const;       // axes about which it can turn
+  glm::dvec3 rest() const;  // the pose nearest to zero that the limits allow
+  int freedoms() const;     // axes about which it can turn
 };
 
 struct NamedMaterial {

@@ -37,7 +37,8 @@ class Words {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size())
       fail("has " + quoted(word) + " for " + of, "write a number");
-    if (!(std::abs(value) <= kFarthest)) fail("has " + quoted(word) + " for " + of, "at most 1e9 from the origin");
+    if (!(std::abs(value) <= kFarthest))
+      fail("has " + quoted(word) + " for " + of, "at most 1e9 from the origin");
     rest_.remove_prefix(word.size());
     return value;
   }
@@ -49,7 +50,8 @@ class Words {
  private:
   static std::string quoted(std::string_view word) {
     std::string text(word.substr(0, 40));
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
     return "'" + text + "'";
   }
 
@@ -63,18 +65,21 @@ using Points = std::vector<glm::dvec3>;
 Points read_points(Words& words) {
   const double count = words.number("the number of patches");
   if (!(count >= 1 && count <= kMostPatches && count == std::floor(count)))
-    words.fail("has no sensible number of patches", "begin with the number of patches, a whole number from 1");
+    words.fail("has no sensible number of patches",
+               "begin with the number of patches, a whole number from 1");
   Points points;
   for (std::size_t patch = 0; patch < static_cast<std::size_t>(count); ++patch) {
     const double u = words.number("a patch's first degree"), v = words.number("a patch's second degree");
     if (u != 3 || v != 3)
-      words.fail("has a patch of degrees " + shown(u) + " " + shown(v), "only bicubic patches, 3 3, can be read");
+      words.fail("has a patch of degrees " + shown(u) + " " + shown(v),
+                 "only bicubic patches, 3 3, can be read");
     for (int point = 0; point < 16; ++point) {
       const double x = words.number("x"), y = words.number("y"), z = words.number("z");
       points.emplace_back(x, y, z);
     }
   }
-  if (!words.at_end()) words.fail("goes on after its last patch", "check the number of patches in its first line");
+  if (!words.at_end())
+    words.fail("goes on after its last patch", "check the number of patches in its first line");
   return points;
 }
 
@@ -149,14 +154,17 @@ PatchFile read_patch_file(const std::filesystem::path& path) {
   return file;
 }
 
-std::string import_patches(const std::filesystem::path& from, const std::filesystem::path& to, std::string joint) {
+std::string import_patches(const std::filesystem::path& from, const std::filesystem::path& to,
+                           std::string joint) {
   if (joint.empty()) joint = from.stem().string();
-  const bool plain = !joint.empty() && joint.size() <= 100 && joint.find('/') == std::string::npos &&
-                     std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
+  const bool plain =
+      !joint.empty() && joint.size() <= 100 && joint.find('/') == std::string::npos &&
+      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
   if (!plain) throw Failure("cannot name a joint", joint, "choose a name of 1 to 100 bytes without '/'");
   const PatchFile file = read_patch_file(from);
   write_whole_file(to, model_text(file, joint));
-  return to.string() + ": model of one joint '" + joint + "', " + std::to_string(file.patches.size()) + " patches";
+  return to.string() + ": model of one joint '" + joint + "', " + std::to_string(file.patches.size()) +
+         " patches";
 }
 
 }  // namespace mars::host

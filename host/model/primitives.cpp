@@ -12,9 +12,9 @@ struct Flat {
   double y;
 };
 
-constexpr std::size_t kArcs = 8;                             // in a whole turn
-constexpr double kHandle = 0.26521648983954400922;           // 4/3 tan(45 degrees / 4)
-constexpr double kDiagonal = 0.70710678118654752440;         // sin 45 degrees
+constexpr std::size_t kArcs = 8;                      // in a whole turn
+constexpr double kHandle = 0.26521648983954400922;    // 4/3 tan(45 degrees / 4)
+constexpr double kDiagonal = 0.70710678118654752440;  // sin 45 degrees
 
 // Control points of a unit circle from (1, 0) on, counter-clockwise; its quarters are the same numbers.
 std::array<Flat, 3 * kArcs> circle() {
@@ -27,7 +27,8 @@ std::array<Flat, 3 * kArcs> circle() {
 
 float placed(double coordinate) { return static_cast<float>(0.5 + 0.5 * coordinate); }
 
-// Turns a profile of cubic curves, points (radius, height) in -1..1, about the z axis. Outside is on its right.
+// Turns a profile of cubic curves, points (radius, height) in -1..1, about the z axis. Outside is on its
+// right.
 std::vector<node::Patch> revolve(const std::vector<Flat>& profile) {
   const auto ring = circle();
   std::vector<node::Patch> patches;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "host/model/primitives.h"
@@ -14,7 +15,8 @@ namespace mars::host {
 namespace {
 
 constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials"};
-constexpr std::string_view kJointNames[] = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"};
+constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
+                                            "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
 constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "top", "tube", "lid"};
 
@@ -86,14 +88,15 @@ class ModelReader {
     require_kind(element, Kind::object);
     for (const Element item : element)
       model_.materials.push_back({checked_name(item, item.key()), read_material(Fields(item, kMaterial))});
-    for (const NamedMaterial& material : model_.materials) material_names_.push_back(material.name);
+    for (const NamedMaterial& material : model_.materials) material_names_.insert(material.name);
   }
 
   void read_shapes(const Element& element) {
     require_kind(element, Kind::object);
     for (const Element item : element) {
       const std::string name = checked_name(item, item.key());
-      if (std::any_of(std::begin(kPrimitives), std::end(kPrimitives), [&](const Primitive& p) { return p.name == name; }))
+      if (std::any_of(std::begin(kPrimitives), std::end(kPrimitives),
+                      [&](const Primitive& p) { return p.name == name; }))
         item.refuse("has the name of a primitive", "choose another name");
       require_kind(item, Kind::list);
       if (item.size() == 0) item.refuse("has no patches", "give at least one, or take the shape out");
@@ -104,7 +107,8 @@ class ModelReader {
     own_shapes_ = model_.shapes.size();
   }
 
-  // The shape that `fields` names: one of the model's own, or a primitive, made once for each value of its option.
+  // The shape that `fields` names: one of the model's own, or a primitive, made once for each value of its
+  // option.
   std::size_t read_shape(const Fields& fields) {
     const Element element = fields.required("shape");
     const std::string name = read_text(element);
@@ -112,9 +116,11 @@ class ModelReader {
                                               [&](const Primitive& p) { return p.name == name; });
     refuse_other_options(fields, primitive == std::end(kPrimitives) ? "" : primitive->option, name);
     if (primitive == std::end(kPrimitives)) return find_own_shape(element, name);
-    const double option =
-        primitive->option.empty() ? 0 : fields.number(primitive->option, primitive->otherwise, primitive->range);
-    const auto [made, is_new] = primitives_.try_emplace(name + " " + std::to_string(option), model_.shapes.size());
+    const double option = primitive->option.empty()
+                              ? 0
+                              : fields.number(primitive->option, primitive->otherwise, primitive->range);
+    const auto [made, is_new] =
+        primitives_.try_emplace(name + " " + std::to_string(option), model_.shapes.size());
     if (is_new) model_.shapes.push_back({name, primitive->make(option)});
     return made->second;
   }
@@ -131,7 +137,8 @@ class ModelReader {
   static void refuse_other_options(const Fields& fields, std::string_view own, const std::string& shape) {
     for (const Primitive& other : kPrimitives)
       if (const auto option = fields.find(other.option); option && other.option != own)
-        option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape, "take it out");
+        option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape,
+                       "take it out");
   }
 
   static Box read_box(const Element& element) {
@@ -151,10 +158,12 @@ class ModelReader {
     const Fields fields(element, kSegment);
     Segment segment{read_shape(fields), {}, fields.text("material", "")};
     if (const auto sbb = fields.find("sbb")) segment.sbb = read_box(*sbb);
-    const auto known = std::find(material_names_.begin(), material_names_.end(), segment.material);
-    if (!segment.material.empty() && known == material_names_.end())
-      fields.find("material")->refuse("is '" + segment.material + "', which is no material of the model or the film",
-                                      did_you_mean(segment.material, material_names_, "add it to the materials"));
+    if (!segment.material.empty() && !material_names_.contains(segment.material)) {
+      const std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
+      fields.find("material")
+          ->refuse("is '" + segment.material + "', which is no material of the model or the film",
+                   did_you_mean(segment.material, names, "add it to the materials"));
+    }
     return segment;
   }
 
@@ -208,7 +217,8 @@ class ModelReader {
       const auto [first, is_new] = numbers_.try_emplace(joint.name, elements.size());
       if (!is_new)
         element.refuse("is a second joint named '" + joint.name + "', the first is in line " +
-                           std::to_string(elements[first->second].line()), "give every joint its own name");
+                           std::to_string(elements[first->second].line()),
+                       "give every joint its own name");
       elements.push_back(element);
       model_.joints.push_back(std::move(joint));
     }
@@ -222,8 +232,9 @@ class ModelReader {
     const std::string name = read_text(*parent);
     const auto found = numbers_.find(name);
     if (found != numbers_.end()) return found->second;
-    parent->refuse("is '" + name + "', which is no joint of this model",
-                   did_you_mean(name, names_of(model_.joints), "name a joint of this model, or leave parent out"));
+    parent->refuse(
+        "is '" + name + "', which is no joint of this model",
+        did_you_mean(name, names_of(model_.joints), "name a joint of this model, or leave parent out"));
   }
 
   // Orders the joints as in the file, but each after its ancestors.
@@ -235,7 +246,8 @@ class ModelReader {
     for (std::size_t first = 0; first < joints.size(); ++first) {
       for (std::size_t at = first; at != kNone && state[at] != State::placed; at = joints[at].parent) {
         if (state[at] == State::waiting)
-          elements[at].refuse("joint '" + joints[at].name + "' is its own ancestor", "break the cycle of parents");
+          elements[at].refuse("joint '" + joints[at].name + "' is its own ancestor",
+                              "break the cycle of parents");
         state[at] = State::waiting;
         chain.push_back(at);
       }
@@ -256,7 +268,7 @@ class ModelReader {
 
   Model model_;
   std::size_t own_shapes_ = 0;  // those of the file come first
-  std::vector<std::string_view> material_names_;
+  std::unordered_set<std::string_view> material_names_;
   std::unordered_map<std::string, std::size_t> primitives_;  // name and option: number of the shape
   std::unordered_map<std::string, std::size_t> numbers_;     // of joints, as in the file
 };
@@ -267,8 +279,10 @@ std::span<const Keys> model_keys() { return kKeys; }
 
 std::string checked_name(const Element& element, std::string_view name) {
   if (name.empty()) element.refuse("has an empty name", "write a name");
-  if (name.size() > 100) element.refuse("has a name of " + std::to_string(name.size()) + " bytes", "at most 100 bytes");
-  if (name.find('/') != std::string_view::npos) element.refuse("has a name with '/'", "use '-' or '_' instead");
+  if (name.size() > 100)
+    element.refuse("has a name of " + std::to_string(name.size()) + " bytes", "at most 100 bytes");
+  if (name.find('/') != std::string_view::npos)
+    element.refuse("has a name with '/'", "use '-' or '_' instead");
   return std::string(name);
 }
 

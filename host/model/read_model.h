@@ -1,5 +1,5 @@
-// Model files (docs/model-format.md): from JSON to a Model. Every name is resolved and every range checked here,
-// so that what follows may trust a Model.
+// Model files (docs/model-format.md): from JSON to a Model. Every name is resolved and every range checked
+// here, so that what follows may trust a Model.
 #pragma once
 
 #include <filesystem>
@@ -26,6 +26,7 @@ std::string checked_name(const Element& element, std::string_view name);
 // What the objects of a model file may hold, as docs/schema/model.schema.json names them.
 std::span<const Keys> model_keys();
 
-inline constexpr std::string_view kMaterialKeys[] = {"color", "ambient", "diffuse", "specular", "exponent", "sides"};
+inline constexpr std::string_view kMaterialKeys[] = {"color",    "ambient",  "diffuse",
+                                                     "specular", "exponent", "sides"};
 
 }  // namespace mars::host

@@ -49,14 +49,16 @@ TEST(Orientation, SkewAxesStillTurnRigidly) {
   const glm::dmat3 turn = orientation(joint, {20, 30, 40});
   EXPECT_LT(difference(turn * glm::transpose(turn), glm::dmat3(1)), 1e-15);
   const double angle = 30 * std::acos(-1.0) / 180;
-  EXPECT_LT(difference(orientation(joint, {0, 30, 0}), glm::mat3_cast(glm::angleAxis(angle, joint.y_axis))), 1e-15);
+  EXPECT_LT(difference(orientation(joint, {0, 30, 0}), glm::mat3_cast(glm::angleAxis(angle, joint.y_axis))),
+            1e-15);
 }
 
 TEST(Limits, BoundExactlyTheThreeNumbers) {
   Joint joint;
   joint.limits = {{{0, 0}, {-10, 150}, {-180, 180}}};
   EXPECT_FALSE(broken_limit(joint, {0, 150, -180}));
-  EXPECT_EQ(*broken_limit(joint, {0, 150.5, 0}), "turns 150.5 degrees about y, outside its limits -10 to 150");
+  EXPECT_EQ(*broken_limit(joint, {0, 150.5, 0}),
+            "turns 150.5 degrees about y, outside its limits -10 to 150");
   EXPECT_TRUE(holds(*broken_limit(joint, {1e-9, 0, 0}), "about x"));
 }
 
@@ -91,7 +93,8 @@ TEST(Figure, LimbsNeverComeApart) {
     for (const std::size_t joint : {1u, 2u}) {
       EXPECT_NEAR(distance(figure.frame_of(joint).place, figure.frame_of(joint - 1).place), 1, 1e-14);
       const Axes& parent = figure.frame_of(joint - 1);
-      EXPECT_LT(distance(figure.frame_of(joint).place, parent.turn * glm::dvec3(1, 0, 0) + parent.place), 1e-14);
+      EXPECT_LT(distance(figure.frame_of(joint).place, parent.turn * glm::dvec3(1, 0, 0) + parent.place),
+                1e-14);
     }
   }
 }
@@ -106,7 +109,8 @@ TEST(Figure, FreeJointsFollowSlerpBetweenKeys) {
   const glm::dquat last = glm::quat_cast(orientation(joint, {-100, 60, 150}));
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
     figure.move_to(frame);
-    EXPECT_LT(difference(figure.frame_of(1).turn, glm::mat3_cast(glm::slerp(first, last, frame / 10.0))), 1e-12);
+    EXPECT_LT(difference(figure.frame_of(1).turn, glm::mat3_cast(glm::slerp(first, last, frame / 10.0))),
+              1e-12);
   }
 }
 
@@ -120,7 +124,8 @@ TEST(Figure, HingesMakeWholeTurnsAndKeepTheirLimits) {
   arm.key(1, 8, {0, 720, 0});
   Figure figure(arm.model, arm.motion);
   figure.move_to(1);
-  EXPECT_GE(std::atan2(figure.frame_of(0).turn[0].y, figure.frame_of(0).turn[0].x), -30.0001 * std::acos(-1.0) / 180)
+  EXPECT_GE(std::atan2(figure.frame_of(0).turn[0].y, figure.frame_of(0).turn[0].x),
+            -30.0001 * std::acos(-1.0) / 180)
       << "an ease that swings back stops at the limit";
   JointMotion hinge(arm.model.joints[1], arm.motion.pose[1]);
   for (std::uint32_t frame = 0; frame <= 8; ++frame)

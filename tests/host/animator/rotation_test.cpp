@@ -48,12 +48,15 @@ TEST(TurnBetween, FollowsSlerp) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 2000; ++i) {
-    const auto any = [&] { return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))); };
+    const auto any = [&] {
+      return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+    };
     const glm::dquat first = any(), last = any();
     const glm::dmat3 start = glm::mat3_cast(first);
     const Turn turn = turn_between(start, glm::mat3_cast(last));
     for (const double part : {0.0, 0.25, 0.5, 0.9, 1.0})
-      EXPECT_LT(difference(rotation(turn.axis, part * turn.angle) * start, glm::mat3_cast(glm::slerp(first, last, part))),
+      EXPECT_LT(difference(rotation(turn.axis, part * turn.angle) * start,
+                           glm::mat3_cast(glm::slerp(first, last, part))),
                 1e-11 / std::max(1e-6, kPi - turn.angle));
   }
 }
@@ -61,7 +64,8 @@ TEST(TurnBetween, FollowsSlerp) {
 TEST(TurnBetween, NothingTurnsAtZero) {
   for (const glm::dvec3& axis : axes()) {
     const glm::dmat3 any = rotation(axis, 0.7);
-    EXPECT_EQ(turn_between(any, any).angle, 0) << "the product with the transpose is not the identity to the bit";
+    EXPECT_EQ(turn_between(any, any).angle, 0)
+        << "the product with the transpose is not the identity to the bit";
   }
 }
 
@@ -83,19 +87,22 @@ TEST(TurnBetween, NearHalfATurnKeepsAxisAndAngle) {
       EXPECT_NEAR(turn.angle, kPi - less, 1e-13);
       EXPECT_LT(glm::length(turn.axis - axis), 1e-6) << less;
       EXPECT_LT(difference(rotation(turn.axis, turn.angle) * start, last), 1e-13);
-      EXPECT_LT(difference(rotation(turn.axis, turn.angle / 2) * start, rotation(axis, (kPi - less) / 2) * start),
-                1e-6);
+      EXPECT_LT(
+          difference(rotation(turn.axis, turn.angle / 2) * start, rotation(axis, (kPi - less) / 2) * start),
+          1e-6);
     }
 }
 
 TEST(TurnBetween, HalfATurnGoesAboutTheAxisWithItsLargestComponentPositive) {
   for (const glm::dvec3& axis : axes()) {
-    const glm::dmat3 last = 2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);  // to the bit as good as it gets
+    const glm::dmat3 last =
+        2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);  // to the bit as good as it gets
     const Turn turn = turn_between(glm::dmat3(1), last);
     EXPECT_NEAR(turn.angle, kPi, 1e-12);
     const glm::dvec3 size = glm::abs(turn.axis);
     const double largest = std::max({size.x, size.y, size.z});
-    EXPECT_GT(std::max({turn.axis.x, turn.axis.y, turn.axis.z}), largest - 1e-9) << "of " << axis.x << axis.y << axis.z;
+    EXPECT_GT(std::max({turn.axis.x, turn.axis.y, turn.axis.z}), largest - 1e-9)
+        << "of " << axis.x << axis.y << axis.z;
     EXPECT_LT(difference(rotation(turn.axis, turn.angle), last), 1e-12);
     const glm::dquat half = glm::angleAxis(kPi / 2, glm::dot(turn.axis, axis) > 0 ? axis : -axis);
     EXPECT_LT(difference(rotation(turn.axis, turn.angle / 2), glm::mat3_cast(half)), 1e-12);

@@ -49,9 +49,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Malformed{"", "is empty"}, Malformed{" \n\t", "is empty"},
                     Malformed{"{", "may be cut short"}, Malformed{"{\"a\": [1, 2", "may be cut short"},
                     Malformed{"{\n\"a\": tru}", "a.json:2"}, Malformed{"{\"a\": NaN}", "not JSON"},
-                    Malformed{"{\"a\": 1e999}", "number overflow"}, Malformed{"{\"a\": -Infinity}", "not JSON"},
-                    Malformed{"// hello\n{}", "no comments"}, Malformed{"{\"a\": 1,}", "trailing commas"},
-                    Malformed{"{} {}", "not JSON"}, Malformed{"\xff\xfe{}", "not JSON"},
+                    Malformed{"{\"a\": 1e999}", "number overflow"},
+                    Malformed{"{\"a\": -Infinity}", "not JSON"}, Malformed{"// hello\n{}", "no comments"},
+                    Malformed{"{\"a\": 1,}", "trailing commas"}, Malformed{"{} {}", "not JSON"},
+                    Malformed{"\xff\xfe{}", "not JSON"},
                     Malformed{"{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", "a.json:3: a: stands twice"},
                     Malformed{"[1, {\"k\": [{\"a\": 1, \"a\": 2}]}]", "[1].k[0].a: stands twice"},
                     Malformed{"{\"a\\u0000b\": 1}", "control character"}));
@@ -59,7 +60,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Document, RefusesDeepNestingAndBinaryFiles) {
   EXPECT_TRUE(holds(parse_failure(std::string(100'000, '[')), "64 deep"));
   EXPECT_EQ(parse_failure(std::string(64, '[') + std::string(64, ']')), "");
-  EXPECT_TRUE(holds(parse_failure(std::string("\x7f" "ELF\0\0", 6)), "binary"));
+  EXPECT_TRUE(holds(parse_failure(std::string("\x7f"
+                                              "ELF\0\0",
+                                              6)),
+                    "binary"));
   EXPECT_TRUE(holds(parse_failure("[\"" + std::string(5000, 'x') + "\"]"), "5000 bytes"));
 }
 

@@ -34,7 +34,9 @@ TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
       {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})"));
   const node::FilmView view = film.view();
-  const auto color = [&](std::size_t segment) { return view.material_at(view.segments()[segment], 0).color[1]; };
+  const auto color = [&](std::size_t segment) {
+    return view.material_at(view.segments()[segment], 0).color[1];
+  };
   EXPECT_EQ(color(0), 0.8f) << "the default material";
   EXPECT_EQ(color(1), 0.0f);
   EXPECT_EQ(color(2), 0.8f);
@@ -65,16 +67,19 @@ TEST(Compile, CameraLooksAtItsPlace) {
 
 TEST(Compile, RefusesACameraThatCannotLook) {
   const auto told = [](const std::string& camera) {
-    return failure_of([&] { compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": )" + camera + "}"); });
+    return failure_of(
+        [&] { compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": )" + camera + "}"); });
   };
   EXPECT_TRUE(holds(told(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
   EXPECT_TRUE(holds(told(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
-  const std::string through = R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
+  const std::string through =
+      R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
   EXPECT_TRUE(holds(told(through), "frame 4"));
 }
 
 TEST(Compile, LightsTurnOnTheGreatCircle) {
-  const CompiledFilm film = compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
+  const CompiledFilm film =
+      compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
       "lights": [{"keys": [{"frame": 0, "direction": [1, 0, 0]}, {"frame": 10, "direction": [-1, 0, 0]}]}]})");
   const node::FilmView view = film.view();
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
@@ -126,7 +131,8 @@ TEST(Compile, RawMatricesEqualAKeyedFilm) {
     matrices += "}}";
   }
   const CompiledFilm one = compile(film);
-  const CompiledFilm other = compiled(arm_film(R"({"name": "x", "model": "arm", "matrices": [)" + matrices + "]}"));
+  const CompiledFilm other =
+      compiled(arm_film(R"({"name": "x", "model": "arm", "matrices": [)" + matrices + "]}"));
   for (std::size_t segment = 0; segment < 2; ++segment)
     for (std::uint32_t frame = 0; frame < film.frames; ++frame)
       EXPECT_EQ(one.view().matrix_at(one.view().segments()[segment], frame),
@@ -143,8 +149,8 @@ TEST(Compile, PlacesThatAddUpTooFarAreRefused) {
   for (int i = 1; i < 2000; ++i)
     joints += ", {\"name\": \"j" + std::to_string(i) + "\", \"parent\": \"j" + std::to_string(i - 1) +
               "\", \"place\": [1e9, 0, 0], \"segment\": {\"shape\": \"box\"}}";
-  const std::string film = R"({"frames": 1, "camera": {"eye": [0, 9, 0]}, "models": {"m": {"joints": [)" + joints +
-                           R"(]}}, "actors": [{"name": "x", "model": "m"}]})";
+  const std::string film = R"({"frames": 1, "camera": {"eye": [0, 9, 0]}, "models": {"m": {"joints": [)" +
+                           joints + R"(]}}, "actors": [{"name": "x", "model": "m"}]})";
   EXPECT_TRUE(holds(failure_of([&] { compiled(film); }), "x/j1001, frame 0: stands farther"));
 }
 

@@ -44,7 +44,8 @@ TEST_F(FilmFileTest, ComesBackBitForBit) {
   EXPECT_EQ(back.actors, 1u);
   EXPECT_EQ(back.joints, 2u);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back.block().data()) % 64, 0u);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing else is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1)
+      << "nothing else is left";
 }
 
 TEST_F(FilmFileTest, SaysTheSameOfBothKinds) {
@@ -58,7 +59,10 @@ TEST_F(FilmFileTest, TakesAnotherSizeButNotOtherIntervals) {
   const CompiledFilm large = load_film(path_, {{}, {{1920, 1080}}});
   EXPECT_EQ(large.view().settings().height, 1080u);
   EXPECT_EQ(large.view().settings().frames, 20u);
-  EXPECT_TRUE(holds(failure_of([&] { load_film(path_, {Cutting::keyframes, {}}); }), "its intervals are cut"));
+  EXPECT_TRUE(holds(failure_of([&] {
+                      load_film(path_, {Cutting::keyframes, {}});
+                    }),
+                    "its intervals are cut"));
   EXPECT_TRUE(holds(failure_of([&] { load_film(path_, {{}, {{1920, 0}}}); }), "1 to 16384"));
 }
 

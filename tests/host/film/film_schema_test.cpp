@@ -53,7 +53,8 @@ TEST(Examples, AllCompile) {
     EXPECT_GT(film.view().patch_instances(), 0u) << path;
     EXPECT_LT(fs::file_size(path), 200'000u) << path;
   }
-  for (const fs::path& path : json_files("examples/models")) EXPECT_FALSE(load_model(path).joints.empty()) << path;
+  for (const fs::path& path : json_files("examples/models"))
+    EXPECT_FALSE(load_model(path).joints.empty()) << path;
 }
 
 // The first block of JSON on a page of docs/.

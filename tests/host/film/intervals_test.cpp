@@ -19,7 +19,8 @@ Starts starts_of(const node::FilmView& film) {
   return starts;
 }
 
-bool changes_within(const node::FilmView& film, const node::Track& track, std::uint32_t first, std::uint32_t end) {
+bool changes_within(const node::FilmView& film, const node::Track& track, std::uint32_t first,
+                    std::uint32_t end) {
   for (std::uint32_t frame = first + 1; frame < end; ++frame)
     if (film.value_at(track, frame) != film.value_at(track, frame - 1)) return true;
   return false;
@@ -32,7 +33,8 @@ Starts movers_between(const node::FilmView& film, std::uint32_t first, std::uint
   Starts movers;
   for (std::uint32_t i = 0; i < film.segments().size(); ++i) {
     const node::Segment& segment = film.segments()[i];
-    if (all || changes_within(film, segment.motion, first, end) || changes_within(film, segment.look, first, end))
+    if (all || changes_within(film, segment.motion, first, end) ||
+        changes_within(film, segment.look, first, end))
       movers.push_back(i);
   }
   return movers;
@@ -70,8 +72,7 @@ std::string random_film(std::mt19937& random, std::uint32_t frames) {
     for (int key = 0; frame < frames + 3; ++key, frame += 1 + random() % 6)
       actors += (key ? ", " : "") + ("{\"frame\": " + std::to_string(frame)) + ", \"pose\": {\"" +
                 (random() % 2 ? "a\": [0, 0, " + number(2) + "]" : "b\": [0, " + number(2) + ", 0]") +
-                "}, \"place\": [" +
-                number(2) + ", 0, 0]}";
+                "}, \"place\": [" + number(2) + ", 0, 0]}";
     actors += random() % 2 ? "], \"material\": \"glow\"}" : "]}";
   }
   return arm_film(actors, "\"size\": [100, 100], \"frames\": " + std::to_string(frames));
@@ -109,8 +110,8 @@ TEST(Intervals, DenseKeysDoNotDestroyCoherence) {
     keys += (frame ? ", " : "") + ("{\"frame\": " + std::to_string(frame)) + ", \"pose\": {\"b\": [0, " +
             std::to_string(frame % 90) + ", 0]}}";
   const std::string still = R"(, {"name": "y", "model": "arm"}, {"name": "z", "model": "arm"})";
-  const std::string json = arm_film("{\"name\": \"x\", \"model\": \"arm\", \"keys\": [" + keys + "]}" + still,
-                                    "\"frames\": 300");
+  const std::string json =
+      arm_film("{\"name\": \"x\", \"model\": \"arm\", \"keys\": [" + keys + "]}" + still, "\"frames\": 300");
   EXPECT_EQ(compiled(json).view().intervals().size(), 1u);
   EXPECT_EQ(compiled(json, {Cutting::keyframes, {}}).view().intervals().size(), 300u);
 }
@@ -118,7 +119,9 @@ TEST(Intervals, DenseKeysDoNotDestroyCoherence) {
 TEST(Intervals, WhatMovesShortlyIsCutOut) {
   const std::string still = R"({"name": "s", "model": "arm"})";
   const std::string json = arm_film(R"({"name": "x", "model": "arm", "keys": [
-      {"frame": 50, "place": [0, 0, 0]}, {"frame": 60, "place": [1, 0, 0]}]}, )" + still, "\"frames\": 200");
+      {"frame": 50, "place": [0, 0, 0]}, {"frame": 60, "place": [1, 0, 0]}]}, )" +
+                                        still,
+                                    "\"frames\": 200");
   const CompiledFilm film = compiled(json);
   EXPECT_EQ(starts_of(film.view()), (Starts{0, 51, 60})) << "frame 51 is the first to differ, 60 the last";
   EXPECT_EQ(film.view().intervals()[0].moving_count, 0u);

@@ -19,7 +19,8 @@ double seconds_of(const std::function<void()>& work) {
 constexpr const char* kStart = R"({"frames": 24, "camera": {"eye": [0, -900, 200]}, "models": {"m": )";
 
 TEST(LargeFilm, AMillionPatchesOfTeapots) {
-  std::string json = std::string(kStart) + R"({"joints": [{"name": "t", "segment": {"shape": "teapot"}}]}}, "actors": [)";
+  std::string json =
+      std::string(kStart) + R"({"joints": [{"name": "t", "segment": {"shape": "teapot"}}]}}, "actors": [)";
   for (int i = 0; i < 31'250; ++i)
     json += (i ? ",\n" : "") + ("{\"name\": \"t" + std::to_string(i)) + "\", \"model\": \"m\", \"place\": [" +
             std::to_string(i % 177) + ", " + std::to_string(i / 177) + ", 0]}";
@@ -32,10 +33,12 @@ TEST(LargeFilm, AMillionPatchesOfTeapots) {
 TEST(LargeFilm, AHundredThousandPatchesInline) {
   std::string patch = "[";
   for (int i = 0; i < 16; ++i) patch += std::string(i ? ", " : "") + "[0.123456, 0.5, 0.987654]";
-  std::string json = std::string(kStart) + R"({"joints": [{"name": "t", "segment": {"shape": "s"}}], "shapes": {"s": [)";
+  std::string json =
+      std::string(kStart) + R"({"joints": [{"name": "t", "segment": {"shape": "s"}}], "shapes": {"s": [)";
   for (int i = 0; i < 100'000; ++i) json += (i ? ",\n" : "") + patch + "]";
   CompiledFilm film;
-  EXPECT_LT(seconds_of([&] { film = compiled(json + R"(]}}}, "actors": [{"name": "x", "model": "m"}]})"); }), 30);
+  EXPECT_LT(seconds_of([&] { film = compiled(json + R"(]}}}, "actors": [{"name": "x", "model": "m"}]})"); }),
+            30);
   EXPECT_EQ(film.view().patches().size(), 100'000u);
 }
 
@@ -44,11 +47,13 @@ std::string chain(int length) {
   for (int i = 1; i < length; ++i)
     joints += ",\n{\"name\": \"j" + std::to_string(i) + "\", \"parent\": \"j" + std::to_string(i - 1) +
               "\", \"place\": [1, 0, 0], \"segment\": {\"shape\": \"box\"}}";
-  return std::string(kStart) + "{\"joints\": [" + joints + "]}}, \"actors\": [{\"name\": \"x\", \"model\": \"m\"";
+  return std::string(kStart) + "{\"joints\": [" + joints +
+         "]}}, \"actors\": [{\"name\": \"x\", \"model\": \"m\"";
 }
 
 TEST(LargeFilm, AChainOfAHundredThousandJointsThatMoves) {
-  const std::string keys = R"(, "keys": [{"frame": 0, "pose": {"j0": [0, 0, 0]}}, {"frame": 9, "pose": {"j0": [0, 0, 90]}}]}]})";
+  const std::string keys =
+      R"(, "keys": [{"frame": 0, "pose": {"j0": [0, 0, 0]}}, {"frame": 9, "pose": {"j0": [0, 0, 90]}}]}]})";
   CompiledFilm film;
   EXPECT_LT(seconds_of([&] { film = compiled(chain(100'000) + keys); }), 20);
   const node::FilmView view = film.view();

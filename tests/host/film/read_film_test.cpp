@@ -62,12 +62,15 @@ TEST_P(BrokenActor, IsOneClearError) {
 INSTANTIATE_TEST_SUITE_P(
     Table, BrokenActor,
     testing::Values(
-        Broken{R"({"model": "arm"})", "has no 'name'"}, Broken{R"({"name": "x", "model": "amr"})", "did you mean 'arm'?"},
+        Broken{R"({"model": "arm"})", "has no 'name'"},
+        Broken{R"({"name": "x", "model": "amr"})", "did you mean 'arm'?"},
         Broken{R"({"name": "x", "model": "arm"}, {"name": "x", "model": "arm"})", "second actor named 'x'"},
         Broken{R"({"name": "x", "model": "arm", "material": "rad"})", "did you mean 'red'?"},
-        Broken{R"({"name": "x", "model": "arm", "materials": {"blue": "red"}})", "no material that a segment"},
+        Broken{R"({"name": "x", "model": "arm", "materials": {"blue": "red"}})",
+               "no material that a segment"},
         Broken{R"({"name": "x", "model": "arm", "place": [1e10, 0, 0]})", "actors[0].place[0]: is 1e+10"},
-        Broken{R"({"name": "x", "model": "arm", "pose": {"knee": [0, 0, 0]}})", "no joint of the model 'arm'"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"knee": [0, 0, 0]}})",
+               "no joint of the model 'arm'"},
         Broken{R"({"name": "x", "model": "arm", "pose": {"b": [0, 401, 0]}})",
                "actors[0].pose.b: joint 'b' turns 401 degrees about y, outside its limits -10 to 400"},
         Broken{R"({"name": "x", "model": "arm", "pose": {"b": 5}})", "is a number, not a list"},
@@ -75,12 +78,16 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 5}, {"frame": 5}]})", "ascending"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": -1}]})", "from 0"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 1.5}]})", "whole number"},
-        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": "bath"}]})", "did you mean 'both'?"},
-        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": [2, 0, 0, 1]}]})", "from 0 to 1"},
-        Broken{R"({"name": "x", "model": "arm", "place": [0, 0, 0], "keys": [{"frame": 1, "place": [0, 0, 0]}]})",
-               "is also set by keys"},
-        Broken{R"({"name": "x", "model": "arm", "pose": {"b": [0, 0, 0]}, "keys": [{"frame": 1, "pose": {"b": [0, 1, 0]}}]})",
-               "actors[0].pose.b: is also set by keys"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": "bath"}]})",
+               "did you mean 'both'?"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": [2, 0, 0, 1]}]})",
+               "from 0 to 1"},
+        Broken{
+            R"({"name": "x", "model": "arm", "place": [0, 0, 0], "keys": [{"frame": 1, "place": [0, 0, 0]}]})",
+            "is also set by keys"},
+        Broken{
+            R"({"name": "x", "model": "arm", "pose": {"b": [0, 0, 0]}, "keys": [{"frame": 1, "pose": {"b": [0, 1, 0]}}]})",
+            "actors[0].pose.b: is also set by keys"},
         Broken{R"({"name": "x", "model": "arm", "matrices": []})", "has no matrix of 'a' at frame 0"},
         Broken{R"({"name": "x", "model": "arm", "matrices": [], "keys": []})", "stands beside matrices"},
         Broken{R"({"name": "x", "model": "arm", "matrices": [{"frame": 0, "segments": {"a": [[1, 0, 0]]}}]})",
@@ -95,13 +102,16 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
   EXPECT_TRUE(holds(told("{\"frames\": 1, \"size\": [99999, 5]}"), "to 16384"));
   EXPECT_TRUE(holds(told("{\"frames\": 1, \"dice\": \"adaptiv\"}"), "did you mean 'adaptive'?"));
   EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {})" + rest), "camera: has no 'eye'"));
-  EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest), "not beyond"));
+  EXPECT_TRUE(
+      holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest), "not beyond"));
   const std::string camera = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "lights": [)";
   EXPECT_TRUE(holds(told(camera + "{}]" + rest), "neither a direction nor a place"));
-  EXPECT_TRUE(holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
+  EXPECT_TRUE(
+      holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
   EXPECT_TRUE(holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
-  EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
-                    "/nowhere/m.json: there is no such file"));
+  EXPECT_TRUE(
+      holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
+            "/nowhere/m.json: there is no such file"));
 }
 
 std::string outcome_of(const std::string& json) {

@@ -26,7 +26,8 @@ inline std::string arm_film(const std::string& actors, const std::string& more =
   {"name": "a", "segment": {"shape": "box"}},
   {"name": "b", "parent": "a", "place": [1, 0, 0], "limits": {"y": [-10, 400]},
    "segment": {"shape": "sphere", "sbb": [[-1, -1, -1], [1, 1, 1]], "material": "red"}}]}},
-"actors": [)" + actors + "]}";
+"actors": [)" +
+         actors + "]}";
 }
 
 }  // namespace mars::host

@@ -65,7 +65,8 @@ TEST_F(PatchFileTest, ImportsAModelThatCanBeRead) {
   EXPECT_EQ(model.joints[0].name, "in");
   EXPECT_EQ(model.joints[0].segment->sbb.min, glm::dvec3(10, -3, 7));
   EXPECT_EQ(model.shapes[0].patches[0].points, read_patch_file(folder_ / "in.bpt").patches[0].points);
-  EXPECT_TRUE(holds(failure_of([&] { import_patches(folder_ / "in.bpt", folder_ / "x.json", "a/b"); }), "'/'"));
+  EXPECT_TRUE(
+      holds(failure_of([&] { import_patches(folder_ / "in.bpt", folder_ / "x.json", "a/b"); }), "'/'"));
 }
 
 TEST_F(PatchFileTest, TheTeapotOfOthersIsOurs) {

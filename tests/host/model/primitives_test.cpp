@@ -57,7 +57,8 @@ TEST(Primitives, FillTheUnitCube) {
 }
 
 // The largest distance of `off` over points of all patches.
-double farthest(const std::vector<node::Patch>& patches, const std::function<double(const glm::dvec3&)>& off) {
+double farthest(const std::vector<node::Patch>& patches,
+                const std::function<double(const glm::dvec3&)>& off) {
   double most = 0;
   for (const node::Patch& patch : patches)
     for (int j = 0; j <= 20; ++j)
@@ -72,9 +73,13 @@ TEST(Primitives, LieOnTheTrueSurface) {
   EXPECT_LT(farthest(make_sphere(), [](const glm::dvec3& p) { return glm::length(p) - 0.5; }), 2 * arc);
   const auto off_cylinder = [&](const glm::dvec3& p) { return std::max(radius(p), std::abs(p.z)) - 0.5; };
   EXPECT_LT(farthest(make_cylinder(), off_cylinder), arc);
-  const auto off_cone = [&](const glm::dvec3& p) { return p.z < -0.4999 ? 0 : radius(p) - 0.5 * (0.5 - p.z); };
+  const auto off_cone = [&](const glm::dvec3& p) {
+    return p.z < -0.4999 ? 0 : radius(p) - 0.5 * (0.5 - p.z);
+  };
   EXPECT_LT(farthest(make_cone(0), off_cone), arc);
-  const auto off_torus = [&](const glm::dvec3& p) { return std::hypot((radius(p) - 0.375) / 0.125, p.z / 0.5) - 1; };
+  const auto off_torus = [&](const glm::dvec3& p) {
+    return std::hypot((radius(p) - 0.375) / 0.125, p.z / 0.5) - 1;
+  };
   // The ring's error, of its outer radius, counts four times in units of the tube.
   EXPECT_LT(farthest(make_torus(0.125), off_torus), 5 * kArcError + 1e-6);
 }
@@ -93,7 +98,10 @@ TEST(Teapot, HasNewellsPatchesWithinItsBounds) {
   ASSERT_EQ(patches.size(), 32u);
   for (int axis = 0; axis < 3; ++axis) {
     const double extent = kTeapotBounds.max[axis] - kTeapotBounds.min[axis];
-    EXPECT_NEAR(kTeapotBounds.min[axis] + extent * patches[0].points[0][axis], (axis == 0 ? 1.4 : axis == 1 ? 0 : 2.4),
+    EXPECT_NEAR(kTeapotBounds.min[axis] + extent * patches[0].points[0][axis],
+                (axis == 0   ? 1.4
+                 : axis == 1 ? 0
+                             : 2.4),
                 1e-6);
   }
 }
