@@ -1,0 +1,17 @@
+// How every program of MARS reads its command line and ends: 0 all went well, 1 something failed, 2 the
+// command line itself is wrong (told with what to type instead).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+
+namespace mars::host {
+
+inline constexpr int kFailed = 1;
+inline constexpr int kUsage = 2;
+
+// None: go on. Otherwise the exit code, everything already told (0 after --help and --version).
+std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
+
+}  // namespace mars::host

@@ -1,0 +1,77 @@
+#include "host/options/frame_set.h"
+
+#include <charconv>
+#include <string_view>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+namespace {
+
+constexpr const char* kForm = "frames are written like 0-9,24,30-";
+
+Failure wrong(std::string_view part, const std::string& reason) {
+  return Failure("'" + std::string(part) + "' " + reason, "", kForm);
+}
+
+std::uint32_t number(std::string_view text, std::string_view part) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) throw wrong(part, "is too large for a frame number");
+  if (error != std::errc() || end != text.data() + text.size()) throw wrong(part, "is not a frame or a range of frames");
+  return value;
+}
+
+FrameSet::Stretch stretch(std::string_view part) {
+  const std::size_t dash = part.find('-');
+  if (dash == std::string_view::npos) return {number(part, part), number(part, part)};
+  FrameSet::Stretch stretch{number(part.substr(0, dash), part), std::nullopt};
+  if (dash + 1 < part.size()) stretch.last = number(part.substr(dash + 1), part);
+  if (stretch.last && *stretch.last < stretch.first) throw wrong(part, "ends before it begins");
+  return stretch;
+}
+
+}  // namespace
+
+FrameSet::FrameSet(const std::string& text) {
+  std::string_view rest = text;
+  while (true) {
+    const std::size_t comma = rest.find(',');
+    stretches_.push_back(stretch(rest.substr(0, comma)));
+    if (comma == std::string_view::npos) return;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+std::string FrameSet::text() const {
+  std::string text;
+  for (const Stretch& stretch : stretches_) {
+    if (!text.empty()) text += ',';
+    text += std::to_string(stretch.first);
+    if (stretch.last == stretch.first) continue;
+    text += '-';
+    if (stretch.last) text += std::to_string(*stretch.last);
+  }
+  return text;
+}
+
+std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
+  std::vector<bool> wanted(film_frames);
+  for (const Stretch& stretch : stretches_) {
+    const std::uint32_t last = stretch.last.value_or(film_frames - 1);
+    const std::uint32_t beyond = stretch.first < film_frames ? last : stretch.first;
+    if (beyond >= film_frames) {
+      throw Failure("frame " + std::to_string(beyond) + " is beyond the film's last, " + std::to_string(film_frames - 1),
+                    "--frames " + text(), "frames count from 0");
+    }
+    for (std::uint32_t frame = stretch.first; frame <= last; ++frame) wanted[frame] = true;
+  }
+  std::vector<std::uint32_t> frames;
+  for (std::uint32_t frame = 0; frame < film_frames; ++frame) {
+    if (wanted[frame]) frames.push_back(frame);
+  }
+  return frames;
+}
+
+}  // namespace mars::host

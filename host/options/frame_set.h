@@ -1,0 +1,36 @@
+// Which frames of a film a person wants, as written on a command line: "0-9,24,30-" is frames 0 to 9, frame 24
+// and frame 30 up to the film's last.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mars::host {
+
+class FrameSet {
+ public:
+  struct Stretch {
+    std::uint32_t first;
+    std::optional<std::uint32_t> last;  // none: to the film's end
+
+    bool operator==(const Stretch&) const = default;
+  };
+
+  // Every frame.
+  FrameSet() : stretches_{{0, std::nullopt}} {}
+  // Throws Failure saying which part of `text` is wrong.
+  explicit FrameSet(const std::string& text);
+
+  std::string text() const;
+  // The frames of a film of `film_frames`, ascending, each once. Throws Failure where the film is too short.
+  std::vector<std::uint32_t> of_film(std::uint32_t film_frames) const;
+
+  bool operator==(const FrameSet&) const = default;
+
+ private:
+  std::vector<Stretch> stretches_;  // as written
+};
+
+}  // namespace mars::host

@@ -1,0 +1,235 @@
+#include "host/options/render_options.h"
+
+#include <charconv>
+#include <functional>
+#include <string_view>
+#include <utility>
+
+#include "hal/failure.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+struct Entry {
+  unsigned programs;  // Program bits
+  std::function<void(CLI::App&, RenderOptions&)> add;
+  std::function<Arguments(const RenderOptions&)> write;
+};
+
+// One word for each value of an enumeration, in its order from 0.
+template <typename Enumeration>
+constexpr std::array<const char*, 0> kWords{};
+template <>
+constexpr std::array kWords<Backend>{"auto", "mpi", "threads"};
+template <>
+constexpr std::array kWords<Intervals>{"auto", "keyframes"};
+template <>
+constexpr std::array kWords<SinkKind>{"png", "none"};
+template <>
+constexpr std::array kWords<node::Mapping>{"greedy", "optimal"};
+
+template <typename Enumeration>
+  requires std::is_enum_v<Enumeration>
+void read(const std::string& text, Enumeration& value) {
+  std::string words;
+  for (std::size_t i = 0; i < kWords<Enumeration>.size(); ++i) {
+    if (text == kWords<Enumeration>[i]) {
+      value = static_cast<Enumeration>(i);
+      return;
+    }
+    words += (words.empty() ? "" : " or ") + std::string(kWords<Enumeration>[i]);
+  }
+  throw Failure("'" + text + "' is not " + words, "", "");
+}
+
+void read(const std::string& text, std::string& value) { value = text; }
+
+void read(const std::string& text, FrameSet& value) { value = FrameSet(text); }
+
+bool read_number(std::string_view text, std::uint32_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+void read(const std::string& text, std::optional<PictureSize>& value) {
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  PictureSize size{};
+  const bool numbers = cross < text.size() && read_number(std::string_view(text).substr(0, cross), size.width) &&
+                       read_number(std::string_view(text).substr(cross + 1), size.height);
+  if (!numbers) throw Failure("'" + text + "' is not a size", "", "write width and height like 960x540");
+  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > node::kMaxSide) {
+    throw Failure("'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "",
+                  "");
+  }
+  value = size;
+}
+
+// A number of at least one.
+struct Count {
+  std::uint32_t RenderOptions::*member;
+  bool may_be_auto;  // the word "auto" is 0
+  std::uint32_t most;
+};
+
+void read_count(const std::string& text, const Count& count, RenderOptions& options) {
+  std::uint32_t& value = options.*count.member;
+  if (count.may_be_auto && text == "auto") {
+    value = 0;
+  } else if (!read_number(text, value) || value < 1 || value > count.most) {
+    throw Failure("'" + text + "' is not a number from 1 to " + std::to_string(count.most) +
+                      (count.may_be_auto ? " or auto" : ""),
+                  "", "");
+  }
+}
+
+template <typename Enumeration>
+  requires std::is_enum_v<Enumeration>
+std::string text_of(Enumeration value) {
+  return kWords<Enumeration>[static_cast<std::size_t>(value)];
+}
+
+// A name that begins with a dash would be taken for an option.
+std::string text_of(const std::string& name) { return name.starts_with('-') ? "./" + name : name; }
+
+std::string text_of(const FrameSet& frames) { return frames.text(); }
+
+std::string text_of(const std::optional<PictureSize>& size) {
+  return std::to_string(size->width) + "x" + std::to_string(size->height);
+}
+
+// CLI11 tells the option's name itself, and that it is the person's own mistake.
+template <typename Read>
+void add_reader(CLI::App& app, const char* names, const char* type, const char* help, Read read_text) {
+  app.add_option_function<std::string>(
+         names,
+         [read_text](const std::string& text) {
+           try {
+             read_text(text);
+           } catch (const Failure& failure) {
+             throw CLI::ValidationError(failure.what());
+           }
+         },
+         help)
+      ->type_name(type);
+}
+
+// The name the program started next is given: the short one where there is one.
+std::string first_name(const char* names) {
+  const std::string_view all = names;
+  return std::string(all.substr(0, all.find(',')));
+}
+
+template <typename Value>
+Entry option(unsigned programs, const char* names, const char* type, Value RenderOptions::*member,
+             const char* help) {
+  return {programs,
+          [=](CLI::App& app, RenderOptions& options) {
+            add_reader(app, names, type, help, [&options, member](const std::string& text) { read(text, options.*member); });
+          },
+          [=](const RenderOptions& options) -> Arguments {
+            if (options.*member == RenderOptions().*member) return {};
+            return {first_name(names), text_of(options.*member)};
+          }};
+}
+
+Entry number(unsigned programs, const char* names, const Count& count, const char* help) {
+  return {programs,
+          [=](CLI::App& app, RenderOptions& options) {
+            add_reader(app, names, "N", help, [&options, count](const std::string& text) { read_count(text, count, options); });
+          },
+          [=](const RenderOptions& options) -> Arguments {
+            const std::uint32_t value = options.*count.member;
+            if (value == RenderOptions().*count.member) return {};
+            return {first_name(names), std::to_string(value)};
+          }};
+}
+
+Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, const char* help) {
+  return {programs, [=](CLI::App& app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
+          [=](const RenderOptions& options) -> Arguments {
+            if (!(options.*member)) return {};
+            return {first_name(names)};
+          }};
+}
+
+Entry film(unsigned programs) {
+  return {programs,
+          [](CLI::App& app, RenderOptions& options) {
+            app.add_option("FILM", options.film,
+                           "The film to render: a .json file, or a .mars file made by mars compile.\n"
+                           "Example: examples/demo.json")
+                ->required();
+          },
+          [](const RenderOptions& options) { return Arguments{text_of(options.film)}; }};
+}
+
+// The table: every option once, in the order of the help.
+std::vector<Entry> table() {
+  constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
+  constexpr unsigned all = bit(Program::mars) | bit(Program::host) | bit(Program::cube) | bit(Program::threads);
+  constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads);
+  constexpr unsigned person = bit(Program::mars);
+  constexpr std::uint32_t many = 1 << 20;
+  return {
+      film(all),
+      option(all, "-o,--output", "DIR", &RenderOptions::folder,
+             "Folder for the frames; made where it is missing. Example: -o build/demo"),
+      number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
+             "Nodes that render; default: one a processor. Example: --nodes 4"),
+      option(person, "--backend", "auto|mpi|threads", &RenderOptions::backend,
+             "What carries messages: MPI processes, or threads of one process; auto takes MPI where it is "
+             "installed. Example: --backend threads"),
+      option(all, "--frames", "SET", &RenderOptions::frames,
+             "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
+      option(all, "--size", "WxH", &RenderOptions::size,
+             "Picture size in pixels instead of the film's. Example: --size 960x540"),
+      option(all, "--mapping", "greedy|optimal", &RenderOptions::mapping,
+             "How scanlines are divided over nodes: the thesis's heuristic or the exact optimum. "
+             "Example: --mapping optimal"),
+      option(all, "--intervals", "auto|keyframes", &RenderOptions::intervals,
+             "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
+             "Example: --intervals keyframes"),
+      flag(all, "--no-coherence", &RenderOptions::no_coherence,
+           "Render every frame from scratch; same pictures, slower. Example: --no-coherence"),
+      number(all, "--block", {&RenderOptions::block, false, node::kMaxSide},
+             "Side of the compositor's blocks in pixels; same pictures. Example: --block 32"),
+      number(all, "--cubes", {&RenderOptions::cubes, true, many},
+             "Intervals rendered at a time, each by a part of the nodes; 1 is the thesis. Example: --cubes 1"),
+      option(all, "--sink", "png|none", &RenderOptions::sink,
+             "Where frames go; none writes nothing, to measure rendering. Example: --sink none"),
+      option(all, "--report", "FILE", &RenderOptions::report,
+             "Write each node's times and work per frame as JSON. Example: --report report.json"),
+      flag(person, "-q,--quiet", &RenderOptions::quiet, "Tell only what went wrong. Example: --quiet"),
+  };
+}
+
+bool takes(Program program, const Entry& entry) { return (entry.programs & static_cast<unsigned>(program)) != 0; }
+
+}  // namespace
+
+void add_render_options(CLI::App& app, RenderOptions& options, Program program) {
+  for (const Entry& entry : table()) {
+    if (takes(program, entry)) entry.add(app, options);
+  }
+}
+
+std::vector<std::string> arguments_for(Program program, const RenderOptions& options) {
+  Arguments arguments;
+  for (const Entry& entry : table()) {
+    if (!takes(program, entry)) continue;
+    for (std::string& argument : entry.write(options)) arguments.push_back(std::move(argument));
+  }
+  return arguments;
+}
+
+void check_together(const RenderOptions& options) {
+  if (options.folder.empty() && options.sink == SinkKind::png) {
+    throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
+  }
+}
+
+}  // namespace mars::host
