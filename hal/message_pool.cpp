@@ -8,11 +8,11 @@ namespace mars::hal {
 namespace {
 
 constexpr int kSmallestClass = 6;  // 64 bytes: a cache line
-// How many a class grows by: small ones by a slab, others by a few, for what is on its way varies with
-// timing. What is never used is never touched, and so takes no memory.
+constexpr int kLastReady = 20;     // 1 MiB: the classes up to it are there from the start
+
+// How many messages a class grows by. What is never used is never touched, and so takes no memory.
 constexpr std::size_t kSlab = 32 * 1024;
-constexpr std::size_t kAtLeast = 8;
-constexpr std::size_t kLong = 2 * 1024 * 1024;
+constexpr std::size_t kReady = 8;
 
 int class_for(std::size_t length) {
   return std::max<int>(kSmallestClass, std::bit_width(length - (length > 0)));
@@ -47,6 +47,10 @@ void MessageList::remove(Message* message) {
   if (last_ == message) last_ = before;
 }
 
+MessagePool::MessagePool() {
+  for (int size_class = kSmallestClass; size_class <= kLastReady; ++size_class) grow(size_class);
+}
+
 Message* MessagePool::acquire(const Envelope& envelope) {
   const int size_class = class_for(envelope.length);
   if (free_[size_class] == nullptr) grow(size_class);
@@ -69,7 +73,7 @@ void MessagePool::release(Message* message) {
 
 void MessagePool::grow(int size_class) {
   const std::size_t size = sizeof(Message) + (std::size_t{1} << size_class);
-  const std::size_t count = std::max(size < kLong ? kAtLeast : 1, kSlab / size);
+  const std::size_t count = std::max(size_class <= kLastReady ? kReady : 1, kSlab / size);
   slabs_.reserve(slabs_.size() + 1);
   slabs_.emplace_back(
       static_cast<std::byte*>(::operator new(count* size, std::align_val_t(alignof(Message)))));

@@ -48,6 +48,9 @@ class MessageList {
 
 class MessagePool {
  public:
+  // Has some of every usual size: how many are needed at once varies with timing, and so would come late.
+  MessagePool();
+
   // A message with `envelope` and room for its length; give it back by release. Throws std::bad_alloc.
   Message* acquire(const Envelope& envelope);
   // Likewise, with a copy of the bytes at `data`.
