@@ -26,8 +26,7 @@ void send_to_all(long type, const void* data, std::size_t bytes) {
   node::Fault fault;
   crecv(node::kFault, &fault, sizeof fault);
   fault.reason.back() = '\0';
-  const std::string at = "node " + std::to_string(fault.node);
-  throw Failure(fault.reason.data(), fault.frame < 0 ? at : at + ", frame " + std::to_string(fault.frame), "");
+  throw NodeFailure(fault.reason.data(), fault.node, fault.frame);
 }
 
 // Waits for a message of `type` from every node; faults end the waiting.
@@ -225,6 +224,9 @@ Compositor Farm::spare_compositor() {
 
 }  // namespace
 
+NodeFailure::NodeFailure(const std::string& reason, int node, int at)
+    : Failure(reason, "node " + std::to_string(node) + (at < 0 ? "" : ", frame " + std::to_string(at)), ""), frame(at) {}
+
 std::uint32_t pixel_of(const std::array<float, 3>& color) {
   std::uint32_t pixel = 0;
   for (int c = 0; c < 3; ++c) {
@@ -241,7 +243,8 @@ FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions&
   report.film_bytes = film_block.size();
   report.nodes = receive_hellos();
   const double booted = dclock();
-  if (listener.booted) listener.booted(report.nodes);
+  const auto units = static_cast<std::uint32_t>(make_units(film, options.frames, options.coherence).size());
+  if (listener.booted) listener.booted(report.nodes, units, static_cast<std::uint32_t>(options.frames.size()) - units);
   load_film(film_block, options, report.nodes);
   report.load_seconds = dclock() - booted;
   const double start = dclock();

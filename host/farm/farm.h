@@ -6,13 +6,24 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "hal/failure.h"
 #include "host/sinks/sink_pool.h"
 #include "node/film.h"
 #include "node/protocol.h"
 
 namespace mars::host {
+
+// A node cannot go on.
+class NodeFailure : public Failure {
+ public:
+  // `frame` -1: before any.
+  NodeFailure(const std::string& reason, int node, int frame);
+
+  int frame;
+};
 
 struct FarmOptions {
   node::Mapping mapping = node::Mapping::greedy;
@@ -31,7 +42,8 @@ struct FinishedFrame {
 
 // Called from the thread that runs the farm.
 struct FarmListener {
-  std::function<void(std::span<const node::Hello>)> booted;
+  // All nodes are there; keyframes and inbetweens are what will be drawn.
+  std::function<void(std::span<const node::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
   std::function<void(const FinishedFrame&)> finished;  // the sinks have it
 };
 

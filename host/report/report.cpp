@@ -86,8 +86,7 @@ void write_report(const std::filesystem::path& file, const ReportHeader& header,
   std::vector<FinishedFrame> frames = report.frames;
   std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
   for (const FinishedFrame& frame : frames) out["frames"].push_back(frame_json(frame, shares_of(report, frame.number)));
-  const std::string text = out.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-  write_whole_file(file, std::as_bytes(std::span(text)));
+  write_whole_file(file, out.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace mars::host

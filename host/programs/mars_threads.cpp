@@ -1,0 +1,26 @@
+// mars-threads: host and nodes as threads of one process, where there is no MPI, and for debuggers.
+#include <exception>
+#include <iostream>
+
+#include "hal/threads/run_threads.h"
+#include "host/options/command_line.h"
+#include "host/programs/node_job.h"
+#include "host/programs/render_job.h"
+#include "topology/machine.h"
+
+int main(int argc, char** argv) {
+  using namespace mars;
+  CLI::App app("Host and nodes in one process: mars-threads FILM -o DIR --nodes 4", "mars-threads");
+  host::RenderOptions options;
+  host::add_render_options(app, options, host::Program::threads);
+  if (const auto code = host::read_command_line(app, argc, argv)) return *code;
+  try {
+    if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
+    hal::run_threads(static_cast<int>(options.nodes), [&] { host::run_render_job(options, "threads"); },
+                     host::run_node_job);
+    return 0;
+  } catch (const std::exception& failure) {
+    std::cerr << "mars: " << failure.what() << '\n';
+    return host::kFailed;
+  }
+}

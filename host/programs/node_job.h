@@ -1,0 +1,9 @@
+// What a node's rank does in every program that has nodes: finds out what the firmware cannot know, binds
+// itself where it has processors of its own, and runs it.
+#pragma once
+
+namespace mars::host {
+
+void run_node_job();
+
+}  // namespace mars::host

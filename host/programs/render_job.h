@@ -1,0 +1,12 @@
+// What the host's rank does from a person's options to the last frame: the same in every program that renders.
+#pragma once
+
+#include "host/options/render_options.h"
+
+namespace mars::host {
+
+// Runs the calling HAL process as the host; tells events on standard output. `backend` is its name. A failure
+// is told as a fault event, and thrown for whoever ends the run.
+void run_render_job(const RenderOptions& options, const char* backend);
+
+}  // namespace mars::host
