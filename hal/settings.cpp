@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <numeric>
 #include <string_view>
 
@@ -21,15 +22,6 @@ constexpr std::array<Setting, 2> kTable = {{
      "the widest the processor has"},
 }};
 
-std::string_view name_of(std::string_view line) { return line.substr(0, line.find('=')); }
-
-std::optional<std::string> value_of(std::string_view name, std::span<const std::string> environment) {
-  for (const std::string& line : environment) {
-    if (name_of(line) == name && line.size() > name.size()) return line.substr(name.size() + 1);
-  }
-  return std::nullopt;
-}
-
 std::uint64_t parse_memory(const std::string& text) {
   std::uint64_t mebibytes = 0;
   const char* end = text.data() + text.size();
@@ -41,10 +33,8 @@ std::uint64_t parse_memory(const std::string& text) {
   return mebibytes * kMiB;
 }
 
-SimdLimit parse_simd(const std::string& text) {
-  if (text == "sse2") return SimdLimit::sse2;
-  if (text == "avx2") return SimdLimit::avx2;
-  if (text == "avx512") return SimdLimit::avx512;
+std::string parse_simd(const std::string& text) {
+  if (text == "sse2" || text == "avx2" || text == "avx512") return text;
   throw Failure("\"" + text + "\" is not an instruction set", "environment variable MARS_SIMD",
                 "set it to sse2, avx2 or avx512, or unset it");
 }
@@ -79,23 +69,18 @@ std::string_view nearest(std::string_view name) {
 
 std::span<const Setting> settings_table() { return kTable; }
 
-std::vector<std::string> environment() {
-  std::vector<std::string> lines;
-  for (char** line = environ; line != nullptr && *line != nullptr; ++line) lines.emplace_back(*line);
-  return lines;
-}
-
-Settings read_settings(std::span<const std::string> environment) {
+Settings read_settings() {
   Settings settings;
-  if (const auto text = value_of("MARS_MEMORY", environment)) settings.memory = parse_memory(*text);
-  if (const auto text = value_of("MARS_SIMD", environment)) settings.simd = parse_simd(*text);
+  if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory(text);
+  if (const char* text = std::getenv("MARS_SIMD")) settings.simd = parse_simd(text);
   return settings;
 }
 
-std::vector<std::string> unknown_settings(std::span<const std::string> environment) {
+std::vector<std::string> unknown_settings() {
   std::vector<std::string> lines;
-  for (const std::string& line : environment) {
-    const std::string name(name_of(line));
+  for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
+    const std::string_view line = *variable;
+    const std::string name(line.substr(0, line.find('=')));
     if (!name.starts_with("MARS_") || known(name)) continue;
     lines.push_back("environment variable " + name + " means nothing to MARS (did you mean " +
                     std::string(nearest(name)) + "?)");

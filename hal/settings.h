@@ -18,22 +18,16 @@ struct Setting {
 
 std::span<const Setting> settings_table();
 
-// The widest instruction set that kernels may use.
-enum class SimdLimit { sse2, avx2, avx512 };
-
 struct Settings {
   std::optional<std::uint64_t> memory;  // bytes a node may use for one frame; none: the program decides
-  SimdLimit simd = SimdLimit::avx512;   // the processor's own limit holds besides
+  std::string simd;                     // widest instruction set that kernels may use; "": the processor's
 };
 
-// Lines "NAME=value", as the process got them.
-std::vector<std::string> environment();
-
 // Throws a Failure that names the variable and what it may be.
-Settings read_settings(std::span<const std::string> environment);
+Settings read_settings();
 
 // A line about each MARS_* variable that is not in the table, with the nearest name that is.
-std::vector<std::string> unknown_settings(std::span<const std::string> environment);
+std::vector<std::string> unknown_settings();
 
 // The table as text, for help and documentation.
 std::string settings_text();

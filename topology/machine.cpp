@@ -1,5 +1,6 @@
 #include "topology/machine.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -42,6 +43,12 @@ void restrict_to_affinity(hwloc_topology_t topology) {
     fail("hwloc cannot restrict the machine to this process's processors");
 }
 
+std::string list(hwloc_const_bitmap_t cores) {
+  char text[256] = "";
+  hwloc_bitmap_list_snprintf(text, sizeof text, cores);
+  return (hwloc_bitmap_weight(cores) == 1 ? "core " : "cores ") + std::string(text);
+}
+
 }  // namespace
 
 void Machine::Unload::operator()(hwloc_topology* topology) const { hwloc_topology_destroy(topology); }
@@ -51,9 +58,14 @@ Machine::Machine(Machine&&) noexcept = default;
 Machine& Machine::operator=(Machine&&) noexcept = default;
 Machine::~Machine() = default;
 
-Machine Machine::here() {
+Machine Machine::load_here() {
   Machine machine(start_topology());
   if (hwloc_topology_load(machine.topology_.get()) != 0) fail("hwloc cannot read this machine");
+  return machine;
+}
+
+Machine Machine::here() {
+  Machine machine = load_here();
   restrict_to_affinity(machine.topology_.get());
   return machine;
 }
@@ -82,23 +94,37 @@ std::optional<Place> Machine::place(int k, int n, int reserved) const {
 }
 
 void Machine::bind(const Place& place, int flags) const {
-  const Bitmap set = make_bitmap();
+  const Bitmap processors = make_bitmap();
+  const Bitmap numbers = make_bitmap();
+  hwloc_bitmap_set_range(numbers.get(), place.first, place.first + place.count - 1);
+  if (place.first < 0 || place.count < 1 || place.first + place.count > cores()) {
+    throw std::runtime_error("cannot bind to " + list(numbers.get()) + ": this process may use only " +
+                             std::to_string(cores()) + " of the machine's cores");
+  }
   for (int core = place.first; core < place.first + place.count; ++core) {
     const hwloc_obj_t object = hwloc_get_obj_by_type(topology_.get(), unit(topology_.get()), core);
-    if (object == nullptr)
-      throw std::runtime_error("cannot bind to " + text(place) + ": the machine has only " +
-                               std::to_string(cores()) + " cores");
-    hwloc_bitmap_or(set.get(), set.get(), object->cpuset);
+    hwloc_bitmap_or(processors.get(), processors.get(), object->cpuset);
   }
-  if (hwloc_set_cpubind(topology_.get(), set.get(), flags) != 0) fail("cannot bind to " + text(place));
+  if (hwloc_set_cpubind(topology_.get(), processors.get(), flags) != 0) {
+    fail("cannot bind to " + list(numbers.get()));
+  }
 }
 
 void Machine::bind_thread(const Place& place) const { bind(place, HWLOC_CPUBIND_THREAD); }
 void Machine::bind_process(const Place& place) const { bind(place, HWLOC_CPUBIND_PROCESS); }
 
-std::string Machine::text(const Place& place) {
-  if (place.count == 1) return "core " + std::to_string(place.first);
-  return "cores " + std::to_string(place.first) + "-" + std::to_string(place.first + place.count - 1);
+std::string Machine::binding() {
+  const Machine whole = load_here();
+  const hwloc_topology_t topology = whole.topology_.get();
+  const Bitmap mine = make_bitmap();
+  if (hwloc_get_cpubind(topology, mine.get(), HWLOC_CPUBIND_THREAD) != 0) return "";
+  if (hwloc_bitmap_isincluded(hwloc_topology_get_topology_cpuset(topology), mine.get())) return "";
+  const Bitmap cores = make_bitmap();
+  for (int core = 0; core < whole.cores(); ++core) {
+    const hwloc_obj_t object = hwloc_get_obj_by_type(topology, unit(topology), core);
+    if (hwloc_bitmap_intersects(object->cpuset, mine.get())) hwloc_bitmap_set(cores.get(), core);
+  }
+  return list(cores.get());
 }
 
 }  // namespace mars::topology

@@ -46,11 +46,13 @@ class Machine {
   void bind_thread(const Place& place) const;
   void bind_process(const Place& place) const;
 
-  // "core 3" or "cores 0-1", in logical numbers (lstopo -l shows them).
-  static std::string text(const Place& place);
+  // The cores that the calling thread is bound to: "core 3", "cores 0-1,4", in the whole machine's logical
+  // numbers (lstopo -l shows them); "" if it may run on all.
+  static std::string binding();
 
  private:
   explicit Machine(hwloc_topology* topology);
+  static Machine load_here();  // not restricted to the affinity
   void bind(const Place& place, int flags) const;
 
   struct Unload {

@@ -4,14 +4,10 @@
 #include <sys/statvfs.h>
 
 #include <algorithm>
-#include <chrono>
 #include <climits>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <string>
-#include <thread>
 
 #include "hal/failure.h"
 #include "hal/message_types.h"

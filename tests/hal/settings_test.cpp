@@ -1,4 +1,5 @@
-#include <cstdlib>
+#include <stdlib.h>
+
 #include <string>
 #include <vector>
 
@@ -10,53 +11,72 @@
 namespace mars::hal {
 namespace {
 
-using Lines = std::vector<std::string>;
+// One variable of this process's environment, for a while.
+class Variable {
+ public:
+  Variable(const std::string& name, const std::string& value) : name_(name) {
+    setenv(name.c_str(), value.c_str(), 1);
+  }
+  ~Variable() { unsetenv(name_.c_str()); }
 
-TEST(Settings, HaveDefaults) {
-  const Settings settings = read_settings(Lines{"PATH=/bin", "MARS_MEMORYX=3"});
-  EXPECT_FALSE(settings.memory);
-  EXPECT_EQ(settings.simd, SimdLimit::avx512);
+ private:
+  std::string name_;
+};
+
+class SettingsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const Setting& each : settings_table()) unsetenv(each.name);
+  }
+};
+
+TEST_F(SettingsTest, HaveDefaults) {
+  EXPECT_FALSE(read_settings().memory);
+  EXPECT_EQ(read_settings().simd, "");
 }
 
-TEST(Settings, AreRead) {
-  const Settings settings = read_settings(Lines{"MARS_SIMD=avx2", "MARS_MEMORY=64"});
-  EXPECT_EQ(settings.memory, 64u * 1024 * 1024);
-  EXPECT_EQ(settings.simd, SimdLimit::avx2);
-  EXPECT_EQ(read_settings(Lines{"MARS_SIMD=sse2"}).simd, SimdLimit::sse2);
+TEST_F(SettingsTest, AreRead) {
+  const Variable memory("MARS_MEMORY", "64");
+  EXPECT_EQ(read_settings().memory, 64u * 1024 * 1024);
+  for (const std::string name : {"sse2", "avx2", "avx512"}) {
+    const Variable simd("MARS_SIMD", name);
+    EXPECT_EQ(read_settings().simd, name);
+  }
 }
 
-TEST(Settings, OfThisProcess) {
-  setenv("MARS_MEMORY", "17", 1);
-  EXPECT_EQ(read_settings(environment()).memory, 17u * 1024 * 1024);
-  unsetenv("MARS_MEMORY");
-  EXPECT_FALSE(read_settings(environment()).memory);
-}
-
-TEST(Settings, ThatAreMalformedNameVariableAndRemedy) {
+TEST_F(SettingsTest, ThatAreMalformedNameVariableAndRemedy) {
   for (const std::string value :
        {"", "x", "-1", "0", "1.5", "12MB", " 1", "99999999999999999999", "18446744073709551615"}) {
+    const Variable memory("MARS_MEMORY", value);
     try {
-      read_settings(Lines{"MARS_MEMORY=" + value});
+      read_settings();
       FAIL() << value;
     } catch (const Failure& failure) {
       EXPECT_NE(failure.where.find("MARS_MEMORY"), std::string::npos);
       EXPECT_NE(failure.remedy.find("unset"), std::string::npos);
     }
   }
-  EXPECT_THROW(read_settings(Lines{"MARS_SIMD=AVX2"}), Failure);
-  EXPECT_THROW(read_settings(Lines{"MARS_SIMD="}), Failure);
+  for (const std::string value : {"", "AVX2", "neon"}) {
+    const Variable simd("MARS_SIMD", value);
+    EXPECT_THROW(read_settings(), Failure);
+  }
 }
 
-TEST(Settings, ThatAreUnknownAreToldWithTheNearestName) {
-  const Lines told =
-      unknown_settings(Lines{"MARS_MEMROY=1", "MARS_SIMD=avx2", "HOME=/", "MARS_SIM=x", "MARSH=1"});
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_NE(told[0].find("MARS_MEMROY"), std::string::npos);
-  EXPECT_NE(told[0].find("mean MARS_MEMORY?"), std::string::npos);
-  EXPECT_NE(told[1].find("mean MARS_SIMD?"), std::string::npos);
+TEST_F(SettingsTest, ThatAreUnknownAreToldWithTheNearestName) {
+  const Variable known("MARS_SIMD", "avx2");
+  const Variable memory("MARS_MEMROY", "1");
+  const Variable simd("MARS_SIM", "x");
+  const Variable foreign("MARSH", "1");
+  std::string told;
+  for (const std::string& line : unknown_settings()) told += line + "\n";
+  EXPECT_NE(told.find("MARS_MEMROY means nothing to MARS (did you mean MARS_MEMORY?)"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("MARS_SIM means nothing to MARS (did you mean MARS_SIMD?)"), std::string::npos) << told;
+  EXPECT_EQ(told.find("variable MARS_SIMD "), std::string::npos) << told;
+  EXPECT_EQ(told.find("MARSH"), std::string::npos) << told;
 }
 
-TEST(Settings, TextNamesEach) {
+TEST_F(SettingsTest, TextNamesEach) {
   for (const Setting& each : settings_table()) {
     EXPECT_NE(settings_text().find(each.name), std::string::npos);
     EXPECT_NE(settings_text().find(each.meaning), std::string::npos);

@@ -1,6 +1,9 @@
 // Places on made-up machines, and binding on this one.
 #include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <thread>
@@ -82,11 +85,6 @@ TEST(Machine, LowDimensionsAreClose) {
   }
 }
 
-TEST(Machine, PlacesAreText) {
-  EXPECT_EQ(Machine::text({3, 1}), "core 3");
-  EXPECT_EQ(Machine::text({0, 2}), "cores 0-1");
-}
-
 TEST(Machine, HereIsWhatTheProcessMayUse) {
   cpu_set_t usable;
   ASSERT_EQ(sched_getaffinity(0, sizeof usable, &usable), 0);
@@ -107,10 +105,42 @@ TEST(Machine, BindsThreadsToTheirPlaces) {
       EXPECT_EQ(CPU_COUNT(&mine), machine.processors() / n);
       used.insert(sched_getcpu());
       EXPECT_EQ(Machine::here().cores(), 1);  // a bound thread sees only its own
+      if (n > 1) {
+        EXPECT_EQ(Machine::binding().substr(0, 5), "core ");
+      }
     }).join();
   }
   EXPECT_EQ(static_cast<int>(used.size()), n);
   EXPECT_EQ(Machine::here().cores(), n);
+}
+
+TEST(Machine, BindingIsTold) {
+  const std::string before = Machine::binding();
+  const Machine machine = Machine::here();
+  if (machine.cores() < 2 || !before.empty()) GTEST_SKIP() << "needs a machine of its own with two cores";
+  std::jthread([&] {
+    machine.bind_thread({1, 1});
+    EXPECT_EQ(Machine::binding(), "core 1");
+    machine.bind_thread({0, machine.cores()});
+    EXPECT_EQ(Machine::binding(), "");
+  }).join();
+  if (machine.cores() < 3) return;
+  std::jthread([&] {
+    machine.bind_thread({0, 2});
+    EXPECT_EQ(Machine::binding(), "cores 0-1");
+  }).join();
+}
+
+TEST(Machine, ProcessesAreBound) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const Machine machine = Machine::here();
+    machine.bind_process({machine.cores() - 1, 1});
+    _exit(Machine::here().cores() == 1 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(Machine, BindingBeyondTheCoresIsAFailure) {
