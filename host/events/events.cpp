@@ -1,56 +1,111 @@
 #include "host/events/events.h"
 
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 namespace mars::host {
 
 using nlohmann::json;
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(BootedEvent::Node, host, binding, simd)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(BootedEvent, backend, machines, nodes, keyframes, inbetweens)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(FrameEvent, number, interval, keyframe, seconds)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(FaultEvent, problem, where, remedy, replay)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DoneEvent, frames, seconds, folder)
-
 namespace {
 
-const char* name_of(const BootedEvent&) { return "booted"; }
-const char* name_of(const FrameEvent&) { return "frame"; }
-const char* name_of(const FaultEvent&) { return "fault"; }
-const char* name_of(const DoneEvent&) { return "done"; }
+json kind_json(const Progress::Kind& kind) {
+  return {{"done", kind.done}, {"of", kind.of}, {"seconds", kind.seconds}};
+}
 
-// Tries the event types one after another.
-template <typename First, typename... Rest>
-std::optional<Event> read_as(const std::string& name, const json& object) {
-  if (name == name_of(First{})) return object.get<First>();
-  if constexpr (sizeof...(Rest) > 0)
-    return read_as<Rest...>(name, object);
-  else
-    return std::nullopt;
+Progress::Kind read_kind(const json& from) { return {from.at("done"), from.at("of"), from.at("seconds")}; }
+
+json to_json(const Booted& booted) {
+  json nodes = json::array();
+  for (const Booted::Node& node : booted.nodes) {
+    nodes.push_back(
+        {{"node", node.node}, {"host", node.host}, {"binding", node.binding}, {"simd", node.simd}});
+  }
+  return {{"event", "booted"}, {"backend", booted.backend}, {"machines", booted.machines}, {"nodes", nodes}};
+}
+
+json to_json(const Progress& progress) {
+  return {{"event", "progress"},
+          {"interval", progress.interval},
+          {"intervals", progress.intervals},
+          {"keyframes", kind_json(progress.keyframes)},
+          {"inbetweens", kind_json(progress.inbetweens)}};
+}
+
+json to_json(const FrameTaken& frame) {
+  return {{"event", "frame"},
+          {"number", frame.number},
+          {"interval", frame.interval},
+          {"kind", frame.kind == FrameKind::keyframe ? "keyframe" : "inbetween"}};
+}
+
+json to_json(const Fault& fault) {
+  json to = {{"event", "fault"},
+             {"problem", fault.problem},
+             {"where", fault.where},
+             {"remedy", fault.remedy},
+             {"replay", fault.replay}};
+  if (fault.node) to["node"] = *fault.node;
+  if (fault.frame) to["frame"] = *fault.frame;
+  return to;
+}
+
+json to_json(const Done& done) {
+  return {{"event", "done"}, {"frames", done.frames}, {"seconds", done.seconds}, {"folder", done.folder}};
+}
+
+Booted read_booted(const json& from) {
+  Booted booted{from.at("backend"), from.at("machines"), {}};
+  for (const json& node : from.at("nodes")) {
+    booted.nodes.push_back({node.at("node"), node.at("host"), node.at("binding"), node.at("simd")});
+  }
+  return booted;
+}
+
+Progress read_progress(const json& from) {
+  return {from.at("interval"), from.at("intervals"), read_kind(from.at("keyframes")),
+          read_kind(from.at("inbetweens"))};
+}
+
+FrameTaken read_frame(const json& from) {
+  const bool keyframe = from.at("kind") == "keyframe";
+  return {from.at("number"), from.at("interval"), keyframe ? FrameKind::keyframe : FrameKind::inbetween};
+}
+
+Fault read_fault(const json& from) {
+  Fault fault{from.at("problem"), from.at("where"), from.at("remedy"), {}, {}, from.at("replay")};
+  if (from.contains("node")) fault.node = from["node"].get<std::int32_t>();
+  if (from.contains("frame")) fault.frame = from["frame"].get<std::int32_t>();
+  return fault;
+}
+
+Done read_done(const json& from) { return {from.at("frames"), from.at("seconds"), from.at("folder")}; }
+
+std::optional<Event> read_known(const json& from) {
+  const std::string name = from.at("event");
+  if (name == "booted") return read_booted(from);
+  if (name == "progress") return read_progress(from);
+  if (name == "frame") return read_frame(from);
+  if (name == "fault") return read_fault(from);
+  if (name == "done") return read_done(from);
+  return std::nullopt;
 }
 
 }  // namespace
 
-void write_event(std::ostream& out, const Event& event) {
-  const json object = std::visit(
-      [](const auto& known) {
-        json fields = known;
-        fields["event"] = name_of(known);
-        return fields;
-      },
-      event);
-  // Names of files and machines need not be UTF-8.
-  out << object.dump(-1, ' ', false, json::error_handler_t::replace) << '\n' << std::flush;
+std::string line_of(const Event& event) {
+  const json object = std::visit([](const auto& each) { return to_json(each); }, event);
+  // File names need not be UTF-8, JSON must be.
+  return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 std::optional<Event> read_event(std::string_view line) {
-  const json object = json::parse(line, nullptr, false);
-  if (!object.is_object() || !object.contains("event") || !object["event"].is_string()) return std::nullopt;
+  const json from = json::parse(line, nullptr, false);
+  if (!from.is_object() || !from.contains("event")) return std::nullopt;
   try {
-    return read_as<BootedEvent, FrameEvent, FaultEvent, DoneEvent>(object["event"].get<std::string>(), object);
+    return read_known(from);
   } catch (const json::exception&) {
-    return std::nullopt;  // the right name with fields of other types: not ours
+    // Another version's event of this name: not for us.
+    return std::nullopt;
   }
 }
 

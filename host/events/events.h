@@ -1,61 +1,73 @@
-// What a rendering tells while it runs: one JSON object a line on the host program's standard output, read by
-// `mars render`, and by anything else that wants to follow. Each object has a key "event" with the event's
-// name and the fields below under their own names; readers skip events they do not know.
+// What the host tells while it renders: one JSON object a line on its standard output, read by `mars render`
+// and by whoever supervises or watches. Its key "event" says which it is: booted, progress, frame, fault or
+// done; readers pass over what they do not know. Seconds count from the first command to the nodes.
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "host/events/progress.h"
+
 namespace mars::host {
 
-// "booted": all nodes are there.
-struct BootedEvent {
+// All nodes are there.
+struct Booted {
   struct Node {
-    std::string host;     // name of its machine
-    std::string binding;  // processors it is bound to, "" if free
-    std::string simd;     // instruction set of its kernels
+    std::int32_t node = 0;
+    std::string host;
+    std::string binding;  // "" if free
+    std::string simd;
+
+    bool operator==(const Node&) const = default;
   };
-  std::string backend;          // "mpi" or "threads"
+
+  std::string backend;  // mpi or threads
   std::uint32_t machines = 0;
   std::vector<Node> nodes;
-  std::uint32_t keyframes = 0;  // to be rendered
-  std::uint32_t inbetweens = 0;
+
+  bool operator==(const Booted&) const = default;
 };
 
-// "frame": a sink has taken it.
-struct FrameEvent {
+// A frame is where it belongs.
+struct FrameTaken {
   std::uint32_t number = 0;
   std::uint32_t interval = 0;
-  bool keyframe = false;  // else an inbetween
-  double seconds = 0;     // since the first command to the nodes
+  FrameKind kind = FrameKind::keyframe;
+
+  bool operator==(const FrameTaken&) const = default;
 };
 
-// "fault": the run ends without all frames.
-struct FaultEvent {
+// The run ends here, and why.
+struct Fault {
   std::string problem;
-  std::string where;   // "node 3, frame 12", or a file; may be ""
-  std::string remedy;  // may be ""
-  std::string replay;  // the command that shows it again; may be ""
+  std::string where;                  // file and element, node and frame; or ""
+  std::string remedy;                 // or ""
+  std::optional<std::int32_t> node;   // that failed; none: the host
+  std::optional<std::int32_t> frame;  // it was drawing
+  std::string replay;                 // a command that does it again, or ""
+
+  bool operator==(const Fault&) const = default;
 };
 
-// "done": all frames are where they belong.
-struct DoneEvent {
+// All frames are where they belong.
+struct Done {
   std::uint32_t frames = 0;
-  double seconds = 0;  // rendering, from the first command to the last frame taken
-  std::string folder;  // "" where frames went nowhere
+  double seconds = 0;
+  std::string folder;  // "" without a sink
+
+  bool operator==(const Done&) const = default;
 };
 
-using Event = std::variant<BootedEvent, FrameEvent, FaultEvent, DoneEvent>;
+using Event = std::variant<Booted, Progress, FrameTaken, Fault, Done>;
 
-// Writes the event's line and flushes.
-void write_event(std::ostream& out, const Event& event);
+// One line, with its end.
+std::string line_of(const Event& event);
 
-// None where the line is no event, or one this program does not know.
+// None for a line that is no event, or one that this version does not know.
 std::optional<Event> read_event(std::string_view line);
 
 }  // namespace mars::host

@@ -19,7 +19,8 @@ std::uint32_t number(std::string_view text, std::string_view part) {
   std::uint32_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range) throw wrong(part, "is too large for a frame number");
-  if (error != std::errc() || end != text.data() + text.size()) throw wrong(part, "is not a frame or a range of frames");
+  if (error != std::errc() || end != text.data() + text.size())
+    throw wrong(part, "is not a frame or a range of frames");
   return value;
 }
 
@@ -62,7 +63,8 @@ std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
     const std::uint32_t last = stretch.last.value_or(film_frames - 1);
     const std::uint32_t beyond = stretch.first < film_frames ? last : stretch.first;
     if (beyond >= film_frames) {
-      throw Failure("frame " + std::to_string(beyond) + " is beyond the film's last, " + std::to_string(film_frames - 1),
+      throw Failure("frame " + std::to_string(beyond) + " is beyond the film's last, " +
+                        std::to_string(film_frames - 1),
                     "--frames " + text(), "frames count from 0");
     }
     for (std::uint32_t frame = stretch.first; frame <= last; ++frame) wanted[frame] = true;

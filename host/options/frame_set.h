@@ -1,5 +1,5 @@
-// Which frames of a film a person wants, as written on a command line: "0-9,24,30-" is frames 0 to 9, frame 24
-// and frame 30 up to the film's last.
+// Which frames of a film a person wants, as written on a command line: "0-9,24,30-" is frames 0 to 9, frame
+// 24 and frame 30 up to the film's last.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ template <>
 constexpr std::array kWords<node::Mapping>{"greedy", "optimal"};
 
 template <typename Enumeration>
-  requires std::is_enum_v<Enumeration>
+requires std::is_enum_v<Enumeration>
 void read(const std::string& text, Enumeration& value) {
   std::string words;
   for (std::size_t i = 0; i < kWords<Enumeration>.size(); ++i) {
@@ -58,12 +58,13 @@ bool read_number(std::string_view text, std::uint32_t& value) {
 void read(const std::string& text, std::optional<PictureSize>& value) {
   const std::size_t cross = std::min(text.find('x'), text.size());
   PictureSize size{};
-  const bool numbers = cross < text.size() && read_number(std::string_view(text).substr(0, cross), size.width) &&
+  const bool numbers = cross < text.size() &&
+                       read_number(std::string_view(text).substr(0, cross), size.width) &&
                        read_number(std::string_view(text).substr(cross + 1), size.height);
   if (!numbers) throw Failure("'" + text + "' is not a size", "", "write width and height like 960x540");
   if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > node::kMaxSide) {
-    throw Failure("'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "",
-                  "");
+    throw Failure(
+        "'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "", "");
   }
   value = size;
 }
@@ -87,8 +88,7 @@ void read_count(const std::string& text, const Count& count, RenderOptions& opti
 }
 
 template <typename Enumeration>
-  requires std::is_enum_v<Enumeration>
-std::string text_of(Enumeration value) {
+requires std::is_enum_v<Enumeration> std::string text_of(Enumeration value) {
   return kWords<Enumeration>[static_cast<std::size_t>(value)];
 }
 
@@ -128,7 +128,8 @@ Entry option(unsigned programs, const char* names, const char* type, Value Rende
              const char* help) {
   return {programs,
           [=](CLI::App& app, RenderOptions& options) {
-            add_reader(app, names, type, help, [&options, member](const std::string& text) { read(text, options.*member); });
+            add_reader(app, names, type, help,
+                       [&options, member](const std::string& text) { read(text, options.*member); });
           },
           [=](const RenderOptions& options) -> Arguments {
             if (options.*member == RenderOptions().*member) return {};
@@ -139,7 +140,8 @@ Entry option(unsigned programs, const char* names, const char* type, Value Rende
 Entry number(unsigned programs, const char* names, const Count& count, const char* help) {
   return {programs,
           [=](CLI::App& app, RenderOptions& options) {
-            add_reader(app, names, "N", help, [&options, count](const std::string& text) { read_count(text, count, options); });
+            add_reader(app, names, "N", help,
+                       [&options, count](const std::string& text) { read_count(text, count, options); });
           },
           [=](const RenderOptions& options) -> Arguments {
             const std::uint32_t value = options.*count.member;
@@ -149,7 +151,8 @@ Entry number(unsigned programs, const char* names, const Count& count, const cha
 }
 
 Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, const char* help) {
-  return {programs, [=](CLI::App& app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
+  return {programs,
+          [=](CLI::App& app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
           [=](const RenderOptions& options) -> Arguments {
             if (!(options.*member)) return {};
             return {first_name(names)};
@@ -170,7 +173,8 @@ Entry film(unsigned programs) {
 // The table: every option once, in the order of the help.
 std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
-  constexpr unsigned all = bit(Program::mars) | bit(Program::host) | bit(Program::cube) | bit(Program::threads);
+  constexpr unsigned all =
+      bit(Program::mars) | bit(Program::host) | bit(Program::cube) | bit(Program::threads);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads);
   constexpr unsigned person = bit(Program::mars);
   constexpr std::uint32_t many = 1 << 20;
@@ -197,8 +201,9 @@ std::vector<Entry> table() {
            "Render every frame from scratch; same pictures, slower. Example: --no-coherence"),
       number(all, "--block", {&RenderOptions::block, false, node::kMaxSide},
              "Side of the compositor's blocks in pixels; same pictures. Example: --block 32"),
-      number(all, "--cubes", {&RenderOptions::cubes, true, many},
-             "Intervals rendered at a time, each by a part of the nodes; 1 is the thesis. Example: --cubes 1"),
+      number(
+          all, "--cubes", {&RenderOptions::cubes, true, many},
+          "Intervals rendered at a time, each by a part of the nodes; 1 is the thesis. Example: --cubes 1"),
       option(all, "--sink", "png|none", &RenderOptions::sink,
              "Where frames go; none writes nothing, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
@@ -207,7 +212,9 @@ std::vector<Entry> table() {
   };
 }
 
-bool takes(Program program, const Entry& entry) { return (entry.programs & static_cast<unsigned>(program)) != 0; }
+bool takes(Program program, const Entry& entry) {
+  return (entry.programs & static_cast<unsigned>(program)) != 0;
+}
 
 }  // namespace
 

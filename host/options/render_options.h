@@ -26,8 +26,8 @@ struct PictureSize {
 };
 
 struct RenderOptions {
-  std::string film;    // FILM.json or FILM.mars
-  std::string folder;  // for the frames; "" only without a sink
+  std::string film;         // FILM.json or FILM.mars
+  std::string folder;       // for the frames; "" only without a sink
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
   FrameSet frames;

@@ -1,35 +1,28 @@
 #include "host/report/report.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <span>
-#include <vector>
-
-#include "host/sinks/whole_file.h"
 
 namespace mars::host {
+
+using nlohmann::ordered_json;
+
 namespace {
 
-using json = nlohmann::ordered_json;
-
-const char* kind_name(node::FrameKind kind) { return kind == node::FrameKind::keyframe ? "keyframe" : "inbetween"; }
-
-json node_json(const node::Hello& hello) {
-  return {{"node", hello.node},
-          {"host", hello.host.data()},
-          {"machine", hello.machine},
-          {"binding", hello.binding.data()},
-          {"simd", hello.simd.data()},
-          {"memory", hello.memory}};
+ordered_json node_json(const node::Hello& hello) {
+  return {{"node", hello.node},        {"machine", hello.machine},
+          {"host", hello.host.data()}, {"binding", hello.binding.data()},
+          {"simd", hello.simd.data()}, {"memory", hello.memory}};
 }
 
-json seconds_json(const node::PhaseTimes& times) {
-  return {{"dice", times.dice},         {"sum", times.sum},   {"map", times.map},
-          {"exchange", times.exchange}, {"fill", times.fill}, {"scanline", times.scanline},
+ordered_json seconds_json(const node::PhaseTimes& times) {
+  return {{"dice", times.dice},         {"sum", times.sum},      {"map", times.map},
+          {"exchange", times.exchange}, {"fill", times.fill},    {"scanline", times.scanline},
           {"depth", times.depth},       {"credit", times.credit}};
 }
 
-json work_json(const node::WorkCounts& work) {
+ordered_json work_json(const node::WorkCounts& work) {
   return {{"patches", work.patches},
           {"vertices", work.vertices},
           {"triangles", work.triangles},
@@ -43,7 +36,8 @@ json work_json(const node::WorkCounts& work) {
           {"credits_waited", work.credits_waited}};
 }
 
-json share_json(const node::Strip& strip) {
+// A strip that is a node's last of a frame: it has all the node's counts.
+ordered_json part_json(const node::Strip& strip) {
   return {{"node", strip.node},
           {"first_line", strip.first_line},
           {"last_line", strip.last_line},
@@ -51,42 +45,50 @@ json share_json(const node::Strip& strip) {
           {"work", work_json(strip.work)}};
 }
 
-// The last strips of a frame's nodes, which have all its counts, in the order of nodes.
-std::vector<node::Strip> shares_of(const FarmReport& report, std::uint32_t frame) {
-  std::vector<node::Strip> shares;
-  for (const node::Strip& strip : report.strips)
-    if (strip.frame == frame && strip.last == 1) shares.push_back(strip);
-  std::sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
-  return shares;
+ordered_json frame_json(const FinishedFrame& frame, std::vector<const node::Strip*>& strips) {
+  std::sort(strips.begin(), strips.end(), [](const auto* a, const auto* b) { return a->node < b->node; });
+  ordered_json parts = ordered_json::array();
+  for (const node::Strip* strip : strips) parts.push_back(part_json(*strip));
+  const bool keyframe = frame.kind == node::FrameKind::keyframe;
+  return {{"frame", frame.number},
+          {"interval", frame.interval},
+          {"kind", keyframe ? "keyframe" : "inbetween"},
+          {"seconds", frame.seconds},
+          {"edge_box_total", strips.empty() ? 0 : strips.front()->edge_box_total},
+          {"load_ratio", strips.empty() ? 1 : strips.front()->load_ratio},
+          {"nodes", parts}};
 }
 
-json frame_json(const FinishedFrame& frame, std::span<const node::Strip> shares) {
-  json out = {{"frame", frame.number},
-              {"interval", frame.interval},
-              {"kind", kind_name(frame.kind)},
-              {"composed_at", frame.seconds},
-              {"edge_boxes", shares.front().edge_box_total},
-              {"load_max_over_average", shares.front().load_ratio},
-              {"nodes", json::array()}};
-  for (const node::Strip& strip : shares) out["nodes"].push_back(share_json(strip));
-  return out;
+ordered_json frames_json(const FarmReport& report) {
+  std::map<std::uint32_t, std::vector<const node::Strip*>> strips;
+  for (const node::Strip& strip : report.strips) {
+    if (strip.last == 1) strips[strip.frame].push_back(&strip);
+  }
+  std::vector<FinishedFrame> frames = report.frames;
+  std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  ordered_json rows = ordered_json::array();
+  for (const FinishedFrame& frame : frames) rows.push_back(frame_json(frame, strips[frame.number]));
+  return rows;
 }
 
 }  // namespace
 
-void write_report(const std::filesystem::path& file, const ReportHeader& header, const FarmReport& report) {
-  json out = {{"film", header.film},
-              {"size", {header.width, header.height}},
-              {"backend", header.backend},
-              {"film_bytes", report.film_bytes},
-              {"seconds", {{"load", report.load_seconds}, {"render", report.render_seconds}, {"total", report.total_seconds}}},
-              {"nodes", json::array()},
-              {"frames", json::array()}};
-  for (const node::Hello& hello : report.nodes) out["nodes"].push_back(node_json(hello));
-  std::vector<FinishedFrame> frames = report.frames;
-  std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
-  for (const FinishedFrame& frame : frames) out["frames"].push_back(frame_json(frame, shares_of(report, frame.number)));
-  write_whole_file(file, out.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+std::string report_text(const ReportHead& head, const FarmReport& report) {
+  ordered_json nodes = ordered_json::array();
+  for (const node::Hello& hello : report.nodes) nodes.push_back(node_json(hello));
+  const ordered_json all = {{"film", head.film},
+                            {"checksum", head.checksum},
+                            {"backend", head.backend},
+                            {"arguments", head.arguments},
+                            {"width", head.width},
+                            {"height", head.height},
+                            {"film_bytes", report.film_bytes},
+                            {"load_seconds", report.load_seconds},
+                            {"render_seconds", report.render_seconds},
+                            {"total_seconds", report.total_seconds},
+                            {"nodes", nodes},
+                            {"frames", frames_json(report)}};
+  return all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace mars::host

@@ -1,21 +1,24 @@
-// `--report FILE`: what a rendering measured, as one JSON object, described key by key in docs/report.md.
+// What `--report FILE` holds: who rendered, and for each frame and node the seconds of every step and the
+// work that was counted, as JSON (docs/rendering.md names the keys).
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/farm/farm.h"
 
 namespace mars::host {
 
-struct ReportHeader {
+// What the farm does not know of its own run.
+struct ReportHead {
   std::string film;
+  std::string checksum;
   std::string backend;
-  std::uint32_t width = 0;
+  std::vector<std::string> arguments;  // the options, as given to the host
+  std::uint32_t width = 0;             // pixels
   std::uint32_t height = 0;
 };
 
-// Written whole or not at all; throws Failure naming the file.
-void write_report(const std::filesystem::path& file, const ReportHeader& header, const FarmReport& report);
+std::string report_text(const ReportHead& head, const FarmReport& report);
 
 }  // namespace mars::host

@@ -78,7 +78,8 @@ FrameFolder::FrameFolder(fs::path path, const Manifest& manifest)
     : path_(std::move(path)), film_frames_(manifest.film_frames) {
   create_folder(path_);
   remove_parts(path_);
-  write_whole_file(path_ / kManifestName, to_json(manifest).dump(2) + "\n");
+  write_whole_file(path_ / kManifestName,
+                   to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 fs::path FrameFolder::file_of(std::uint32_t frame) const {

@@ -1,0 +1,41 @@
+// How far a rendering is. Keyframes and inbetweens are kept apart, for a keyframe may cost a hundred times an
+// inbetween: the time until a frame came is counted to its kind, so that all seconds are counted once.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "node/protocol.h"
+
+namespace mars::host {
+
+using node::FrameKind;
+
+struct Progress {
+  struct Kind {
+    std::uint32_t done = 0;
+    std::uint32_t of = 0;
+    double seconds = 0;  // spent until those done were there
+
+    bool operator==(const Kind&) const = default;
+  };
+
+  std::uint32_t interval = 0;   // of the frame that came last
+  std::uint32_t intervals = 0;  // of the film
+  Kind keyframes;
+  Kind inbetweens;
+
+  std::uint32_t done() const { return keyframes.done + inbetweens.done; }
+  std::uint32_t of() const { return keyframes.of + inbetweens.of; }
+  double seconds() const { return keyframes.seconds + inbetweens.seconds; }
+
+  // A frame of `kind` came, `seconds` after the start.
+  void count(FrameKind kind, std::uint32_t of_interval, double at_seconds);
+
+  // Seconds that the rest will take; none before anything is known.
+  std::optional<double> seconds_left() const;
+
+  bool operator==(const Progress&) const = default;
+};
+
+}  // namespace mars::host
