@@ -224,8 +224,10 @@ Compositor Farm::spare_compositor() {
 
 }  // namespace
 
-NodeFailure::NodeFailure(const std::string& reason, int node, int at)
-    : Failure(reason, "node " + std::to_string(node) + (at < 0 ? "" : ", frame " + std::to_string(at)), ""), frame(at) {}
+NodeFailure::NodeFailure(const std::string& reason, int who, int at)
+    : Failure(reason, "node " + std::to_string(who) + (at < 0 ? "" : ", frame " + std::to_string(at)), ""),
+      node(who),
+      frame(at) {}
 
 std::uint32_t pixel_of(const std::array<float, 3>& color) {
   std::uint32_t pixel = 0;

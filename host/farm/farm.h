@@ -22,6 +22,7 @@ class NodeFailure : public Failure {
   // `frame` -1: before any.
   NodeFailure(const std::string& reason, int node, int frame);
 
+  int node;
   int frame;
 };
 

@@ -29,30 +29,20 @@ std::uint64_t memory_share(const topology::Machine& machine, int nodes) {
 }
 
 // Binds the calling thread to its share of the machine, unless whoever started it has, or there is none.
-std::string bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
-  if (here.placed) return "by its starter";
-  const auto place = machine.place(here.index, here.count, kCoresForHost);
-  if (!place) return "";
-  machine.bind_thread(*place);
-  return topology::Machine::text(*place);
-}
-
-const char* simd_name(hal::SimdLimit limit) {
-  switch (limit) {
-    case hal::SimdLimit::sse2: return "sse2";
-    case hal::SimdLimit::avx2: return "avx2";
-    default: return "avx512";
-  }
+void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
+  if (here.placed) return;
+  if (const auto place = machine.place(here.index, here.count, kCoresForHost)) machine.bind_thread(*place);
 }
 
 }  // namespace
 
 void run_node_job() {
-  const hal::Settings settings = hal::read_settings(hal::environment());
+  const hal::Settings settings = hal::read_settings();
   const hal::Neighbourhood here = hal::neighbourhood();
   const topology::Machine machine = topology::Machine::here();
   const std::uint64_t memory = settings.memory.value_or(memory_share(machine, here.count));
-  node::run_node({host_name(), bind(machine, here), memory, simd_name(settings.simd)});
+  bind(machine, here);
+  node::run_node({host_name(), topology::Machine::binding(), memory, settings.simd});
 }
 
 }  // namespace mars::host

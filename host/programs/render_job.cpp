@@ -14,6 +14,7 @@
 #include "host/sinks/checksum.h"
 #include "host/sinks/frame_folder.h"
 #include "host/sinks/sink_pool.h"
+#include "host/sinks/whole_file.h"
 #include "topology/machine.h"
 
 namespace mars::host {
@@ -53,31 +54,47 @@ SinkPool::Shape pool_shape(const node::FilmSettings& settings, std::uint32_t blo
   return {settings.width, settings.height, block, threads + 2, threads};
 }
 
-BootedEvent booted_event(std::span<const node::Hello> hellos, const char* backend) {
-  BootedEvent event;
+Booted booted_event(std::span<const node::Hello> hellos, const char* backend) {
+  Booted event;
   event.backend = backend;
   std::set<std::int32_t> machines;
   for (const node::Hello& hello : hellos) {
     machines.insert(hello.machine);
-    event.nodes.push_back({hello.host.data(), hello.binding.data(), hello.simd.data()});
+    event.nodes.push_back({hello.node, hello.host.data(), hello.binding.data(), hello.simd.data()});
   }
   event.machines = static_cast<std::uint32_t>(machines.size());
   return event;
 }
 
-FarmListener tell_events(const char* backend) {
-  FarmListener listener;
-  listener.booted = [backend](std::span<const node::Hello> hellos, std::uint32_t keyframes, std::uint32_t inbetweens) {
-    BootedEvent event = booted_event(hellos, backend);
-    event.keyframes = keyframes;
-    event.inbetweens = inbetweens;
-    write_event(std::cout, event);
-  };
-  listener.finished = [](const FinishedFrame& frame) {
-    write_event(std::cout, FrameEvent{frame.number, frame.interval, frame.kind == node::FrameKind::keyframe, frame.seconds});
-  };
-  return listener;
-}
+void tell(const Event& event) { std::cout << line_of(event) << std::flush; }
+
+// Tells the farm's news on standard output, and how far it is.
+class Teller {
+ public:
+  Teller(const char* backend, std::size_t intervals) : backend_(backend) {
+    progress_.intervals = static_cast<std::uint32_t>(intervals);
+  }
+
+  FarmListener listener() {
+    FarmListener listener;
+    listener.booted = [this](std::span<const node::Hello> hellos, std::uint32_t keyframes, std::uint32_t inbetweens) {
+      progress_.keyframes.of = keyframes;
+      progress_.inbetweens.of = inbetweens;
+      tell(booted_event(hellos, backend_));
+      tell(progress_);
+    };
+    listener.finished = [this](const FinishedFrame& frame) {
+      tell(FrameTaken{frame.number, frame.interval, frame.kind});
+      progress_.count(frame.kind, frame.interval, frame.seconds);
+      tell(progress_);
+    };
+    return listener;
+  }
+
+ private:
+  const char* backend_;
+  Progress progress_;
+};
 
 void render(const RenderOptions& options, const char* backend) {
   check_together(options);
@@ -91,22 +108,33 @@ void render(const RenderOptions& options, const char* backend) {
 
   Destination destination(options, film, farm.frames);
   SinkPool pool(destination.sink(), pool_shape(settings, options.block));
-  const FarmReport report = render_film(film.block(), farm, pool, tell_events(backend));
-  if (!options.report.empty())
-    write_report(options.report, {options.film, backend, settings.width, settings.height}, report);
-  write_event(std::cout, DoneEvent{static_cast<std::uint32_t>(farm.frames.size()), report.total_seconds, options.folder});
+  Teller teller(backend, film.view().intervals().size());
+  const FarmReport report = render_film(film.block(), farm, pool, teller.listener());
+  if (!options.report.empty()) {
+    const ReportHead head{options.film, checksum_of(film.block()), backend, arguments_for(Program::host, options),
+                          settings.width, settings.height};
+    write_whole_file(options.report, report_text(head, report));
+  }
+  tell(Done{static_cast<std::uint32_t>(farm.frames.size()), report.total_seconds, options.folder});
 }
 
-// The command that shows the failure again, of one frame where it is known.
-std::string replay_command(RenderOptions options, const char* backend, const Failure& failure) {
-  const auto* at_node = dynamic_cast<const NodeFailure*>(&failure);
-  if (at_node == nullptr) return "";
+// Why the run ends; of a node's failure also the command that shows it again, with one frame where it is known.
+Fault fault_of(const std::exception& reason, RenderOptions options, const char* backend) {
+  Fault fault;
+  const auto* failure = dynamic_cast<const Failure*>(&reason);
+  fault.problem = failure ? failure->problem : reason.what();
+  if (failure) fault.where = failure->where;
+  if (failure) fault.remedy = failure->remedy;
+  const auto* at_node = dynamic_cast<const NodeFailure*>(&reason);
+  if (at_node == nullptr) return fault;
+  fault.node = at_node->node;
+  if (at_node->frame >= 0) fault.frame = at_node->frame;
   if (at_node->frame >= 0) options.frames = FrameSet(std::to_string(at_node->frame));
   options.nodes = static_cast<std::uint32_t>(numnodes());
   options.backend = backend == std::string("mpi") ? Backend::mpi : Backend::threads;
-  std::string command = "mars render";
-  for (const std::string& argument : arguments_for(Program::mars, options)) command += " " + argument;
-  return command;
+  fault.replay = "mars render";
+  for (const std::string& argument : arguments_for(Program::mars, options)) fault.replay += " " + argument;
+  return fault;
 }
 
 }  // namespace
@@ -114,11 +142,8 @@ std::string replay_command(RenderOptions options, const char* backend, const Fai
 void run_render_job(const RenderOptions& options, const char* backend) {
   try {
     render(options, backend);
-  } catch (const Failure& failure) {
-    write_event(std::cout, FaultEvent{failure.problem, failure.where, failure.remedy, replay_command(options, backend, failure)});
-    throw;
-  } catch (const std::exception& failure) {
-    write_event(std::cout, FaultEvent{failure.what(), "", "", ""});
+  } catch (const std::exception& reason) {
+    tell(fault_of(reason, options, backend));
     throw;
   }
 }
