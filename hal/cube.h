@@ -15,9 +15,10 @@ struct Cube {
 };
 
 // Element-wise sum of every member's `values`, left in `values` on all of them. All members call, in the
-// same order, with equal lengths; `work` is as long as `values`. Every member gets the same bits. Order of the
-// additions, with positions counted from `first` and 2^d the largest power of two within `count`: first p and
-// p + 2^d, then pairs across bit 0, 1, ... d - 1 of the positions, the lower one's sum always on the left.
+// same order, with equal lengths; `work` is as long as `values`. Every member gets the same bits. Order of
+// the additions, with positions counted from `first` and 2^d the largest power of two within `count`: first
+// p and p + 2^d, then pairs across bit 0, 1, ... d - 1 of the positions, the lower one's sum always on the
+// left.
 void cube_sum(const Cube& cube, std::span<double> values, std::span<double> work);
 
 // Element-wise maximum, likewise.

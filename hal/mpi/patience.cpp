@@ -1,6 +1,7 @@
 #include "hal/mpi/patience.h"
 
 #include <sched.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,14 +14,18 @@ struct Patience {
   int at_once;  // turns
   int yields;   // turns after these
 };
+// The yields last longer than the first sleeps, or two that wait for each other fall asleep in turns.
 constexpr Patience kEnoughProcessors = {500, 500};
-constexpr Patience kTooFewProcessors = {1, 50};
+constexpr Patience kTooFewProcessors = {1, 300};
 
-constexpr int kShortestSleep = 10;  // microseconds
+constexpr unsigned long kTimerSlack = 1000;  // nanoseconds
+constexpr int kShortestSleep = 10;           // microseconds
 constexpr int kLongestSleep = 1000;
 constexpr int kSleepsUntilLonger = 4;  // each length is slept so often before it doubles
 
 }  // namespace
+
+void prepare_to_wait() { prctl(PR_SET_TIMERSLACK, kTimerSlack); }
 
 void wait_a_turn(int turn, bool oversubscribed) {
   const Patience patience = oversubscribed ? kTooFewProcessors : kEnoughProcessors;

@@ -5,6 +5,9 @@
 
 namespace mars::hal {
 
+// Makes the short sleeps of this thread short: Linux adds 50 microseconds to each unless told not to.
+void prepare_to_wait();
+
 // Turn 0, 1, 2 ... of one wait. `oversubscribed`: there are more processes than processors, so whatever is
 // waited for may itself wait for this processor.
 void wait_a_turn(int turn, bool oversubscribed);

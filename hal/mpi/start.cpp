@@ -12,6 +12,7 @@
 #include "hal/failure.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
+#include "hal/mpi/patience.h"
 #include "hal/process.h"
 
 namespace mars::hal {
@@ -77,6 +78,7 @@ int run_mpi(int& argc, char**& argv, Role role, const std::function<int(int argc
   if (level < MPI_THREAD_FUNNELED)
     abort_job("this MPI cannot be used by a process with threads; use another");
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+  prepare_to_wait();
   int code = 1;
   std::string name;
   try {
