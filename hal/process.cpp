@@ -213,30 +213,34 @@ bool Process::look(std::int32_t typesel) {
     info_ = message->envelope;
     return true;
   }
-  do {
-    const std::optional<Envelope> next = backend_.peek();
-    if (next && selects(typesel, next->type) && requests_.posted_for(next->type) == nullptr) {
+  // One look a turn: what arrived between two would be kept, and then be received before what was told of.
+  while (const std::optional<Envelope> next = backend_.peek()) {
+    if (selects(typesel, next->type) && requests_.posted_for(next->type) == nullptr) {
       info_ = *next;
       quiet_turns_ = 0;
       return true;
     }
-  } while (arrive());
+    settle(*next);
+  }
   return false;
 }
 
 // Takes the next arrived message to where it belongs; false if there is none.
 bool Process::arrive() {
   const std::optional<Envelope> next = backend_.peek();
-  if (!next) return false;
+  if (next) settle(*next);
+  return next.has_value();
+}
+
+void Process::settle(const Envelope& next) {
   quiet_turns_ = 0;
-  if (Request* request = requests_.posted_for(next->type)) {
-    receive_into(*request, *next);
-  } else if (type_class(next->type) == TypeClass::force) {
-    discard(*next);
+  if (Request* request = requests_.posted_for(next.type)) {
+    receive_into(*request, next);
+  } else if (type_class(next.type) == TypeClass::force) {
+    discard(next);
   } else {
-    keep(*next);
+    keep(next);
   }
-  return true;
 }
 
 void Process::receive_into(Request& request, const Envelope& envelope) {

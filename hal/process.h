@@ -86,6 +86,7 @@ class Process {
 
   bool look(std::int32_t typesel);
   bool arrive();
+  void settle(const Envelope& next);
   void receive_into(Request& request, const Envelope& envelope);
   void keep(const Envelope& envelope);
   void discard(const Envelope& envelope);
