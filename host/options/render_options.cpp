@@ -101,16 +101,16 @@ std::string text_of(const std::optional<PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
 
-// CLI11 tells the option's name itself, and that it is the person's own mistake.
+// A value that cannot be read is the person's own mistake: told with the option's name, exit code 2.
 template <typename Read>
 void add_reader(CLI::App& app, const char* names, const char* type, const char* help, Read read_text) {
   app.add_option_function<std::string>(
          names,
-         [read_text](const std::string& text) {
+         [names, read_text](const std::string& text) {
            try {
              read_text(text);
            } catch (const Failure& failure) {
-             throw CLI::ValidationError(failure.what());
+             throw CLI::ValidationError(names, failure.what());
            }
          },
          help)

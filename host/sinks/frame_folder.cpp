@@ -8,6 +8,7 @@
 #include "hal/failure.h"
 #include "host/sinks/png_file.h"
 #include "host/sinks/whole_file.h"
+#include "node/film.h"
 
 namespace mars::host {
 
@@ -17,6 +18,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kManifestName = "frames.json";
+constexpr std::uint32_t kMostFrames = 100'000'000;  // more is no film
 
 void create_folder(const fs::path& path) {
   std::error_code error;
@@ -38,13 +40,20 @@ json stretches_of(const std::vector<std::uint32_t>& frames) {
   return stretches;
 }
 
+// A whole number below `end`; JSON's own conversions would bend any other into one.
+std::uint32_t whole_number(const json& from, std::uint32_t end) {
+  if (!from.is_number_unsigned() || from.get<std::uint64_t>() >= end) {
+    throw std::out_of_range(from.dump() + " is not a whole number below " + std::to_string(end));
+  }
+  return from.get<std::uint32_t>();
+}
+
 std::vector<std::uint32_t> frames_of(const json& stretches, std::uint32_t film_frames) {
   std::vector<std::uint32_t> frames;
   for (const json& stretch : stretches) {
-    const auto last = stretch.at(1).get<std::uint32_t>();
-    if (last >= film_frames) throw std::out_of_range("a frame beyond the film's end");
-    for (std::uint64_t frame = stretch.at(0).get<std::uint32_t>(); frame <= last; ++frame) {
-      frames.push_back(static_cast<std::uint32_t>(frame));
+    const std::uint32_t last = whole_number(stretch.at(1), film_frames);
+    for (std::uint32_t frame = whole_number(stretch.at(0), film_frames); frame <= last; ++frame) {
+      frames.push_back(frame);
     }
   }
   return frames;
@@ -64,10 +73,10 @@ Manifest from_json(const json& from) {
   Manifest manifest;
   from.at("film").get_to(manifest.film);
   from.at("checksum").get_to(manifest.checksum);
-  from.at("width").get_to(manifest.width);
-  from.at("height").get_to(manifest.height);
+  manifest.width = whole_number(from.at("width"), node::kMaxSide + 1);
+  manifest.height = whole_number(from.at("height"), node::kMaxSide + 1);
   from.at("rate").get_to(manifest.rate);
-  from.at("film_frames").get_to(manifest.film_frames);
+  manifest.film_frames = whole_number(from.at("film_frames"), kMostFrames);
   manifest.frames = frames_of(from.at("frames"), manifest.film_frames);
   return manifest;
 }

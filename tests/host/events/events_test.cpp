@@ -1,0 +1,77 @@
+#include "host/events/events.h"
+
+#include <gtest/gtest.h>
+
+namespace mars::host {
+namespace {
+
+std::vector<Event> one_of_each() {
+  Progress progress;
+  progress.intervals = 4;
+  progress.keyframes = {1, 4, 0.5};
+  progress.inbetweens = {7, 20, 0.125};
+  progress.interval = 2;
+  return {
+      Booted{"mpi", 2, {{0, "ada", "core 0", "avx2"}, {1, "bob", "", "sse2"}}},
+      progress,
+      FrameTaken{12, 2, FrameKind::inbetween},
+      FrameTaken{0, 0, FrameKind::keyframe},
+      Fault{"a \"problem\"\nof two lines", "film.json:3", "mend it", {}, {}, ""},
+      Fault{"out of memory", "node 3, frame 12", "", 3, 12, "mars render x.json --frames 12"},
+      Done{24, 1.5, "build/demo"},
+  };
+}
+
+TEST(Events, EachIsOneLineThatReadsAgain) {
+  for (const Event& event : one_of_each()) {
+    const std::string line = line_of(event);
+    EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
+    EXPECT_EQ(read_event(line), event) << line;
+  }
+}
+
+TEST(Events, AnyTextIsToldAsValidJson) {
+  const std::optional<Event> event = read_event(line_of(Fault{"\xff\xfe name", "", "", {}, {}, ""}));
+  ASSERT_TRUE(event.has_value());
+  EXPECT_TRUE(std::get<Fault>(*event).problem.ends_with(" name"));
+}
+
+TEST(Events, WhatIsNotKnownIsPassedOver) {
+  for (const char* line :
+       {"", "hello", "{", "3", "[]", "null", "{}", "{\"event\":\"heartbeat\",\"node\":3}", "{\"event\":5}",
+        "{\"event\":\"frame\"}", "{\"event\":\"done\",\"frames\":\"many\"}", "\xff\xff"})
+    EXPECT_EQ(read_event(line), std::nullopt) << line;
+  EXPECT_TRUE(read_event("{\"event\":\"done\",\"frames\":3,\"seconds\":1,\"folder\":\"\",\"later\":[1]}"));
+}
+
+TEST(Progress, CountsEverySecondOnce) {
+  Progress progress;
+  progress.keyframes.of = 2;
+  progress.inbetweens.of = 10;
+  EXPECT_EQ(progress.seconds_left(), std::nullopt);
+  progress.count(FrameKind::keyframe, 0, 4.0);
+  progress.count(FrameKind::inbetween, 0, 4.5);
+  progress.count(FrameKind::inbetween, 0, 5.0);
+  EXPECT_EQ(progress.keyframes.seconds, 4.0);
+  EXPECT_EQ(progress.inbetweens.seconds, 1.0);
+  EXPECT_EQ(progress.done(), 3u);
+  EXPECT_EQ(progress.of(), 12u);
+}
+
+// One keyframe of 4 seconds and eight inbetweens of half a second are left.
+TEST(Progress, ExpectsEachKindToTakeAsLongAsBefore) {
+  Progress progress;
+  progress.keyframes = {1, 2, 4.0};
+  progress.inbetweens = {2, 10, 1.0};
+  EXPECT_DOUBLE_EQ(*progress.seconds_left(), 8.0);
+}
+
+TEST(Progress, AKindNotSeenYetIsExpectedToTakeAsTheOther) {
+  Progress progress;
+  progress.keyframes = {1, 2, 4.0};
+  progress.inbetweens = {0, 10, 0};
+  EXPECT_DOUBLE_EQ(*progress.seconds_left(), 44.0);
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,47 @@
+#include "host/options/frame_set.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+using Frames = std::vector<std::uint32_t>;
+
+TEST(FrameSet, NamesFrames) {
+  EXPECT_EQ(FrameSet().of_film(3), (Frames{0, 1, 2}));
+  EXPECT_EQ(FrameSet("1").of_film(3), Frames{1});
+  EXPECT_EQ(FrameSet("0-2,5,8-").of_film(11), (Frames{0, 1, 2, 5, 8, 9, 10}));
+  EXPECT_EQ(FrameSet("0-").of_film(2), (Frames{0, 1}));
+  EXPECT_EQ(FrameSet("4,1-2,2,4-4").of_film(5), (Frames{1, 2, 4})) << "ascending, each once";
+}
+
+TEST(FrameSet, TellsWhichPartIsWrong) {
+  const auto failure = [](const char* text) { return failure_of([&] { FrameSet{text}; }); };
+  for (const char* text :
+       {"", ",", "1,", ",1", "-", "-3", "1--2", "1-2-3", "x", "1 ", " 1", "1.5", "+1", "0x1"})
+    EXPECT_TRUE(holds(failure(text), "is not a frame or a range of frames")) << "'" << text << "'";
+  EXPECT_TRUE(holds(failure("0-3,b"), "'b'"));
+  EXPECT_TRUE(holds(failure("5-4"), "'5-4' ends before it begins"));
+  EXPECT_TRUE(holds(failure("4294967296"), "too large"));
+  EXPECT_TRUE(holds(failure("x"), "like 0-9,24,30-"));
+}
+
+TEST(FrameSet, TellsWhereTheFilmIsTooShort) {
+  const auto failure = [](const char* text) { return failure_of([&] { FrameSet(text).of_film(10); }); };
+  EXPECT_EQ(failure("0-9"), "");
+  EXPECT_TRUE(holds(failure("0-10"), "frame 10 is beyond the film's last, 9"));
+  EXPECT_TRUE(holds(failure("10"), "frame 10 is beyond"));
+  EXPECT_TRUE(holds(failure("12-"), "frame 12 is beyond"));
+  EXPECT_TRUE(holds(failure("0-4294967295"), "frame 4294967295 is beyond"));
+}
+
+TEST(FrameSet, TextReadsAgain) {
+  for (const char* text : {"0-", "3", "0-9,24,30-", "5,1"}) EXPECT_EQ(FrameSet(text).text(), text);
+  EXPECT_EQ(FrameSet("4-4").text(), "4");
+  EXPECT_EQ(FrameSet().text(), "0-");
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,159 @@
+#include "host/options/render_options.h"
+
+#include <gtest/gtest.h>
+
+#include "host/options/command_line.h"
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr Program kPrograms[] = {Program::mars, Program::host, Program::cube, Program::threads};
+
+struct Reading {
+  RenderOptions options;
+  std::optional<int> code;
+  std::string told;
+};
+
+Reading read(Program program, const Words& words) {
+  Reading reading;
+  CLI::App app("a test");
+  add_render_options(app, reading.options, program);
+  std::vector<const char*> argv{"test"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  reading.code = read_command_line(app, static_cast<int>(argv.size()), argv.data());
+  reading.told = testing::internal::GetCapturedStderr();
+  reading.told += testing::internal::GetCapturedStdout();
+  return reading;
+}
+
+// Everything different from its default.
+RenderOptions unusual() {
+  RenderOptions options;
+  options.film = "film.json";
+  options.folder = "a folder";
+  options.nodes = 7;
+  options.backend = Backend::threads;
+  options.frames = FrameSet("0-9,24,30-");
+  options.size = PictureSize{33, 44};
+  options.mapping = node::Mapping::optimal;
+  options.intervals = Intervals::keyframes;
+  options.no_coherence = true;
+  options.block = 5;
+  options.cubes = 3;
+  options.sink = SinkKind::none;
+  options.report = "report.json";
+  options.quiet = true;
+  return options;
+}
+
+TEST(RenderOptions, DefaultsNeedTheFilmAlone) {
+  const Reading reading = read(Program::mars, {"film.json"});
+  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  RenderOptions expected;
+  expected.film = "film.json";
+  EXPECT_EQ(reading.options, expected);
+  EXPECT_EQ(arguments_for(Program::mars, expected), Words{"film.json"});
+}
+
+TEST(RenderOptions, GoRoundThroughACommandLine) {
+  const Reading reading = read(Program::mars, arguments_for(Program::mars, unusual()));
+  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.options, unusual());
+}
+
+TEST(RenderOptions, EveryProgramGetsWhatConcernsIt) {
+  for (const Program program : kPrograms) {
+    RenderOptions expected = unusual();
+    const bool starts_nodes = program == Program::mars || program == Program::threads;
+    if (!starts_nodes) expected.nodes = 0;
+    if (program != Program::mars) expected.backend = Backend::automatic;
+    if (program != Program::mars) expected.quiet = false;
+    const Reading reading = read(program, arguments_for(program, unusual()));
+    EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+    EXPECT_EQ(reading.options, expected) << static_cast<unsigned>(program);
+  }
+}
+
+TEST(RenderOptions, NamesMayBeginWithADash) {
+  RenderOptions options;
+  options.film = "-film.json";
+  options.folder = "--frames";
+  options.report = "-";
+  const Reading reading = read(Program::host, arguments_for(Program::host, options));
+  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.options.film, "./-film.json");
+  EXPECT_EQ(reading.options.folder, "./--frames");
+  EXPECT_EQ(reading.options.report, "./-");
+}
+
+TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
+  const std::pair<Words, const char*> wrong[] = {
+      {{"--nodes", "0"}, "not a number from 1"},
+      {{"--nodes", "-1"}, "not a number from 1"},
+      {{"--nodes", "auto"}, "not a number from 1"},
+      {{"--nodes", "3x"}, "not a number from 1"},
+      {{"--cubes", "0"}, "or auto"},
+      {{"--block", "99999"}, "from 1 to 16384"},
+      {{"--backend", "pvm"}, "auto or mpi or threads"},
+      {{"--mapping", ""}, "greedy or optimal"},
+      {{"--intervals", "x"}, "auto or keyframes"},
+      {{"--sink", "gif"}, "png or none"},
+      {{"--size", "960"}, "is not a size"},
+      {{"--size", "960x"}, "is not a size"},
+      {{"--size", "0x5"}, "between 1x1 and 16384"},
+      {{"--size", "20000x5"}, "between 1x1 and 16384"},
+      {{"--size", "5x5x5"}, "is not a size"},
+      {{"--frames", "9-1"}, "ends before it begins"},
+  };
+  for (const auto& [words, reason] : wrong) {
+    const Reading reading = read(Program::mars, {"film.json", words[0], words[1]});
+    EXPECT_EQ(reading.code, kUsage) << words[0] << " " << words[1];
+    EXPECT_TRUE(holds(reading.told, words[0])) << reading.told;
+    EXPECT_TRUE(holds(reading.told, reason)) << reading.told;
+  }
+}
+
+TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
+  EXPECT_TRUE(holds(read(Program::mars, {}).told, "FILM is required"));
+  EXPECT_TRUE(holds(read(Program::mars, {"film.json", "--bogus"}).told, "--bogus"));
+  EXPECT_TRUE(holds(read(Program::mars, {"film.json", "--nodes"}).told, "--nodes"));
+  EXPECT_EQ(read(Program::mars, {"a.json", "b.json"}).code, kUsage);
+  EXPECT_EQ(read(Program::host, {"film.json", "--nodes", "3"}).code, kUsage) << "MPI knows the nodes";
+}
+
+TEST(RenderOptions, CubesMayBeAuto) {
+  EXPECT_EQ(read(Program::mars, {"film.json", "--cubes", "auto"}).options.cubes, 0u);
+  EXPECT_EQ(read(Program::mars, {"film.json", "--cubes", "1"}).options.cubes, 1u);
+}
+
+// Every option's help shows how it is written.
+TEST(RenderOptions, EveryOptionHasAnExample) {
+  for (const Program program : kPrograms) {
+    CLI::App app("a test");
+    RenderOptions options;
+    add_render_options(app, options, program);
+    for (const CLI::Option* option :
+         app.get_options([](const CLI::Option* each) { return each != nullptr; })) {
+      if (option->get_name() == "--help") continue;
+      EXPECT_TRUE(holds(option->get_description(), "Example: ")) << option->get_name();
+    }
+  }
+  EXPECT_EQ(read(Program::mars, {"--help"}).code, 0);
+}
+
+TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
+  RenderOptions options;
+  options.film = "film.json";
+  EXPECT_TRUE(holds(failure_of([&] { check_together(options); }), "add -o DIR"));
+  options.sink = SinkKind::none;
+  EXPECT_EQ(failure_of([&] { check_together(options); }), "");
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,69 @@
+#include "host/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace mars::host {
+namespace {
+
+using nlohmann::json;
+
+node::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last) {
+  node::Strip strip{};
+  strip.frame = frame;
+  strip.node = node;
+  strip.last = last;
+  strip.edge_box_total = 77;
+  strip.load_ratio = 1.25;
+  strip.times.dice = 0.5;
+  strip.work.triangles = 10 + static_cast<std::uint64_t>(node);
+  strip.work.credits_waited = 2;
+  return strip;
+}
+
+FarmReport two_nodes_two_frames() {
+  FarmReport report;
+  for (const std::int32_t number : {0, 1}) {
+    node::Hello hello{};
+    hello.node = number;
+    hello.memory = 1000;
+    std::copy_n("ada", 3, hello.host.data());
+    std::copy_n("core 0", 6, hello.binding.data());
+    report.nodes.push_back(hello);
+  }
+  report.strips = {strip_of(1, 1, 1), strip_of(0, 1, 0), strip_of(0, 1, 1), strip_of(0, 0, 1)};
+  report.frames = {{1, 0, node::FrameKind::inbetween, 0.5}, {0, 0, node::FrameKind::keyframe, 0.25}};
+  report.film_bytes = 4096;
+  report.total_seconds = 3;
+  return report;
+}
+
+TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
+  const ReportHead head{"film.json", "abc", "mpi", {"film.json", "-o", "x"}, 96, 54};
+  const json report = json::parse(report_text(head, two_nodes_two_frames()));
+  EXPECT_EQ(report["film"], "film.json");
+  EXPECT_EQ(report["arguments"].size(), 3u);
+  EXPECT_EQ(report["nodes"][1]["binding"], "core 0");
+  ASSERT_EQ(report["frames"].size(), 2u);
+  const json& keyframe = report["frames"][0];
+  EXPECT_EQ(keyframe["frame"], 0);
+  EXPECT_EQ(keyframe["kind"], "keyframe");
+  EXPECT_EQ(keyframe["edge_box_total"], 77);
+  EXPECT_EQ(keyframe["load_ratio"], 1.25);
+  ASSERT_EQ(keyframe["nodes"].size(), 2u) << "the last strip of each node, in their order";
+  EXPECT_EQ(keyframe["nodes"][0]["node"], 0);
+  EXPECT_EQ(keyframe["nodes"][1]["work"]["triangles"], 11);
+  EXPECT_EQ(keyframe["nodes"][1]["seconds"]["dice"], 0.5);
+  EXPECT_EQ(report["frames"][1]["kind"], "inbetween");
+  EXPECT_EQ(report["frames"][1]["nodes"].size(), 1u);
+}
+
+TEST(Report, NamesNeedNotBeText) {
+  const ReportHead head{"\xff.json", "abc", "mpi", {"\xff.json"}, 96, 54};
+  EXPECT_FALSE(json::parse(report_text(head, FarmReport{})).empty());
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,72 @@
+#include "host/sinks/png_file.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "host/sinks/whole_file.h"
+#include "tests/host/document/failure_of.h"
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+std::vector<std::uint32_t> random_pixels(std::size_t count) {
+  std::mt19937 random(7);
+  std::vector<std::uint32_t> pixels(count);
+  for (std::uint32_t& pixel : pixels) pixel = random() & 0xffffff;
+  return pixels;
+}
+
+TEST(PngFile, GivesBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}}) {
+    const std::vector<std::uint32_t> pixels = random_pixels(std::size_t{width} * height);
+    write_whole_file(folder / "x.png", encode_png(width, height, pixels));
+    const Image image = read_png(folder / "x.png");
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+    EXPECT_EQ(image.pixels, pixels);
+  }
+}
+
+TEST(PngFile, IsEightBitRgbMarkedSrgb) {
+  const std::vector<std::byte> bytes = encode_png(2, 1, random_pixels(2));
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_EQ(text.substr(12, 4), "IHDR");
+  EXPECT_EQ(text[24], 8);  // bits
+  EXPECT_EQ(text[25], 2);  // RGB
+  EXPECT_TRUE(holds(text, "sRGB"));
+}
+
+TEST(PngFile, EveryCutOfAFileIsTold) {
+  const TemporaryFolder folder;
+  const std::vector<std::byte> bytes = encode_png(20, 20, random_pixels(400));
+  // All but the closing chunk's own check number, which libpng does not ask for.
+  for (std::size_t size = 0; size + 4 < bytes.size(); size += 7) {
+    write_whole_file(folder / "cut.png", std::span(bytes).first(size));
+    EXPECT_TRUE(holds(failure_of([&] { read_png(folder / "cut.png"); }), "cut.png: not a whole PNG picture"))
+        << size << " bytes of " << bytes.size();
+  }
+}
+
+TEST(PngFile, NoDamageDoesHarm) {
+  const TemporaryFolder folder;
+  const std::vector<std::byte> bytes = encode_png(20, 20, random_pixels(400));
+  std::mt19937 random(3);
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::byte> damaged = bytes;
+    for (int j = 0; j < 3; ++j) damaged[random() % damaged.size()] = static_cast<std::byte>(random());
+    write_whole_file(folder / "damaged.png", damaged);
+    failure_of([&] { read_png(folder / "damaged.png"); });
+  }
+}
+
+TEST(PngFile, OtherFilesAreTold) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "x.png", std::string_view("no picture at all"));
+  EXPECT_TRUE(holds(failure_of([&] { read_png(folder / "x.png"); }), "not a whole PNG picture"));
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,142 @@
+#include "host/sinks/sink_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <numeric>
+#include <set>
+
+#include "hal/failure.h"
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Keeps the numbers of its frames; may be held up, and may fail at a frame.
+class TestSink : public Sink {
+ public:
+  void take(const Frame& frame) override {
+    most_at_once_ = std::max(most_at_once_.load(), ++at_once_);
+    while (held) std::this_thread::sleep_for(1ms);
+    const bool whole = std::count(frame.pixels.begin(), frame.pixels.end(), frame.number) ==
+                       static_cast<std::ptrdiff_t>(frame.pixels.size());
+    --at_once_;
+    if (frame.number == fails_at) throw Failure("no room", "frame " + std::to_string(frame.number), "");
+    if (!whole) throw Failure("a frame changed while the sink had it", "", "");
+  }
+
+  int most_at_once() const { return most_at_once_; }
+
+  std::atomic<bool> held = false;
+  std::uint32_t fails_at = ~0u;
+
+ private:
+  std::atomic<int> at_once_ = 0;
+  std::atomic<int> most_at_once_ = 0;
+};
+
+void compose(Frame& frame, std::uint32_t number) {
+  frame.number = number;
+  std::fill(frame.pixels.begin(), frame.pixels.end(), number);
+}
+
+Frame& wait_for_frame(SinkPool& pool) {
+  Frame* frame = nullptr;
+  while ((frame = pool.free_frame()) == nullptr) std::this_thread::yield();
+  return *frame;
+}
+
+TEST(SinkPool, TakesEveryFrameOnce) {
+  TestSink sink;
+  SinkPool pool(sink, {8, 8, 4, 3, 2});
+  std::vector<std::uint32_t> taken;
+  const auto note = [&] {
+    for (const std::uint32_t number : pool.taken()) taken.push_back(number);
+  };
+  for (std::uint32_t number = 0; number < 500; ++number) {
+    Frame& frame = wait_for_frame(pool);
+    compose(frame, number);
+    pool.submit(&frame);
+    note();
+  }
+  pool.finish();
+  note();
+  std::vector<std::uint32_t> expected(500);
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::sort(taken.begin(), taken.end());
+  EXPECT_EQ(taken, expected);
+  EXPECT_LE(sink.most_at_once(), 2);
+}
+
+TEST(SinkPool, HasNoMoreFramesThanItWasGiven) {
+  TestSink sink;
+  sink.held = true;
+  SinkPool pool(sink, {8, 8, 4, 3, 2});
+  std::set<Frame*> frames;
+  while (Frame* frame = pool.free_frame()) {
+    compose(*frame, 0);
+    frames.insert(frame);
+    pool.submit(frame);
+  }
+  EXPECT_EQ(frames.size(), 3u);
+  EXPECT_TRUE(pool.taken().empty());
+  sink.held = false;
+  pool.finish();
+  EXPECT_EQ(pool.taken().size(), 3u);
+  EXPECT_NE(pool.free_frame(), nullptr);
+}
+
+TEST(SinkPool, PrefersAFrameThatShowsTheBackground) {
+  TestSink sink;
+  SinkPool pool(sink, {8, 8, 4, 3, 1});
+  std::vector<Frame*> frames{pool.free_frame(), pool.free_frame(), pool.free_frame()};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    compose(*frames[i], i);
+    frames[i]->background = 10 + i;
+    pool.submit(frames[i]);
+  }
+  pool.finish();
+  EXPECT_EQ(pool.free_frame(11), frames[1]);
+  EXPECT_EQ(pool.free_frame(10), frames[0]);
+  EXPECT_EQ(pool.free_frame(99), frames[2]);
+}
+
+TEST(SinkPool, AFailureReachesTheLoop) {
+  TestSink sink;
+  sink.fails_at = 1;
+  SinkPool pool(sink, {8, 8, 4, 2, 2});
+  const std::string failure = failure_of([&] {
+    for (std::uint32_t number = 0; number < 1000; ++number) {
+      Frame& frame = wait_for_frame(pool);
+      compose(frame, number);
+      pool.submit(&frame);
+    }
+  });
+  EXPECT_EQ(failure, "frame 1: no room");
+  EXPECT_EQ(failure_of([&] { pool.finish(); }), failure);
+  EXPECT_EQ(failure_of([&] { pool.taken(); }), failure);
+}
+
+TEST(SinkPool, EndsWithFramesStillWaiting) {
+  TestSink sink;
+  sink.held = true;
+  std::jthread later;
+  {
+    SinkPool pool(sink, {8, 8, 4, 4, 1});
+    while (Frame* frame = pool.free_frame()) {
+      compose(*frame, 0);
+      pool.submit(frame);
+    }
+    later = std::jthread([&] {
+      std::this_thread::sleep_for(20ms);
+      sink.held = false;
+    });
+  }
+}
+
+}  // namespace
+}  // namespace mars::host

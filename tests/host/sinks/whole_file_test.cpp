@@ -1,0 +1,56 @@
+#include "host/sinks/whole_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+
+#include "tests/host/document/failure_of.h"
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_whole_file(path);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(WholeFile, HoldsWhatWasWrittenLast) {
+  const TemporaryFolder folder;
+  for (const std::size_t size : {0u, 1u, 65536u, 65537u, 1000000u}) {
+    const std::string text(size, 'x');
+    write_whole_file(folder / "file", text);
+    EXPECT_EQ(text_of(folder / "file"), text);
+  }
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(WholeFile, TellsWhatCannotBeReadOrWritten) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "file", "x");
+  EXPECT_TRUE(
+      holds(failure_of([&] { read_whole_file(folder / "none"); }), "none: cannot read: No such file"));
+  EXPECT_TRUE(holds(failure_of([&] { read_whole_file(folder.path()); }), "Is a directory"));
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "No such file"));
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "file/x", "x"); }), "Not a directory"));
+  std::filesystem::create_directory(folder / "folder");
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "folder", "x"); }), "cannot write"));
+  EXPECT_EQ(folder.entries(), 2u) << "no temporary file is left";
+}
+
+// A disk of 64 KiB, where the system lets us have one.
+TEST(WholeFile, AFullDiskLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  if (mount("none", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "only root may mount a small disk";
+  write_whole_file(folder / "file", "old");
+  const std::string failure =
+      failure_of([&] { write_whole_file(folder / "file", std::string(1 << 20, 'x')); });
+  EXPECT_TRUE(holds(failure, "No space left on device")) << failure;
+  EXPECT_TRUE(holds(failure, "free some space")) << failure;
+  EXPECT_EQ(text_of(folder / "file"), "old");
+  EXPECT_EQ(folder.entries(), 1u);
+  umount(folder.path().c_str());
+}
+
+}  // namespace
+}  // namespace mars::host
