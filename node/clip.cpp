@@ -5,12 +5,15 @@
 namespace mars::node {
 namespace {
 
-// Inside where factor . place + offset >= 0.
+// Inside where factor . place + offset >= 0. In double, or a cut of an edge that is long compared to near's distance
+// would miss its plane by more than projection forgives.
 struct Plane4 {
-  float x, y, z, offset;
+  double x, y, z, offset;
 
-  float distance(const ClipVertex& v) const { return x * v.place[0] + y * v.place[1] + z * v.place[2] + offset; }
+  double distance(const ClipVertex& v) const { return x * v.place[0] + y * v.place[1] + z * v.place[2] + offset; }
 };
+
+float between(double a, double b, double t) { return static_cast<float>(a + t * (b - a)); }
 
 bool comes_before(const ClipVertex& a, const ClipVertex& b) {
   return std::lexicographical_compare(a.place, a.place + 3, b.place, b.place + 3);
@@ -18,12 +21,12 @@ bool comes_before(const ClipVertex& a, const ClipVertex& b) {
 
 ClipVertex cut(const ClipVertex& a, const ClipVertex& b, const Plane4& plane) {
   if (comes_before(b, a)) return cut(b, a, plane);
-  const float from = plane.distance(a), to = plane.distance(b);
-  const float t = from / (from - to);
+  const double from = plane.distance(a), to = plane.distance(b);
+  const double t = from / (from - to);
   ClipVertex out;
   for (int axis = 0; axis < 3; ++axis) {
-    out.place[axis] = a.place[axis] + t * (b.place[axis] - a.place[axis]);
-    out.normal[axis] = a.normal[axis] + t * (b.normal[axis] - a.normal[axis]);
+    out.place[axis] = between(a.place[axis], b.place[axis], t);
+    out.normal[axis] = between(a.normal[axis], b.normal[axis], t);
   }
   return out;
 }
