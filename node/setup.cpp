@@ -157,7 +157,9 @@ void SetUp::add_triangle(const Vertices& v, const Corner3& corners, const Facing
 void SetUp::keep(const Triangle& triangle, SetUps& out) const {
   const Crossings crossings(triangle, width_, height_);
   if (out.line_counts.empty()) {
-    const auto wanted = [&](std::int32_t row) { return out.wanted_lines[static_cast<std::size_t>(row)] != 0; };
+    const auto wanted = [&](std::int32_t row) {
+      return out.wanted_lines.empty() || out.wanted_lines[static_cast<std::size_t>(row)] != 0;
+    };
     if (!has_edge_box(crossings, wanted)) return;
   } else {
     const std::uint32_t boxes = count_edge_boxes(crossings, out.line_counts);
