@@ -1,0 +1,263 @@
+// Patches in eye space: the basis, edges' canonical direction, rates that keep their tolerance, and what is
+// out of sight.
+#include "node/bezier.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "tests/node/patches.h"
+
+namespace mars::test {
+namespace {
+
+using node::Curve;
+using node::Edge;
+using node::EyePatch;
+using node::Projection;
+using node::Side;
+
+bool same_bits(const Curve& a, const Curve& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+TEST(Bezier, BasisSumsToOne) {
+  for (int rate = 1; rate <= node::kMaxRate; ++rate) {
+    const node::Basis& basis = node::basis(rate);
+    EXPECT_EQ(basis.rate, rate);
+    for (int i = 0; i <= rate; ++i) {
+      double cubic = 0, quadratic = 0, mean = 0;
+      for (int k = 0; k < 4; ++k) cubic += basis.cubic[k][i], mean += k * basis.cubic[k][i] / 3.0;
+      for (int k = 0; k < 3; ++k) quadratic += basis.quadratic[k][i];
+      EXPECT_NEAR(cubic, 1, 2e-7);
+      EXPECT_NEAR(quadratic, 1, 2e-7);
+      EXPECT_NEAR(mean, static_cast<double>(i) / rate, 2e-7);
+    }
+  }
+}
+
+// So that a curve's ends are its control points bit for bit.
+TEST(Bezier, BasisIsExactAtBothEnds) {
+  for (int rate = 1; rate <= node::kMaxRate; ++rate) {
+    const node::Basis& basis = node::basis(rate);
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_EQ(basis.cubic[k][0], k == 0 ? 1.0f : 0.0f);
+      EXPECT_EQ(basis.cubic[k][rate], k == 3 ? 1.0f : 0.0f);
+    }
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(basis.quadratic[k][0], k == 0 ? 1.0f : 0.0f);
+      EXPECT_EQ(basis.quadratic[k][rate], k == 2 ? 1.0f : 0.0f);
+    }
+  }
+}
+
+TEST(Bezier, SharedEdgesAreOneCurveFromBothSides) {
+  Random random(11);
+  const Projection view = projection(640, 480, 2);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const EyePatch a = random_patch(random, {0, 0, -8}, 3);
+    EyePatch b = random_patch(random, {0, 0, -8}, 3);
+    const Side of_a = kSides[random.whole(0, 3)], of_b = kSides[random.whole(0, 3)];
+    auto points = side_points(a, of_a);
+    if (trial % 5 == 0) points[3] = points[0];  // closed: the inner points decide
+    EyePatch first = a;
+    set_side_points(first, of_a, points);
+    const bool against = random.whole(0, 1) == 1;
+    if (against) std::reverse(points.begin(), points.end());
+    set_side_points(b, of_b, points);
+    const Edge one = node::edge(first, of_a), other = node::edge(b, of_b);
+    EXPECT_TRUE(same_bits(one.curve, other.curve));
+    EXPECT_EQ(one.reversed != other.reversed, against);
+    EXPECT_EQ(node::rates(first, view, 0).side[static_cast<int>(of_a)],
+              node::rates(b, view, 0).side[static_cast<int>(of_b)]);
+    EXPECT_EQ(node::rates(b, view, 0).side[static_cast<int>(of_b)], node::edge_rate(one.curve, view));
+  }
+}
+
+// Distance of p from the segment a b.
+double distance(const std::array<double, 2>& p, const std::array<double, 2>& a,
+                const std::array<double, 2>& b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+  const double t =
+      square > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+}
+
+bool visible(const Projection& view, const Vec3& p, double width, double height) {
+  const double w = -p[2];
+  if (!(w >= view.near && w <= view.far)) return false;
+  const auto [x, y] = on_screen(view, p);
+  return x >= 0 && x <= width && y >= 0 && y <= height;
+}
+
+// The curve's greatest visible distance in pixels from its chord polygon of `rate` steps.
+double chord_error(const Curve& curve, int rate, const Projection& view) {
+  double worst = 0;
+  for (int i = 0; i < rate; ++i) {
+    const Vec3 from = point_at(curve, static_cast<double>(i) / rate);
+    const Vec3 to = point_at(curve, static_cast<double>(i + 1) / rate);
+    if (-from[2] < view.near || -to[2] < view.near) continue;
+    const auto a = on_screen(view, from), b = on_screen(view, to);
+    for (int k = 1; k < 16; ++k) {
+      const Vec3 p = point_at(curve, (i + k / 16.0) / rate);
+      if (visible(view, p, 640, 480)) worst = std::max(worst, distance(on_screen(view, p), a, b));
+    }
+  }
+  return worst;
+}
+
+// A length seen at the picture's corner shows up to 1 / cos longer than the rate's bound has it.
+TEST(Bezier, EdgeRatesKeepTheirTolerance) {
+  Random random(12);
+  const Projection view = projection(640, 480, 3);
+  const double slack = 1.01 / view.corner;
+  double worst = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const EyePatch patch =
+        random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -3)},
+                     std::pow(10, random.real(-2, 0.7)));
+    const Curve curve = node::edge(patch, Side::top).curve;
+    const int rate = node::edge_rate(curve, view);
+    ASSERT_GE(rate, 1);
+    ASSERT_LE(rate, node::kMaxRate);
+    if (rate == node::kMaxRate) continue;  // as fine as it gets
+    worst = std::max(worst, chord_error(curve, rate, view));
+  }
+  EXPECT_LE(worst, node::kTolerance * slack);
+  EXPECT_GT(worst, node::kTolerance / 3) << "rates are much finer than they need be";
+}
+
+// Straight before the eye the bound is sharp: second differences of d pixels need ceil(sqrt(6 d)) steps.
+TEST(Bezier, RatesOfAParabola) {
+  const Projection view = projection(200, 200, 1);  // 100 pixels a unit at distance 1
+  for (const double d : {0.0, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0, 1e6}) {
+    const EyePatch patch = make_patch([&](int i, int j) {
+      return Vec3{i * 0.1, j * 0.1 + d / 100 * (i == 1 || i == 2), -1};
+    });
+    const int expected = std::clamp(static_cast<int>(std::ceil(std::sqrt(6 * d))), 1, node::kMaxRate);
+    const node::Rates rates = node::rates(patch, view, 0);
+    EXPECT_EQ(rates.u, expected) << d;
+    EXPECT_EQ(rates.v, 1);
+    EXPECT_EQ(rates.side[static_cast<int>(Side::bottom)], expected);
+    EXPECT_EQ(rates.side[static_cast<int>(Side::left)], 1);
+  }
+}
+
+TEST(Bezier, FixedRatesAreThoseGiven) {
+  Random random(13);
+  const node::Rates rates = node::rates(random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), 7);
+  EXPECT_EQ(rates.u, 7);
+  EXPECT_EQ(rates.v, 7);
+  for (const int side : rates.side) EXPECT_EQ(side, 7);
+}
+
+// Greatest visible distance of the surface from the triangles of its inside grid, at equal parameters.
+double grid_error(const EyePatch& patch, const node::Rates& rates, const Projection& view) {
+  double worst = 0;
+  for (int j = 0; j < rates.v; ++j)
+    for (int i = 0; i < rates.u; ++i) {
+      const double u = static_cast<double>(i) / rates.u, v = static_cast<double>(j) / rates.v;
+      const double du = 1.0 / rates.u, dv = 1.0 / rates.v;
+      const Vec3 a = point_at(patch, u, v), b = point_at(patch, u + du, v),
+                 c = point_at(patch, u + du, v + dv);
+      for (int k = 1; k < 4; ++k)
+        for (int l = 1; l <= k; ++l) {
+          const double s = k / 4.0, t = l / 4.0;  // in the triangle a b c
+          Vec3 flat;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            flat[axis] = a[axis] + s * (b[axis] - a[axis]) + t * (c[axis] - b[axis]);
+          const Vec3 p = point_at(patch, u + s * du, v + t * dv);
+          if (!visible(view, p, 640, 480) || -flat[2] < view.near) continue;
+          const auto x = on_screen(view, p), y = on_screen(view, flat);
+          worst = std::max(worst, std::hypot(x[0] - y[0], x[1] - y[1]));
+        }
+    }
+  return worst;
+}
+
+TEST(Bezier, InsideRatesKeepTwiceTheTolerance) {
+  Random random(14);
+  const Projection view = projection(640, 480, 3);
+  double worst = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const EyePatch patch =
+        random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)},
+                     std::pow(10, random.real(-2, 0.3)));
+    const node::Rates rates = node::rates(patch, view, 0);
+    if (rates.u < node::kMaxRate && rates.v < node::kMaxRate)
+      worst = std::max(worst, grid_error(patch, rates, view));
+  }
+  EXPECT_LE(worst, 2 * node::kTolerance * 1.01 / view.corner);
+  EXPECT_GT(worst, node::kTolerance / 3);
+}
+
+node::Matrix random_matrix(Random& random, double size) {
+  node::Matrix matrix;
+  for (auto& row : matrix.m)
+    for (double& m : row) m = random.real(-size, size);
+  return matrix;
+}
+
+TEST(Bezier, EyeMatrixIsTheProductRoundedOnce) {
+  Random random(15);
+  for (int trial = 0; trial < 500; ++trial) {
+    const node::Matrix a = random_matrix(random, 100), b = random_matrix(random, 100);
+    const node::EyeMatrix product = node::eye_matrix(a, b);
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 4; ++c) {
+        long double exact = c == 3 ? a.m[r][3] : 0;
+        for (std::size_t k = 0; k < 3; ++k) exact += static_cast<long double>(a.m[r][k]) * b.m[k][c];
+        EXPECT_NEAR(product.m[r][c], static_cast<double>(exact),
+                    std::abs(static_cast<double>(exact)) * 6.0e-8 + 1e-10);
+      }
+    const auto column = [&](std::size_t c) {
+      return Vec3{product.m[0][c], product.m[1][c], product.m[2][c]};
+    };
+    EXPECT_EQ(node::mirrors(product), dot(cross(column(0), column(1)), column(2)) < 0);
+  }
+}
+
+TEST(Bezier, ToEyeMapsControlPoints) {
+  Random random(16);
+  const node::EyeMatrix matrix = node::eye_matrix(random_matrix(random, 3), random_matrix(random, 3));
+  node::Patch patch;
+  for (auto& p : patch.points)
+    for (float& c : p) c = static_cast<float>(random.real(0, 1));
+  const EyePatch out = node::to_eye(matrix, patch);
+  for (std::size_t k = 0; k < 16; ++k)
+    for (std::size_t r = 0; r < 3; ++r) {
+      double exact = matrix.m[r][3];
+      for (std::size_t c = 0; c < 3; ++c) exact += double{matrix.m[r][c]} * patch.points[k][c];
+      EXPECT_NEAR(out.point[k][r], exact, 1e-5);
+    }
+}
+
+TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
+  Random random(17);
+  const Projection view = projection(640, 480, 2, 0.5, 50);
+  int unseen = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Vec3 middle{random.real(-30, 30), random.real(-30, 30), random.real(-60, 10)};
+    const EyePatch patch = random_patch(random, middle, std::pow(10, random.real(-2, 1.5)));
+    if (!node::unseen(patch, view, 640, 480)) continue;
+    ++unseen;
+    for (int j = 0; j <= 12; ++j)
+      for (int i = 0; i <= 12; ++i)
+        ASSERT_FALSE(visible(view, point_at(patch, i / 12.0, j / 12.0), 640, 480));
+  }
+  EXPECT_GT(unseen, 5000);
+  EXPECT_LT(unseen, 19000);
+}
+
+// Each of the six ways out is noticed.
+TEST(Bezier, PatchesBesideThePictureAreUnseen) {
+  Random random(18);
+  const Projection view = projection(640, 480, 2, 0.5, 50);
+  for (const Vec3& middle : {Vec3{0, 0, 5}, Vec3{0, 0, -0.1}, Vec3{0, 0, -60}, Vec3{-9, 0, -10},
+                             Vec3{9, 0, -10}, Vec3{0, 7, -10}, Vec3{0, -7, -10}})
+    EXPECT_TRUE(node::unseen(random_patch(random, middle, 0.3), view, 640, 480));
+  EXPECT_FALSE(node::unseen(random_patch(random, {0, 0, -10}, 0.3), view, 640, 480));
+}
+
+}  // namespace
+}  // namespace mars::test

@@ -1,0 +1,40 @@
+// A diced patch as a mesh: vertices that lie at the same place are one, whoever made them.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "node/dice.h"
+#include "tests/node/patches.h"
+
+namespace mars::test {
+
+struct Mesh {
+  std::vector<Vec3> places;               // of its vertices, all different
+  std::map<Vec3, int> numbers;            // of the vertices by their places
+  std::vector<std::array<int, 3>> faces;  // counter-clockwise seen from outside
+};
+
+Mesh mesh_of(const node::Dicer& diced);
+
+// Directed edges that no other triangle has the other way round: from -> to. Counter-clockwise round the
+// mesh. Fails the test where an edge occurs twice in one direction.
+std::map<int, int> boundary(const Mesh& mesh);
+
+// Checks that the mesh is a disc without T-joints whose boundary runs through the patch's corners in order,
+// each side in as many steps as its rate says; false where the test has failed.
+bool sound_disc(const Mesh& mesh, const node::EyePatch& patch, const node::Rates& rates);
+
+// What a side's vertices are in full: place, screen place and 1 / w, in no order.
+struct ScreenVertex {
+  std::array<float, 3> place;
+  std::int32_t x, y;
+  float inverse_w;
+  auto operator<=>(const ScreenVertex&) const = default;
+};
+std::set<ScreenVertex> boundary_vertices(const node::Dicer& diced);
+
+}  // namespace mars::test

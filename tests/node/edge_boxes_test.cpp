@@ -1,0 +1,257 @@
+// Which samples a triangle covers: Crossings against a plain test with edge functions in 64-bit integers, and
+// meshes that must cover every sample once.
+#include "node/edge_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/node/patches.h"
+
+namespace mars::test {
+namespace {
+
+using node::Crossings;
+using node::EdgeBox;
+using node::Triangle;
+
+struct Point {
+  std::int32_t x, y;  // 1/256 pixel
+};
+
+Triangle triangle(const Point& a, const Point& b, const Point& c) {
+  Triangle t{};
+  const Point corner[] = {a, b, c};
+  for (std::size_t k = 0; k < 3; ++k) {
+    t.x[k] = corner[k].x;
+    t.y[k] = corner[k].y;
+  }
+  return t;
+}
+
+// Twice the signed area of a, b, p.
+std::int64_t side_of(const Point& a, const Point& b, const Point& p) {
+  return std::int64_t{b.x - a.x} * (p.y - a.y) - std::int64_t{b.y - a.y} * (p.x - a.x);
+}
+
+// Inside, or on a left or top edge. With positive area and y downwards left edges go up, top ones to the
+// right.
+bool covers(const Triangle& t, std::int32_t column, std::int32_t row) {
+  Point corner[3] = {{t.x[0], t.y[0]}, {t.x[1], t.y[1]}, {t.x[2], t.y[2]}};
+  const std::int64_t area = side_of(corner[0], corner[1], corner[2]);
+  if (area == 0) return false;
+  if (area < 0) std::swap(corner[1], corner[2]);
+  const Point sample{256 * column + 128, 256 * row + 128};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point &a = corner[k], &b = corner[(k + 1) % 3];
+    const std::int64_t side = side_of(a, b, sample);
+    const bool belongs = b.y < a.y || (b.y == a.y && b.x > a.x);
+    if (side < 0 || (side == 0 && !belongs)) return false;
+  }
+  return true;
+}
+
+class Coverage {
+ public:
+  Coverage(std::int32_t width, std::int32_t height) : width(width), height(height), count(size()) {}
+
+  void add(const Triangle& t) {
+    const Crossings crossings(t, width, height);
+    EXPECT_GE(crossings.first_row, 0);
+    EXPECT_LE(crossings.last_row, std::max(height, crossings.first_row));
+    for (std::int32_t row = crossings.first_row; row < crossings.last_row; ++row) {
+      const auto columns = crossings.columns(row);
+      for (std::int32_t column = columns.first; column < columns.last; ++column)
+        ++count.at(static_cast<std::size_t>(row * width + column));
+    }
+  }
+  void add_plainly(const Triangle& t) {
+    for (std::size_t k = 0; k < size(); ++k)
+      count[k] += covers(t, static_cast<std::int32_t>(k) % width, static_cast<std::int32_t>(k) / width);
+  }
+  std::size_t size() const { return static_cast<std::size_t>(width * height); }
+
+  std::int32_t width, height;
+  std::vector<int> count;
+};
+
+// Each kind's corners fall where coverage is hard to decide.
+Point random_point(Random& random, int kind) {
+  const auto beside = [&](std::int32_t most) { return random.whole(-most, 24 * 256 + most); };
+  switch (kind) {
+    case 0:
+      return {beside(600), beside(600)};
+    case 1:
+      return {random.whole(2560, 3100), random.whole(2560, 3100)};  // about two pixels
+    case 2:
+      return {256 * random.whole(-3, 27) + 128, 256 * random.whole(-3, 27) + 128};  // on samples
+    case 3:
+      return {128 * random.whole(-6, 54), 128 * random.whole(-6, 54)};
+    case 4:
+      return {random.whole(-8400000, 8400000), random.whole(-8400000, 8400000)};  // all the guard band
+    default:
+      return {random.whole(0, 1) ? 8400000 : -8400000, beside(5000)};
+  }
+}
+
+Triangle random_triangle(Random& random) {
+  const int kind = random.whole(0, 5);
+  Point p[3];
+  for (Point& corner : p) corner = random_point(random, kind);
+  switch (random.whole(0, 6)) {
+    case 0:
+      p[1].y = p[0].y;
+      break;  // a horizontal edge
+    case 1:
+      p[1].x = p[0].x;
+      break;  // a vertical one
+    case 2:
+      p[2] = {p[0].x + random.whole(-2, 2), p[0].y + random.whole(-2, 2)};
+      break;  // a sliver
+    case 3:
+      p[2] = {p[0].x / 2 + p[1].x / 2 + random.whole(-1, 1), p[0].y / 2 + p[1].y / 2};
+      break;
+    default:
+      break;
+  }
+  return triangle(p[0], p[1], p[2]);
+}
+
+TEST(EdgeBoxes, CrossingsAreThoseOfAPlainTest) {
+  Random random(5);
+  int covered = 0;
+  for (int trial = 0; trial < 40000; ++trial) {
+    const Triangle t = random_triangle(random);
+    Coverage fast(24, 24), plain(24, 24);
+    fast.add(t);
+    plain.add_plainly(t);
+    ASSERT_EQ(fast.count, plain.count) << "trial " << trial << ": " << t.x[0] << ',' << t.y[0] << ' '
+                                       << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2];
+    covered += std::count(fast.count.begin(), fast.count.end(), 1) > 0;
+  }
+  EXPECT_GT(covered, 10000);
+}
+
+// Where numbers are largest: pictures as long as they may be, corners beyond the guard band.
+TEST(EdgeBoxes, LongPictures) {
+  Random random(6);
+  for (int trial = 0; trial < 400; ++trial) {
+    Triangle t{};
+    for (int k = 0; k < 3; ++k) {
+      t.x[k] = random.whole(-8400000, 12600000);
+      t.y[k] = random.whole(-8400000, 12600000);
+    }
+    if (trial % 4 == 0) t.x[1] = t.x[0] + random.whole(-3, 3);
+    Coverage wide(16384, 1), wide_plain(16384, 1), high(1, 16384), high_plain(1, 16384);
+    wide.add(t);
+    wide_plain.add_plainly(t);
+    ASSERT_EQ(wide.count, wide_plain.count) << "trial " << trial;
+    high.add(t);
+    high_plain.add_plainly(t);
+    ASSERT_EQ(high.count, high_plain.count) << "trial " << trial;
+  }
+}
+
+TEST(EdgeBoxes, FansCoverEverySampleOnce) {
+  Random random(7);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Point middle = random_point(random, trial % 2 ? 2 : 3);
+    const std::int32_t far = trial % 3 ? 10000 : 8400000;
+    std::vector<Point> ring;  // once round the picture
+    for (int k = -4; k < 4; ++k) ring.push_back({far * k / 4, -far});
+    for (int k = -4; k < 4; ++k) ring.push_back({far, far * k / 4});
+    for (int k = 4; k > -4; --k) ring.push_back({far * k / 4, far});
+    for (int k = 4; k > -4; --k) ring.push_back({-far, far * k / 4});
+    Coverage coverage(24, 24);
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      coverage.add(triangle(middle, ring[k], ring[(k + 1) % ring.size()]));
+    ASSERT_EQ(coverage.count, std::vector<int>(coverage.size(), 1)) << "trial " << trial;
+  }
+}
+
+// Rows of strips with corners moved at random, often onto samples (but by less than a quarter of a cell, or
+// quads would fold), drawn with either diagonal.
+TEST(EdgeBoxes, StripsCoverEverySampleOnce) {
+  Random random(8);
+  constexpr int kCells = 10;
+  for (int trial = 0; trial < 500; ++trial) {
+    Point grid[kCells + 1][kCells + 1];
+    const std::int32_t cell = trial % 2 ? 3 * 256 : 797;
+    for (int j = 0; j <= kCells; ++j)
+      for (int i = 0; i <= kCells; ++i) {
+        Point& p = grid[j][i] = {cell * i - 400, cell * j - 400};
+        if (random.whole(0, 2)) p = {p.x + random.whole(-60, 60), p.y + random.whole(-60, 60)};
+        if (random.whole(0, 1)) p = {(p.x >> 8) * 256 + 128, (p.y >> 8) * 256 + 128};
+      }
+    Coverage coverage(24, 24);
+    for (int j = 0; j < kCells; ++j)
+      for (int i = 0; i < kCells; ++i) {
+        const Point &a = grid[j][i], &b = grid[j][i + 1], &c = grid[j + 1][i + 1], &d = grid[j + 1][i];
+        const bool turned = random.whole(0, 1) == 1;
+        coverage.add(turned ? triangle(a, b, d) : triangle(a, b, c));
+        coverage.add(turned ? triangle(d, b, c) : triangle(c, a, d));
+      }
+    ASSERT_EQ(coverage.count, std::vector<int>(coverage.size(), 1)) << "trial " << trial;
+  }
+}
+
+std::vector<EdgeBox> placed(const Triangle& t, std::int32_t width, const node::LineRange& lines,
+                            std::vector<std::uint64_t>& cursor) {
+  std::vector<EdgeBox> boxes(cursor.back() + 1000);
+  node::place_edge_boxes(t, 9, width, lines, cursor, boxes);
+  return boxes;
+}
+
+TEST(EdgeBoxes, AreAsManyAsCounted) {
+  Random random(9);
+  for (int trial = 0; trial < 5000; ++trial) {
+    const Triangle t = random_triangle(random);
+    std::vector<std::uint32_t> counts(24);
+    const Crossings crossings(t, 24, 24);
+    const std::uint32_t boxes = node::count_edge_boxes(crossings, counts);
+    std::vector<std::uint64_t> cursor(24);
+    for (std::size_t row = 0; row < 24; ++row) cursor[row] = 2 * row;
+    placed(t, 24, {0, 24}, cursor);
+    std::uint32_t sum = 0;
+    for (std::uint32_t row = 0; row < 24; ++row) {
+      EXPECT_EQ(cursor[row] - 2 * row, counts[row]);
+      EXPECT_LE(counts[row], 1u);
+      sum += counts[row];
+      const auto this_row = [&](std::int32_t r) { return r == static_cast<std::int32_t>(row); };
+      EXPECT_EQ(node::has_edge_box(crossings, this_row), counts[row] == 1);
+    }
+    EXPECT_EQ(boxes, sum);
+  }
+}
+
+// A node places only its own lines; its boxes are those of the whole, field for field.
+TEST(EdgeBoxes, OfSomeLinesAreTheCutOfAll) {
+  Random random(10);
+  for (int trial = 0; trial < 5000; ++trial) {
+    Triangle t = random_triangle(random);
+    t.depth = {static_cast<float>(random.real(0, 1)), static_cast<float>(random.real(-1, 1)),
+               static_cast<float>(random.real(-1, 1))};
+    const auto first = static_cast<std::uint32_t>(random.whole(0, 24));
+    const auto last = static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), 24));
+    std::vector<std::uint64_t> all_cursor(25), cursor(last - first + 1);
+    for (std::size_t row = 0; row < all_cursor.size(); ++row) all_cursor[row] = row;
+    for (std::size_t row = 0; row < cursor.size(); ++row) cursor[row] = first + row;
+    const auto all = placed(t, 24, {0, 24}, all_cursor);
+    const auto some = placed(t, 24, {first, last}, cursor);
+    for (std::uint32_t row = first; row < last; ++row) {
+      ASSERT_EQ(cursor[row - first], all_cursor[row]);
+      if (cursor[row - first] == row) continue;
+      const EdgeBox &a = all[row], &b = some[row];
+      EXPECT_EQ(a.triangle, 9u);
+      EXPECT_EQ(a.x0, t.x[0]);
+      const float dy = static_cast<float>(static_cast<std::int32_t>(256 * row + 128) - t.y[0]);
+      EXPECT_EQ(a.depth_at_x0, t.depth.at_first + dy * t.depth.per_y);
+      EXPECT_EQ(std::tie(a.triangle, a.first, a.last, a.x0, a.depth_at_x0, a.depth_per_x),
+                std::tie(b.triangle, b.first, b.last, b.x0, b.depth_at_x0, b.depth_per_x));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mars::test

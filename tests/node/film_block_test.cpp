@@ -1,0 +1,175 @@
+// The compiled film as a block: what is packed is read back, and what is unsound in it is refused.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "hal/failure.h"
+#include "node/film.h"
+#include "tests/node/small_film.h"
+
+namespace mars::test {
+namespace {
+
+using node::FilmData;
+using node::FilmView;
+using Block = std::vector<std::byte>;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <typename Items, typename View>
+void expect_same(const Items& items, const View& view) {
+  ASSERT_EQ(items.size(), view.size());
+  EXPECT_EQ(std::memcmp(items.data(), view.data(), items.size() * sizeof items[0]), 0);
+}
+
+TEST(FilmBlock, IsReadAsItWasPacked) {
+  const FilmData film = small_film();
+  const Block block = node::pack(film);
+  for (const bool trusted : {false, true}) {
+    const FilmView view(block, "film", trusted);
+    EXPECT_EQ(std::memcmp(&film.settings, &view.settings(), sizeof film.settings), 0);
+    expect_same(film.patches, view.patches());
+    expect_same(film.shapes, view.shapes());
+    expect_same(film.segments, view.segments());
+    expect_same(film.materials, view.materials());
+    expect_same(film.matrices, view.matrices());
+    expect_same(film.cameras, view.cameras());
+    expect_same(film.lights, view.lights());
+    expect_same(film.light_tracks, view.light_tracks());
+    expect_same(film.changes, view.changes());
+    expect_same(film.intervals, view.intervals());
+  }
+}
+
+TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
+  const Block block = node::pack(small_film());
+  const FilmView film(block, "film");
+  EXPECT_EQ(film.name(film.segments()[0]), "base");
+  EXPECT_EQ(film.name(film.segments()[1]), "arm");
+  EXPECT_EQ(film.patch_instances(), 3u);
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    EXPECT_EQ(film.matrix_at(film.segments()[0], frame), moved(0));
+    EXPECT_EQ(film.matrix_at(film.segments()[1], frame), moved(frame));
+    EXPECT_EQ(film.value_at(film.light_tracks()[1], frame), frame == 2 ? 1u : 0u);
+    EXPECT_EQ(film.material_at(film.segments()[0], frame).exponent, 20.0f);
+    EXPECT_EQ(film.camera_at(frame).focal, 2.0);
+  }
+  EXPECT_EQ(film.moving(film.intervals()[0]).size(), 1u);
+  EXPECT_EQ(film.moving(film.intervals()[1])[1], 1u);
+}
+
+struct Defect {
+  const char* name;
+  std::function<void(FilmData&)> make;
+};
+
+void expect_refused(const std::vector<Defect>& defects) {
+  for (const Defect& defect : defects) {
+    FilmData film = small_film();
+    defect.make(film);
+    const Block block = node::pack(film);
+    try {
+      const FilmView view(block, "some.mars");
+      ADD_FAILURE() << "taken though " << defect.name;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.where, "some.mars");
+      EXPECT_FALSE(failure.problem.empty());
+      EXPECT_FALSE(failure.remedy.empty());
+    }
+  }
+}
+
+TEST(FilmBlock, RefusesNumbersOutOfRange) {
+  std::vector<Defect> defects{
+      {"width 0", [](FilmData& f) { f.settings.width = 0; }},
+      {"width too large", [](FilmData& f) { f.settings.width = node::kMaxSide + 1; }},
+      {"height 0", [](FilmData& f) { f.settings.height = 0; }},
+      {"height too large", [](FilmData& f) { f.settings.height = 0xffffffff; }},
+      {"no frame", [](FilmData& f) { f.settings.frames = 0, f.intervals.clear(); }},
+      {"dice too fine", [](FilmData& f) { f.settings.dice = 257; }},
+      {"rate 0", [](FilmData& f) { f.settings.rate = 0; }},
+      {"exponent below 0", [](FilmData& f) { f.materials[1].exponent = -1; }},
+      {"exponent too large", [](FilmData& f) { f.materials[1].exponent = 65536; }},
+      {"no side", [](FilmData& f) { f.materials[0].sides = 0; }},
+      {"three sides", [](FilmData& f) { f.materials[0].sides = 3; }},
+      {"focal 0", [](FilmData& f) { f.cameras[0].focal = 0; }},
+      {"near 0", [](FilmData& f) { f.cameras[0].near = 0; }},
+      {"far before near", [](FilmData& f) { f.cameras[0].far = 0.05; }},
+      {"light of no kind", [](FilmData& f) { f.lights[1].kind = 2; }},
+  };
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e30}) {
+    const auto b = static_cast<float>(bad);
+    defects.insert(defects.end(),
+                   {{"background", [=](FilmData& f) { f.settings.background[2] = b; }},
+                    {"rate", [=](FilmData& f) { f.settings.rate = b; }},
+                    {"patch", [=](FilmData& f) { f.patches[2].points[15][2] = b; }},
+                    {"color", [=](FilmData& f) { f.materials[1].color[1] = b; }},
+                    {"ambient", [=](FilmData& f) { f.materials[1].ambient = b; }},
+                    {"diffuse", [=](FilmData& f) { f.materials[1].diffuse = b; }},
+                    {"specular", [=](FilmData& f) { f.materials[1].specular = b; }},
+                    {"exponent", [=](FilmData& f) { f.materials[1].exponent = b; }},
+                    {"matrix", [=](FilmData& f) { f.matrices[2].m[2][3] = bad; }},
+                    {"camera's matrix", [=](FilmData& f) { f.cameras[0].world_to_eye.m[0][0] = bad; }},
+                    {"focal", [=](FilmData& f) { f.cameras[0].focal = bad; }},
+                    {"near", [=](FilmData& f) { f.cameras[0].near = bad; }},
+                    {"far", [=](FilmData& f) { f.cameras[0].far = bad; }},
+                    {"light", [=](FilmData& f) { f.lights[1].vector[0] = b; }},
+                    {"light's colour", [=](FilmData& f) { f.lights[0].color[2] = b; }}});
+  }
+  expect_refused(defects);
+}
+
+TEST(FilmBlock, RefusesBrokenIndices) {
+  expect_refused({
+      {"a shape begins beyond the patches", [](FilmData& f) { f.shapes[1].first_patch = 4; }},
+      {"a shape ends beyond the patches", [](FilmData& f) { f.shapes[0].patch_count = 4; }},
+      {"a shape wraps round", [](FilmData& f) { f.shapes[1].patch_count = 0xffffffff; }},
+      {"a segment has no shape", [](FilmData& f) { f.segments[1].shape = 2; }},
+      {"a segment has no name", [](FilmData& f) { f.segments[1].name = 9; }},
+      {"names do not end", [](FilmData& f) { f.names.back() = 'x'; }},
+      {"there are no names", [](FilmData& f) { f.names.clear(); }},
+      {"no camera", [](FilmData& f) { f.cameras.clear(); }},
+      {"the camera's track is empty", [](FilmData& f) { f.settings.camera.count = 0; }},
+      {"a motion is empty", [](FilmData& f) { f.segments[0].motion.count = 0; }},
+      {"a motion begins beyond the changes", [](FilmData& f) { f.segments[0].motion.first = 7; }},
+      {"a motion ends beyond the changes", [](FilmData& f) { f.segments[1].motion.count = 6; }},
+      {"a motion wraps round",
+       [](FilmData& f) {
+         f.segments[1].motion = {2, 0xffffffff};
+       }},
+      {"a motion has no such matrix", [](FilmData& f) { f.changes[3].value = 3; }},
+      {"a motion begins late",
+       [](FilmData& f) {
+         f.segments[1].motion = {2, 1};
+       }},
+      {"a motion goes back", [](FilmData& f) { f.changes[3].frame = 0; }},
+      {"a motion stays", [](FilmData& f) { f.changes[3].frame = 1; }},
+      {"a look has no such material",
+       [](FilmData& f) {
+         f.segments[0].look = {1, 3};
+       }},
+      {"a light has no such value",
+       [](FilmData& f) {
+         f.light_tracks[1] = {1, 3};
+       }},
+      {"intervals begin late", [](FilmData& f) { f.intervals[0].first_frame = 1; }},
+      {"intervals leave a gap", [](FilmData& f) { f.intervals[0].frame_count = 1; }},
+      {"an interval is empty", [](FilmData& f) { f.intervals[0].frame_count = 0; }},
+      {"intervals end early", [](FilmData& f) { f.intervals.pop_back(); }},
+      {"intervals end late", [](FilmData& f) { f.intervals[1].frame_count = 2; }},
+      {"movers end beyond the list", [](FilmData& f) { f.intervals[1].moving_count = 3; }},
+      {"movers begin beyond the list",
+       [](FilmData& f) {
+         f.intervals[1] = {2, 1, 4, 0};
+       }},
+      {"movers twice", [](FilmData& f) { f.moving[1] = 1; }},
+      {"movers in no order", [](FilmData& f) { std::swap(f.moving[1], f.moving[2]); }},
+      {"a mover is no segment", [](FilmData& f) { f.moving[2] = 2; }},
+  });
+}
+
+}  // namespace
+}  // namespace mars::test

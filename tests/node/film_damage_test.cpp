@@ -1,0 +1,96 @@
+// Damaged films: whatever FilmView is given, it says no or can be read everywhere without harm.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "hal/failure.h"
+#include "node/film.h"
+#include "node/scene.h"
+#include "tests/node/patches.h"
+#include "tests/node/small_film.h"
+
+namespace mars::test {
+namespace {
+
+using node::FilmView;
+using Block = std::vector<std::byte>;
+
+// Reads all there is, as nodes do.
+std::uint64_t walk(const FilmView& film) {
+  std::uint64_t sum = film.patch_instances();
+  const std::uint32_t last = film.settings().frames - 1;
+  node::Scene scene(film);
+  for (std::uint32_t i = 0; i < film.intervals().size(); ++i) {
+    scene.set_interval(i);
+    for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {
+      scene.set_frame(frame);
+      sum += scene.lines_of_movers({&frame, 1}).last;
+      for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.look(s) + scene.first_patch(s);
+    }
+  }
+  for (const node::Segment& segment : film.segments()) {
+    sum += film.name(segment).size() + static_cast<std::uint64_t>(film.material_at(segment, last).sides);
+    const node::Shape& shape = film.shapes()[segment.shape];
+    for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
+      sum += patch.points[15][2] > 0;
+  }
+  return sum;
+}
+
+// Whether the film is taken; then it can be read to the last byte. Bytes beyond the block are not ours.
+bool taken(const Block& block) {
+  try {
+    const FilmView view(block, "film");
+    walk(view);
+    return true;
+  } catch (const Failure&) {
+    return false;
+  }
+}
+
+TEST(FilmBlock, TruncatedAnywhereIsRefused) {
+  const Block whole = node::pack(small_film());
+  ASSERT_TRUE(taken(whole));
+  const std::size_t padding = 63;  // the last section's end may be less than a section's alignment away
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const Block part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    const bool took = taken(part);
+    EXPECT_FALSE(took && size + padding < whole.size()) << size << " of " << whole.size() << " bytes";
+  }
+}
+
+TEST(FilmBlock, DamagedBytesDoNoHarm) {
+  const Block whole = node::pack(small_film());
+  Random random(4);
+  int refused = 0;
+  for (int trial = 0; trial < 30000; ++trial) {
+    Block block = whole;
+    for (int flips = random.whole(1, 3); flips > 0; --flips) {
+      const auto at = static_cast<std::size_t>(random.whole(0, static_cast<std::int32_t>(whole.size()) - 1));
+      block[at] = static_cast<std::byte>(random.whole(0, 2) == 0 ? 0xff : random.whole(0, 255));
+    }
+    refused += !taken(block);
+  }
+  EXPECT_GT(refused, 3000);
+}
+
+TEST(FilmBlock, DamagedHeaderIsRefused) {
+  const Block whole = node::pack(small_film());
+  for (std::size_t at = 0; at < 16; ++at) {  // magic, version, number of sections
+    Block block = whole;
+    block[at] ^= std::byte{1};
+    EXPECT_FALSE(taken(block)) << "byte " << at;
+    EXPECT_THROW(FilmView(block, "film", true), Failure);
+  }
+  for (const std::uint64_t bad :
+       {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
+    for (std::size_t at = 16; at < 16 + 13 * 16; at += 16) {  // each section's offset
+      Block block = whole;
+      std::memcpy(&block[at], &bad, sizeof bad);
+      EXPECT_FALSE(taken(block)) << "offset " << bad << " of section " << at / 16 - 1;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mars::test

@@ -1,0 +1,236 @@
+// The shading kernel: Phong's formula in double precision sample by sample, runs and pixels in order, and the
+// same bits from every instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "node/kernels.h"
+#include "tests/node/patches.h"
+
+namespace mars::test {
+namespace {
+
+using node::Extent;
+using node::Triangle;
+
+constexpr std::uint32_t kGap = node::kNoTriangle;
+
+// One line of a picture with all that shading it needs.
+struct Scenery {
+  std::vector<Triangle> triangles;
+  std::vector<node::Material> materials;
+  std::vector<node::EyeLight> lights;
+  std::vector<std::uint32_t> ids;
+  std::uint32_t line = 100;
+  node::Projection view = projection(640, 480, 2);
+
+  node::Shading shading() const {
+    return {triangles.data(), materials.data(), lights.data(), static_cast<std::uint32_t>(lights.size()),
+            view};
+  }
+};
+
+struct Result {
+  std::vector<node::Run> runs;
+  std::vector<std::uint32_t> pixels;
+};
+
+Result shade(const Scenery& scenery, const node::Kernels& kernels, Extent extent) {
+  constexpr std::uint32_t kUntouched = 0xabcdef01;
+  Result result{std::vector<node::Run>(scenery.ids.size() + 1),
+                std::vector<std::uint32_t>(scenery.ids.size() + 1, kUntouched)};
+  const node::Shaded done = kernels.shade(scenery.shading(), scenery.ids.data(), scenery.line, extent,
+                                          result.runs.data(), result.pixels.data());
+  EXPECT_EQ(result.pixels[done.pixels], kUntouched);
+  result.runs.resize(done.runs);
+  result.pixels.resize(done.pixels);
+  return result;
+}
+
+Result shade_all(const Scenery& scenery, const char* limit = "") {
+  return shade(scenery, node::best_kernels(limit), {0, static_cast<std::uint32_t>(scenery.ids.size())});
+}
+
+// A triangle's planes about depth 1 / w, normals that vary along the line.
+Triangle random_triangle(Random& random, std::size_t looks) {
+  Triangle t{};
+  t.x[0] = random.whole(0, 640 * 256);
+  t.y[0] = random.whole(80 * 256, 120 * 256);
+  t.depth = {static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)), 1e-7f};
+  for (node::Plane& normal : t.normal)
+    normal = {static_cast<float>(random.real(-1, 1)), static_cast<float>(random.real(-4e-6, 4e-6)),
+              static_cast<float>(random.real(-4e-6, 4e-6))};
+  if (random.whole(0, 9) == 0)
+    for (node::Plane& normal : t.normal) normal = {0, 0, 0};
+  t.look = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(looks) - 1));
+  return t;
+}
+
+node::EyeLight random_light(Random& random) {
+  node::EyeLight light{random.whole(0, 1) == 1, {}, {}};
+  Vec3 to{random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 1)};
+  const double scale = light.point ? 5 : 1 / length(to);
+  for (std::size_t k = 0; k < 3; ++k) {
+    light.vector[k] = static_cast<float>(to[k] * scale);
+    light.color[k] = static_cast<float>(random.real(0, 0.8));
+  }
+  return light;
+}
+
+Scenery random_scenery(Random& random, int width) {
+  Scenery scenery;
+  for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 7.0f}) {
+    const auto part = [&] { return static_cast<float>(random.real(0, 1)); };
+    scenery.materials.push_back({{part(), part(), part()}, 0.2f * part(), part(), part(), exponent, 2});
+  }
+  for (int k = 0; k < 20; ++k) scenery.triangles.push_back(random_triangle(random, scenery.materials.size()));
+  for (int k = random.whole(0, 4); k > 0; --k) scenery.lights.push_back(random_light(random));
+  scenery.line = static_cast<std::uint32_t>(random.whole(0, 479));
+  while (scenery.ids.size() < static_cast<std::size_t>(width)) {
+    const std::uint32_t id = random.whole(0, 4) ? static_cast<std::uint32_t>(random.whole(0, 19)) : kGap;
+    scenery.ids.insert(scenery.ids.end(), static_cast<std::size_t>(random.whole(1, random.whole(1, 400))),
+                       id);
+  }
+  scenery.ids.resize(static_cast<std::size_t>(width));
+  return scenery;
+}
+
+double at(const node::Plane& plane, double dx, double dy) {
+  return plane.at_first + dy * plane.per_y + dx * plane.per_x;
+}
+
+Vec3 unit(const Vec3& a) {
+  const double size = length(a);
+  return size > 0 ? Vec3{a[0] / size, a[1] / size, a[2] / size} : Vec3{};
+}
+
+// Phong's sum over the lights, 0..255.
+Vec3 phong(const Scenery& scenery, std::uint32_t column) {
+  const Triangle& t = scenery.triangles[scenery.ids[column]];
+  const node::Material& m = scenery.materials[t.look];
+  const double dx = 256.0 * column + 128 - t.x[0], dy = 256.0 * scenery.line + 128 - t.y[0];
+  const Vec3 normal = unit({at(t.normal[0], dx, dy), at(t.normal[1], dx, dy), at(t.normal[2], dx, dy)});
+  const double w = 1 / at(t.depth, dx, dy);
+  const Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
+                   -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
+  const Vec3 eye = unit(Vec3{} - place);
+  Vec3 color;
+  for (std::size_t c = 0; c < 3; ++c) color[c] = m.ambient * m.color[c];
+  for (const node::EyeLight& light : scenery.lights) {
+    const Vec3 vector{light.vector[0], light.vector[1], light.vector[2]};
+    const Vec3 to = light.point ? unit(vector - place) : vector;
+    const double facing = dot(normal, to);
+    if (facing <= 0) continue;
+    const double mirrored = std::clamp(2 * facing * dot(normal, eye) - dot(to, eye), 0.0, 1.0);
+    for (std::size_t c = 0; c < 3; ++c)
+      color[c] +=
+          (m.diffuse * m.color[c] * facing + m.specular * std::pow(mirrored, m.exponent)) * light.color[c];
+  }
+  for (double& c : color) c = 255 * std::clamp(c, 0.0, 1.0);
+  return color;
+}
+
+TEST(Shade, IsPhongsFormula) {
+  Random random(60);
+  double worst = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const Scenery scenery = random_scenery(random, random.whole(1, 640));
+    const Result result = shade_all(scenery);
+    std::size_t pixel = 0;
+    for (std::uint32_t column = 0; column < scenery.ids.size(); ++column) {
+      if (scenery.ids[column] == kGap) continue;
+      const std::uint32_t value = result.pixels.at(pixel++);
+      EXPECT_EQ(value >> 24, 0u);
+      const Vec3 right = phong(scenery, column);
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(right[c] - static_cast<double>(value >> (8 * c) & 255)));
+    }
+    EXPECT_EQ(pixel, result.pixels.size());
+  }
+  EXPECT_LE(worst, 1.0);
+}
+
+TEST(Shade, GivesTheSameBitsEverywhere) {
+  Random random(61);
+  for (int trial = 0; trial < 150; ++trial) {
+    const Scenery scenery = random_scenery(random, random.whole(1, 900));
+    const Result narrow = shade_all(scenery, "sse2");
+    for (const char* limit : {"avx2", "avx512"}) {
+      const Result wide = shade_all(scenery, limit);
+      EXPECT_EQ(wide.pixels, narrow.pixels) << node::best_kernels(limit).name << ", trial " << trial;
+    }
+  }
+}
+
+// Whole batches, looks that change within them, and exact multiples of a batch.
+TEST(Shade, RunsAreWhatIsWithoutGaps) {
+  Random random(62);
+  for (int trial = 0; trial < 300; ++trial) {
+    Scenery scenery = random_scenery(random, random.whole(1, 1100));
+    if (trial % 4 == 0) std::fill_n(scenery.ids.begin(), scenery.ids.size() / 2, 0u);
+    const auto width = static_cast<std::int32_t>(scenery.ids.size());
+    const auto first = static_cast<std::uint32_t>(random.whole(0, width));
+    const Extent extent{first,
+                        static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), width))};
+    std::vector<node::Run> expected;
+    std::size_t pixels = 0;
+    for (std::uint32_t column = extent.first; column < extent.last; ++column) {
+      if (scenery.ids[column] == kGap) continue;
+      const bool begins = column == extent.first || scenery.ids[column - 1] == kGap;
+      if (begins) expected.push_back({scenery.line, static_cast<std::uint16_t>(column), 0});
+      ++expected.back().count;
+      ++pixels;
+    }
+    const Result result = shade(scenery, node::best_kernels(""), extent);
+    EXPECT_EQ(result.pixels.size(), pixels);
+    ASSERT_EQ(result.runs.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ(result.runs[k].line, scenery.line);
+      EXPECT_EQ(result.runs[k].first, expected[k].first);
+      EXPECT_EQ(result.runs[k].count, expected[k].count);
+    }
+  }
+}
+
+// A pixel depends on its sample alone, not on what is shaded with it or where shading begins.
+TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
+  Random random(63);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Scenery scenery = random_scenery(random, 700);
+    const Result whole = shade_all(scenery);
+    std::vector<std::uint32_t> pieces;
+    for (std::uint32_t first = 0; first < 700;) {
+      const std::uint32_t last =
+          std::min<std::uint32_t>(700, first + static_cast<std::uint32_t>(random.whole(1, 300)));
+      const Result part = shade(scenery, node::best_kernels(""), {first, last});
+      pieces.insert(pieces.end(), part.pixels.begin(), part.pixels.end());
+      first = last;
+    }
+    EXPECT_EQ(pieces, whole.pixels);
+  }
+}
+
+TEST(Shade, NothingToShade) {
+  Random random(64);
+  Scenery scenery = random_scenery(random, 20);
+  EXPECT_TRUE(shade(scenery, node::best_kernels(""), {0xffffffff, 0}).pixels.empty());
+  std::fill(scenery.ids.begin(), scenery.ids.end(), kGap);
+  EXPECT_TRUE(shade_all(scenery).runs.empty());
+}
+
+// What has no normal shows its ambient colour; what is lit too much shows white.
+TEST(Shade, AmbientAndWhite) {
+  Scenery scenery;
+  scenery.materials = {{{1, 0.5f, 0}, 0.2f, 1, 1, 10, 2}, {{1, 1, 1}, 3, 1, 1, 10, 2}};
+  scenery.triangles.resize(2);
+  for (Triangle& t : scenery.triangles) t.depth = {1, 0, 0};
+  scenery.triangles[1].look = 1;
+  scenery.lights = {{false, {0, 0, 1}, {1, 1, 1}}};
+  scenery.ids = {0, 1};
+  EXPECT_EQ(shade_all(scenery).pixels, (std::vector<std::uint32_t>{51 | 26 << 8, 0xffffff}));
+}
+
+}  // namespace
+}  // namespace mars::test

@@ -1,0 +1,39 @@
+// A film for tests of the compiled form, with at least one of everything.
+#pragma once
+
+#include <string>
+
+#include "node/film.h"
+
+namespace mars::test {
+
+inline node::Patch flat_patch() {
+  node::Patch patch;
+  for (std::size_t k = 0; k < 16; ++k)
+    patch.points[k] = {static_cast<float>(k % 4) / 3, static_cast<float>(k / 4) / 3, 0.5f};
+  return patch;
+}
+
+inline node::Matrix moved(double x) { return {{{{1, 0, 0, x}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}; }
+
+// Three frames, two segments of which the second moves, one light that changes.
+inline node::FilmData small_film() {
+  node::FilmData film;
+  film.settings = {64, 48, 3, 0, {0.1f, 0.2f, 0.3f}, 24, {0, 1}};
+  film.patches.assign(3, flat_patch());
+  film.shapes = {{0, 2}, {2, 1}};
+  film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}};
+  film.materials = {{{1, 0, 0}, 0.1f, 0.6f, 0.3f, 20, 2}, {{0, 1, 0}, 0.1f, 0.6f, 0.3f, 2.5f, 1}};
+  film.matrices = {moved(0), moved(1), moved(2)};
+  film.cameras = {{moved(0), 2, 0.1, 100}};
+  film.lights = {{0, {0, 0, 1}, {1, 1, 1}}, {1, {1, 2, 3}, {1, 1, 1}}};
+  film.light_tracks = {{0, 1}, {4, 2}};
+  film.changes = {{0, 0}, {0, 0}, {1, 1}, {2, 2}, {0, 0}, {2, 1}};
+  film.intervals = {{0, 2, 0, 1}, {2, 1, 1, 2}};
+  film.moving = {1, 0, 1};
+  const std::string names("base\0arm\0", 9);
+  film.names.assign(names.begin(), names.end());
+  return film;
+}
+
+}  // namespace mars::test
