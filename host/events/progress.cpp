@@ -19,9 +19,9 @@ void Progress::count(FrameKind kind, std::uint32_t of_interval, double at_second
   interval = of_interval;
 }
 
-std::optional<double> Progress::seconds_left() const {
+std::optional<Progress::Left> Progress::left() const {
   if (done() == 0) return std::nullopt;
-  return left_of(keyframes, inbetweens) + left_of(inbetweens, keyframes);
+  return Left{left_of(keyframes, inbetweens), left_of(inbetweens, keyframes)};
 }
 
 }  // namespace mars::host

@@ -32,8 +32,12 @@ struct Progress {
   // A frame of `kind` came, `seconds` after the start.
   void count(FrameKind kind, std::uint32_t of_interval, double at_seconds);
 
-  // Seconds that the rest will take; none before anything is known.
-  std::optional<double> seconds_left() const;
+  // Seconds that the rest of each kind will take; none before anything is known.
+  struct Left {
+    double keyframes;
+    double inbetweens;
+  };
+  std::optional<Left> left() const;
 
   bool operator==(const Progress&) const = default;
 };

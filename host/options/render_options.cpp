@@ -175,11 +175,12 @@ std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
   constexpr unsigned all =
       bit(Program::mars) | bit(Program::host) | bit(Program::cube) | bit(Program::threads);
+  constexpr unsigned compiles = all | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads);
   constexpr unsigned person = bit(Program::mars);
   constexpr std::uint32_t many = 1 << 20;
   return {
-      film(all),
+      film(compiles),
       option(all, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; made where it is missing. Example: -o build/demo"),
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
@@ -189,12 +190,12 @@ std::vector<Entry> table() {
              "installed. Example: --backend threads"),
       option(all, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
-      option(all, "--size", "WxH", &RenderOptions::size,
+      option(compiles, "--size", "WxH", &RenderOptions::size,
              "Picture size in pixels instead of the film's. Example: --size 960x540"),
       option(all, "--mapping", "greedy|optimal", &RenderOptions::mapping,
              "How scanlines are divided over nodes: the thesis's heuristic or the exact optimum. "
              "Example: --mapping optimal"),
-      option(all, "--intervals", "auto|keyframes", &RenderOptions::intervals,
+      option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
              "Example: --intervals keyframes"),
       flag(all, "--no-coherence", &RenderOptions::no_coherence,

@@ -45,7 +45,7 @@ struct RenderOptions {
 };
 
 // Who reads the options: each takes those that concern it.
-enum class Program : unsigned { mars = 1, host = 2, cube = 4, threads = 8 };
+enum class Program : unsigned { mars = 1, host = 2, cube = 4, threads = 8, compile = 16 };
 
 // Adds the options `program` takes to its command line; `options` must outlive the parsing.
 void add_render_options(CLI::App& app, RenderOptions& options, Program program);

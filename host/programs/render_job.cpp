@@ -9,7 +9,7 @@
 #include "hal/nx.h"
 #include "host/events/events.h"
 #include "host/farm/farm.h"
-#include "host/film/compile.h"
+#include "host/programs/film_of.h"
 #include "host/report/report.h"
 #include "host/sinks/checksum.h"
 #include "host/sinks/frame_folder.h"
@@ -19,13 +19,6 @@
 
 namespace mars::host {
 namespace {
-
-CompiledFilm load(const RenderOptions& options) {
-  CompileOptions compiling;
-  if (options.intervals == Intervals::keyframes) compiling.cutting = Cutting::keyframes;
-  if (options.size) compiling.size = {options.size->width, options.size->height};
-  return load_film(options.film, compiling);
-}
 
 // Where the frames go: a folder with its sink, or nowhere.
 class Destination {
@@ -98,7 +91,7 @@ class Teller {
 
 void render(const RenderOptions& options, const char* backend) {
   check_together(options);
-  const CompiledFilm film = load(options);
+  const CompiledFilm film = load_film_of(options);
   const node::FilmSettings& settings = film.view().settings();
   FarmOptions farm;
   farm.mapping = options.mapping;

@@ -1,0 +1,142 @@
+#include "host/launch/command.h"
+
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <string_view>
+
+#include "hal/failure.h"
+#include "hal/settings.h"
+#include "host/launch/environment.h"
+#include "topology/machine.h"
+
+namespace mars::host {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool plain(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) ||
+         std::string_view("_-+=./,:@%^").find(c) != std::string_view::npos;
+}
+
+std::string quoted(const std::string& word) {
+  bool all_plain = !word.empty();
+  for (const char c : word) all_plain = all_plain && plain(c);
+  if (all_plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+bool runnable(const fs::path& file) { return fs::is_regular_file(file) && access(file.c_str(), X_OK) == 0; }
+
+std::optional<fs::path> find_in_path(const std::string& name, const std::string& path) {
+  std::string_view rest = path;
+  while (!rest.empty()) {
+    const std::string_view folder = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    if (const fs::path file = fs::path(folder) / name; !folder.empty() && runnable(file)) return file;
+  }
+  return std::nullopt;
+}
+
+std::optional<fs::path> find_ours(const std::string& name, const fs::path& self, const std::string& path) {
+  for (const fs::path& folder : {self.parent_path(), self.parent_path().parent_path() / "libexec"}) {
+    if (runnable(folder / name)) return folder / name;
+  }
+  return find_in_path(name, path);
+}
+
+// Open MPI's large messages within a machine are copied by the receiver straight from the sender's memory,
+// which some containers forbid; it then complains, or fails. Whether they do shows on memory of one's own.
+bool may_copy() {
+  int from = 1;
+  int to = 0;
+  const iovec local{&to, sizeof to};
+  const iovec remote{&from, sizeof from};
+  return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == sizeof from;
+}
+
+std::vector<std::string> settings_in_use() {
+  std::vector<std::string> names;
+  for (const hal::Setting& setting : hal::settings_table()) {
+    if (own_environment().value(setting.name)) names.emplace_back(setting.name);
+  }
+  return names;
+}
+
+void add_arguments(Command& command, Program program, const RenderOptions& options) {
+  for (std::string& word : arguments_for(program, options)) command.words.push_back(std::move(word));
+}
+
+}  // namespace
+
+std::string shell_text(const Command& command) {
+  std::string text;
+  for (const auto& [name, value] : command.environment) text += name + "=" + quoted(value) + " ";
+  for (const std::string& word : command.words) text += quoted(word) + " ";
+  text.pop_back();
+  return text;
+}
+
+Programs find_programs(const fs::path& self, const std::string& path) {
+  return {find_in_path("mpirun", path), find_ours("mars-host", self, path),
+          find_ours("mars-node", self, path), find_ours("mars-threads", self, path)};
+}
+
+Surroundings look_around() {
+  return {static_cast<std::uint32_t>(topology::Machine::here().cores()), geteuid() == 0, !may_copy(),
+          settings_in_use()};
+}
+
+Backend choose_backend(Backend asked, const Programs& programs) {
+  const bool mpi = programs.mpirun && programs.host && programs.node;
+  const Backend backend = asked != Backend::automatic ? asked : mpi ? Backend::mpi : Backend::threads;
+  if (backend == Backend::mpi && !programs.mpirun) {
+    throw Failure("mpirun was not found", "",
+                  "install Open MPI (Debian: openmpi-bin), or use --backend threads");
+  }
+  if (backend == Backend::mpi && !mpi) {
+    throw Failure("mars-host and mars-node were not found beside mars or in the PATH", "",
+                  "build MARS where MPI is installed, or use --backend threads");
+  }
+  if (backend == Backend::threads && !programs.threads) {
+    throw Failure("mars-threads was not found beside mars or in the PATH", "", "build or install MARS whole");
+  }
+  return backend;
+}
+
+Command mpi_command(const RenderOptions& options, const Programs& programs,
+                    const Surroundings& surroundings) {
+  Command command;
+  // As root Open MPI wants to be told twice; as the only user of a container there is nobody else to be.
+  if (surroundings.root) {
+    command.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
+  }
+  if (surroundings.copies_forbidden) {
+    command.environment.emplace_back("OMPI_MCA_btl_vader_single_copy_mechanism", "none");
+  }
+  // Its other ways of keeping start-up data warn where several jobs or users share a machine.
+  command.environment.emplace_back("PMIX_MCA_gds", "hash");
+  // Nodes bind themselves, each by its place on its machine.
+  command.words = {programs.mpirun->string(), "--bind-to", "none"};
+  if (options.nodes + 1 > surroundings.cores) command.words.emplace_back("--oversubscribe");
+  for (const std::string& name : surroundings.settings)
+    command.words.insert(command.words.end(), {"-x", name});
+  command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
+  add_arguments(command, Program::host, options);
+  command.words.insert(command.words.end(),
+                       {":", "-n", std::to_string(options.nodes), programs.node->string()});
+  return command;
+}
+
+Command threads_command(const RenderOptions& options, const Programs& programs) {
+  Command command{{}, {programs.threads->string()}};
+  add_arguments(command, Program::threads, options);
+  return command;
+}
+
+}  // namespace mars::host

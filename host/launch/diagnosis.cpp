@@ -1,0 +1,95 @@
+#include "host/launch/diagnosis.h"
+
+#include <signal.h>
+
+#include <cstring>
+#include <filesystem>
+#include <regex>
+
+namespace mars::host {
+
+namespace {
+
+std::string join(const std::deque<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+std::string killed_by(const std::string& who, int signal) {
+  return who + " was killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+}
+
+std::string remedy_for(int signal) {
+  if (signal == SIGKILL) {
+    return "perhaps the machine ran out of memory, see dmesg: try fewer --nodes, or set MARS_MEMORY to fewer "
+           "MiB";
+  }
+  return "please report it with the film";
+}
+
+Failure stopped(const Remains& remains, const RenderOptions& options) {
+  return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
+                     std::to_string(remains.progress.done()) + " of " +
+                     std::to_string(remains.progress.of()) + " frames",
+                 options.folder, "");
+}
+
+Failure told(const Fault& fault) {
+  const std::string again = fault.replay.empty() ? "" : "to see it again: " + fault.replay;
+  const std::string remedy =
+      fault.remedy.empty() || again.empty() ? fault.remedy + again : fault.remedy + "; " + again;
+  return Failure(fault.problem, fault.where, remedy);
+}
+
+// "mpirun noticed that process rank 2 with PID 0 on node ada exited on signal 9 (Killed)." Rank 0 is the
+// host, as we start it.
+std::optional<Failure> lost_rank(const std::string& words) {
+  static const std::regex form("process rank (\\d+) with PID \\d+ on node (\\S+) exited on\\s+signal (\\d+)");
+  std::smatch match;
+  if (!std::regex_search(words, match, form)) return std::nullopt;
+  const int rank = std::stoi(match[1]);
+  const int signal = std::stoi(match[3]);
+  const std::string who = rank == 0 ? "the host" : "node " + std::to_string(rank - 1);
+  return Failure(killed_by(who, signal), "machine " + match[2].str(), remedy_for(signal));
+}
+
+std::optional<Failure> no_slots(const std::string& words) {
+  if (words.find("not enough slots available") == std::string::npos) return std::nullopt;
+  return Failure("the allocation has no room for the host and so many nodes", "",
+                 "use fewer --nodes, or ask for one task more than nodes");
+}
+
+// "mars: ..." is how our programs tell why they end.
+std::optional<Failure> own_words(const std::deque<std::string>& lines) {
+  for (const std::string& line : lines) {
+    if (line.starts_with("mars: ")) return Failure(line.substr(6), "", "");
+  }
+  return std::nullopt;
+}
+
+Failure unknown(const Remains& remains) {
+  const std::string program = std::filesystem::path(remains.program).filename().string();
+  if (remains.ending.signal != 0) {
+    return Failure(killed_by(program, remains.ending.signal), "", remedy_for(remains.ending.signal));
+  }
+  const std::string how = remains.ending.code == 0
+                              ? " ended before all frames were there"
+                              : " ended with exit code " + std::to_string(remains.ending.code);
+  const std::string words = join(remains.last_words);
+  return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
+}
+
+}  // namespace
+
+Failure diagnose(const Remains& remains, const RenderOptions& options) {
+  if (remains.passed_on != 0) return stopped(remains, options);
+  if (remains.fault) return told(*remains.fault);
+  if (const auto own = own_words(remains.last_words)) return *own;
+  const std::string words = join(remains.last_words);
+  if (const auto lost = lost_rank(words)) return *lost;
+  if (const auto crowded = no_slots(words)) return *crowded;
+  return unknown(remains);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,118 @@
+#include "host/launch/display.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace mars::host {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kTerminalPeriod{100};
+constexpr std::chrono::milliseconds kLinePeriod{2000};
+constexpr const char* kClearLine = "\r\x1b[K";
+
+std::string one_decimal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+// A line that wraps could not be written over.
+std::string fitting(const std::string& text) {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return text;
+  return text.substr(0, size.ws_col - 1u);
+}
+
+std::string left_text(const Progress& progress) {
+  const auto left = progress.left();
+  if (!left) return "";
+  std::string text = ", " + clock_text(left->keyframes + left->inbetweens) + " left";
+  if (progress.keyframes.of == 0 || progress.inbetweens.of == 0) return text;
+  return text + " (keyframes " + clock_text(left->keyframes) + ", inbetweens " +
+         clock_text(left->inbetweens) + ")";
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<unsigned long>(std::lround(std::min(seconds, 1e9)));
+  char text[60];
+  if (whole >= 3600) {
+    std::snprintf(text, sizeof text, "%lu:%02lu:%02lu", whole / 3600, whole / 60 % 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%lu:%02lu", whole / 60, whole % 60);
+  }
+  return text;
+}
+
+std::string progress_text(const Progress& progress) {
+  std::string text = "frame " + std::to_string(progress.done()) + " of " + std::to_string(progress.of());
+  if (progress.done() == 0) return text;
+  text += ", interval " + std::to_string(progress.interval + 1) + " of " + std::to_string(progress.intervals);
+  if (progress.seconds() > 0) text += ", " + one_decimal(progress.done() / progress.seconds()) + " frames/s";
+  return text + left_text(progress);
+}
+
+std::string booted_text(const Booted& booted) {
+  std::string text = counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") +
+                     " (" + booted.backend + ")";
+  std::string simd;
+  for (const Booted::Node& node : booted.nodes) {
+    if (simd.find(node.simd) == std::string::npos) simd += (simd.empty() ? "" : ", ") + node.simd;
+  }
+  return text + ", " + simd;
+}
+
+std::string done_text(const Done& done) {
+  std::string text = counted(done.frames, "frame");
+  if (!done.folder.empty()) text += " in " + done.folder;
+  text += ", " + one_decimal(done.seconds) + " seconds";
+  if (done.seconds > 0) text += ", " + one_decimal(done.frames / done.seconds) + " frames/s";
+  return text;
+}
+
+void Display::tell(const std::string& line) {
+  if (kind_ == Kind::silent) return;
+  if (line_open_) out_ << kClearLine;
+  line_open_ = false;
+  out_ << line << std::endl;
+}
+
+void Display::show(const Progress& progress) {
+  if (kind_ == Kind::silent || !due()) return;
+  if (kind_ == Kind::lines) {
+    if (progress.done() > 0) out_ << progress_text(progress) << std::endl;
+    return;
+  }
+  out_ << kClearLine << fitting(progress_text(progress)) << std::flush;
+  line_open_ = true;
+}
+
+void Display::settle() {
+  if (line_open_) out_ << std::endl;
+  line_open_ = false;
+}
+
+bool Display::due() {
+  const Clock::time_point now = Clock::now();
+  if (now - last_ < (kind_ == Kind::terminal ? kTerminalPeriod : kLinePeriod)) return false;
+  last_ = now;
+  return true;
+}
+
+Display::Kind kind_of_output(bool quiet) {
+  if (quiet) return Display::Kind::silent;
+  return isatty(STDOUT_FILENO) ? Display::Kind::terminal : Display::Kind::lines;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,47 @@
+// What a person sees of a rendering: on a terminal one line that keeps up with it, in a pipe or file a plain
+// line now and then.
+#pragma once
+
+#include <chrono>
+#include <ostream>
+#include <string>
+
+#include "host/events/events.h"
+
+namespace mars::host {
+
+// Seconds as 0:07 or 1:02:03.
+std::string clock_text(double seconds);
+
+// "frame 12 of 72, interval 2 of 5, 8.3 frames/s, 0:07 left (keyframes 0:03, inbetweens 0:04)"
+std::string progress_text(const Progress& progress);
+
+std::string booted_text(const Booted& booted);
+std::string done_text(const Done& done);
+
+class Display {
+ public:
+  enum class Kind { silent, lines, terminal };
+
+  Display(Kind kind, std::ostream& out) : kind_(kind), out_(out) {}
+
+  // A line that stays.
+  void tell(const std::string& line);
+  // How far it is: shown when due.
+  void show(const Progress& progress);
+  // Leaves the terminal's progress line as it is and goes below it.
+  void settle();
+
+ private:
+  bool due();
+
+  Kind kind_;
+  std::ostream& out_;
+  bool line_open_ = false;  // the terminal's progress line is being shown
+  std::chrono::steady_clock::time_point last_{};
+};
+
+// For standard output.
+Display::Kind kind_of_output(bool quiet);
+
+}  // namespace mars::host

@@ -1,0 +1,36 @@
+#include "host/launch/environment.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace mars::host {
+
+std::optional<std::string> Environment::value(std::string_view name) const {
+  for (const std::string& line : lines_) {
+    if (line.size() > name.size() && line[name.size()] == '=' && line.starts_with(name)) {
+      return line.substr(name.size() + 1);
+    }
+  }
+  return std::nullopt;
+}
+
+void Environment::set(const std::string& name, const std::string& value) {
+  std::erase_if(lines_, [&](const std::string& line) { return line.starts_with(name + "="); });
+  lines_.push_back(name + "=" + value);
+}
+
+std::vector<char*> Environment::pointers() {
+  std::vector<char*> pointers;
+  for (std::string& line : lines_) pointers.push_back(line.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+Environment own_environment() {
+  std::vector<std::string> lines;
+  for (char** line = environ; line != nullptr && *line != nullptr; ++line) lines.emplace_back(*line);
+  return Environment(std::move(lines));
+}
+
+}  // namespace mars::host

@@ -1,0 +1,115 @@
+// mars: what a person types. It knows no MPI: `mars render` starts the programs that do.
+#include <filesystem>
+#include <iostream>
+
+#include "host/film/compile.h"
+#include "host/film/describe.h"
+#include "host/film/film_file.h"
+#include "host/launch/launch.h"
+#include "host/model/patch_file.h"
+#include "host/options/command_line.h"
+#include "host/programs/film_of.h"
+#include "host/sinks/verify.h"
+
+namespace mars::host {
+namespace {
+
+constexpr const char* kWayIn = R"(MARS models, animates and renders films in parallel.
+
+  mars render FILM -o DIR          render a film to PNG files
+  mars compile FILM -o FILM.mars   compute all its motion once
+  mars info FILM                   what a film holds
+  mars verify DIR                  are all frames there, and whole?
+  mars import FILE -o MODEL.json   a model from a patch file
+
+  mars render examples/demo.json -o build/demo     renders the demonstration
+  mars COMMAND --help                              every option, with an example
+)";
+
+struct Names {
+  std::string from;
+  std::string to;
+  std::string joint;
+};
+
+int verify(const std::string& folder) {
+  const Verdict verdict = verify_folder(folder);
+  for (const Verdict::Trouble& trouble : verdict.troubles) {
+    std::cout << "frame " << trouble.frame << ": " << trouble.reason << '\n';
+  }
+  if (!verdict.troubles.empty()) {
+    std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong\n";
+    return kFailed;
+  }
+  std::cout << verdict.expected << " frames, all there and whole\npixels " << verdict.hash << '\n';
+  return 0;
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+  CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
+  add_render_options(*command, options, Program::mars);
+  command->callback([&options] { launch_render(options, std::filesystem::read_symlink("/proc/self/exe")); });
+}
+
+void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
+  CLI::App* command = app.add_subcommand("compile", "Compute a film's motion once, to a .mars file");
+  add_render_options(*command, options, Program::compile);
+  command->add_option("-o,--output", names.to, "The compiled film. Example: -o film.mars")
+      ->required()
+      ->type_name("FILE");
+  command->callback([&] { save_film(load_film_of(options), names.to); });
+}
+
+void add_info(CLI::App& app, Names& names) {
+  CLI::App* command = app.add_subcommand("info", "Tell what a film holds");
+  command->add_option("FILM", names.from, "A .json or .mars file. Example: examples/demo.json")->required();
+  command->callback([&] { std::cout << describe(load_film(names.from)); });
+}
+
+void add_verify(CLI::App& app, Names& names, int& code) {
+  CLI::App* command =
+      app.add_subcommand("verify", "Look all frames of a folder over; print one hash of their pixels");
+  command->add_option("DIR", names.from, "The folder given to mars render with -o. Example: build/demo")
+      ->required();
+  command->callback([&] { code = verify(names.from); });
+}
+
+void add_import(CLI::App& app, Names& names) {
+  CLI::App* command = app.add_subcommand("import", "Make a model file from a patch file (.bpt)");
+  command->add_option("FILE", names.from, "The patch file. Example: teapot.bpt")->required();
+  command->add_option("-o,--output", names.to, "The model file. Example: -o teapot.json")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--joint", names.joint, "Name of its joint; default: the file's. Example: --joint body")
+      ->type_name("NAME");
+  command->callback([&] { std::cout << import_patches(names.from, names.to, names.joint) << '\n'; });
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Models, animates and renders films in parallel", "mars");
+  app.set_version_flag("--version", "mars " MARS_VERSION);
+  app.require_subcommand(0, 1);
+  RenderOptions options;
+  Names names;
+  int code = 0;
+  add_render(app, options);
+  add_compile(app, options, names);
+  add_info(app, names);
+  add_verify(app, names, code);
+  add_import(app, names);
+  if (const auto ended = read_command_line(app, argc, argv)) return *ended;
+  if (app.get_subcommands().empty()) std::cout << kWayIn;
+  return code;
+}
+
+}  // namespace
+}  // namespace mars::host
+
+int main(int argc, char** argv) {
+  try {
+    return mars::host::run(argc, argv);
+  } catch (const std::exception& failure) {
+    std::cerr << "mars: " << failure.what() << '\n';
+    return mars::host::kFailed;
+  }
+}
