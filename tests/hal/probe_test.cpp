@@ -1,0 +1,56 @@
+// What a probe tells of is what the next receive takes, also when messages arrive between two looks.
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "hal/nx.h"
+#include "hal/process.h"
+
+namespace mars::hal {
+namespace {
+
+// Nothing is there at every odd look; two messages of one type are at every even one.
+class BlinkingBackend : public Backend {
+ public:
+  int rank() const override { return 0; }
+  int nodes() const override { return 1; }
+  void send(int, int, const void*, std::size_t) override {}
+  Ticket start_send(int, int, const void*, std::size_t) override { return 0; }
+  bool sent(Ticket) override { return true; }
+  std::optional<Envelope> peek() override {
+    if (peeked_) return messages_.front();
+    if (++looks_ % 2 == 1 || messages_.empty()) return std::nullopt;
+    peeked_ = true;
+    return messages_.front();
+  }
+  void take(void*) override {
+    messages_.pop_front();
+    peeked_ = false;
+  }
+  void idle(int) override {}
+  Neighbourhood neighbourhood() override { return {}; }
+  std::shared_ptr<std::byte> share(std::size_t) override { return nullptr; }
+  bool finish() override { return true; }
+  [[noreturn]] void abort(const std::string&) override { std::terminate(); }
+
+ private:
+  std::deque<Envelope> messages_ = {{1, 7, 10}, {1, 7, 20}, {1, 7, 30}};
+  int looks_ = 0;
+  bool peeked_ = false;
+};
+
+TEST(Probe, TellsOfTheMessageThatIsReceivedNext) {
+  BlinkingBackend backend;
+  Process process(backend);
+  char buffer[100];
+  for (const long expected : {10, 20, 30}) {
+    while (iprobe(7) == 0) {
+    }
+    EXPECT_EQ(infocount(), expected);
+    crecv(7, buffer, sizeof buffer);
+    EXPECT_EQ(infocount(), expected);
+  }
+}
+
+}  // namespace
+}  // namespace mars::hal
