@@ -91,7 +91,8 @@ void Display::tell(const std::string& line) {
 void Display::show(const Progress& progress) {
   if (kind_ == Kind::silent || !due()) return;
   if (kind_ == Kind::lines) {
-    if (progress.done() > 0) out_ << progress_text(progress) << std::endl;
+    if (progress.done() > shown_) out_ << progress_text(progress) << std::endl;
+    shown_ = progress.done();
     return;
   }
   out_ << kClearLine << fitting(progress_text(progress)) << std::flush;

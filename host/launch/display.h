@@ -39,6 +39,7 @@ class Display {
   std::ostream& out_;
   bool line_open_ = false;  // the terminal's progress line is being shown
   std::chrono::steady_clock::time_point last_{};
+  std::uint32_t shown_ = 0;  // frames that the last plain line told
 };
 
 // For standard output.

@@ -1,0 +1,73 @@
+#include "host/launch/diagnosis.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+Remains failed_with(std::deque<std::string> words) {
+  Remains remains;
+  remains.ending.code = 1;
+  remains.last_words = std::move(words);
+  remains.program = "/usr/bin/mpirun";
+  return remains;
+}
+
+std::string message(const Remains& remains) {
+  RenderOptions options;
+  options.folder = "out";
+  return diagnose(remains, options).what();
+}
+
+TEST(Diagnosis, TheHostsOwnWordComesFirst) {
+  Remains remains = failed_with({"mars: something else", "noise"});
+  remains.fault = Fault{"out of memory", "node 1, frame 3", "use less", 1, 3, "mars render x"};
+  EXPECT_EQ(message(remains), "node 1, frame 3: out of memory (use less; to see it again: mars render x)");
+  remains.fault->remedy = "";
+  EXPECT_EQ(message(remains), "node 1, frame 3: out of memory (to see it again: mars render x)");
+}
+
+TEST(Diagnosis, APersonWhoStopsItKnowsWhy) {
+  Remains remains = failed_with({"mars: abort", "noise"});
+  remains.passed_on = SIGINT;
+  remains.progress.keyframes = {2, 3, 1};
+  EXPECT_EQ(message(remains), "out: stopped by Interrupt after 2 of 3 frames");
+}
+
+TEST(Diagnosis, OfAKilledRank) {
+  const auto words = [](const char* rank) {
+    return failed_with({"Primary job  terminated normally, but 1 process returned", "",
+                        std::string("mpirun noticed that process rank ") + rank +
+                            " with PID 0 on node ada exited on signal 9 (Killed)."});
+  };
+  EXPECT_TRUE(holds(message(words("2")), "machine ada: node 1 was killed by signal 9 (Killed)"));
+  EXPECT_TRUE(holds(message(words("0")), "the host was killed"));
+  EXPECT_TRUE(holds(message(words("0")), "out of memory"));
+}
+
+TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {
+  EXPECT_TRUE(
+      holds(message(failed_with({"There are not enough slots available in the system to satisfy the 9"})),
+            "no room for the host and so many nodes"));
+}
+
+TEST(Diagnosis, OfOurOwnWords) {
+  EXPECT_EQ(message(failed_with({"noise", "mars: node 3: this is wrong", "noise"})), "node 3: this is wrong");
+}
+
+TEST(Diagnosis, OfWhatIsNotUnderstoodTheLastWords) {
+  EXPECT_EQ(message(failed_with({"first", "second"})),
+            "mpirun ended with exit code 1 (its last words:\nfirst\nsecond\n)");
+  Remains killed = failed_with({});
+  killed.ending = {0, SIGSEGV};
+  EXPECT_TRUE(holds(message(killed), "mpirun was killed by signal 11 (Segmentation fault)"));
+  Remains silent = failed_with({});
+  silent.ending = {};
+  EXPECT_TRUE(holds(message(silent), "ended before all frames were there"));
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,80 @@
+#include "host/launch/display.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace mars::host {
+namespace {
+
+Progress some_progress() {
+  Progress progress;
+  progress.intervals = 5;
+  progress.interval = 1;
+  progress.keyframes = {1, 2, 3.0};
+  progress.inbetweens = {9, 20, 4.5};
+  return progress;
+}
+
+TEST(Display, Clock) {
+  EXPECT_EQ(clock_text(0), "0:00");
+  EXPECT_EQ(clock_text(7.4), "0:07");
+  EXPECT_EQ(clock_text(61), "1:01");
+  EXPECT_EQ(clock_text(3723), "1:02:03");
+}
+
+TEST(Display, ProgressKeepsTheKindsApart) {
+  EXPECT_EQ(progress_text(some_progress()),
+            "frame 10 of 22, interval 2 of 5, 1.3 frames/s, 0:09 left (keyframes 0:03, inbetweens 0:06)");
+}
+
+TEST(Display, ProgressOfOneKind) {
+  Progress progress = some_progress();
+  progress.inbetweens = {};
+  EXPECT_EQ(progress_text(progress), "frame 1 of 2, interval 2 of 5, 0.3 frames/s, 0:03 left");
+}
+
+TEST(Display, ProgressBeforeTheFirstFrame) {
+  Progress progress = some_progress();
+  progress.keyframes.done = progress.inbetweens.done = 0;
+  EXPECT_EQ(progress_text(progress), "frame 0 of 22");
+}
+
+TEST(Display, PlainLinesAreWholeAndNotTooMany) {
+  std::ostringstream out;
+  Display display(Display::Kind::lines, out);
+  display.tell("begin");
+  for (int i = 0; i < 100; ++i) display.show(some_progress());
+  display.settle();
+  display.tell("end");
+  EXPECT_EQ(out.str(), "begin\n" + progress_text(some_progress()) + "\nend\n");
+}
+
+TEST(Display, ATerminalsLineIsWrittenOver) {
+  std::ostringstream out;
+  Display display(Display::Kind::terminal, out);
+  display.show(some_progress());
+  display.tell("end");
+  const std::string text = out.str();
+  EXPECT_EQ(text.substr(0, 4), "\r\x1b[K");
+  EXPECT_TRUE(text.ends_with("\r\x1b[Kend\n"));
+}
+
+TEST(Display, SilentIsSilent) {
+  std::ostringstream out;
+  Display display(Display::Kind::silent, out);
+  display.tell("begin");
+  display.show(some_progress());
+  display.settle();
+  EXPECT_EQ(out.str(), "");
+}
+
+TEST(Display, OtherLines) {
+  EXPECT_EQ(booted_text({"mpi", 1, {{0, "ada", "core 0", "avx2"}, {1, "ada", "core 1", "avx2"}}}),
+            "2 nodes on 1 machine (mpi), avx2");
+  EXPECT_EQ(done_text({30, 2.0, "out"}), "30 frames in out, 2.0 seconds, 15.0 frames/s");
+  EXPECT_EQ(done_text({1, 2.0, ""}), "1 frame, 2.0 seconds, 0.5 frames/s");
+}
+
+}  // namespace
+}  // namespace mars::host
