@@ -104,7 +104,7 @@ void raise(float* __restrict base, float* __restrict power, int count, float exp
   const auto fixed = static_cast<std::uint32_t>(exponent * 256.0f + 0.5f);
   alignas(64) float root[kBatch];
   for (int k = 0; k < count; ++k) {
-    power[k] = 1.0f;
+    power[k] = base[k] > 0.0f ? 1.0f : 0.0f;  // no light is none at exponent 0 too
     root[k] = base[k];
   }
   for (std::uint32_t bit = 128; bit != 0 && (fixed & 255) != 0; bit >>= 1) {
