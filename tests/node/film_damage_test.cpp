@@ -48,7 +48,7 @@ bool taken(const Block& block) {
   }
 }
 
-TEST(FilmBlock, TruncatedAnywhereIsRefused) {
+TEST(FilmDamage, TruncatedAnywhereIsRefused) {
   const Block whole = node::pack(small_film());
   ASSERT_TRUE(taken(whole));
   const std::size_t padding = 63;  // the last section's end may be less than a section's alignment away
@@ -59,7 +59,7 @@ TEST(FilmBlock, TruncatedAnywhereIsRefused) {
   }
 }
 
-TEST(FilmBlock, DamagedBytesDoNoHarm) {
+TEST(FilmDamage, DamagedBytesDoNoHarm) {
   const Block whole = node::pack(small_film());
   Random random(4);
   int refused = 0;
@@ -74,7 +74,7 @@ TEST(FilmBlock, DamagedBytesDoNoHarm) {
   EXPECT_GT(refused, 3000);
 }
 
-TEST(FilmBlock, DamagedHeaderIsRefused) {
+TEST(FilmDamage, DamagedHeaderIsRefused) {
   const Block whole = node::pack(small_film());
   for (std::size_t at = 0; at < 16; ++at) {  // magic, version, number of sections
     Block block = whole;

@@ -81,7 +81,7 @@ node::EyeLight random_light(Random& random) {
 
 Scenery random_scenery(Random& random, int width) {
   Scenery scenery;
-  for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 7.0f}) {
+  for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 0.0f}) {
     const auto part = [&] { return static_cast<float>(random.real(0, 1)); };
     scenery.materials.push_back({{part(), part(), part()}, 0.2f * part(), part(), part(), exponent, 2});
   }
@@ -123,10 +123,10 @@ Vec3 phong(const Scenery& scenery, std::uint32_t column) {
     const Vec3 to = light.point ? unit(vector - place) : vector;
     const double facing = dot(normal, to);
     if (facing <= 0) continue;
-    const double mirrored = std::clamp(2 * facing * dot(normal, eye) - dot(to, eye), 0.0, 1.0);
+    const double mirrored = 2 * facing * dot(normal, eye) - dot(to, eye);
+    const double highlight = mirrored > 0 ? std::pow(std::min(mirrored, 1.0), m.exponent) : 0;
     for (std::size_t c = 0; c < 3; ++c)
-      color[c] +=
-          (m.diffuse * m.color[c] * facing + m.specular * std::pow(mirrored, m.exponent)) * light.color[c];
+      color[c] += (m.diffuse * m.color[c] * facing + m.specular * highlight) * light.color[c];
   }
   for (double& c : color) c = 255 * std::clamp(c, 0.0, 1.0);
   return color;
