@@ -187,13 +187,26 @@ def prop(shape, sbb, material, **options):
 
 
 LIGHTS = [{"direction": [-0.45, -0.6, 0.9], "color": [1.0, 0.95, 0.86]},
-          {"direction": [0.9, -0.1, 0.35], "color": [0.5, 0.65, 1.0], "intensity": 0.35}]
+          {"direction": [0.9, -0.1, 0.35], "color": [0.5, 0.65, 1.0], "intensity": 0.3},
+          {"place": [-3, -4, 5], "color": [1.0, 0.85, 0.6], "intensity": 0.3}]
 FLOOR = {"joints": [{"name": "floor", "limits": {},
                      "segment": {"shape": "box", "sbb": [[-80, -40, -0.2], [80, 120, 0]], "material": "floor"}}]}
-GLAZE = {"floor": paint([0.74, 0.76, 0.78], specular=0, sides=1),
+GLAZE = {"floor": paint([0.78, 0.76, 0.72], specular=0, sides=1), "slate": paint([0.50, 0.53, 0.58], specular=0.15),
          "copper": paint([0.90, 0.52, 0.32], specular=0.6, exponent=50),
          "sea": paint([0.26, 0.58, 0.72]), "rose": paint([0.86, 0.40, 0.50]),
          "sand": paint([0.90, 0.78, 0.52]), "violet": paint([0.60, 0.48, 0.84])}
+
+
+def tiles(size=2, columns=range(-9, 9), rows=range(-5, 20)):
+    """Every second square of a chessboard, a hair above the floor: one flat patch each."""
+    square = [[round(i / 3, 6), round(j / 3, 6), 1] for j in range(4) for i in range(4)]
+    return {"shapes": {"square": [square]},
+            "joints": [{"name": f"tile-{i}-{j}", "limits": {},
+                        "segment": {"shape": "square", "material": "slate",
+                                    "sbb": [[size * i, size * j, -0.1], [size * (i + 1), size * (j + 1), 0.004]]}}
+                       for j in rows for i in columns if (i + j) % 2 == 0]}
+
+
 TEAPOT = prop("teapot", [[-3, -2, 0], [3.525, 2, 3.15]], "copper")
 
 
@@ -203,8 +216,8 @@ def standing(name, model, x, y, turn=0.0, z=0.0):
 
 def film(frames, size, camera, models, actors, **more):
     return {"frames": frames, "rate": 24, "size": size, "background": [0.62, 0.72, 0.82], **more, "camera": camera,
-            "lights": LIGHTS, "materials": GLAZE, "models": {"floor": FLOOR, **models},
-            "actors": [{"name": "floor", "model": "floor"}, *actors]}
+            "lights": LIGHTS, "materials": GLAZE, "models": {"floor": FLOOR, "tiles": "models/tiles.json", **models},
+            "actors": [{"name": "floor", "model": "floor"}, {"name": "tiles", "model": "tiles"}, *actors]}
 
 
 def caterpillar_film():
@@ -261,7 +274,8 @@ def robot_film():
 
 if __name__ == "__main__":
     (HERE / "models").mkdir(exist_ok=True)
-    written = {"models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(), "caterpillar": caterpillar_film(),
+    written = {"models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(), "models/tiles": tiles(),
+               "caterpillar": caterpillar_film(),
                "robot-arm": robot_film(), "demo": demo_film()}
     for name, content in written.items():
         (HERE / f"{name}.json").write_text(text_of(content) + "\n")
