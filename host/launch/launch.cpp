@@ -72,7 +72,6 @@ class Run {
 }  // namespace
 
 void launch_render(RenderOptions options, const std::filesystem::path& self) {
-  check_together(options);
   Display display(kind_of_output(options.quiet), std::cout);
   for (const std::string& line : hal::unknown_settings()) display.tell(line);
   const Command command = command_for(options, self);

@@ -101,18 +101,20 @@ std::string text_of(const std::optional<PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
 
-// A value that cannot be read is the person's own mistake: told with the option's name, exit code 2.
+// A command line that makes no sense is the person's own mistake: told with what it concerns, exit code 2.
+template <typename Check>
+void as_usage(const std::string& name, Check check) {
+  try {
+    check();
+  } catch (const Failure& failure) {
+    throw CLI::ValidationError(name, failure.what());
+  }
+}
+
 template <typename Read>
 void add_reader(CLI::App& app, const char* names, const char* type, const char* help, Read read_text) {
   app.add_option_function<std::string>(
-         names,
-         [names, read_text](const std::string& text) {
-           try {
-             read_text(text);
-           } catch (const Failure& failure) {
-             throw CLI::ValidationError(names, failure.what());
-           }
-         },
+         names, [names, read_text](const std::string& text) { as_usage(names, [&] { read_text(text); }); },
          help)
       ->type_name(type);
 }
@@ -217,12 +219,22 @@ bool takes(Program program, const Entry& entry) {
   return (entry.programs & static_cast<unsigned>(program)) != 0;
 }
 
+// What no single option can tell.
+void check_together(const RenderOptions& options) {
+  if (options.folder.empty() && options.sink == SinkKind::png) {
+    throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
+  }
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
+  if (program == Program::compile) return;
+  app.parse_complete_callback(
+      [&app, &options] { as_usage(app.get_name(), [&] { check_together(options); }); });
 }
 
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options) {
@@ -232,12 +244,6 @@ std::vector<std::string> arguments_for(Program program, const RenderOptions& opt
     for (std::string& argument : entry.write(options)) arguments.push_back(std::move(argument));
   }
   return arguments;
-}
-
-void check_together(const RenderOptions& options) {
-  if (options.folder.empty() && options.sink == SinkKind::png) {
-    throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
-  }
 }
 
 }  // namespace mars::host

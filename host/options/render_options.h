@@ -47,13 +47,11 @@ struct RenderOptions {
 // Who reads the options: each takes those that concern it.
 enum class Program : unsigned { mars = 1, host = 2, cube = 4, threads = 8, compile = 16 };
 
-// Adds the options `program` takes to its command line; `options` must outlive the parsing.
+// Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
+// outlive the parsing.
 void add_render_options(CLI::App& app, RenderOptions& options, Program program);
 
 // The arguments that make `program` read these options again, those it takes; defaults are left out.
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options);
-
-// What no single option can tell: throws Failure where the options do not make a rendering.
-void check_together(const RenderOptions& options);
 
 }  // namespace mars::host

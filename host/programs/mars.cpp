@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "hal/settings.h"
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
@@ -26,6 +27,10 @@ constexpr const char* kWayIn = R"(MARS models, animates and renders films in par
   mars COMMAND --help                              every option, with an example
 )";
 
+constexpr const char* kEnds =
+    R"(Exit codes: 0 all went well; 1 something failed, told on standard error; 2 the command line is wrong.
+)";
+
 struct Names {
   std::string from;
   std::string to;
@@ -48,6 +53,7 @@ int verify(const std::string& folder) {
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
   add_render_options(*command, options, Program::mars);
+  command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kEnds);
   command->callback([&options] { launch_render(options, std::filesystem::read_symlink("/proc/self/exe")); });
 }
 
@@ -89,6 +95,7 @@ int run(int argc, char** argv) {
   CLI::App app("Models, animates and renders films in parallel", "mars");
   app.set_version_flag("--version", "mars " MARS_VERSION);
   app.require_subcommand(0, 1);
+  app.footer(std::string("mars COMMAND --help tells every option with an example.\n") + kEnds);
   RenderOptions options;
   Names names;
   int code = 0;

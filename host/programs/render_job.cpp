@@ -90,7 +90,6 @@ class Teller {
 };
 
 void render(const RenderOptions& options, const char* backend) {
-  check_together(options);
   const CompiledFilm film = load_film_of(options);
   const node::FilmSettings& settings = film.view().settings();
   FarmOptions farm;

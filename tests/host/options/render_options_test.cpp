@@ -52,13 +52,15 @@ RenderOptions unusual() {
   return options;
 }
 
-TEST(RenderOptions, DefaultsNeedTheFilmAlone) {
-  const Reading reading = read(Program::mars, {"film.json"});
+TEST(RenderOptions, DefaultsNeedTheFilmAndAFolderAlone) {
+  const Words words{"film.json", "-o", "out"};
+  const Reading reading = read(Program::mars, words);
   EXPECT_EQ(reading.code, std::nullopt) << reading.told;
   RenderOptions expected;
   expected.film = "film.json";
+  expected.folder = "out";
   EXPECT_EQ(reading.options, expected);
-  EXPECT_EQ(arguments_for(Program::mars, expected), Words{"film.json"});
+  EXPECT_EQ(arguments_for(Program::mars, expected), words);
 }
 
 TEST(RenderOptions, GoRoundThroughACommandLine) {
@@ -148,11 +150,13 @@ TEST(RenderOptions, EveryOptionHasAnExample) {
 }
 
 TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
-  RenderOptions options;
-  options.film = "film.json";
-  EXPECT_TRUE(holds(failure_of([&] { check_together(options); }), "add -o DIR"));
-  options.sink = SinkKind::none;
-  EXPECT_EQ(failure_of([&] { check_together(options); }), "");
+  for (const Program program : {Program::mars, Program::host, Program::cube, Program::threads}) {
+    const Reading reading = read(program, {"film.json"});
+    EXPECT_EQ(reading.code, kUsage);
+    EXPECT_TRUE(holds(reading.told, "add -o DIR"));
+    EXPECT_EQ(read(program, {"film.json", "--sink", "none"}).code, std::nullopt);
+  }
+  EXPECT_EQ(read(Program::compile, {"film.json"}).code, std::nullopt);
 }
 
 }  // namespace
