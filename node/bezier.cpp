@@ -75,11 +75,13 @@ float distance(const float (*p)[3], int count) {
 }
 
 // Pixels a unit length shows at most anywhere in the hull of `count` points: what is seen lies no nearer than
-// the nearest point, nor than its distance from the eye allows within the picture's corners.
+// the nearest point, nor than its distance from the eye allows within the picture's corners, where lengths
+// that point away from the middle show longest.
 float magnification(const float (*p)[3], int count, const Projection& projection) {
   float nearest = -p[0][2];
   for (int i = 1; i < count; ++i) nearest = std::min(nearest, -p[i][2]);
-  return projection.scale / std::max({nearest, projection.near, projection.corner * distance(p, count)});
+  const float depth = std::max({nearest, projection.near, projection.corner * distance(p, count)});
+  return projection.scale / (projection.corner * depth);
 }
 
 // Steps for a second derivative of `bound` pixels: ceil(sqrt(bound / (8 tolerance))).

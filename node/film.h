@@ -129,7 +129,7 @@ struct FilmData {
   std::vector<char> names;          // zero-ended strings: "actor/joint"
 };
 
-// The block, little-endian, every section aligned to 64 bytes. Throws Failure where counts overflow.
+// The block, little-endian, every section aligned to 64 bytes. check()s that changes can be counted.
 std::vector<std::byte> pack(const FilmData& film);
 
 // Reads a packed film in place; the block must outlive it and be aligned to 8 bytes.
