@@ -5,6 +5,7 @@
 
 #include <cctype>
 #include <string_view>
+#include <system_error>
 
 #include "hal/failure.h"
 #include "hal/settings.h"
@@ -31,7 +32,11 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-bool runnable(const fs::path& file) { return fs::is_regular_file(file) && access(file.c_str(), X_OK) == 0; }
+// Folders that we may not look into have nothing for us.
+bool runnable(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
+}
 
 std::optional<fs::path> find_in_path(const std::string& name, const std::string& path) {
   std::string_view rest = path;

@@ -23,14 +23,15 @@ namespace {
 // Where the frames go: a folder with its sink, or nowhere.
 class Destination {
  public:
-  Destination(const RenderOptions& options, const CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
+  Destination(const RenderOptions& options, const CompiledFilm& film,
+              const std::vector<std::uint32_t>& frames) {
     if (options.sink == SinkKind::none) {
       sink_ = std::make_unique<NothingSink>();
       return;
     }
     const node::FilmSettings& settings = film.view().settings();
-    folder_.emplace(options.folder, Manifest{options.film, checksum_of(film.block()), settings.width, settings.height,
-                                             settings.rate, settings.frames, frames});
+    folder_.emplace(options.folder, Manifest{options.film, checksum_of(film.block()), settings.width,
+                                             settings.height, settings.rate, settings.frames, frames});
     sink_ = std::make_unique<PngSink>(*folder_);
   }
 
@@ -70,7 +71,8 @@ class Teller {
 
   FarmListener listener() {
     FarmListener listener;
-    listener.booted = [this](std::span<const node::Hello> hellos, std::uint32_t keyframes, std::uint32_t inbetweens) {
+    listener.booted = [this](std::span<const node::Hello> hellos, std::uint32_t keyframes,
+                             std::uint32_t inbetweens) {
       progress_.keyframes.of = keyframes;
       progress_.inbetweens.of = inbetweens;
       tell(booted_event(hellos, backend_));
@@ -98,19 +100,23 @@ void render(const RenderOptions& options, const char* backend) {
   farm.cubes = options.cubes;
   farm.frames = options.frames.of_film(settings.frames);
 
+  // Better now than after the last frame.
+  if (!options.report.empty()) check_can_write(options.report);
   Destination destination(options, film, farm.frames);
   SinkPool pool(destination.sink(), pool_shape(settings, options.block));
   Teller teller(backend, film.view().intervals().size());
   const FarmReport report = render_film(film.block(), farm, pool, teller.listener());
   if (!options.report.empty()) {
-    const ReportHead head{options.film, checksum_of(film.block()), backend, arguments_for(Program::host, options),
+    const ReportHead head{options.film,   checksum_of(film.block()),
+                          backend,        arguments_for(Program::host, options),
                           settings.width, settings.height};
     write_whole_file(options.report, report_text(head, report));
   }
   tell(Done{static_cast<std::uint32_t>(farm.frames.size()), report.total_seconds, options.folder});
 }
 
-// Why the run ends; of a node's failure also the command that shows it again, with one frame where it is known.
+// Why the run ends; of a node's failure also the command that shows it again, with one frame where it is
+// known.
 Fault fault_of(const std::exception& reason, RenderOptions options, const char* backend) {
   Fault fault;
   const auto* failure = dynamic_cast<const Failure*>(&reason);

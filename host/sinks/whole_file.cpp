@@ -14,11 +14,11 @@ namespace mars::host {
 
 namespace {
 
-// A file descriptor that closes itself.
+// A file descriptor that closes itself. `path` is what failures name, `file` what is opened.
 class Descriptor {
  public:
-  Descriptor(const std::filesystem::path& path, int flags, const char* act)
-      : path_(path), act_(act), number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+  Descriptor(const std::filesystem::path& path, const std::filesystem::path& file, int flags, const char* act)
+      : path_(path), act_(act), number_(open(file.c_str(), flags | O_CLOEXEC, 0666)) {
     if (number_ < 0) fail_file(act, path, errno);
   }
   ~Descriptor() {
@@ -94,7 +94,7 @@ class Part {
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  Descriptor create() const { return {target_, path_, O_WRONLY | O_CREAT | O_TRUNC, "write"}; }
 
   void rename_to_target() {
     if (rename(path_.c_str(), target_.c_str()) != 0) fail_file("write", target_, errno);
@@ -111,7 +111,7 @@ class Part {
 
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   Part part(path);
-  Descriptor file(part.path(), O_WRONLY | O_CREAT | O_TRUNC, "write");
+  Descriptor file = part.create();
   file.write_all(bytes);
   file.close_checked();
   part.rename_to_target();
@@ -121,8 +121,13 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   write_whole_file(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+void check_can_write(const std::filesystem::path& path) {
+  const Part part(path);
+  part.create();
+}
+
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path) {
-  return Descriptor(path, O_RDONLY, "read").read_all();
+  return Descriptor(path, path, O_RDONLY, "read").read_all();
 }
 
 void fail_file(const char* act, const std::filesystem::path& path, int error) {

@@ -16,6 +16,9 @@ inline constexpr std::string_view kPartSuffix = ".part";
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
+// Throws as writing `path` would, as far as can be told before; leaves nothing behind.
+void check_can_write(const std::filesystem::path& path);
+
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path);
 
 // Throws Failure("cannot <act>: <the system's reason>", path, what to do about it) for `error`, an errno.

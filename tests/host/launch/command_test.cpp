@@ -69,7 +69,9 @@ TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
   make_program(folder / "libexec/mars-node");
   make_program(folder / "path/mars-threads");
   make_program(folder / "path/mars-host");
-  const std::string path = (folder / "none").string() + "::" + (folder / "path").string();
+  // A name that cannot be looked up, as in another user's folder.
+  const std::string unusable = std::string(300, 'x');
+  const std::string path = unusable + ":" + (folder / "none").string() + "::" + (folder / "path").string();
   const Programs programs = find_programs(folder / "bin/mars", path);
   EXPECT_EQ(programs.host, folder / "bin/mars-host");
   EXPECT_EQ(programs.node, folder / "libexec/mars-node");

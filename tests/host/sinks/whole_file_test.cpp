@@ -30,7 +30,11 @@ TEST(WholeFile, TellsWhatCannotBeReadOrWritten) {
   EXPECT_TRUE(
       holds(failure_of([&] { read_whole_file(folder / "none"); }), "none: cannot read: No such file"));
   EXPECT_TRUE(holds(failure_of([&] { read_whole_file(folder.path()); }), "Is a directory"));
-  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "No such file"));
+  EXPECT_TRUE(
+      holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "no/file: cannot write: No"));
+  EXPECT_TRUE(
+      holds(failure_of([&] { check_can_write(folder / "no/file"); }), "no/file: cannot write: No such"));
+  EXPECT_EQ(failure_of([&] { check_can_write(folder / "other"); }), "");
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "file/x", "x"); }), "Not a directory"));
   std::filesystem::create_directory(folder / "folder");
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "folder", "x"); }), "cannot write"));
