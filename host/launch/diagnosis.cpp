@@ -25,6 +25,7 @@ std::string remedy_for(int signal) {
     return "perhaps the machine ran out of memory, see dmesg: try fewer --nodes, or set MARS_MEMORY to fewer "
            "MiB";
   }
+  if (signal == SIGXFSZ) return "files may not grow as large as they must: raise ulimit -f";
   return "please report it with the film";
 }
 
@@ -55,7 +56,9 @@ std::optional<Failure> lost_rank(const std::string& words) {
 }
 
 std::optional<Failure> no_slots(const std::string& words) {
-  if (words.find("not enough slots available") == std::string::npos) return std::nullopt;
+  const bool few = words.find("not enough slots available") != std::string::npos;
+  const bool filled = words.find("are already filled") != std::string::npos;
+  if (!few && !filled) return std::nullopt;
   return Failure("the allocation has no room for the host and so many nodes", "",
                  "use fewer --nodes, or ask for one task more than nodes");
 }

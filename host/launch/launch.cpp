@@ -74,6 +74,7 @@ class Run {
 void launch_render(RenderOptions options, const std::filesystem::path& self) {
   Display display(kind_of_output(options.quiet), std::cout);
   for (const std::string& line : hal::unknown_settings()) display.tell(line);
+  hal::read_settings();  // what makes no sense is told before anything is started
   const Command command = command_for(options, self);
   display.tell(shell_text(command));
   Run run(display);

@@ -1,0 +1,58 @@
+"""The same film gives the same pixels with any backend, number of nodes, starter and division of work."""
+
+from harness import BACKENDS, EXAMPLES, OWN_MPIRUN, PROGRAMS, ProgramTest, main, needs_mpi
+
+FILM = EXAMPLES / "robot-arm.json"
+FEW = ["--frames", "0,5-8,30", "--size", "192x108"]
+
+
+class Backends(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.hashes = {}
+
+    def hash_of(self, *options):
+        self.succeed("mars", "render", FILM, "-o", "out", "-q", *FEW, *options)
+        return self.verified_hash(self.folder / "out")
+
+    def expected(self):
+        if "hash" not in self.hashes:
+            self.hashes["hash"] = self.hash_of("--backend", "threads", "--nodes", 1)
+        return self.hashes["hash"]
+
+    def test_any_number_of_nodes(self):
+        for backend in BACKENDS:
+            for nodes in [1, 2, 3, 5, 8]:
+                with self.subTest(backend=backend, nodes=nodes):
+                    self.assertEqual(self.hash_of("--backend", backend, "--nodes", nodes), self.expected())
+
+    def test_any_division_of_work(self):
+        for options in [["--no-coherence"], ["--intervals", "keyframes"], ["--mapping", "optimal"],
+                        ["--cubes", 1], ["--block", 7]]:
+            with self.subTest(options=options):
+                self.assertEqual(self.hash_of("--nodes", 3, *options), self.expected())
+
+    def test_threads_program_alone(self):
+        self.succeed("mars-threads", FILM, "-o", "out", "--nodes", 2, *FEW)
+        self.assertEqual(self.verified_hash("out"), self.expected())
+
+    @needs_mpi
+    def test_own_mpirun_line(self):
+        self.succeed(*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", FILM, "-o", "out", *FEW, ":", "-n", 3,
+                     PROGRAMS / "mars-node")
+        self.assertEqual(self.verified_hash("out"), self.expected())
+
+    @needs_mpi
+    def test_host_in_any_place(self):
+        self.succeed(*OWN_MPIRUN, "-n", 2, PROGRAMS / "mars-node", ":", "-n", 1, PROGRAMS / "mars-host", FILM,
+                     "-o", "out", *FEW)
+        self.assertEqual(self.verified_hash("out"), self.expected())
+
+    @needs_mpi
+    def test_combined_program(self):
+        self.succeed(*OWN_MPIRUN, "-n", 4, PROGRAMS / "mars-cube", FILM, "-o", "out", *FEW)
+        self.assertEqual(self.verified_hash("out"), self.expected())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,120 @@
+"""What each command of mars is for, and what the options of render change."""
+
+import json
+import struct
+
+from harness import EXAMPLES, SOURCES, ProgramTest, main
+
+TEAPOT = EXAMPLES / "teapot.json"
+SMALL = ["--size", "96x54", "--nodes", 2, "--backend", "threads"]
+
+# Four patches, the sides of a vase: each 16 control points on an arc, at four heights.
+ARC = [(1, 0), (1, 0.5523), (0.5523, 1), (0, 1)]
+PROFILE = [(0.4, 0), (1.2, 0.6), (0.3, 1.4), (0.6, 2)]
+
+
+def vase():
+    text = "4\n"
+    for turn in range(4):
+        text += "3 3\n"
+        for radius, z in PROFILE:
+            for x, y in ARC:
+                for _ in range(turn):
+                    x, y = -y, x
+                text += f"{x * radius} {y * radius} {z}\n"
+    return text
+
+
+class Commands(ProgramTest):
+    def test_the_way_in(self):
+        told = self.succeed("mars")
+        self.assertIn("mars render examples/demo.json", told)
+        for command in ["render", "compile", "info", "verify", "import"]:
+            self.assertIn(f"mars {command} ", told)
+            self.assertIn("Example: ", self.succeed("mars", command, "--help"))
+
+    def test_help_tells_exit_codes_and_settings(self):
+        for words in [["--help"], ["render", "--help"]]:
+            self.assertIn("Exit codes: 0", self.succeed("mars", *words))
+        self.assertIn("MARS_MEMORY", self.succeed("mars", "render", "--help"))
+
+    def test_version(self):
+        self.assertRegex(self.succeed("mars", "--version"), r"^mars \d+\.\d+\.\d+\n$")
+
+    def test_compiled_film_renders_the_same(self):
+        self.succeed("mars", "compile", TEAPOT, "-o", "teapot.mars")
+        self.succeed("mars", "render", TEAPOT, "-o", "a", *SMALL, "--frames", "0-3")
+        self.succeed("mars", "render", "teapot.mars", "-o", "b", *SMALL, "--frames", "0-3")
+        self.assertEqual(self.verified_hash("a"), self.verified_hash("b"))
+
+    def test_info_of_either_kind_of_file(self):
+        self.succeed("mars", "compile", TEAPOT, "-o", "teapot.mars")
+        of_film = self.succeed("mars", "info", TEAPOT)
+        of_compiled = self.succeed("mars", "info", "teapot.mars")
+        self.assertRegex(of_film, r"size +480 x 270\n")
+        self.assertRegex(of_film, r"frames +24 at 24 a second")
+        self.assertEqual(of_film.splitlines()[1:], of_compiled.splitlines()[1:])
+
+    def test_import_makes_a_model_that_renders(self):
+        self.write("vase.bpt", vase())
+        self.succeed("mars", "import", "vase.bpt", "-o", "vase.json", "--joint", "foot")
+        joints = json.loads((self.folder / "vase.json").read_text())["joints"]
+        self.assertEqual([joint["name"] for joint in joints], ["foot"])
+        film = {"frames": 1, "size": [64, 64], "camera": {"eye": [0, -6, 2], "at": [0, 0, 1]},
+                "models": {"vase": "vase.json"}, "actors": [{"name": "vase", "model": "vase"}]}
+        self.succeed("mars", "render", self.write("film.json", film), "-o", "out", "--backend", "threads")
+        film["actors"] = []
+        self.succeed("mars", "render", self.write("empty.json", film), "-o", "empty", "--backend", "threads")
+        self.assertNotEqual(self.verified_hash("out"), self.verified_hash("empty"))
+
+    def test_film_of_the_readme(self):
+        text = (SOURCES / "README.md").read_text()
+        self.write("first.json", text.split("```json\n")[1].split("```")[0])
+        self.succeed("mars", "render", "first.json", "-o", "first", "--size", "160x90")
+        self.assertIn("48 frames, all there and whole", self.succeed("mars", "verify", "first"))
+
+    def test_frames_are_those_asked_for(self):
+        self.succeed("mars", "render", TEAPOT, "-o", "out", *SMALL, "--frames", "3,1-2,22-")
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").glob("*.png")),
+                         [f"frame-{number:04}.png" for number in [1, 2, 3, 22, 23]])
+
+    def test_size_is_the_one_asked_for(self):
+        self.succeed("mars", "render", TEAPOT, "-o", "out", "--size", "33x7", "--frames", "0")
+        header = (self.folder / "out/frame-0000.png").read_bytes()[16:24]
+        self.assertEqual(struct.unpack(">II", header), (33, 7))
+
+    def test_report_adds_up(self):
+        self.succeed("mars", "render", EXAMPLES / "robot-arm.json", "-o", "out", *SMALL, "--frames", "0-4",
+                     "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual([frame["frame"] for frame in report["frames"]], [0, 1, 2, 3, 4])
+        self.assertEqual(len(report["nodes"]), 2)
+        keyframe = report["frames"][0]
+        self.assertEqual(keyframe["kind"], "keyframe")
+        work = [node["work"] for node in keyframe["nodes"]]
+        for counted in ["edge_boxes_diced", "edge_boxes"]:
+            self.assertEqual(sum(each[counted] for each in work), keyframe["edge_box_total"])
+
+    def test_a_sink_of_none_writes_nothing(self):
+        self.succeed("mars", "render", TEAPOT, "--sink", "none", *SMALL)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_rendering_again_into_the_same_folder(self):
+        for frames in ["0-5", "2-3"]:
+            self.succeed("mars", "render", TEAPOT, "-o", "out", *SMALL, "--frames", frames)
+            self.verified_hash("out")
+
+    def test_verify_tells_missing_and_torn_frames(self):
+        self.succeed("mars", "render", TEAPOT, "-o", "out", *SMALL, "--frames", "0-5")
+        torn = self.folder / "out/frame-0003.png"
+        torn.write_bytes(torn.read_bytes()[:-30])
+        (self.folder / "out/frame-0005.png").unlink()
+        verdict = self.mars("verify", "out")
+        self.assertEqual(verdict.returncode, 1)
+        lines = verdict.stdout.splitlines()
+        self.assertEqual([line.split(":")[0] for line in lines[:2]], ["frame 3", "frame 5"])
+        self.assertIn("2 of 6", lines[2])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,82 @@
+"""A rendering that is stopped or loses a process: one message, soon, nothing left running, nothing torn."""
+
+import os
+import shutil
+import signal
+import time
+
+from harness import BACKENDS, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
+
+SOON = 15  # seconds; two in practice
+
+
+class Endings(ProgramTest):
+    def start(self, backend):
+        shutil.rmtree(self.folder / "out", ignore_errors=True)
+        film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        self.process = self.start_mars("render", film, "-o", "out", "--nodes", 3, "--backend", backend)
+        self.family = family(self.process.pid)
+
+    def kin(self, program):
+        return [p for p, (_, _, executable) in self.family.items() if executable.endswith("/" + program)]
+
+    def assertEndsClearly(self, says):
+        _, told = self.process.communicate(timeout=SOON)
+        self.assertEqual(self.process.returncode, 1, told)
+        self.assertClear(told, says)
+        self.assertEqual(living(self.family), [])
+        self.assertNothingTorn(self.folder / "out")
+
+    def test_stopped(self):
+        for backend in BACKENDS:
+            for sent, says in [(signal.SIGINT, "stopped by Interrupt"),
+                               (signal.SIGTERM, "stopped by Terminated"),
+                               (signal.SIGHUP, "stopped by Hangup")]:
+                with self.subTest(backend=backend, signal=sent.name):
+                    self.start(backend)
+                    self.process.send_signal(sent)
+                    self.assertEndsClearly(says)
+
+    @needs_mpi
+    def test_killed_node(self):
+        self.start("mpi")
+        os.kill(max(self.kin("mars-node")), signal.SIGKILL)
+        self.assertEndsClearly("killed by signal 9")
+
+    @needs_mpi
+    def test_killed_host(self):
+        self.start("mpi")
+        os.kill(self.kin("mars-host")[0], signal.SIGKILL)
+        self.assertEndsClearly("the host was killed by signal 9")
+
+    @needs_mpi
+    def test_killed_mpirun(self):
+        self.start("mpi")
+        mpirun = next(p for p, (parent, _, _) in self.family.items() if parent == self.process.pid)
+        os.kill(mpirun, signal.SIGKILL)
+        self.assertEndsClearly("mpirun was killed by signal 9")
+
+    def test_killed_threads(self):
+        self.start("threads")
+        os.kill(self.kin("mars-threads")[0], signal.SIGKILL)
+        self.assertEndsClearly("mars-threads was killed by signal 9")
+
+    def test_killed_mars(self):
+        for backend in BACKENDS:
+            with self.subTest(backend=backend):
+                self.start(backend)
+                self.process.kill()
+                wait_until(lambda: not living(self.family), SOON, "its processes live on")
+
+    @needs_mpi
+    def test_frozen_node(self):
+        """Who stops a job whose node hangs is not kept waiting."""
+        self.start("mpi")
+        os.kill(self.kin("mars-node")[0], signal.SIGSTOP)
+        time.sleep(0.5)
+        self.process.send_signal(signal.SIGINT)
+        self.assertEndsClearly("stopped by Interrupt")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,171 @@
+"""Whatever is wrong, there is one clear line on standard error, the right exit code, and no half frame."""
+
+import os
+import resource
+import subprocess
+import unittest
+
+from harness import BACKENDS, ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, main, needs_mpi, spinning_teapot
+
+TEAPOT = EXAMPLES / "teapot.json"
+
+
+def may_mount():
+    return subprocess.run(["unshare", "--mount", "mount", "-t", "tmpfs", "none", "/tmp"],
+                          capture_output=True).returncode == 0
+
+
+class CommandLine(ProgramTest):
+    def test_wrong_options(self):
+        for words, says in [(["--nodez", "3"], "nodez"),
+                            (["--nodes", "0"], "--nodes: '0' is not a number"),
+                            (["--nodes", "two"], "--nodes: 'two' is not a number"),
+                            (["--size", "0x10"], "--size: '0x10'"),
+                            (["--size", "16"], "like 960x540"),
+                            (["--frames", "9-3"], "--frames: '9-3' ends before it begins"),
+                            (["--mapping", "best"], "--mapping: 'best' is not greedy or optimal"),
+                            (["--backend", "smoke"], "not auto or mpi or threads")]:
+            with self.subTest(words=words):
+                self.fail_clearly(2, "render", TEAPOT, "-o", "out", *words, says=says)
+                self.assertFalse((self.folder / "out").exists())
+
+    def test_missing_words(self):
+        self.fail_clearly(2, "render", says="FILM is required")
+        self.fail_clearly(2, "render", TEAPOT, says="add -o DIR, or --sink none")
+        self.fail_clearly(2, "compile", TEAPOT, says="--output is required")
+        self.fail_clearly(2, "paint", says="paint")
+
+    def test_frames_beyond_the_film(self):
+        self.fail_clearly(1, "render", TEAPOT, "-o", "out", "--frames", "20-30",
+                          says="beyond the film's last, 23")
+
+    def test_settings_that_make_no_sense(self):
+        for backend in BACKENDS:
+            self.fail_clearly(1, "render", TEAPOT, "-o", "out", "--backend", backend,
+                              says='MARS_SIMD: "abacus" is not', env=dict(ENVIRONMENT, MARS_SIMD="abacus"))
+        done = self.mars("render", TEAPOT, "-o", "out", env=dict(ENVIRONMENT, MARS_MEMROY="9"))
+        self.assertIn("did you mean MARS_MEMORY?", done.stdout)
+
+
+class Films(ProgramTest):
+    def fail_with_film(self, film, says):
+        for backend in BACKENDS:
+            with self.subTest(film=film.name, backend=backend):
+                self.fail_clearly(1, "render", film, "-o", "out", "--backend", backend, says=says)
+                self.assertNothingTorn(self.folder / "out")
+        self.fail_clearly(1, "compile", film, "-o", "film.mars", says=says)
+        self.fail_clearly(1, "info", film, says=says)
+        self.assertFalse((self.folder / "film.mars").exists())
+
+    def test_missing(self):
+        self.fail_with_film(self.folder / "none.json", "none.json: there is no such file")
+
+    def test_malformed(self):
+        self.fail_with_film(self.write("cut.json", '{"frames": 3,'), "cut.json:1: is not JSON")
+        self.fail_with_film(self.write("empty.json", ""), "empty.json")
+        film = spinning_teapot(3, [8, 8])
+        film["camara"] = film.pop("camera")
+        self.fail_with_film(self.write("misspelt.json", film), "camera")
+
+    def test_binary(self):
+        path = self.folder / "noise.json"
+        path.write_bytes(bytes(range(256)) * 9)
+        self.fail_with_film(path, "noise.json")
+
+    def test_torn_compiled_film(self):
+        self.succeed("mars", "compile", TEAPOT, "-o", "whole.mars")
+        whole = (self.folder / "whole.mars").read_bytes()
+        torn = self.folder / "torn.mars"
+        for length in [10, 64, len(whole) - 1]:
+            torn.write_bytes(whole[:length])
+            self.fail_clearly(1, "info", torn, says="torn.mars")
+        self.fail_with_film(torn, "torn.mars")
+
+    def test_torn_patch_file(self):
+        cut = self.write("cut.bpt", "1\n3 3\n0 0 0\n")
+        self.fail_clearly(1, "import", cut, "-o", "model.json", says="cut.bpt")
+        self.assertFalse((self.folder / "model.json").exists())
+
+
+class Folders(ProgramTest):
+    def test_unwritable(self):
+        file = self.write("file", "here")
+        for backend in BACKENDS:
+            for out in [file / "out", "/proc/out"]:
+                self.fail_clearly(1, "render", TEAPOT, "-o", out, "--backend", backend,
+                                  says=f"{out}: cannot create the folder")
+        self.fail_clearly(1, "compile", TEAPOT, "-o", file / "film.mars", says="film.mars")
+        self.fail_clearly(1, "verify", self.folder, says="frames.json")
+        self.fail_clearly(1, "verify", self.folder / "none", says="none")
+
+    def test_forbidden(self):
+        if os.geteuid() == 0:
+            self.skipTest("nothing is forbidden to root")
+        (self.folder / "out").mkdir(mode=0o500)
+        self.fail_clearly(1, "render", TEAPOT, "-o", "out", says="Permission denied")
+
+    @unittest.skipUnless(may_mount(), "may not mount a small disk")
+    def test_full_disk(self):
+        (self.folder / "disk").mkdir()
+        for backend in BACKENDS:
+            done = self.run_program(
+                "unshare", "--mount", "sh", "-c", 'mount -t tmpfs -o size=256k none disk; '
+                '"$0" render "$1" -o disk/out --backend "$2"; code=$?; cp -r disk/out "out-$2"; exit $code',
+                PROGRAMS / "mars", EXAMPLES / "demo.json", backend)
+            self.assertEqual(done.returncode, 1)
+            self.assertClear(done.stderr, "No space left on device")
+            self.assertNothingTorn(self.folder / f"out-{backend}")
+
+    def test_file_size_limit(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+        done = self.mars("render", TEAPOT, "-o", "out", "--backend", "threads", preexec_fn=limit)
+        self.assertEqual(done.returncode, 1)
+        self.assertClear(done.stderr, "ulimit -f")
+        self.assertNothingTorn(self.folder / "out")
+
+
+class Starting(ProgramTest):
+    def path_without_mpirun(self):
+        return dict(ENVIRONMENT, PATH=str(self.folder))
+
+    def test_mpirun_is_missing(self):
+        self.fail_clearly(1, "render", TEAPOT, "-o", "out", "--backend", "mpi", says="mpirun was not found",
+                          env=self.path_without_mpirun())
+
+    def test_threads_stand_in_where_mpirun_is_missing(self):
+        told = self.succeed("mars", "render", TEAPOT, "-o", "out", "--frames", "0",
+                            env=self.path_without_mpirun())
+        self.assertIn("mars-threads", told)
+
+    def test_mpirun_does_not_work(self):
+        for script, says in [("exit 3", "mpirun ended with exit code 3"),
+                             ("echo lost my way >&2; exit 1", "mpirun ended with exit code 1"),
+                             ("exit 0", "mpirun ended before all frames were there"),
+                             ("kill -SEGV $$", "mpirun was killed by signal 11")]:
+            self.write("mpirun", "#!/bin/sh\n" + script).chmod(0o755)
+            done = self.mars("render", TEAPOT, "-o", "out", "--backend", "mpi",
+                             env=dict(ENVIRONMENT, PATH=f"{self.folder}:{ENVIRONMENT['PATH']}"))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(says, done.stderr)
+
+    @needs_mpi
+    def test_an_allocation_too_small(self):
+        hosts = self.write("hosts", "localhost slots=1\n")
+        done = self.mars("render", TEAPOT, "-o", "out", "--backend", "mpi", "--nodes", 1,
+                         env=dict(ENVIRONMENT, OMPI_MCA_orte_default_hostfile=str(hosts)))
+        if "--oversubscribe" in done.stdout:
+            self.skipTest("one core: mars asks for more than there is")
+        self.assertClear(done.stderr, "no room for the host and so many nodes")
+
+    @needs_mpi
+    def test_a_half_of_the_job_alone(self):
+        for words in [["mars-node"], ["mars-host", TEAPOT, "-o", "out"], ["mars-cube", TEAPOT, "-o", "out"]]:
+            done = self.run_program(*words)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("mpirun -n 1 mars-host", done.stderr)
+            self.assertNothingTorn(self.folder / "out")
+
+
+if __name__ == "__main__":
+    main()

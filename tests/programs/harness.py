@@ -1,0 +1,162 @@
+"""What the tests of the programs share: starting a program as a person does, a folder of its own for each
+test, and looking at what is left. Each test file is started as: FILE_test.py PROGRAMS_FOLDER SOURCES_FOLDER.
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
+SOURCES = pathlib.Path(sys.argv[2]).resolve()
+EXAMPLES = SOURCES / "examples"
+HAVE_MPI = (PROGRAMS / "mars-host").exists() and shutil.which("mpirun") is not None
+BACKENDS = ["threads"] + ["mpi"] * HAVE_MPI
+SECONDS = 60  # for any one program
+
+# For a person's own mpirun line: the tests may run as root, with more ranks than cores.
+OWN_MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
+ENVIRONMENT = dict(
+    os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0")
+
+needs_mpi = unittest.skipUnless(HAVE_MPI, "built without MPI")
+
+
+def spinning_teapot(frames, size):
+    """A film in which every frame differs from the one before."""
+    film = json.loads((EXAMPLES / "teapot.json").read_text())
+    film["frames"] = frames
+    film["size"] = size
+    film["actors"][0]["keys"][1]["frame"] = max(frames, 24)
+    return film
+
+
+def intact(png):
+    """Whether a PNG file's chunks are all there with their checksums."""
+    data = png.read_bytes()
+    at, kind = 8, b""
+    while at + 12 <= len(data) and kind != b"IEND":
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        checked = data[at + 4:at + 8 + length]
+        if data[at + 8 + length:at + 12 + length] != struct.pack(">I", zlib.crc32(checked)):
+            return False
+        at += 12 + length
+    return data[:8] == b"\x89PNG\r\n\x1a\n" and kind == b"IEND" and at == len(data)
+
+
+def identity(process):
+    """A process's parent, start time and program, which together no other has; None once it has ended."""
+    try:
+        stat = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+        return None if stat[0] == "Z" else (int(stat[1]), stat[19], os.readlink(f"/proc/{process}/exe"))
+    except OSError:
+        return None
+
+
+def family(ancestor):
+    """All processes under `ancestor`: process to (parent, start time, program)."""
+    everyone = {int(entry): identity(entry) for entry in os.listdir("/proc") if entry.isdigit()}
+    found, grown = {ancestor: None}, True
+    while grown:
+        more = {p: i for p, i in everyone.items() if i and i[0] in found and p not in found}
+        grown = bool(more)
+        found.update(more)
+    del found[ancestor]
+    return found
+
+
+def living(processes):
+    """Those of a family that still run, whoever is their parent now."""
+    return [p for p, before in processes.items() if (now := identity(p)) and now[1:] == before[1:]]
+
+
+def wait_until(holds, seconds, what):
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            raise AssertionError(f"after {seconds} seconds: {what}")
+        time.sleep(0.02)
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-test-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def write(self, name, content):
+        """A file of this test's folder: JSON of what is no text."""
+        path = self.folder / name
+        path.write_text(content if isinstance(content, str) else json.dumps(content))
+        return path
+
+    def run_program(self, *words, **more):
+        words = [str(word) for word in words]
+        words[0] = str(PROGRAMS / words[0]) if (PROGRAMS / words[0]).exists() else words[0]
+        more = {"env": ENVIRONMENT, "cwd": self.folder, "timeout": SECONDS, **more}
+        return subprocess.run(words, capture_output=True, text=True, **more)
+
+    def mars(self, *words, **more):
+        return self.run_program("mars", *words, **more)
+
+    def succeed(self, *words, **more):
+        """Runs a program that must end well without a word of complaint; gives its standard output."""
+        done = self.run_program(*words, **more)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), f"{words}\n{done.stdout}")
+        return done.stdout
+
+    def fail_clearly(self, code, *words, says="", **more):
+        """Runs mars, which must fail with one plain message that holds `says`."""
+        done = self.mars(*words, **more)
+        self.assertClear(done.stderr, says)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def assertClear(self, message, says):
+        """One line, and for a wrong command line where help is."""
+        lines = [line for line in message.splitlines() if line != "Run with --help for more information."]
+        self.assertEqual(len(lines), 1, message)
+        self.assertIn(says, lines[0])
+        for noise in ["terminate called", "std::", "MPI_", "what():", "Sanitizer", "Segmentation"]:
+            self.assertNotIn(noise, message)
+
+    def assertNothingTorn(self, folder):
+        """Only whole frames and the manifest are there, if the folder is there at all."""
+        for path in folder.iterdir() if folder.exists() else []:
+            if path.suffix == ".png":
+                self.assertTrue(intact(path), path)
+            else:
+                self.assertEqual(path.name, "frames.json")
+
+    def verified_hash(self, folder):
+        return self.succeed("mars", "verify", folder).split()[-1]
+
+    def start_mars(self, *words):
+        """mars, running until its first frames are there; its family is ended with the test."""
+        process = subprocess.Popen([str(PROGRAMS / "mars"), *map(str, words)], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, cwd=self.folder)
+        self.addCleanup(self.end, process)
+        out = self.folder / "out"
+        begun = lambda: process.poll() is not None or len(list(out.glob("*.png"))) > 3
+        wait_until(begun, SECONDS, "no frame")
+        self.assertIsNone(process.poll(), "it ended too soon")
+        return process
+
+    @staticmethod
+    def end(process):
+        left = family(process.pid)
+        process.kill()
+        process.communicate()
+        for each in living(left):
+            os.kill(each, signal.SIGKILL)
+
+
+def main():
+    unittest.main(argv=[sys.argv[0]], verbosity=2)

@@ -1,0 +1,71 @@
+"""What a person sees of a rendering on a terminal, in a pipe, and with --quiet."""
+
+import fcntl
+import os
+import pty
+import struct
+import subprocess
+import termios
+
+from harness import BACKENDS, ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, main, spinning_teapot
+
+TEAPOT = EXAMPLES / "teapot.json"
+
+
+class Output(ProgramTest):
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.succeed("mars", "render", TEAPOT, "-o", "out", "--quiet"), "")
+
+    def test_the_line_shown_can_be_pasted(self):
+        film = self.write("it's a film.json", TEAPOT.read_text())
+        for backend in BACKENDS:
+            told = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2)
+            expected = self.verified_hash("a b")
+            (self.folder / "a b/frame-0000.png").unlink()
+            events = self.succeed("sh", "-c", told.splitlines()[0])
+            self.assertIn('"event":"done"', events)
+            self.assertEqual(self.verified_hash("a b"), expected)
+
+    def test_plain_lines_in_a_pipe(self):
+        film = self.write("film.json", spinning_teapot(1500, [160, 90]))
+        told = self.succeed("mars", "render", film, "-o", "out", "--nodes", 1, "--backend", "threads",
+                            "--frames", "0-1199")
+        self.assertNotIn("\r", told)
+        self.assertNotIn("\x1b", told)
+        lines = told.splitlines()
+        self.assertLess(len(lines), 40)
+        self.assertRegex(lines[1], r"^1 node on 1 machine \(threads\)")
+        for line in lines[2:-1]:
+            self.assertRegex(line, r"^frame \d+ of 1200, interval \d+ of \d+, [\d.]+ frames/s, \d+:\d\d left")
+        self.assertRegex(lines[-1], r"^1200 frames in out, [\d.]+ seconds, [\d.]+ frames/s$")
+
+    def test_one_line_on_a_terminal(self):
+        film = self.write("film.json", spinning_teapot(1000, [240, 135]))
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
+        process = subprocess.Popen([PROGRAMS / "mars", "render", film, "-o", "out", "--backend", "threads"],
+                                   stdout=theirs, env=ENVIRONMENT, cwd=self.folder)
+        os.close(theirs)
+        shown = self.read_all(ours)
+        self.assertEqual(process.wait(), 0)
+        states = [part for part in shown.split("\r\x1b[K") if part.startswith("frame ")]
+        self.assertGreater(len(states), 3)
+        for state in states:
+            self.assertLess(len(state.splitlines()[0]), 60)
+        self.assertEqual(sum("\n" in state for state in states), 1)  # the last one stays
+        self.assertRegex(shown.splitlines()[-1], r"1000 frames in out, ")
+
+    @staticmethod
+    def read_all(terminal):
+        shown = b""
+        try:
+            while more := os.read(terminal, 65536):
+                shown += more
+        except OSError:  # Linux tells so that nobody writes any more
+            pass
+        os.close(terminal)
+        return shown.decode()
+
+
+if __name__ == "__main__":
+    main()
