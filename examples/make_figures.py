@@ -191,7 +191,7 @@ LIGHTS = [{"direction": [-0.45, -0.6, 0.9], "color": [1.0, 0.95, 0.86]},
           {"place": [-3, -4, 5], "color": [1.0, 0.85, 0.6], "intensity": 0.3}]
 FLOOR = {"joints": [{"name": "floor", "limits": {},
                      "segment": {"shape": "box", "sbb": [[-80, -40, -0.2], [80, 120, 0]], "material": "floor"}}]}
-GLAZE = {"floor": paint([0.78, 0.76, 0.72], specular=0, sides=1), "slate": paint([0.50, 0.53, 0.58], specular=0.15),
+GLAZE = {"floor": paint([0.78, 0.76, 0.72], specular=0, sides=1),
          "copper": paint([0.90, 0.52, 0.32], specular=0.6, exponent=50),
          "sea": paint([0.26, 0.58, 0.72]), "rose": paint([0.86, 0.40, 0.50]),
          "sand": paint([0.90, 0.78, 0.52]), "violet": paint([0.60, 0.48, 0.84])}
@@ -200,7 +200,7 @@ GLAZE = {"floor": paint([0.78, 0.76, 0.72], specular=0, sides=1), "slate": paint
 def tiles(size=2, columns=range(-9, 9), rows=range(-5, 20)):
     """Every second square of a chessboard, a hair above the floor: one flat patch each."""
     square = [[round(i / 3, 6), round(j / 3, 6), 1] for j in range(4) for i in range(4)]
-    return {"shapes": {"square": [square]},
+    return {"materials": {"slate": paint([0.50, 0.53, 0.58], specular=0.15)}, "shapes": {"square": [square]},
             "joints": [{"name": f"tile-{i}-{j}", "limits": {},
                         "segment": {"shape": "square", "material": "slate",
                                     "sbb": [[size * i, size * j, -0.1], [size * (i + 1), size * (j + 1), 0.004]]}}

@@ -106,11 +106,11 @@ double chord_error(const Curve& curve, int rate, const Projection& view) {
   return worst;
 }
 
-// A length seen at the picture's corner shows up to 1 / cos longer than the rate's bound has it.
+// Wherever on the picture.
 TEST(Bezier, EdgeRatesKeepTheirTolerance) {
   Random random(12);
   const Projection view = projection(640, 480, 3);
-  const double slack = 1.01 / view.corner;
+  const double slack = 1.01;
   double worst = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const EyePatch patch =
@@ -127,14 +127,15 @@ TEST(Bezier, EdgeRatesKeepTheirTolerance) {
   EXPECT_GT(worst, node::kTolerance / 3) << "rates are much finer than they need be";
 }
 
-// Straight before the eye the bound is sharp: second differences of d pixels need ceil(sqrt(6 d)) steps.
+// Straight before the eye second differences of d pixels need ceil(sqrt(6 d)) steps; in the picture's corner,
+// where lengths show 1 / cosine longer, just enough more, and nobody knows yet where the curve will be seen.
 TEST(Bezier, RatesOfAParabola) {
   const Projection view = projection(200, 200, 1);  // 100 pixels a unit at distance 1
-  for (const double d : {0.0, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0, 1e6}) {
+  for (const double d : {0.0, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0}) {
     const EyePatch patch = make_patch([&](int i, int j) {
       return Vec3{i * 0.1, j * 0.1 + d / 100 * (i == 1 || i == 2), -1};
     });
-    const int expected = std::clamp(static_cast<int>(std::ceil(std::sqrt(6 * d))), 1, node::kMaxRate);
+    const int expected = std::clamp(static_cast<int>(std::ceil(std::sqrt(6 * d / view.corner))), 1, node::kMaxRate);
     const node::Rates rates = node::rates(patch, view, 0);
     EXPECT_EQ(rates.u, expected) << d;
     EXPECT_EQ(rates.v, 1);
