@@ -129,6 +129,14 @@ TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
   EXPECT_EQ(read(Program::host, {"film.json", "--nodes", "3"}).code, kUsage) << "MPI knows the nodes";
 }
 
+// mars compile adds an output of its own.
+TEST(RenderOptions, CompilingTakesWhatShapesTheFilm) {
+  const Reading reading = read(Program::compile, {"film.json", "--size", "4x3", "--intervals", "keyframes"});
+  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.options.size, (PictureSize{4, 3}));
+  EXPECT_EQ(read(Program::compile, {"film.json", "-o", "x"}).code, kUsage);
+}
+
 TEST(RenderOptions, CubesMayBeAuto) {
   EXPECT_EQ(read(Program::mars, {"film.json", "--cubes", "auto"}).options.cubes, 0u);
   EXPECT_EQ(read(Program::mars, {"film.json", "--cubes", "1"}).options.cubes, 1u);
