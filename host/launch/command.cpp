@@ -92,9 +92,10 @@ Programs find_programs(const fs::path& self, const std::string& path) {
           find_ours("mars-node", self, path), find_ours("mars-threads", self, path)};
 }
 
-Surroundings look_around() {
+Surroundings look_around(const std::string& path) {
+  const bool remote_shell = find_in_path("ssh", path) || find_in_path("rsh", path);
   return {static_cast<std::uint32_t>(topology::Machine::here().cores()), geteuid() == 0, !may_copy(),
-          settings_in_use()};
+          !remote_shell, settings_in_use()};
 }
 
 Backend choose_backend(Backend asked, const Programs& programs) {
@@ -124,6 +125,8 @@ Command mpi_command(const RenderOptions& options, const Programs& programs,
   if (surroundings.copies_forbidden) {
     command.environment.emplace_back("OMPI_MCA_btl_vader_single_copy_mechanism", "none");
   }
+  // It looks for one even where all ranks are on this machine, and gives up without.
+  if (surroundings.no_remote_shell) command.environment.emplace_back("OMPI_MCA_plm", "^rsh");
   // Its other ways of keeping start-up data warn where several jobs or users share a machine.
   command.environment.emplace_back("PMIX_MCA_gds", "hash");
   // Nodes bind themselves, each by its place on its machine.

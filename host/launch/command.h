@@ -39,10 +39,12 @@ struct Surroundings {
   std::uint32_t cores = 1;  // of the processors this process was given
   bool root = false;
   bool copies_forbidden = false;      // processes may not read each other's memory, as in some containers
+  bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
   std::vector<std::string> settings;  // MARS_* variables that are set, for nodes on other machines
 };
 
-Surroundings look_around();
+// `path` as for find_programs.
+Surroundings look_around(const std::string& path);
 
 // Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
 Backend choose_backend(Backend asked, const Programs& programs);

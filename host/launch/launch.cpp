@@ -20,11 +20,12 @@ namespace {
 constexpr std::size_t kLastWords = 40;  // lines
 
 Command command_for(RenderOptions& options, const std::filesystem::path& self) {
-  const Programs programs = find_programs(self, own_environment().value("PATH").value_or("/usr/bin:/bin"));
+  const std::string path = own_environment().value("PATH").value_or("/usr/bin:/bin");
+  const Programs programs = find_programs(self, path);
   options.backend = choose_backend(options.backend, programs);
   if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
   if (options.backend == Backend::threads) return threads_command(options, programs);
-  return mpi_command(options, programs, look_around());
+  return mpi_command(options, programs, look_around(path));
 }
 
 // Follows one run from its events to its end.

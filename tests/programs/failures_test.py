@@ -2,6 +2,7 @@
 
 import os
 import resource
+import shutil
 import subprocess
 import unittest
 
@@ -126,17 +127,23 @@ class Folders(ProgramTest):
 
 
 class Starting(ProgramTest):
-    def path_without_mpirun(self):
+    def path_of_its_own(self):
         return dict(ENVIRONMENT, PATH=str(self.folder))
 
     def test_mpirun_is_missing(self):
         self.fail_clearly(1, "render", TEAPOT, "-o", "out", "--backend", "mpi", says="mpirun was not found",
-                          env=self.path_without_mpirun())
+                          env=self.path_of_its_own())
 
     def test_threads_stand_in_where_mpirun_is_missing(self):
         told = self.succeed("mars", "render", TEAPOT, "-o", "out", "--frames", "0",
-                            env=self.path_without_mpirun())
+                            env=self.path_of_its_own())
         self.assertIn("mars-threads", told)
+
+    @needs_mpi
+    def test_no_remote_shell(self):
+        (self.folder / "mpirun").symlink_to(shutil.which("mpirun"))
+        self.succeed("mars", "render", TEAPOT, "-o", "out", "--frames", "0", "--backend", "mpi",
+                     env=self.path_of_its_own())
 
     def test_mpirun_does_not_work(self):
         for script, says in [("exit 3", "mpirun ended with exit code 3"),

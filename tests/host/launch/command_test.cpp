@@ -36,20 +36,21 @@ void make_program(const fs::path& file) {
 
 TEST(Command, OneHostAndItsNodes) {
   EXPECT_EQ(
-      line(3, {8, false, false, {}}),
+      line(3, {8, false, false, false, {}}),
       "PMIX_MCA_gds=hash /usr/bin/mpirun --bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 3 "
       "/opt/mars-node");
 }
 
 TEST(Command, OversubscribesWhereHostAndNodesExceedTheCores) {
-  EXPECT_FALSE(holds(line(3, {4, false, false, {}}), "--oversubscribe"));
-  EXPECT_TRUE(holds(line(4, {4, false, false, {}}), "--bind-to none --oversubscribe -n 1"));
+  EXPECT_FALSE(holds(line(3, {4, false, false, false, {}}), "--oversubscribe"));
+  EXPECT_TRUE(holds(line(4, {4, false, false, false, {}}), "--bind-to none --oversubscribe -n 1"));
 }
 
 TEST(Command, MindsRootContainersAndSettings) {
-  const std::string text = line(1, {8, true, true, {"MARS_MEMORY"}});
+  const std::string text = line(1, {8, true, true, true, {"MARS_MEMORY"}});
   EXPECT_TRUE(holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
+  EXPECT_TRUE(holds(text, "OMPI_MCA_plm=^rsh"));
   EXPECT_TRUE(holds(text, "-x MARS_MEMORY -n 1"));
 }
 
