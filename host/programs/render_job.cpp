@@ -42,10 +42,16 @@ class Destination {
   std::unique_ptr<Sink> sink_;
 };
 
-// Sinks work while nodes wait for credit, so they may have every processor.
+// Sinks work while nodes wait for credit, so they may have every processor; but large pictures wait for each
+// other rather than fill the machine's memory.
 SinkPool::Shape pool_shape(const node::FilmSettings& settings, std::uint32_t block) {
-  const auto threads = static_cast<std::uint32_t>(std::clamp(topology::Machine::here().processors(), 2, 16));
-  return {settings.width, settings.height, block, threads + 2, threads};
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+  const std::uint64_t frame_bytes = std::uint64_t{settings.width} * settings.height * sizeof(std::uint32_t);
+  const auto processors = static_cast<std::uint64_t>(topology::Machine::here().processors());
+  const std::uint64_t threads = std::clamp<std::uint64_t>(processors, 2, 16);
+  const std::uint64_t frames = std::clamp<std::uint64_t>(kMostBytes / frame_bytes, 2, threads + 2);
+  return {settings.width, settings.height, block, static_cast<std::uint32_t>(frames),
+          static_cast<std::uint32_t>(std::min(threads, frames))};
 }
 
 Booted booted_event(std::span<const node::Hello> hellos, const char* backend) {
