@@ -52,7 +52,7 @@ long myhost(void);
 unsigned long mclock(void); /* milliseconds since some fixed point */
 double dclock(void);        /* seconds since some fixed point */
 
-void led(long state); /* 1: this node works, 0: it waits; shown by the host */
+void led(long state); /* 1: this node works, 0: it waits; kept for whoever watches the process */
 void flick(void);     /* gives the processor away for a moment; longer the more often nothing has arrived */
 
 #ifdef __cplusplus
