@@ -122,13 +122,13 @@ void ThreadsWorld::stop(std::exception_ptr reason) {
   wake_all();
 }
 
-std::exception_ptr ThreadsWorld::failure() {
+std::exception_ptr ThreadsWorld::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
 }
 
 void ThreadsWorld::check_running() const {
-  if (stopped_) throw Failure("stopped, because another rank failed", "", "");
+  if (stopped_) std::rethrow_exception(failure());
 }
 
 void ThreadsWorld::finish_one() {

@@ -1,7 +1,7 @@
 // Ranks as threads of one process: the backend for one machine without MPI, for tests and for programs that
 // want host and nodes in one. A message is copied into a buffer of the sender, queued in the receiver's
 // mailbox, copied out by the receiver and its buffer given back; waiting is on a condition variable. When the
-// world is stopped, every rank's next call throws a Failure.
+// world is stopped, every rank's next call throws the failure that stopped it.
 #pragma once
 
 #include <atomic>
@@ -68,8 +68,8 @@ class ThreadsWorld {
 
   // Ends all waits; the first reason is kept.
   void stop(std::exception_ptr reason);
-  std::exception_ptr failure();
-  // Throws a Failure once stopped.
+  std::exception_ptr failure() const;
+  // Throws the reason once stopped: so whoever tells of it on the host's thread tells what happened.
   void check_running() const;
 
   // Counts a rank that has come to its end; true when all have.
@@ -91,7 +91,7 @@ class ThreadsWorld {
   std::vector<std::unique_ptr<ThreadsBackend>> ranks_;
   std::atomic<bool> stopped_ = false;
   std::atomic<int> finished_ = 0;
-  std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // of what follows
   std::exception_ptr failure_;
   std::deque<Block> blocks_;
 };

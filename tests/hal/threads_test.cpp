@@ -41,6 +41,20 @@ TEST(Threads, AThrowingNodeEndsAll) {
   EXPECT_EQ(failure_of(wait_for_ever, node), "node 3's own");
 }
 
+TEST(Threads, TheHostLearnsWhyANodeEnded) {
+  std::string learnt = "nothing";
+  const auto host = [&] {
+    try {
+      wait_for_ever();
+    } catch (const std::exception& failure) {
+      learnt = failure.what();
+      throw;
+    }
+  };
+  failure_of(host, [] { throw std::runtime_error("the node's own"); });
+  EXPECT_EQ(learnt, "the node's own");
+}
+
 TEST(Threads, AThrowingHostEndsAll) {
   EXPECT_EQ(failure_of([] { throw std::runtime_error("the host's own"); }, wait_for_ever), "the host's own");
 }
