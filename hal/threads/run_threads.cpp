@@ -1,8 +1,10 @@
 #include "hal/threads/run_threads.h"
 
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "hal/failure.h"
 #include "hal/process.h"
 #include "hal/threads/threads_backend.h"
 
@@ -20,6 +22,19 @@ void run_rank(ThreadsWorld& world, int rank, const std::function<void()>& body, 
   world.stop(std::current_exception());
 }
 
+// Where the machine gives no more threads those started already are stopped: they would wait for ever.
+void start_nodes(ThreadsWorld& world, std::vector<std::jthread>& threads, const std::function<void()>& body,
+                 const WrapBackend& wrap) try {
+  for (int node = 0; node < world.nodes(); ++node) {
+    threads.emplace_back([&, node] { run_rank(world, node, body, wrap); });
+  }
+} catch (const std::system_error&) {
+  const Failure failure("the machine gives threads to no more than " + std::to_string(threads.size()) + " of " +
+                            std::to_string(world.nodes()) + " nodes",
+                        "", "use fewer nodes");
+  world.stop(std::make_exception_ptr(failure));
+}
+
 }  // namespace
 
 void run_threads(int nodes, const std::function<void()>& host_body, const std::function<void()>& node_body,
@@ -28,9 +43,7 @@ void run_threads(int nodes, const std::function<void()>& host_body, const std::f
   {
     std::vector<std::jthread> threads;
     threads.reserve(nodes);
-    for (int node = 0; node < nodes; ++node) {
-      threads.emplace_back([&, node] { run_rank(world, node, node_body, wrap); });
-    }
+    start_nodes(world, threads, node_body, wrap);
     run_rank(world, nodes, host_body, wrap);
   }
   if (const std::exception_ptr failure = world.failure()) std::rethrow_exception(failure);
