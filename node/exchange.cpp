@@ -62,7 +62,7 @@ Polygons Exchange::triangles(const hal::Cube& cube, const Polygons& own, std::sp
   std::uint32_t count = kept.stationary + kept.moving;
   for (int i = 1; i < cube.count; ++i) {
     const int from = cube.first + (self + cube.count - i) % cube.count;
-    crecv(kTriangles + from, here.data() + count, static_cast<long>((here.size() - count) * sizeof(Triangle)));
+    crecv(triangles_from(from), here.data() + count, static_cast<long>((here.size() - count) * sizeof(Triangle)));
     const auto bytes = static_cast<std::size_t>(infocount()) - sizeof(Trailer);
     Trailer trailer;
     std::memcpy(&trailer, reinterpret_cast<const std::byte*>(here.data() + count) + bytes, sizeof trailer);
@@ -81,7 +81,7 @@ void Exchange::send_triangles(int index, const hal::Cube& cube, const Polygons& 
   std::memcpy(room.data() + count, &kept, sizeof kept);
   arena.take<Triangle>(count + 1);
   const std::size_t bytes = count * sizeof(Triangle) + sizeof kept;
-  pending_.push_back(isend(kTriangles + mynode(), room.data(), static_cast<long>(bytes), cube.first + index, 0));
+  pending_.push_back(isend(triangles_from(mynode()), room.data(), static_cast<long>(bytes), cube.first + index, 0));
 }
 
 void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
@@ -96,10 +96,10 @@ void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> hom
   for (int i = 1; i < cube.count; ++i) {
     const int other = (self + i) % cube.count;
     if (draws[static_cast<std::size_t>(self)])
-      post(other, [&](float* data, long bytes) { return irecv(kDepthLines + cube.first + other, data, bytes); });
+      post(other, [&](float* data, long bytes) { return irecv(depth_lines_from(cube.first + other), data, bytes); });
     if (draws[static_cast<std::size_t>(other)])
       post(self, [&](float* data, long bytes) {
-        return isend(kDepthLines + mynode(), data, bytes, cube.first + other, 0);
+        return isend(depth_lines_from(mynode()), data, bytes, cube.first + other, 0);
       });
   }
   wait_all();

@@ -4,7 +4,7 @@
 //
 //   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
-//   node -> node   edge-box counts, triangles, CZB lines (types of their own, + the sender's id)
+//   node -> node   edge-box counts, triangles, CZB lines (types that say who sends)
 #pragma once
 
 #include <array>
@@ -23,10 +23,12 @@ enum MessageType : long {
   kStrip,
   kFault,
   kStop,
-  // from node to node: this + the sender's id, for NX receives by type alone
-  kTriangles = 10'000'000,
-  kDepthLines = 20'000'000,
 };
+
+// Types of what nodes send each other say from whom, for NX receives by type alone. They are low: an MPI need
+// not carry high ones.
+constexpr long triangles_from(long node) { return 32 + 2 * node; }
+constexpr long depth_lines_from(long node) { return 33 + 2 * node; }
 
 // The NX type selector for any of several types below 30.
 template <typename... Types>

@@ -1,7 +1,7 @@
 // A backend that counts what its rank sends before handing it on: who sent how much of which type to whom.
 //   Counts counts;
 //   run_threads(nodes, host, node, counting(counts));
-//   EXPECT_EQ(counts.sent({.from = 0, .type = node::kTriangles}).messages, ...);
+//   EXPECT_EQ(counts.sent({.from = 0, .type = node::triangles_from(0)}).messages, ...);
 #pragma once
 
 #include <cstdint>

@@ -134,7 +134,7 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   EXPECT_EQ(artists.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
   // All triangles that nodes gave each other are the keyframe's: one message for each pair.
   std::uint64_t triangles = 0;
-  for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = node::kTriangles + from}).messages;
+  for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = node::triangles_from(from)}).messages;
   EXPECT_EQ(triangles, static_cast<std::uint64_t>(nodes * (nodes - 1)));
 }
 
@@ -169,7 +169,7 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   run_counted(maker.make(), 4, counted);
   std::uint64_t bytes = 0;
   for (int from = 0; from < 4; ++from) {
-    const auto sent = counted.counts.sent({.from = from, .to = {}, .type = node::kDepthLines + from});
+    const auto sent = counted.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)});
     bytes += sent.bytes;
     EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
   }
