@@ -133,8 +133,10 @@ void Farm::run() {
 }
 
 void Farm::give_units() {
-  for (std::size_t cube = 0; cube < cubes_.size(); ++cube)
-    while (units_given_[cube] < kUnitsAhead && next_unit_ < units_.size()) give(cube);
+  // Every cube gets its first before any gets one ahead: there may be few.
+  for (std::size_t ahead = 1; ahead <= kUnitsAhead; ++ahead)
+    for (std::size_t cube = 0; cube < cubes_.size(); ++cube)
+      if (units_given_[cube] < ahead && next_unit_ < units_.size()) give(cube);
 }
 
 void Farm::give(std::size_t number) {

@@ -157,6 +157,17 @@ TEST_P(Division, BytesReportedAreBytesSent) {
 
 INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
 
+// As many units as cubes: none gets two while another has none.
+TEST(Division, EveryCubeGetsAUnit) {
+  const FilmBlock film(crowd(64, 40, 4, 1));
+  RunOptions options;
+  options.nodes = 4;
+  options.farm.cubes = 4;
+  std::set<std::int32_t> artists;
+  for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) artists.insert(strip.node);
+  EXPECT_EQ(artists.size(), 4u);
+}
+
 // CZB lines travel only where moving parts can be seen, and only to nodes that draw inbetweens.
 TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   FilmMaker maker(200, 200, 2);
