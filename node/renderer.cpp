@@ -25,6 +25,10 @@ std::uint32_t passes_for_message(std::uint64_t width, std::uint64_t height) {
   return passes;
 }
 
+// Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
+// piece of memory is rounded up.
+std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 64 * lines + 32 * nodes + 4096; }
+
 }  // namespace
 
 Renderer::Renderer(const FilmView& film, const Load& load, const Kernels& kernels)
@@ -144,8 +148,8 @@ std::uint32_t Renderer::plan_passes(const hal::Cube& cube) {
   for (std::size_t n = 0; n < static_cast<std::size_t>(cube.count); ++n) {
     const std::uint64_t boxes = ebc_[homes_[n].last] - ebc_[homes_[n].first];
     const std::uint64_t received = cube.count > 1 ? boxes + 1 : 0;
-    const double need = sums_[lines + n] + static_cast<double>(received * sizeof(Triangle) + boxes * sizeof(EdgeBox) +
-                                                               height * 64 + 4096);
+    const double need = sums_[lines + n] + static_cast<double>(received * sizeof(Triangle) + boxes * sizeof(EdgeBox)) +
+                        static_cast<double>(overhead(height, static_cast<std::uint64_t>(cube.count)));
     fits &= need <= static_cast<double>(arena_.size());
   }
   if (fits) return passes;
@@ -176,7 +180,7 @@ std::uint64_t Renderer::memory_for(const hal::Cube& cube, std::uint32_t passes) 
     if (nodes > 1) triangles += own_boxes + nodes + boxes + 1;
     most = std::max(most, triangles * sizeof(Triangle) + boxes * sizeof(EdgeBox));
   }
-  return most + line_counts_.size() * 64 + 4096;
+  return most + overhead(line_counts_.size(), nodes);
 }
 
 void Renderer::mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes) {
