@@ -56,7 +56,7 @@ void Renderer::render(const Render& command, std::span<const std::uint32_t> fram
   const auto artist = [&](std::size_t k) { return (command.first_inbetween + k) % static_cast<std::uint64_t>(cube.count); };
   command_ = command;
   scene_.set_interval(command.interval);
-  lines_of_movers_ = scene_.lines_of_movers(inbetweens);
+  if (cube.count > 1) lines_of_movers_ = scene_.lines_of_movers(inbetweens);
   std::fill(draws_.begin(), draws_.end(), std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[artist(k)] = 1;
 

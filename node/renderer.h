@@ -51,7 +51,7 @@ class Renderer {
 
   std::uint32_t frame_ = 0;
   Render command_{};
-  LineRange lines_of_movers_;               // in the interval's inbetweens
+  LineRange lines_of_movers_;               // in the interval's inbetweens; of cubes of several nodes only
   std::vector<std::uint8_t> draws_;         // which of the cube's nodes draw inbetweens of the interval
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<double> sums_, work_;         // EBC as it is summed, then each node's memory for its own triangles
