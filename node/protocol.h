@@ -81,7 +81,7 @@ struct PhaseTimes {
   double fill;      // edge boxes into place
   double scanline;  // visibility and shading
   double depth;     // CZB exchange
-  double credit;    // waiting for the host's credit
+  double credit;    // waiting for the host: for its credit, or until an earlier strip is gone
 };
 
 // What one node did so far for one frame; the frame's last strip has it all.

@@ -205,6 +205,7 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   clock(strip_.times.fill);
 
   StripBuffer& buffer = outbox_.begin();
+  clock(strip_.times.credit);
   const Shading look = shading(polygons);
   if (strip_.kind == FrameKind::keyframe) z_buffer_.draw_stationary(line_boxes, look, buffer);
   strip_.constant_runs = static_cast<std::uint32_t>(buffer.run_count());
@@ -226,6 +227,7 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   strip_.work.memory = arena_.fullest();
   strip_.work.bytes_to_nodes = hal::traffic().to_nodes.bytes - sent_before_;
   outbox_.send(strip_);
+  clock_ = dclock();  // send() told its wait itself: it is no step of the next pass
 }
 
 void Renderer::share_depth(const hal::Cube& cube) {
