@@ -104,7 +104,7 @@ bool all_sound(std::span<const T> items) {
 
 bool sound(const FilmSettings& s) {
   return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
-         s.dice <= 256 && all_finite(s.background) && s.rate > 0 && s.rate <= 1e6f;
+         s.frames <= kMostFrames && s.dice <= 256 && all_finite(s.background) && s.rate > 0 && s.rate <= 1e6f;
 }
 
 // Whether a track lies within `changes`, starts at frame 0, ascends, and names values below `values`.

@@ -20,6 +20,7 @@ namespace mars::node {
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
 inline constexpr std::uint32_t kFilmVersion = 1;
 inline constexpr std::uint32_t kMaxSide = 16384;  // pixels
+inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
 
 // A bicubic Bezier patch: point (i, j) is points[4 * j + i], i along u, j along v, in the unit cube.
 // The outside is where d/du x d/dv points.
@@ -105,7 +106,7 @@ struct Interval {
 struct FilmSettings {
   std::uint32_t width;   // pixels, 1..kMaxSide
   std::uint32_t height;
-  std::uint32_t frames;  // at least 1
+  std::uint32_t frames;  // 1..kMostFrames
   std::uint32_t dice;    // 0: adaptive; N: every patch N x N quads
   std::array<float, 3> background;
   float rate;            // frames a second

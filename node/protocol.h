@@ -113,7 +113,7 @@ struct Strip {
   std::int32_t cube_count;
   std::uint32_t strips;           // that this node sends for this frame: one a pass over line ranges
   std::uint32_t last;             // 1 if this is the last of them; a frame is whole when all nodes' last came
-  std::uint32_t first_line;       // the node's home lines [first_line, last_line); all for an inbetween
+  std::uint32_t first_line;       // the node's home lines [first_line, last_line), or a pass's part of them
   std::uint32_t last_line;
   std::uint32_t constant_runs;
   std::uint32_t moving_runs;

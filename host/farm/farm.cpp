@@ -159,7 +159,7 @@ void Farm::receive_strip() {
   crecv(node::kStrip, bytes.data(), static_cast<long>(bytes.size()));
   StripMessage strip(std::move(bytes));
   const node::Strip header = strip.header();
-  report_.strips.push_back(header);
+  if (header.last == 1) report_.strips.push_back(header);
   assembly_of(header).receive(std::move(strip));
   // A frame's credit is held until the sinks have it; that of its earlier strips is not.
   const node::Credit credit{1};

@@ -50,7 +50,7 @@ struct FarmListener {
 
 struct FarmReport {
   std::vector<node::Hello> nodes;
-  std::vector<node::Strip> strips;  // as they came
+  std::vector<node::Strip> strips;  // the last of each node for each frame, with all its counts, as they came
   std::vector<FinishedFrame> frames;
   std::uint64_t film_bytes = 0;
   double load_seconds = 0;    // from the last node's Hello until all have the film

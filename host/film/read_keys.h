@@ -8,10 +8,11 @@
 
 #include "host/animator/channel.h"
 #include "host/document/fields.h"
+#include "node/film.h"
 
 namespace mars::host {
 
-inline constexpr std::uint32_t kMostFrames = 1'000'000;
+using node::kMostFrames;
 
 // "linear", "in", "out", "both" or [x1, y1, x2, y2]; linear if there is none.
 Ease read_ease(const Fields& fields);

@@ -18,7 +18,6 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kManifestName = "frames.json";
-constexpr std::uint32_t kMostFrames = 100'000'000;  // more is no film
 
 void create_folder(const fs::path& path) {
   std::error_code error;
@@ -76,7 +75,7 @@ Manifest from_json(const json& from) {
   manifest.width = whole_number(from.at("width"), node::kMaxSide + 1);
   manifest.height = whole_number(from.at("height"), node::kMaxSide + 1);
   from.at("rate").get_to(manifest.rate);
-  manifest.film_frames = whole_number(from.at("film_frames"), kMostFrames);
+  manifest.film_frames = whole_number(from.at("film_frames"), node::kMostFrames);
   manifest.frames = frames_of(from.at("frames"), manifest.film_frames);
   return manifest;
 }
