@@ -82,10 +82,26 @@ Manifest from_json(const json& from) {
 
 }  // namespace
 
+namespace {
+
+// Whether the folder's manifest, if it has a sound one, is of this very film.
+bool holds_same_film(const fs::path& folder, const Manifest& manifest) {
+  if (!fs::exists(folder / kManifestName)) return false;
+  const std::vector<std::byte> bytes = read_whole_file(folder / kManifestName);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  const json old = json::parse(text, text + bytes.size(), nullptr, false);
+  return old.is_object() && old.contains("checksum") && old["checksum"] == manifest.checksum;
+}
+
+}  // namespace
+
 FrameFolder::FrameFolder(fs::path path, const Manifest& manifest)
     : path_(std::move(path)), film_frames_(manifest.film_frames) {
   create_folder(path_);
   remove_parts(path_);
+  // Another film's frames under the names to come would pass as this one's if the run were interrupted.
+  if (!holds_same_film(path_, manifest))
+    for (const std::uint32_t frame : manifest.frames) fs::remove(file_of(frame));
   write_whole_file(path_ / kManifestName,
                    to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "host/sinks/png_file.h"
 #include "host/sinks/verify.h"
@@ -56,6 +57,19 @@ TEST(FrameFolder, ClearsAwayWhatAKilledRunLeft) {
   const FrameFolder frames(folder.path(), small_manifest());
   EXPECT_FALSE(std::filesystem::exists(folder / "frame-0001.png.part"));
   EXPECT_TRUE(std::filesystem::exists(folder / "a person's own.part"));
+}
+
+TEST(FrameFolder, AnotherFilmsFramesDoNotPassAsThisOnes) {
+  const TemporaryFolder folder;
+  Manifest manifest = small_manifest();
+  fill(FrameFolder(folder / "f", manifest), manifest, 7);
+  const FrameFolder again(folder / "f", manifest);
+  EXPECT_TRUE(std::filesystem::exists(again.file_of(5))) << "the same film's frames stay";
+  manifest.checksum = std::string(32, 'b');
+  manifest.frames = {1, 5};
+  const FrameFolder other(folder / "f", manifest);
+  EXPECT_FALSE(std::filesystem::exists(other.file_of(5)));
+  EXPECT_TRUE(std::filesystem::exists(other.file_of(2))) << "what was not asked for is left alone";
 }
 
 TEST(FrameFolder, TellsWhereItCannotBe) {
