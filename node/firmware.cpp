@@ -43,6 +43,8 @@ Firmware::Firmware(const NodeIdentity& identity) : kernels_(best_kernels(identit
   Hello hello{};
   hello.node = static_cast<std::int32_t>(mynode());
   hello.machine = hal::neighbourhood().machine;
+  hello.rank = hal::neighbourhood().rank;
+  hello.seat = identity.seat;
   hello.memory = identity.memory;
   copy_text(identity.host, hello.host);
   copy_text(identity.binding, hello.binding);

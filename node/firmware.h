@@ -1,6 +1,7 @@
 // The node program: boots, says who it is, and then only obeys the host's commands until it is told to stop.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -10,6 +11,7 @@ namespace mars::node {
 struct NodeIdentity {
   std::string host;      // name of its machine
   std::string binding;   // processors it is bound to, as text; "" if free
+  std::array<std::int32_t, 5> seat;  // as in Hello
   std::uint64_t memory;  // bytes it may use for one frame's triangles and edge boxes
   std::string simd;      // widest instruction set allowed, "" for any (best_kernels)
 };

@@ -40,6 +40,8 @@ constexpr long any_of(Types... types) {
 struct Hello {
   std::int32_t node;
   std::int32_t machine;       // lowest node id on the same machine
+  std::int32_t rank;          // its number for whoever started it (MPI's)
+  std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
   std::uint64_t memory;       // bytes it may use for one frame's triangles and edge boxes
   std::array<char, 64> host;  // name of its machine
   std::array<char, 64> binding;  // processors it is bound to, as hwloc lists them; "" if free

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "topology/placement.h"
+
 struct hwloc_topology;
 
 namespace mars::topology {
@@ -19,6 +21,13 @@ struct Place {
   int count = 0;
 
   bool operator==(const Place&) const = default;
+};
+
+// What a thread may run on, in the numbers of the whole machine (lstopo -l shows them).
+struct Binding {
+  std::string cores;   // "core 3", "cores 0-1,4"; "" if it may run on all
+  int first_core = 0;  // the lowest of them
+  Seat seat{};
 };
 
 class Machine {
@@ -37,23 +46,29 @@ class Machine {
   int numa_domains() const;      // at least 1
   std::uint64_t memory() const;  // bytes, of these NUMA domains; 0: unknown
 
-  // The cores of process `k` of `n`: a run of neighbouring cores, in order of k, so that processes whose
-  // numbers differ in a low bit are close. Of the cores beyond n, up to `reserved` at the end stay free (for
-  // the host's sinks). None where the processes exceed the cores: they are better left to the scheduler.
-  std::optional<Place> place(int k, int n, int reserved) const;
+  // The cores of process `k` of `n` whose node ids begin at `first_id`: runs of neighbouring cores in order
+  // of k, cut first where the ids differ in the highest bit and there at the machine's widest gap (package,
+  // NUMA domain, cache), so that ids that differ in a low bit are close. Of the cores beyond n, up to
+  // `reserved` at the end stay free (for the host's sinks). None where the processes exceed the cores: they
+  // are better left to the scheduler.
+  std::optional<Place> place(int k, int n, int reserved, int first_id = 0) const;
+
+  // What a process bound to `place` shares with others.
+  Seat seat(const Place& place) const;
 
   // Binds the calling thread, or the whole calling process, to a place.
   void bind_thread(const Place& place) const;
   void bind_process(const Place& place) const;
 
-  // The cores that the calling thread is bound to: "core 3", "cores 0-1,4", in the whole machine's logical
-  // numbers (lstopo -l shows them); "" if it may run on all.
-  static std::string binding();
+  // Of the calling thread.
+  static Binding binding();
 
  private:
   explicit Machine(hwloc_topology* topology);
   static Machine load_here();  // not restricted to the affinity
   void bind(const Place& place, int flags) const;
+  int gap(int core) const;
+  int cut(const Place& cores, int left, int right) const;
 
   struct Unload {
     void operator()(hwloc_topology* topology) const;

@@ -13,6 +13,8 @@
 #include "hal/message_types.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
+#include "topology/machine.h"
+#include "topology/placement.h"
 
 namespace mars::hal {
 namespace {
@@ -52,10 +54,11 @@ int rank_in(MPI_Comm comm) {
   return rank;
 }
 
-int highest_tag(MPI_Comm comm) {
+// MPI tells it of MPI_COMM_WORLD only.
+int highest_tag() {
   int* highest = nullptr;
   int known = 0;
-  succeed(MPI_Comm_get_attr(comm, MPI_TAG_UB, &highest, &known), "MPI_Comm_get_attr");
+  succeed(MPI_Comm_get_attr(MPI_COMM_WORLD, MPI_TAG_UB, &highest, &known), "MPI_Comm_get_attr");
   return known ? *highest : 32767;
 }
 
@@ -66,14 +69,37 @@ MPI_Comm split_by_machine(MPI_Comm comm, int key) {
   return machine;
 }
 
+// The lowest rank of `comm` on this machine.
+int machine_of(MPI_Comm comm) {
+  int lowest = rank_in(comm);
+  MPI_Comm here = split_by_machine(comm, lowest);
+  succeed(MPI_Bcast(&lowest, 1, MPI_INT, 0, here), "MPI_Bcast");
+  succeed(MPI_Comm_free(&here), "MPI_Comm_free");
+  return lowest;
+}
+
+// Of MPI_COMM_WORLD, whose rank there is the id: first the nodes by place, then the host.
+MPI_Comm ranks_by_id(int host_rank) {
+  const int rank = rank_in(MPI_COMM_WORLD);
+  const topology::Spot mine{machine_of(MPI_COMM_WORLD), topology::Machine::binding().first_core};
+  std::vector<topology::Spot> spots(size_of(MPI_COMM_WORLD));
+  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, spots.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD),
+          "MPI_Allgather");
+  spots.erase(spots.begin() + host_rank);
+  std::vector<int> ids = topology::number_nodes(spots);
+  ids.insert(ids.begin() + host_rank, static_cast<int>(spots.size()));
+  MPI_Comm all = MPI_COMM_NULL;
+  succeed(MPI_Comm_split(MPI_COMM_WORLD, 0, ids[rank], &all), "MPI_Comm_split");
+  return all;
+}
+
 }  // namespace
 
-MpiBackend::MpiBackend(int host_rank) : host_rank_(host_rank) {
-  succeed(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "MPI_Comm_dup");
+MpiBackend::MpiBackend(int host_rank) : all_(ranks_by_id(host_rank)) {
   succeed(MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   nodes_ = size_of(all_) - 1;
-  rank_ = id(rank_in(all_));
-  last_tag_ = highest_tag(all_) - nodes_;
+  rank_ = rank_in(all_);
+  last_tag_ = highest_tag() - nodes_;
   sent_to_.resize(nodes_ + 1);
   pending_.reserve(kUsuallyPending);
   look_around();
@@ -91,7 +117,8 @@ void MpiBackend::look_around() {
   machine_ = split_by_machine(nodes, rank_);
   succeed(MPI_Comm_free(&nodes), "MPI_Comm_free");
   const Affinity given = affinity(machine_);
-  neighbourhood_ = {rank_, rank_in(machine_), size_of(machine_), !CPU_EQUAL(&given.some, &given.every)};
+  neighbourhood_ = {rank_, rank_in(machine_), size_of(machine_), rank_in(MPI_COMM_WORLD),
+                    !CPU_EQUAL(&given.some, &given.every)};
   succeed(MPI_Bcast(&neighbourhood_.machine, 1, MPI_INT, 0, machine_), "MPI_Bcast");
 }
 
@@ -99,12 +126,6 @@ MpiBackend::~MpiBackend() {
   if (ending_ != Ending::ended) return;
   if (machine_ != MPI_COMM_NULL) MPI_Comm_free(&machine_);
   MPI_Comm_free(&all_);
-}
-
-int MpiBackend::mpi_rank(int id) const { return id == host() ? host_rank_ : id + (id >= host_rank_); }
-
-int MpiBackend::id(int mpi_rank) const {
-  return mpi_rank == host_rank_ ? host() : mpi_rank - (mpi_rank > host_rank_);
 }
 
 // An MPI need not have tags as large as internal types are, so these are the highest that it has.
@@ -125,11 +146,10 @@ MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t le
     throw Failure("a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
                   "send at most 2147483647 bytes at once");
   }
-  const int receiver = mpi_rank(to);
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, receiver, tag(type), all_, &request),
+  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag(type), all_, &request),
           "MPI_Isend");
-  ++sent_to_[receiver];
+  ++sent_to_[to];
   return request;
 }
 
@@ -196,13 +216,13 @@ std::optional<Envelope> MpiBackend::peek() {
   if (arrived == 0) return std::nullopt;
   int length = 0;
   succeed(MPI_Get_count(&status, MPI_BYTE, &length), "MPI_Get_count");
-  peeked_ = Envelope{id(status.MPI_SOURCE), type(status.MPI_TAG), static_cast<std::size_t>(length)};
+  peeked_ = Envelope{status.MPI_SOURCE, type(status.MPI_TAG), static_cast<std::size_t>(length)};
   return peeked_;
 }
 
 void MpiBackend::take(void* buffer) {
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Irecv(buffer, static_cast<int>(peeked_->length), MPI_BYTE, mpi_rank(peeked_->from),
+  succeed(MPI_Irecv(buffer, static_cast<int>(peeked_->length), MPI_BYTE, peeked_->from,
                     tag(peeked_->type), all_, &request),
           "MPI_Irecv");
   wait(request);

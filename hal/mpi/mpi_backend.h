@@ -15,7 +15,7 @@ namespace mars::hal {
 
 class MpiBackend : public Backend {
  public:
-  // Collective over all ranks; `host_rank` is the MPI rank of the host.
+  // Collective over all ranks; `host_rank` is the host's in MPI_COMM_WORLD. Nodes get their ids by place.
   explicit MpiBackend(int host_rank);
   // Collective after an orderly finish; after a failure it leaves all to the end of the job.
   ~MpiBackend() override;
@@ -52,14 +52,11 @@ class MpiBackend : public Backend {
   void check_shared_space(std::size_t bytes);
   void release_window(MPI_Win window);
 
-  int mpi_rank(int id) const;
-  int id(int mpi_rank) const;
   int tag(int type) const;
   int type(int tag) const;
 
-  MPI_Comm all_ = MPI_COMM_NULL;
+  MPI_Comm all_;                      // its ranks are ids
   MPI_Comm machine_ = MPI_COMM_NULL;  // this machine's nodes; null at the host
-  int host_rank_;
   int nodes_ = 0;
   int rank_ = 0;      // id of this rank
   int last_tag_ = 0;  // the tags up to it are types; those of internal types come after
@@ -73,7 +70,7 @@ class MpiBackend : public Backend {
   std::vector<Ticket> free_tickets_;
   std::optional<Envelope> peeked_;
 
-  std::vector<std::int64_t> sent_to_;  // messages, by MPI rank
+  std::vector<std::int64_t> sent_to_;  // messages, by id
   std::int64_t taken_ = 0;             // messages
   Ending ending_ = Ending::not_yet;
   MPI_Request ending_request_ = MPI_REQUEST_NULL;

@@ -88,7 +88,7 @@ void ThreadsBackend::wake() {
 
 Neighbourhood ThreadsBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");
-  return {0, rank_, nodes(), false};
+  return {0, rank_, nodes(), rank_, false};
 }
 
 std::shared_ptr<std::byte> ThreadsBackend::share(std::size_t bytes) {

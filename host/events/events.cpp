@@ -18,7 +18,7 @@ json to_json(const Booted& booted) {
   json nodes = json::array();
   for (const Booted::Node& node : booted.nodes) {
     nodes.push_back(
-        {{"node", node.node}, {"host", node.host}, {"binding", node.binding}, {"simd", node.simd}});
+        {{"node", node.node}, {"host", node.host}, {"rank", node.rank}, {"binding", node.binding}, {"simd", node.simd}});
   }
   return {{"event", "booted"}, {"backend", booted.backend}, {"machines", booted.machines}, {"nodes", nodes}};
 }
@@ -56,7 +56,7 @@ json to_json(const Done& done) {
 Booted read_booted(const json& from) {
   Booted booted{from.at("backend"), from.at("machines"), {}};
   for (const json& node : from.at("nodes")) {
-    booted.nodes.push_back({node.at("node"), node.at("host"), node.at("binding"), node.at("simd")});
+    booted.nodes.push_back({node.at("node"), node.at("host"), node.at("rank"), node.at("binding"), node.at("simd")});
   }
   return booted;
 }

@@ -19,6 +19,7 @@ struct Booted {
   struct Node {
     std::int32_t node = 0;
     std::string host;
+    std::int32_t rank = 0;  // its number for whoever started it (MPI's)
     std::string binding;  // "" if free
     std::string simd;
 

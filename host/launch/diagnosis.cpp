@@ -43,16 +43,23 @@ Failure told(const Fault& fault) {
   return Failure(fault.problem, fault.where, remedy);
 }
 
-// "mpirun noticed that process rank 2 with PID 0 on node ada exited on signal 9 (Killed)." Rank 0 is the
-// host, as we start it.
-std::optional<Failure> lost_rank(const std::string& words) {
+// Rank 0 is the host, as we start it; which node another is shows once they have booted.
+std::string who_is(int rank, const std::optional<Booted>& booted) {
+  if (rank == 0) return "the host";
+  if (!booted) return "a node";
+  for (const Booted::Node& node : booted->nodes)
+    if (node.rank == rank) return "node " + std::to_string(node.node);
+  return "rank " + std::to_string(rank);
+}
+
+// "mpirun noticed that process rank 2 with PID 0 on node ada exited on signal 9 (Killed)."
+std::optional<Failure> lost_rank(const std::string& words, const std::optional<Booted>& booted) {
   static const std::regex form("process rank (\\d+) with PID \\d+ on node (\\S+) exited on\\s+signal (\\d+)");
   std::smatch match;
   if (!std::regex_search(words, match, form)) return std::nullopt;
-  const int rank = std::stoi(match[1]);
   const int signal = std::stoi(match[3]);
-  const std::string who = rank == 0 ? "the host" : "node " + std::to_string(rank - 1);
-  return Failure(killed_by(who, signal), "machine " + match[2].str(), remedy_for(signal));
+  return Failure(killed_by(who_is(std::stoi(match[1]), booted), signal), "machine " + match[2].str(),
+                 remedy_for(signal));
 }
 
 std::optional<Failure> no_slots(const std::string& words) {
@@ -90,7 +97,7 @@ Failure diagnose(const Remains& remains, const RenderOptions& options) {
   if (remains.fault) return told(*remains.fault);
   if (const auto own = own_words(remains.last_words)) return *own;
   const std::string words = join(remains.last_words);
-  if (const auto lost = lost_rank(words)) return *lost;
+  if (const auto lost = lost_rank(words, remains.booted)) return *lost;
   if (const auto crowded = no_slots(words)) return *crowded;
   return unknown(remains);
 }

@@ -14,6 +14,7 @@
 namespace mars::host {
 
 struct Remains {
+  std::optional<Booted> booted;        // once all nodes were there
   std::optional<Fault> fault;
   Ending ending;
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none

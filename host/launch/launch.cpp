@@ -39,7 +39,7 @@ class Run {
     remains_.ending = child.wait({[this](const std::string& line) { take_output(line); },
                                   [this](const std::string& line) { take_error(line); },
                                   [this] {
-                                    if (booted_) display_.show(remains_.progress);
+                                    if (remains_.booted) display_.show(remains_.progress);
                                   }});
     remains_.passed_on = child.passed_on();
   }
@@ -52,8 +52,10 @@ class Run {
   void take_output(const std::string& line) {
     const std::optional<Event> event = read_event(line);
     if (!event) return;
-    if (const auto* booted = std::get_if<Booted>(&*event)) display_.tell(booted_text(*booted));
-    booted_ = booted_ || std::holds_alternative<Booted>(*event);
+    if (const auto* booted = std::get_if<Booted>(&*event)) {
+      display_.tell(booted_text(*booted));
+      remains_.booted = *booted;
+    }
     if (const auto* progress = std::get_if<Progress>(&*event)) remains_.progress = *progress;
     if (const auto* fault = std::get_if<Fault>(&*event); fault && !remains_.fault) remains_.fault = *fault;
     if (const auto* done = std::get_if<Done>(&*event)) done_ = *done;
@@ -65,7 +67,6 @@ class Run {
   }
 
   Display& display_;
-  bool booted_ = false;
   std::optional<Done> done_;
   Remains remains_;
 };

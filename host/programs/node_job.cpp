@@ -31,7 +31,7 @@ std::uint64_t memory_share(const topology::Machine& machine, int nodes) {
 // Binds the calling thread to its share of the machine, unless whoever started it has, or there is none.
 void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
   if (here.placed) return;
-  if (const auto place = machine.place(here.index, here.count, kCoresForHost)) machine.bind_thread(*place);
+  if (const auto place = machine.place(here.index, here.count, kCoresForHost, here.machine)) machine.bind_thread(*place);
 }
 
 }  // namespace
@@ -42,7 +42,8 @@ void run_node_job() {
   const topology::Machine machine = topology::Machine::here();
   const std::uint64_t memory = settings.memory.value_or(memory_share(machine, here.count));
   bind(machine, here);
-  node::run_node({host_name(), topology::Machine::binding(), memory, settings.simd});
+  const topology::Binding binding = topology::Machine::binding();
+  node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd});
 }
 
 }  // namespace mars::host

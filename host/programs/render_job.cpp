@@ -60,7 +60,7 @@ Booted booted_event(std::span<const node::Hello> hellos, const char* backend) {
   std::set<std::int32_t> machines;
   for (const node::Hello& hello : hellos) {
     machines.insert(hello.machine);
-    event.nodes.push_back({hello.node, hello.host.data(), hello.binding.data(), hello.simd.data()});
+    event.nodes.push_back({hello.node, hello.host.data(), hello.rank, hello.binding.data(), hello.simd.data()});
   }
   event.machines = static_cast<std::uint32_t>(machines.size());
   return event;

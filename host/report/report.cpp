@@ -4,6 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "topology/placement.h"
+
 namespace mars::host {
 
 using nlohmann::ordered_json;
@@ -11,9 +13,24 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json node_json(const node::Hello& hello) {
-  return {{"node", hello.node},        {"machine", hello.machine},
-          {"host", hello.host.data()}, {"binding", hello.binding.data()},
-          {"simd", hello.simd.data()}, {"memory", hello.memory}};
+  return {{"node", hello.node},
+          {"machine", hello.machine},
+          {"host", hello.host.data()},
+          {"rank", hello.rank},
+          {"binding", hello.binding.data()},
+          {"seat", hello.seat},
+          {"simd", hello.simd.data()},
+          {"memory", hello.memory}};
+}
+
+// What the furthest neighbours share across each dimension of the cube of all nodes.
+ordered_json dimensions_json(const std::vector<node::Hello>& hellos) {
+  std::vector<topology::Location> nodes;
+  for (const node::Hello& hello : hellos) nodes.push_back({hello.machine, hello.seat});
+  ordered_json texts = ordered_json::array();
+  for (const topology::Closeness closeness : topology::dimensions(nodes))
+    texts.push_back(topology::text_of(closeness));
+  return texts;
 }
 
 ordered_json seconds_json(const node::PhaseTimes& times) {
@@ -87,6 +104,7 @@ std::string report_text(const ReportHead& head, const FarmReport& report) {
                             {"render_seconds", report.render_seconds},
                             {"total_seconds", report.total_seconds},
                             {"nodes", nodes},
+                            {"dimensions", dimensions_json(report.nodes)},
                             {"frames", frames_json(report)}};
   return all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -63,7 +63,7 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
   };
   const auto node = [&] {
     if (options.around_node) options.around_node();
-    node::run_node({"test", "", options.memory, options.simd});
+    node::run_node({"test", "", {}, options.memory, options.simd});
   };
   hal::run_threads(options.nodes, host, node, options.wrap);
   run.frames = sink.release();

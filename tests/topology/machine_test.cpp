@@ -74,17 +74,6 @@ TEST(Machine, ProcessesBeyondTheCoresHaveNoPlace) {
   EXPECT_TRUE(machine.place(3, 4, 2));
 }
 
-// On a machine of two domains, dimension 0 to d - 2 stay within one and only the highest crosses.
-TEST(Machine, LowDimensionsAreClose) {
-  const Machine machine = Machine::synthetic("numa:2 core:8 pu:1");
-  for (const int n : {2, 4, 8, 16}) {
-    const auto domain = [&](int k) { return machine.place(k, n, 0)->first / 8; };
-    for (int k = 0; k < n; ++k) {
-      for (int bit = 1; bit < n; bit <<= 1) EXPECT_EQ(domain(k) == domain(k ^ bit), bit < n / 2);
-    }
-  }
-}
-
 TEST(Machine, HereIsWhatTheProcessMayUse) {
   cpu_set_t usable;
   ASSERT_EQ(sched_getaffinity(0, sizeof usable, &usable), 0);
@@ -106,7 +95,7 @@ TEST(Machine, BindsThreadsToTheirPlaces) {
       used.insert(sched_getcpu());
       EXPECT_EQ(Machine::here().cores(), 1);  // a bound thread sees only its own
       if (n > 1) {
-        EXPECT_EQ(Machine::binding().substr(0, 5), "core ");
+        EXPECT_EQ(Machine::binding().cores.substr(0, 5), "core ");
       }
     }).join();
   }
@@ -115,19 +104,21 @@ TEST(Machine, BindsThreadsToTheirPlaces) {
 }
 
 TEST(Machine, BindingIsTold) {
-  const std::string before = Machine::binding();
+  const std::string before = Machine::binding().cores;
   const Machine machine = Machine::here();
   if (machine.cores() < 2 || !before.empty()) GTEST_SKIP() << "needs a machine of its own with two cores";
   std::jthread([&] {
     machine.bind_thread({1, 1});
-    EXPECT_EQ(Machine::binding(), "core 1");
+    EXPECT_EQ(Machine::binding().cores, "core 1");
+    EXPECT_EQ(Machine::binding().first_core, 1);
+    EXPECT_EQ(Machine::binding().seat, machine.seat({1, 1}));
     machine.bind_thread({0, machine.cores()});
-    EXPECT_EQ(Machine::binding(), "");
+    EXPECT_EQ(Machine::binding().cores, "");
   }).join();
   if (machine.cores() < 3) return;
   std::jthread([&] {
     machine.bind_thread({0, 2});
-    EXPECT_EQ(Machine::binding(), "cores 0-1");
+    EXPECT_EQ(Machine::binding().cores, "cores 0-1");
   }).join();
 }
 

@@ -39,11 +39,13 @@ TEST(Diagnosis, APersonWhoStopsItKnowsWhy) {
 
 TEST(Diagnosis, OfAKilledRank) {
   const auto words = [](const char* rank) {
-    return failed_with({"Primary job  terminated normally, but 1 process returned", "",
-                        std::string("mpirun noticed that process rank ") + rank +
-                            " with PID 0 on node ada exited on signal 9 (Killed)."});
+    Remains remains = failed_with({"Primary job  terminated normally, but 1 process returned", "",
+                                   std::string("mpirun noticed that process rank ") + rank +
+                                       " with PID 0 on node ada exited on signal 9 (Killed)."});
+    remains.booted = Booted{"mpi", 1, {{0, "ada", 2, "", "sse2"}, {1, "ada", 1, "", "sse2"}}};
+    return remains;
   };
-  EXPECT_TRUE(holds(message(words("2")), "machine ada: node 1 was killed by signal 9 (Killed)"));
+  EXPECT_TRUE(holds(message(words("2")), "machine ada: node 0 was killed by signal 9 (Killed)"));
   EXPECT_TRUE(holds(message(words("0")), "the host was killed"));
   EXPECT_TRUE(holds(message(words("0")), "out of memory"));
 }

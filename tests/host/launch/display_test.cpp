@@ -70,7 +70,7 @@ TEST(Display, SilentIsSilent) {
 }
 
 TEST(Display, OtherLines) {
-  EXPECT_EQ(booted_text({"mpi", 1, {{0, "ada", "core 0", "avx2"}, {1, "ada", "core 1", "avx2"}}}),
+  EXPECT_EQ(booted_text({"mpi", 1, {{0, "ada", 1, "core 0", "avx2"}, {1, "ada", 2, "core 1", "avx2"}}}),
             "2 nodes on 1 machine (mpi), avx2");
   EXPECT_EQ(done_text({30, 2.0, "out"}), "30 frames in out, 2.0 seconds, 15.0 frames/s");
   EXPECT_EQ(done_text({1, 2.0, ""}), "1 frame, 2.0 seconds, 0.5 frames/s");

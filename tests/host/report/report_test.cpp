@@ -29,6 +29,7 @@ FarmReport two_nodes_two_frames() {
     node::Hello hello{};
     hello.node = number;
     hello.memory = 1000;
+    hello.seat = {number, number, 0, 0, 0};
     std::copy_n("ada", 3, hello.host.data());
     std::copy_n("core 0", 6, hello.binding.data());
     report.nodes.push_back(hello);
@@ -46,6 +47,7 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);
   EXPECT_EQ(report["nodes"][1]["binding"], "core 0");
+  EXPECT_EQ(report["dimensions"], json({"an L3 cache"}));
   ASSERT_EQ(report["frames"].size(), 2u);
   const json& keyframe = report["frames"][0];
   EXPECT_EQ(keyframe["frame"], 0);
