@@ -26,6 +26,9 @@ constexpr std::size_t kReclaimAtOnce = 4;
 
 constexpr std::size_t kUsuallyPending = 1024;
 
+// Bytes from which on a message may not be gone before it is received.
+constexpr std::size_t kLong = 4096;
+
 struct Affinity {
   cpu_set_t some;   // processors that at least one rank may use
   cpu_set_t every;  // processors that every rank may use
@@ -40,18 +43,6 @@ Affinity affinity(MPI_Comm comm) {
   succeed(MPI_Allreduce(&mine, &all.some, sizeof mine, MPI_BYTE, MPI_BOR, comm), "MPI_Allreduce");
   succeed(MPI_Allreduce(&mine, &all.every, sizeof mine, MPI_BYTE, MPI_BAND, comm), "MPI_Allreduce");
   return all;
-}
-
-int size_of(MPI_Comm comm) {
-  int size = 0;
-  succeed(MPI_Comm_size(comm, &size), "MPI_Comm_size");
-  return size;
-}
-
-int rank_in(MPI_Comm comm) {
-  int rank = 0;
-  succeed(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
-  return rank;
 }
 
 // MPI tells it of MPI_COMM_WORLD only.
@@ -109,6 +100,7 @@ void MpiBackend::look_around() {
   MPI_Comm ranks_here = split_by_machine(all_, rank_);
   const cpu_set_t usable = affinity(ranks_here).some;
   oversubscribed_ = size_of(ranks_here) > CPU_COUNT(&usable);
+  bells_.emplace(ranks_here, all_);
   succeed(MPI_Comm_free(&ranks_here), "MPI_Comm_free");
 
   MPI_Comm nodes = MPI_COMM_NULL;
@@ -124,6 +116,7 @@ void MpiBackend::look_around() {
 
 MpiBackend::~MpiBackend() {
   if (ending_ != Ending::ended) return;
+  bells_->take_down();
   if (machine_ != MPI_COMM_NULL) MPI_Comm_free(&machine_);
   MPI_Comm_free(&all_);
 }
@@ -150,11 +143,13 @@ MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t le
   succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag(type), all_, &request),
           "MPI_Isend");
   ++sent_to_[to];
+  bells_->ring(to);
   return request;
 }
 
 bool MpiBackend::test(MPI_Request& request) {
   int done = 0;
+  heard_ = bells_->rung();
   succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
   return done != 0;
 }
@@ -210,6 +205,7 @@ bool MpiBackend::sent(Ticket ticket) {
 std::optional<Envelope> MpiBackend::peek() {
   reclaim_some();
   if (peeked_) return peeked_;
+  heard_ = bells_->rung();
   int arrived = 0;
   MPI_Status status;
   succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
@@ -226,11 +222,20 @@ void MpiBackend::take(void* buffer) {
                     tag(peeked_->type), all_, &request),
           "MPI_Irecv");
   wait(request);
+  // Its sender may be waiting for just that; of a short one it does not.
+  if (peeked_->length >= kLong) bells_->ring(peeked_->from);
   peeked_.reset();
   ++taken_;
 }
 
-void MpiBackend::idle(int turn) { wait_a_turn(turn, oversubscribed_); }
+void MpiBackend::idle(int turn) {
+  const auto pause = pause_of(turn, oversubscribed_);
+  if (!pause) return;
+  if (pause->count() == 0)
+    sched_yield();
+  else
+    bells_->sleep(heard_, *pause);
+}
 
 Neighbourhood MpiBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");

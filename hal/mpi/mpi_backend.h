@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <mpi.h>
 
 #include "hal/backend.h"
 #include "hal/message_pool.h"
+#include "hal/mpi/bells.h"
 
 namespace mars::hal {
 
@@ -61,6 +63,8 @@ class MpiBackend : public Backend {
   int rank_ = 0;      // id of this rank
   int last_tag_ = 0;  // the tags up to it are types; those of internal types come after
   bool oversubscribed_ = false;
+  std::optional<Bells> bells_;  // as soon as the machine's ranks are known
+  std::uint32_t heard_ = 0;     // rings of our bell before we last looked for anything
   Neighbourhood neighbourhood_;
 
   MessagePool pool_;

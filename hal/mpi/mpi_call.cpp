@@ -18,6 +18,18 @@ void succeed(int code, const char* call) {
                 "the cluster's MPI or network is at fault; see what mpirun says besides");
 }
 
+int size_of(MPI_Comm comm) {
+  int size = 0;
+  succeed(MPI_Comm_size(comm, &size), "MPI_Comm_size");
+  return size;
+}
+
+int rank_in(MPI_Comm comm) {
+  int rank = 0;
+  succeed(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
+  return rank;
+}
+
 void abort_job(const std::string& reason) {
   std::fprintf(stderr, "mars: %s\n", reason.c_str());
   std::fflush(nullptr);

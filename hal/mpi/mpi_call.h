@@ -10,6 +10,10 @@ namespace mars::hal {
 // Throws a Failure naming `call` and MPI's own reason unless `code` is success.
 void succeed(int code, const char* call);
 
+int size_of(MPI_Comm comm);
+// Of the calling process.
+int rank_in(MPI_Comm comm);
+
 // Tells `reason` on standard error and ends all ranks with exit code 1, waiting for none.
 [[noreturn]] void abort_job(const std::string& reason);
 

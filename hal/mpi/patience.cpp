@@ -1,11 +1,8 @@
 #include "hal/mpi/patience.h"
 
-#include <sched.h>
 #include <sys/prctl.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 namespace mars::hal {
 namespace {
@@ -16,7 +13,7 @@ struct Patience {
 };
 // The yields last longer than the first sleeps, or two that wait for each other fall asleep in turns.
 constexpr Patience kEnoughProcessors = {500, 500};
-constexpr Patience kTooFewProcessors = {1, 300};
+constexpr Patience kTooFewProcessors = {1, 20};
 
 constexpr unsigned long kTimerSlack = 1000;  // nanoseconds
 constexpr int kShortestSleep = 10;           // microseconds
@@ -27,17 +24,13 @@ constexpr int kSleepsUntilLonger = 4;  // each length is slept so often before i
 
 void prepare_to_wait() { prctl(PR_SET_TIMERSLACK, kTimerSlack); }
 
-void wait_a_turn(int turn, bool oversubscribed) {
+std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed) {
   const Patience patience = oversubscribed ? kTooFewProcessors : kEnoughProcessors;
-  if (turn < patience.at_once) return;
+  if (turn < patience.at_once) return std::nullopt;
   const int sleeps = turn - patience.at_once - patience.yields;
-  if (sleeps < 0) {
-    sched_yield();
-    return;
-  }
+  if (sleeps < 0) return std::chrono::microseconds(0);
   const int doublings = std::min(sleeps / kSleepsUntilLonger, 10);
-  std::this_thread::sleep_for(
-      std::chrono::microseconds(std::min(kShortestSleep << doublings, kLongestSleep)));
+  return std::chrono::microseconds(std::min(kShortestSleep << doublings, kLongestSleep));
 }
 
 }  // namespace mars::hal
