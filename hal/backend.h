@@ -4,6 +4,7 @@
 // mean is not a backend's affair. Between one sender and one receiver messages arrive in the order sent.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -43,9 +44,9 @@ class Backend {
   // Takes the message that peek told of into `buffer`, which is at least its length.
   virtual void take(void* buffer) = 0;
 
-  // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, about a
-  // millisecond at most, and no longer than until something happens where the backend can know.
-  virtual void idle(int turn) = 0;
+  // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
+  // `longest`, and no longer than until something happens where the backend can know.
+  virtual void idle(int turn, std::chrono::microseconds longest) = 0;
 
   virtual Neighbourhood neighbourhood() = 0;
   // Collective over the nodes of one machine, as is the last release: see SharedMemory.

@@ -9,6 +9,10 @@
 namespace mars::hal {
 namespace {
 
+// At a time: for a message, which wakes; and for what else there may be to look at.
+constexpr std::chrono::microseconds kSleep{10000};
+constexpr std::chrono::microseconds kFlick{1000};
+
 thread_local Process* bound_process = nullptr;
 
 std::string bytes_text(std::size_t bytes) {
@@ -183,7 +187,7 @@ void Process::wait(Request& request) {
     if (arrive()) {
       turn = 0;
     } else {
-      backend_.idle(turn++);
+      backend_.idle(turn++, kSleep);
     }
   }
   conclude(request);
@@ -202,7 +206,7 @@ bool Process::msgdone(long mid) {
 
 void Process::cprobe(long typesel) {
   const std::int32_t narrow = check_typesel("cprobe", typesel);
-  for (int turn = 0; !look(narrow); ++turn) backend_.idle(turn);
+  for (int turn = 0; !look(narrow); ++turn) backend_.idle(turn, kSleep);
 }
 
 bool Process::iprobe(long typesel) { return look(check_typesel("iprobe", typesel)); }
@@ -264,7 +268,7 @@ void Process::discard(const Envelope& envelope) {
   pool_.release(message);
 }
 
-void Process::flick() { backend_.idle(quiet_turns_++); }
+void Process::flick() { backend_.idle(quiet_turns_++, kFlick); }
 
 void Process::send_internal(int to, const void* data, std::size_t length) {
   count(to, length);
@@ -289,7 +293,7 @@ void Process::finish() {
       discard(*next);
       turn = 0;
     } else {
-      backend_.idle(turn++);
+      backend_.idle(turn++, kFlick);
     }
   }
 }

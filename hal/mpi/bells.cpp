@@ -41,6 +41,7 @@ Bells::Bells(MPI_Comm here, MPI_Comm all) {
   of_.resize(size_of(all));
   // Also makes all bells before anyone rings one.
   succeed(MPI_Allgather(&id, 1, MPI_INT, ids.data(), 1, MPI_INT, here), "MPI_Allgather");
+  everyone_ = count == size_of(all);
   for (int i = 0; i < count; ++i) of_[ids[i]] = bells_ + i;
 }
 

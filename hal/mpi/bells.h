@@ -19,6 +19,8 @@ class Bells {
   Bells(const Bells&) = delete;
   Bells& operator=(const Bells&) = delete;
 
+  // All ranks are on this machine.
+  bool everyone_has_one() const { return everyone_; }
   // Wakes rank `id` if it is on this machine.
   void ring(int id);
   // How often this rank's bell has been rung: taken before looking for messages, given to `sleep` after.
@@ -38,6 +40,7 @@ class Bells {
   MPI_Win window_ = MPI_WIN_NULL;
   Bell* bells_ = nullptr;   // by rank in `here`
   Bell* mine_ = nullptr;
+  bool everyone_ = false;
   std::vector<Bell*> of_;   // by id; null: on another machine
 };
 

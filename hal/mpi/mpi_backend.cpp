@@ -26,6 +26,8 @@ constexpr std::size_t kReclaimAtOnce = 4;
 
 constexpr std::size_t kUsuallyPending = 1024;
 
+constexpr std::chrono::microseconds kLongestBlindSleep{1000};
+
 // Bytes from which on a message may not be gone before it is received.
 constexpr std::size_t kLong = 4096;
 
@@ -155,7 +157,7 @@ bool MpiBackend::test(MPI_Request& request) {
 }
 
 void MpiBackend::wait(MPI_Request& request) {
-  for (int turn = 0; !test(request); ++turn) idle(turn);
+  for (int turn = 0; !test(request); ++turn) idle(turn, kLongestBlindSleep);
 }
 
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
@@ -167,6 +169,11 @@ void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
   } else {
     pending_.push_back({request, message});
   }
+}
+
+bool MpiBackend::all_sent() {
+  return pending_.empty() && std::all_of(tickets_.begin(), tickets_.end(),
+                                         [this](MPI_Request& request) { return test(request); });
 }
 
 void MpiBackend::reclaim_some() {
@@ -228,13 +235,17 @@ void MpiBackend::take(void* buffer) {
   ++taken_;
 }
 
-void MpiBackend::idle(int turn) {
+// Of what ranks send that have no bell here, and of what MPI still has to do for a send, only a look tells.
+void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
   const auto pause = pause_of(turn, oversubscribed_);
   if (!pause) return;
+  const std::uint32_t heard = heard_;  // all_sent looks at less than who waits has looked at
   if (pause->count() == 0)
     sched_yield();
+  else if (*pause < kLongestBlindSleep || (bells_->everyone_has_one() && all_sent()))
+    bells_->sleep(heard, std::min(*pause, longest));
   else
-    bells_->sleep(heard_, *pause);
+    bells_->sleep(heard, std::min(kLongestBlindSleep, longest));
 }
 
 Neighbourhood MpiBackend::neighbourhood() {

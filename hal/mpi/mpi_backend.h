@@ -31,7 +31,7 @@ class MpiBackend : public Backend {
   bool sent(Ticket ticket) override;
   std::optional<Envelope> peek() override;
   void take(void* buffer) override;
-  void idle(int turn) override;
+  void idle(int turn, std::chrono::microseconds longest) override;
   Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;
@@ -49,6 +49,7 @@ class MpiBackend : public Backend {
   MPI_Request isend(int to, int type, const void* data, std::size_t length);
   void reclaim_some();
   bool test(MPI_Request& request);
+  bool all_sent();
   void wait(MPI_Request& request);
   void meet_neighbours();
   void check_shared_space(std::size_t bytes);

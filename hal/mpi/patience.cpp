@@ -17,7 +17,6 @@ constexpr Patience kTooFewProcessors = {1, 20};
 
 constexpr unsigned long kTimerSlack = 1000;  // nanoseconds
 constexpr int kShortestSleep = 10;           // microseconds
-constexpr int kLongestSleep = 1000;
 constexpr int kSleepsUntilLonger = 4;  // each length is slept so often before it doubles
 
 }  // namespace
@@ -30,7 +29,7 @@ std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed)
   const int sleeps = turn - patience.at_once - patience.yields;
   if (sleeps < 0) return std::chrono::microseconds(0);
   const int doublings = std::min(sleeps / kSleepsUntilLonger, 10);
-  return std::chrono::microseconds(std::min(kShortestSleep << doublings, kLongestSleep));
+  return std::chrono::microseconds(kShortestSleep << doublings);
 }
 
 }  // namespace mars::hal

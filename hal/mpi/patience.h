@@ -1,5 +1,5 @@
 // How a process waits that MPI gives no way to sleep on: it looks again, first at once, then after others had
-// the processor, then after sleeps that grow with the wait up to a millisecond and that a bell (bells.h) ends.
+// the processor, then after sleeps that grow with the wait to about ten milliseconds and that a bell (bells.h) ends.
 // So a short wait costs microseconds and a long one hardly any processor time.
 #pragma once
 

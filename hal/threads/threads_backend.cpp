@@ -56,11 +56,11 @@ void ThreadsBackend::take(void* buffer) {
   world_.rank(message->envelope.from).give_back(message);
 }
 
-void ThreadsBackend::idle(int turn) {
+void ThreadsBackend::idle(int turn, std::chrono::microseconds longest) {
   world_.check_running();
-  const std::chrono::microseconds longest(std::min(1000, 20 << std::min(turn, 6)));
+  const std::chrono::microseconds pause(20 << std::min(turn, 10));
   std::unique_lock lock(mutex_);
-  news_.wait_for(lock, longest, [this] { return has_news_; });
+  news_.wait_for(lock, std::min(pause, longest), [this] { return has_news_; });
   has_news_ = false;
 }
 

@@ -30,7 +30,7 @@ class ThreadsBackend : public Backend {
   bool sent(Ticket) override { return true; }
   std::optional<Envelope> peek() override;
   void take(void* buffer) override;
-  void idle(int turn) override;
+  void idle(int turn, std::chrono::microseconds longest) override;
   Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;

@@ -80,7 +80,7 @@ class CountingBackend : public Backend {
   bool sent(Ticket ticket) override { return inner_.sent(ticket); }
   std::optional<Envelope> peek() override { return inner_.peek(); }
   void take(void* buffer) override { inner_.take(buffer); }
-  void idle(int turn) override { inner_.idle(turn); }
+  void idle(int turn, std::chrono::microseconds longest) override { inner_.idle(turn, longest); }
   Neighbourhood neighbourhood() override { return inner_.neighbourhood(); }
   std::shared_ptr<std::byte> share(std::size_t bytes) override { return inner_.share(bytes); }
   bool finish() override { return inner_.finish(); }

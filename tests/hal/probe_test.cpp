@@ -22,7 +22,7 @@ class BlinkingBackend : public Backend {
     return messages_.front();
   }
   void take(void*) override { messages_.pop_front(); }
-  void idle(int) override {}
+  void idle(int, std::chrono::microseconds) override {}
   Neighbourhood neighbourhood() override { return {}; }
   std::shared_ptr<std::byte> share(std::size_t) override { return nullptr; }
   bool finish() override { return true; }

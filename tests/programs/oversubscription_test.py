@@ -1,0 +1,64 @@
+"""More nodes than processors: every number of nodes finishes, and who waits sleeps."""
+
+import json
+import os
+import pathlib
+import signal
+import time
+
+from harness import EXAMPLES, ProgramTest, family, main, needs_mpi, spinning_teapot
+
+MANY = 32
+FILMS = sorted(path for path in EXAMPLES.glob("*.json"))
+
+
+def processor_seconds(process):
+    fields = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+@needs_mpi
+class Oversubscription(ProgramTest):
+    def pixels(self, film, nodes, *more):
+        self.succeed("mars", "render", film, "-o", "out", "--nodes", nodes, "--backend", "mpi", "--quiet", *more)
+        return self.verified_hash("out")
+
+    def test_every_number_of_nodes(self):
+        film = self.write("film.json", spinning_teapot(3, [160, 90]))
+        self.assertEqual(len({self.pixels(film, nodes) for nodes in range(1, MANY + 1)}), 1)
+
+    def test_every_example(self):
+        for film in FILMS:
+            with self.subTest(film=film.name):
+                few = ["--size", "96x54", "--frames", f"0-{min(4, json.loads(film.read_text())['frames'] - 1)}"]
+                self.assertEqual(self.pixels(film, MANY, *few), self.pixels(film, 1, *few))
+
+    def start_many(self):
+        film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        process = self.start_mars("render", film, "-o", "out", "--nodes", 16, "--backend", "mpi")
+        ours = {"mars-host": [], "mars-node": []}
+        for each, (_, _, program) in family(process.pid).items():
+            ours.get(os.path.basename(program), []).append(each)
+        return ours["mars-host"], ours["mars-node"]
+
+    def share_while_stopped(self, stopped, waiting):
+        """Processors that `waiting` use while nothing can come from `stopped`."""
+        for each in stopped:
+            os.kill(each, signal.SIGSTOP)
+        time.sleep(1)  # until they have nothing left to do
+        start, used = time.monotonic(), sum(map(processor_seconds, waiting))
+        time.sleep(3)
+        return (sum(map(processor_seconds, waiting)) - used) / (time.monotonic() - start)
+
+    def test_nodes_sleep_while_the_host_gives_nothing(self):
+        host, nodes = self.start_many()
+        self.assertEqual((len(host), len(nodes)), (1, 16))
+        self.assertLess(self.share_while_stopped(host, nodes), 16 * 0.02)
+
+    def test_the_host_sleeps_while_nodes_give_nothing(self):
+        host, nodes = self.start_many()
+        self.assertLess(self.share_while_stopped(nodes, host), 0.05)
+
+
+if __name__ == "__main__":
+    main()
