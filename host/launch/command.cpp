@@ -3,7 +3,10 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <regex>
 #include <string_view>
 #include <system_error>
 
@@ -73,6 +76,13 @@ std::vector<std::string> settings_in_use() {
   return names;
 }
 
+// Open MPI notices a host that is gone, without a word, by its silence: left alone after eight minutes.
+void add_keepalive(Command& command) {
+  command.environment.insert(command.environment.end(), {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
+                                                         {"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
+                                                         {"OMPI_MCA_oob_tcp_keepalive_probes", "3"}});
+}
+
 void add_arguments(Command& command, Program program, const RenderOptions& options) {
   for (std::string& word : arguments_for(program, options)) command.words.push_back(std::move(word));
 }
@@ -94,8 +104,44 @@ Programs find_programs(const fs::path& self, const std::string& path) {
 
 Surroundings look_around(const std::string& path) {
   const bool remote_shell = find_in_path("ssh", path) || find_in_path("rsh", path);
-  return {static_cast<std::uint32_t>(topology::Machine::here().cores()), geteuid() == 0, !may_copy(),
-          !remote_shell, settings_in_use()};
+  const topology::Machine machine = topology::Machine::here();
+  const std::string tasks = own_environment().value("SLURM_TASKS_PER_NODE").value_or("");
+  return {static_cast<std::uint32_t>(machine.cores()),
+          static_cast<std::uint32_t>(machine.processors()),
+          task_count(tasks),
+          geteuid() == 0,
+          !may_copy(),
+          !remote_shell,
+          settings_in_use()};
+}
+
+std::uint32_t task_count(const std::string& tasks_per_node) {
+  static const std::regex part("(\\d{1,6})(\\(x(\\d{1,6})\\))?(,|$)");
+  std::uint32_t sum = 0;
+  for (std::sregex_iterator at(tasks_per_node.begin(), tasks_per_node.end(), part), end; at != end; ++at) {
+    const std::smatch& match = *at;
+    sum += std::stoul(match[1]) * (match[3].matched ? std::stoul(match[3]) : 1);
+  }
+  return sum;
+}
+
+std::uint32_t slot_count(const fs::path& hostfile) {
+  static const std::regex form("\\s*[^\\s#][^#]*?(\\sslots\\s*=\\s*(\\d{1,6})[^#]*)?(#.*)?");
+  std::ifstream file(hostfile);
+  if (!file) throw Failure("cannot be read", hostfile.string(), "--hostfile names a file of lines like: n1 slots=4");
+  std::uint32_t sum = 0;
+  for (std::string line; std::getline(file, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, form)) sum += match[2].matched ? std::stoul(match[2]) : 1;
+  }
+  if (sum == 0) throw Failure("names no host", hostfile.string(), "write a line a host, like: n1 slots=4");
+  return sum;
+}
+
+std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& surroundings) {
+  const std::uint32_t tasks = options.hostfile.empty() ? surroundings.tasks : slot_count(options.hostfile);
+  if (tasks == 0 || options.backend == Backend::threads) return surroundings.processors;
+  return std::max(tasks, 2u) - 1;
 }
 
 Backend choose_backend(Backend asked, const Programs& programs) {
@@ -131,7 +177,12 @@ Command mpi_command(const RenderOptions& options, const Programs& programs,
   command.environment.emplace_back("PMIX_MCA_gds", "hash");
   // Nodes bind themselves, each by its place on its machine.
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
-  if (options.nodes + 1 > surroundings.cores) command.words.emplace_back("--oversubscribe");
+  const bool several = !options.hostfile.empty() || surroundings.tasks != 0;
+  if (several) add_keepalive(command);
+  if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", options.hostfile});
+  const std::uint32_t room = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
+  // A hostfile tells its own slots; what is more than these goes round over its hosts.
+  if (!options.hostfile.empty() || options.nodes + 1 > room) command.words.emplace_back("--oversubscribe");
   for (const std::string& name : surroundings.settings)
     command.words.insert(command.words.end(), {"-x", name});
   command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});

@@ -2,6 +2,7 @@
 // those it inherits. Made for each backend from a person's options and from what the machine has.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -37,6 +38,8 @@ Programs find_programs(const std::filesystem::path& self, const std::string& pat
 // What a start has to mind.
 struct Surroundings {
   std::uint32_t cores = 1;  // of the processors this process was given
+  std::uint32_t processors = 1;
+  std::uint32_t tasks = 0;  // that the batch system lets this job run on all its hosts; 0: there is none
   bool root = false;
   bool copies_forbidden = false;      // processes may not read each other's memory, as in some containers
   bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
@@ -45,6 +48,17 @@ struct Surroundings {
 
 // `path` as for find_programs.
 Surroundings look_around(const std::string& path);
+
+// The sum of Slurm's list of tasks a host, "2(x3),1"; 0 for what is none.
+std::uint32_t task_count(const std::string& tasks_per_node);
+
+// The sum of a hostfile's slots, 1 for a line that tells none. Throws Failure where it cannot be read or names
+// no host.
+std::uint32_t slot_count(const std::filesystem::path& hostfile);
+
+// How many nodes render where a person does not say: what the hostfile or the batch system has room for beside
+// the host; else, and for threads, one a processor.
+std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& surroundings);
 
 // Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
 Backend choose_backend(Backend asked, const Programs& programs);

@@ -23,9 +23,10 @@ Command command_for(RenderOptions& options, const std::filesystem::path& self) {
   const std::string path = own_environment().value("PATH").value_or("/usr/bin:/bin");
   const Programs programs = find_programs(self, path);
   options.backend = choose_backend(options.backend, programs);
-  if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
+  const Surroundings surroundings = look_around(path);
+  if (options.nodes == 0) options.nodes = default_nodes(options, surroundings);
   if (options.backend == Backend::threads) return threads_command(options, programs);
-  return mpi_command(options, programs, look_around(path));
+  return mpi_command(options, programs, surroundings);
 }
 
 // Follows one run from its events to its end.

@@ -186,10 +186,13 @@ std::vector<Entry> table() {
       option(all, "-o,--output", "DIR", &RenderOptions::folder,
              "Folder for the frames; made where it is missing. Example: -o build/demo"),
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
-             "Nodes that render; default: one a processor. Example: --nodes 4"),
+             "Nodes that render; default: one a processor, or what a batch job or hostfile has room for beside the "
+             "host. Example: --nodes 4"),
       option(person, "--backend", "auto|mpi|threads", &RenderOptions::backend,
              "What carries messages: MPI processes, or threads of one process; auto takes MPI where it is "
              "installed. Example: --backend threads"),
+      option(person, "--hostfile", "FILE", &RenderOptions::hostfile,
+             "Machines to use: a line each, as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(all, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
       option(compiles, "--size", "WxH", &RenderOptions::size,
@@ -223,6 +226,9 @@ bool takes(Program program, const Entry& entry) {
 void check_together(const RenderOptions& options) {
   if (options.folder.empty() && options.sink == SinkKind::png) {
     throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
+  }
+  if (!options.hostfile.empty() && options.backend == Backend::threads) {
+    throw Failure("threads are all on this machine", "", "leave out --hostfile, or --backend threads");
   }
 }
 

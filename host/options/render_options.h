@@ -30,6 +30,7 @@ struct RenderOptions {
   std::string folder;       // for the frames; "" only without a sink
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
+  std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
   FrameSet frames;
   std::optional<PictureSize> size;  // none: the film's own
   node::Mapping mapping = node::Mapping::greedy;

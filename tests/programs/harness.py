@@ -87,8 +87,10 @@ def wait_until(holds, seconds, what):
 
 
 class ProgramTest(unittest.TestCase):
+    FOLDERS = None  # where the tests' folders are made; none: where temporary files go
+
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-test-"))
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-test-", dir=self.FOLDERS))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
     def write(self, name, content):

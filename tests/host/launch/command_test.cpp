@@ -28,6 +28,16 @@ std::string line(std::uint32_t nodes, const Surroundings& surroundings) {
   return shell_text(mpi_command(film(nodes), all_programs(), surroundings));
 }
 
+// A machine without a batch system.
+Surroundings alone(std::uint32_t cores) { return {cores, 2 * cores, 0, false, false, false, {}}; }
+
+Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}}; }
+
+fs::path write_hostfile(const TemporaryFolder& folder, const std::string& text) {
+  std::ofstream(folder / "hosts") << text;
+  return folder / "hosts";
+}
+
 void make_program(const fs::path& file) {
   fs::create_directories(file.parent_path());
   std::ofstream(file) << "#!/bin/sh\n";
@@ -36,18 +46,62 @@ void make_program(const fs::path& file) {
 
 TEST(Command, OneHostAndItsNodes) {
   EXPECT_EQ(
-      line(3, {8, false, false, false, {}}),
+      line(3, alone(8)),
       "PMIX_MCA_gds=hash /usr/bin/mpirun --bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 3 "
       "/opt/mars-node");
 }
 
 TEST(Command, OversubscribesWhereHostAndNodesExceedTheCores) {
-  EXPECT_FALSE(holds(line(3, {4, false, false, false, {}}), "--oversubscribe"));
-  EXPECT_TRUE(holds(line(4, {4, false, false, false, {}}), "--bind-to none --oversubscribe -n 1"));
+  EXPECT_FALSE(holds(line(3, alone(4)), "--oversubscribe"));
+  EXPECT_TRUE(holds(line(4, alone(4)), "--bind-to none --oversubscribe -n 1"));
+}
+
+TEST(Command, ABatchJobHasItsOwnRoom) {
+  EXPECT_FALSE(holds(line(7, batch_job(8)), "--oversubscribe"));
+  EXPECT_TRUE(holds(line(8, batch_job(8)), "--oversubscribe"));
+  EXPECT_TRUE(holds(line(7, batch_job(8)), "OMPI_MCA_oob_tcp_keepalive_time=10"));
+  EXPECT_FALSE(holds(line(3, alone(8)), "keepalive"));
+}
+
+TEST(Command, AHostfileIsPassedOn) {
+  RenderOptions options = film(7);
+  options.hostfile = "my hosts";
+  const std::string text = shell_text(mpi_command(options, all_programs(), alone(8)));
+  EXPECT_TRUE(holds(text, "--bind-to none --hostfile 'my hosts' --oversubscribe -n 1"));
+  EXPECT_TRUE(holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
+}
+
+TEST(Command, SlurmsTasksAreCounted) {
+  EXPECT_EQ(task_count(""), 0u);
+  EXPECT_EQ(task_count("4"), 4u);
+  EXPECT_EQ(task_count("2(x4)"), 8u);
+  EXPECT_EQ(task_count("2(x3),1,16(x2)"), 39u);
+  EXPECT_EQ(task_count("nonsense"), 0u);
+}
+
+TEST(Command, SlotsAreCounted) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(slot_count(write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")), 6u);
+  EXPECT_TRUE(holds(failure_of([&] { slot_count(write_hostfile(folder, "# none\n")); }), "names no host"));
+  EXPECT_TRUE(holds(failure_of([&] { slot_count(folder / "nowhere"); }), "cannot be read"));
+}
+
+TEST(Command, NodesFillWhatThereIs) {
+  const TemporaryFolder folder;
+  RenderOptions options;
+  options.backend = Backend::mpi;
+  EXPECT_EQ(default_nodes(options, alone(4)), 8u) << "a node a processor";
+  EXPECT_EQ(default_nodes(options, batch_job(8)), 7u) << "and one task for the host";
+  EXPECT_EQ(default_nodes(options, batch_job(1)), 1u);
+  options.hostfile = write_hostfile(folder, "n1 slots=2\nn2 slots=2\n").string();
+  EXPECT_EQ(default_nodes(options, batch_job(8)), 3u);
+  options = {};
+  options.backend = Backend::threads;
+  EXPECT_EQ(default_nodes(options, batch_job(8)), 2u);
 }
 
 TEST(Command, MindsRootContainersAndSettings) {
-  const std::string text = line(1, {8, true, true, true, {"MARS_MEMORY"}});
+  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}});
   EXPECT_TRUE(holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_plm=^rsh"));

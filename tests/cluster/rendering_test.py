@@ -1,0 +1,70 @@
+"""The same pixels across the hosts of a cluster, however the film is started."""
+
+from virtual_cluster import HOSTS, SOURCES, ClusterTest, events, run_on_cluster, spinning_teapot
+
+SLURM = SOURCES / "cluster/slurm"
+
+
+class Rendering(ClusterTest):
+    def setUp(self):
+        super().setUp()
+        self.film = self.write("film.json", spinning_teapot(8, [320, 180]))
+
+    def assertRendered(self, output, nodes):
+        """All hosts took part, and drew what one process draws."""
+        booted = next(event for event in events(output) if event["event"] == "booted")
+        self.assertEqual(len(booted["nodes"]), nodes)
+        self.assertEqual(booted["machines"], len(HOSTS))
+        self.assertEqual({node["host"] for node in booted["nodes"]}, set(HOSTS))
+        self.assertEqual(self.verified_hash("out"), self.alone(self.film))
+
+    def assertShown(self, output, nodes):
+        self.assertIn(f"{nodes} nodes on {len(HOSTS)} machines", output)
+        self.assertEqual(self.verified_hash("out"), self.alone(self.film))
+
+    def submit(self, script, *options):
+        output = self.folder / "job.output"
+        self.on("n0", "sbatch", "--wait", "--quiet", "--nodes=4", f"--output={output}", *options, SLURM / script,
+                self.film, "-o", "out")
+        return output.read_text()
+
+    def mpirun(self, *words):
+        return self.on("n1", "mpirun", "--hostfile", self.hostfile, "--bind-to", "none", *words).stdout
+
+    def test_mpirun_over_ssh(self):
+        self.assertRendered(self.mpirun("-n", 1, "mars-host", self.film, "-o", "out", ":", "-n", 7, "mars-node"), 7)
+
+    def test_16_nodes_on_4_hosts(self):
+        self.assertRendered(self.mpirun("--oversubscribe", "-n", 1, "mars-host", self.film, "-o", "out", ":", "-n",
+                                        16, "mars-node"), 16)
+
+    def test_one_program_by_rank(self):
+        self.assertRendered(self.mpirun("-n", 8, "mars-cube", self.film, "-o", "out"), 7)
+
+    def test_mars_with_a_hostfile(self):
+        run = lambda *more: self.on("n1", "mars", "render", self.film, "-o", "out", "--hostfile", self.hostfile,
+                                    *more).stdout
+        self.assertShown(run(), 7)
+        self.assertShown(run("--nodes", 16), 16)
+
+    def test_sbatch_with_mpirun(self):
+        self.assertRendered(self.submit("mpirun.sbatch", "--ntasks=8"), 7)
+
+    def test_sbatch_with_srun(self):
+        self.assertRendered(self.submit("srun.sbatch", "--ntasks=8"), 7)
+
+    def test_sbatch_with_srun_16_nodes(self):
+        self.assertRendered(self.submit("srun.sbatch", "--ntasks=17", "--overcommit"), 16)
+
+    def test_sbatch_with_mars(self):
+        self.assertShown(self.submit("render.sbatch", "--ntasks-per-node=2"), 7)
+
+    def test_mars_in_an_allocation(self):
+        run = lambda *more: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "render",
+                                    self.film, "-o", "out", *more).stdout
+        self.assertShown(run(), 7)
+        self.assertShown(run("--nodes", 16), 16)
+
+
+if __name__ == "__main__":
+    run_on_cluster()

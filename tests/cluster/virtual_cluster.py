@@ -1,0 +1,64 @@
+"""Tests on a virtual cluster of their own (cluster/testbed), and on what it needs."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "programs"))
+from harness import (ENVIRONMENT, PROGRAMS, SOURCES, ProgramTest, living, main, spinning_teapot,  # noqa: E402
+                     wait_until)
+
+TESTBED = SOURCES / "cluster/testbed/testbed.sh"
+HOSTS = ["n1", "n2", "n3", "n4"]
+CLUSTER = dict(ENVIRONMENT, TESTBED=f"test-{os.getpid()}", PATH=f"{PROGRAMS}:{os.environ['PATH']}")
+SKIPPED = 77  # for ctest
+
+
+def testbed(*words, **more):
+    return subprocess.run([TESTBED, *map(str, words)], env=CLUSTER, capture_output=True, text=True,
+                          **{"timeout": 120, **more})
+
+
+def events(output):
+    return [json.loads(line) for line in output.splitlines() if line.startswith("{")]
+
+
+class ClusterTest(ProgramTest):
+    """A cluster for each test class; its hosts see each test's folder, which is not in /tmp."""
+
+    FOLDERS = "/var/tmp"
+
+    @classmethod
+    def setUpClass(cls):
+        started = testbed("up")
+        assert started.returncode == 0, started.stderr
+        cls.addClassCleanup(testbed, "down")
+        cls.hostfile = f"/var/tmp/testbed-{CLUSTER['TESTBED']}/hostfile"
+
+    def on(self, host, *words, **more):
+        """A command on a host in the test's folder; it must end well unless `code` says otherwise."""
+        code = more.pop("code", 0)
+        done = testbed("exec", host, *words, cwd=self.folder, **more)
+        self.assertEqual(done.returncode, code, f"{words}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def alone(self, film):
+        """The film's pixels as one process draws them."""
+        self.succeed("mars", "render", film, "-o", "alone", "--backend", "threads", "--nodes", 1, "--quiet")
+        return self.verified_hash("alone")
+
+    def running(self, program):
+        """Processes of one of our programs, on whatever host."""
+        return subprocess.run(["pgrep", "-f", f"^{PROGRAMS / program}"], capture_output=True, text=True).stdout.split()
+
+
+def run_on_cluster():
+    """Runs the tests, or says why not: 77 where a cluster cannot be made here."""
+    tried = testbed("up")
+    testbed("down")
+    if tried.returncode != 0 and ("needs root" in tried.stderr or "not installed" in tried.stderr):
+        print(tried.stderr, "skipped", sep="\n")
+        sys.exit(SKIPPED)
+    main()
