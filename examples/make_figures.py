@@ -256,14 +256,14 @@ def demo_film():
               "hill": hill(45, 20, 9), "long-hill": hill(80, 20, 6)}
     looks = [(0, (0, 0, 8)), (20, (0, 2, 10)), (40, (0, 3, -40)), (60, (0, 3, -44)), (73, (0, 1, -36))]
     actors = [{"name": "man", "model": "human", "turn": [0, 0, -20],
-               "keys": walk(72, 2, 24, (-5.9, 1.2), -20, METRE, looks)},
-              {"name": "caterpillar", "model": "caterpillar", "keys": crawl(72, 24, (-3.0, 4.8), 0.54)},
-              standing("teapot", "teapot", 4.6, 10.5, 20), standing("box", "box", 7.6, 4.4, -20),
-              standing("spire", "spire", 7.6, 4.4, 0, 1.8), standing("column-left", "column", -8.6, 9.6),
-              standing("column-right", "column", -5.6, 11.6), standing("ball", "ball", -7.6, 4.6),
-              standing("ring", "ring", 6.0, -1.4, 0), standing("small-box", "box", 11.6, 8.0, 35),
+               "keys": walk(72, 2, 24, (-5.4, 1.0), -20, METRE, looks)},
+              {"name": "caterpillar", "model": "caterpillar", "keys": crawl(72, 24, (-3.2, 4.6), 0.54)},
+              standing("teapot", "teapot", 3.6, 9.6, 20), standing("box", "box", 7.0, 4.6, -20),
+              standing("spire", "spire", 7.0, 4.6, 0, 1.8), standing("column-left", "column", -8.2, 10.6),
+              standing("column-right", "column", -5.6, 11.6), standing("ball", "ball", -7.2, 5.6),
+              standing("ring", "ring", 4.9, 0.6, 0), standing("small-box", "box", 9.6, 9.6, 35),
               standing("hill-left", "hill", -60, 110), standing("hill-right", "long-hill", 45, 115)]
-    camera = {"eye": [0.6, -14.2, 3.8], "at": [-0.4, 0.8, 2.2], "fov": 34}
+    camera = {"eye": [0.6, -14.2, 4.2], "at": [-0.25, 0.8, 2.0], "fov": 29.5}
     return film(72, [960, 540], camera, models, actors, lights=SUN,
                 materials={"hill": paint([0.45, 0.60, 0.50], specular=0)})
 

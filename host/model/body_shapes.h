@@ -9,23 +9,13 @@
 
 namespace mars::host {
 
+// clang-format off
 enum class BodyPart {
-  head,
-  hair,
-  neck,
-  torso,
-  abdomen,
-  pelvis,
-  upper_arm,
-  sleeve,
-  forearm,
-  left_hand,
-  right_hand,
-  thigh,
-  shin,
-  foot,
-  toes
+  head, hair, neck, torso, abdomen, pelvis,
+  upper_arm, sleeve, forearm, left_hand, right_hand,
+  thigh, shin, foot, toes
 };
+// clang-format on
 
 std::vector<node::Patch> make_body(BodyPart part);
 

@@ -108,7 +108,9 @@ TEST(Loft, OfEqualRingsIsACylinder) {
   for (const auto& patch : net)
     for (const std::size_t corner : {0, 3}) {
       const glm::dvec3& p = patch[corner];
-      if (p.z > 1.5 && p.z < 3.5) EXPECT_NEAR(std::hypot(p.x, p.y), 1, 1e-12);
+      if (p.z > 1.5 && p.z < 3.5) {
+        EXPECT_NEAR(std::hypot(p.x, p.y), 1, 1e-12);
+      }
     }
 }
 
