@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the films with articulated figures and their models: caterpillar, robot-arm and demo.
+"""Writes the films with articulated figures and their models: caterpillar, human, robot-arm and demo.
 
 With an argument: into that folder instead of its own.
 """
