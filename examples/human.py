@@ -68,9 +68,11 @@ def paint(color, **more):
     return {"color": color, "ambient": 0.22, "diffuse": 0.72, "specular": 0.06, "exponent": 12, **more}
 
 
-MATERIALS = {"skin": paint([0.87, 0.64, 0.50], specular=0.14, exponent=16), "hair": paint([0.22, 0.13, 0.09], specular=0.2),
+MATERIALS = {"skin": paint([0.87, 0.64, 0.50], specular=0.14, exponent=16),
+             "hair": paint([0.22, 0.13, 0.09], specular=0.2),
              "shirt": paint([0.84, 0.22, 0.20]), "trousers": paint([0.24, 0.34, 0.55]),
-             "shoe": paint([0.42, 0.25, 0.16], specular=0.3, exponent=24), "rubber": paint([0.93, 0.91, 0.86]), "lips": paint([0.76, 0.44, 0.38], specular=0.2), "white": paint([0.95, 0.95, 0.93]),
+             "shoe": paint([0.42, 0.25, 0.16], specular=0.3, exponent=24), "rubber": paint([0.93, 0.91, 0.86]),
+             "lips": paint([0.76, 0.44, 0.38], specular=0.2), "white": paint([0.95, 0.95, 0.93]),
              "iris": paint([0.13, 0.10, 0.10], specular=0.6, exponent=60)}
 
 
@@ -90,7 +92,8 @@ def human(unit):
             ys = (y0, y1) if sign == 1 else (-y1, -y0)
             if shape == "hand":
                 shape = "left_hand" if sign == 1 else "right_hand"
-            made["segment"] = {"shape": SHAPES.get(shape, shape), "sbb": [scaled((x0, ys[0], z0), unit), scaled((x1, ys[1], z1), unit)],
+            made["segment"] = {"shape": SHAPES.get(shape, shape),
+                               "sbb": [scaled((x0, ys[0], z0), unit), scaled((x1, ys[1], z1), unit)],
                                "material": material}
         return made
 
@@ -102,7 +105,8 @@ def human(unit):
         for name, (x, y, z), radii, aside, material in FACE:
             c, s = math.cos(math.radians(aside)), sign * math.sin(math.radians(aside))
             joints.append({"name": f"{side}-{name}", "parent": "head", "place": scaled((x, sign * y, z), unit),
-                           **({"x_axis": scaled((c, s, 0), 1), "y_axis": scaled((-s, c, 0), 1)} if aside else {}), "limits": {},
+                           **({"x_axis": scaled((c, s, 0), 1), "y_axis": scaled((-s, c, 0), 1)} if aside else {}),
+                           "limits": {},
                            "segment": {"shape": "sphere", "sbb": [scaled([-r for r in radii], unit), scaled(radii, unit)],
                                        "material": material}})
     return {"materials": MATERIALS, "joints": joints}
@@ -162,7 +166,8 @@ def hermite(points, slopes, x):
     for (x0, y0), (x1, y1), m0, m1 in zip(points, points[1:], slopes, slopes[1:]):
         if x <= x1:
             h, t = x1 - x0, (x - x0) / (x1 - x0)
-            return ((2 * t - 3) * t * t + 1) * y0 + ((t - 2) * t + 1) * t * h * m0 + (3 - 2 * t) * t * t * y1 + (t - 1) * t * t * h * m1
+            return (((2 * t - 3) * t * t + 1) * y0 + ((t - 2) * t + 1) * t * h * m0 +
+                    (3 - 2 * t) * t * t * y1 + (t - 1) * t * t * h * m1)
     return points[-1][1]
 
 
@@ -254,10 +259,10 @@ def pose_at(phase, forward):
     return place, pose
 
 
-def walk(frames, every, cycle, start, heading, unit, looks=()):
+def walk(frames, every, cycle, start, heading, unit, looks):
     """Keys of an actor that walks towards `heading`, degrees, so that it passes `start` at frame 0.
 
-    `looks`: (frame, turns of the head beyond the walk's own).
+    `looks`: (frame, turns of the head beyond the walk's own), at least two.
     """
     c, s = math.cos(math.radians(heading)), math.sin(math.radians(heading))
     keys = []
@@ -265,8 +270,8 @@ def walk(frames, every, cycle, start, heading, unit, looks=()):
         (x, y, z), pose = pose_at(frame / cycle, STRIDE * frame / cycle)
         for joint, share in ("neck", 0.5), ("head", 0.5):
             for axis in range(3):
-                pose[joint][axis] += share * through((0, looks[0][1][axis], 0), [(at, to[axis]) for at, to in looks[1:-1]],
-                                                     (looks[-1][0], looks[-1][1][axis], 0), frame) if looks else 0
+                (first, *between, last) = [(at, to[axis]) for at, to in looks]
+                pose[joint][axis] += share * through((*first, 0), between, (*last, 0), frame)
         x, y = x * unit, y * unit
         keys.append({"frame": frame, "place": [round(v, 4) for v in (start[0] + c * x - s * y, start[1] + s * x + c * y,
                                                                     (z - HIP + SAG) * unit)],

@@ -297,8 +297,8 @@ def robot_film():
 if __name__ == "__main__":
     to = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     (to / "models").mkdir(exist_ok=True)
-    written = {"models/human": human(METRE), "models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(), "models/tiles": tiles(),
-               "caterpillar": caterpillar_film(),
-               "robot-arm": robot_film(), "demo": demo_film()}
+    written = {"models/human": human(METRE), "models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(),
+               "models/tiles": tiles(), "caterpillar": caterpillar_film(), "robot-arm": robot_film(),
+               "demo": demo_film()}
     for name, content in written.items():
         (to / f"{name}.json").write_text(text_of(content) + "\n")

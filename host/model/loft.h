@@ -1,7 +1,7 @@
 // Surfaces lofted through rings, as the human's shapes are: tables of cross sections become the control net
 // of a bicubic B-spline, periodic around and clamped at both ends, which is converted exactly to Bezier
-// patches. Closed, curvature-continuous; each end is one collapsed edge with a tangent plane where the last
-// two rings lie in one plane. Lengths in any unit: fill_cube scales into the unit cube at last.
+// patches. Closed, curvature-continuous; each end is one collapsed edge in the plane of the last ring, and
+// smooth. Lengths in any unit: fill_cube scales into the unit cube at last.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace mars::host {
 
 // A cross section: an oval across the axis, half of it in front, half behind its middle.
 struct Ring {
-  double at;          // along the axis, ascending through a table
+  double at;          // along the axis; tables begin at its lower end
   double front;       // depth in front of the middle
   double back;        // depth behind it
   double width;       // half, to either side
