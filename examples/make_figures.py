@@ -1,7 +1,13 @@
 #!/usr/bin/env python3
-"""Writes the films with articulated figures and their models: caterpillar, robot-arm and demo."""
-import math
+"""Writes the films with articulated figures and their models: caterpillar, human, robot-arm and demo.
 
+With an argument: into that folder instead of its own.
+"""
+import math
+import pathlib
+import sys
+
+from human import human, walk
 from make_scenes import HERE, text_of
 
 # ---- Caterpillar: 14 body joints from tail to head, 20 feet, eyes, and antennae of two joints each: 40.
@@ -214,9 +220,9 @@ def standing(name, model, x, y, turn=0.0, z=0.0):
     return {"name": name, "model": model, "place": [x, y, z], "turn": [0, 0, turn]}
 
 
-def film(frames, size, camera, models, actors, **more):
+def film(frames, size, camera, models, actors, lights=LIGHTS, materials={}, **more):
     return {"frames": frames, "rate": 24, "size": size, "background": [0.62, 0.72, 0.82], **more, "camera": camera,
-            "lights": LIGHTS, "materials": GLAZE, "models": {"floor": FLOOR, "tiles": "models/tiles.json", **models},
+            "lights": lights, "materials": GLAZE | materials, "models": {"floor": FLOOR, "tiles": "models/tiles.json", **models},
             "actors": [{"name": "floor", "model": "floor"}, {"name": "tiles", "model": "tiles"}, *actors]}
 
 
@@ -230,20 +236,36 @@ def caterpillar_film():
     return film(48, [640, 360], camera, models, actors)
 
 
+METRE = 2.9  # in the demo, where a caterpillar is a man's pet
+SUN = [{"direction": [0.55, -0.75, 0.85], "color": [1.0, 0.94, 0.82], "intensity": 1.0},
+       {"direction": [-0.90, -0.45, 0.25], "color": [0.55, 0.70, 1.0], "intensity": 0.34},
+       {"direction": [-0.50, 0.85, 0.50], "color": [1.0, 0.88, 0.70], "intensity": 0.65}]
+
+
+def hill(wide, deep, high):
+    return prop("sphere", [[-wide, -deep, -high], [wide, deep, high]], "hill")
+
+
 def demo_film():
-    models = {"caterpillar": "models/caterpillar.json", "teapot": TEAPOT,
+    models = {"human": "models/human.json", "caterpillar": "models/caterpillar.json", "teapot": TEAPOT,
               "box": prop("box", [[-0.9, -0.9, 0], [0.9, 0.9, 1.8]], "sea"),
               "ball": prop("sphere", [[-0.9, -0.9, 0], [0.9, 0.9, 1.8]], "rose"),
-              "column": prop("cylinder", [[-0.55, -0.55, 0], [0.55, 0.55, 3.2]], "sand"),
+              "column": prop("cylinder", [[-0.55, -0.55, 0], [0.55, 0.55, 3.6]], "sand"),
               "spire": prop("cone", [[-0.85, -0.85, 0], [0.85, 0.85, 2.6]], "violet"),
-              "ring": prop("torus", [[-1.1, -1.1, 0], [1.1, 1.1, 0.55]], "rose", tube=0.125)}
-    actors = [{"name": "caterpillar", "model": "caterpillar", "keys": crawl(72, 24, (-5.6, -1.6), 0.54)},
-              standing("teapot", "teapot", -0.3, 4.6, 20), standing("box", "box", 5.2, 3.4, -20),
-              standing("spire", "spire", 5.2, 3.4, 0, 1.8), standing("column-left", "column", -6.6, 5.6),
-              standing("column-right", "column", -4.4, 7.4), standing("ball", "ball", -5.0, 2.4),
-              standing("ring", "ring", 4.0, -2.4, 0), standing("small-box", "box", 8.2, 6.5, 35)]
-    camera = {"eye": [2.6, -12.0, 5.4], "at": [-0.3, 0.3, 0.75], "fov": 38}
-    return film(72, [960, 540], camera, models, actors)
+              "ring": prop("torus", [[-1.1, -1.1, 0], [1.1, 1.1, 0.55]], "sand", tube=0.125),
+              "hill": hill(45, 20, 9), "long-hill": hill(80, 20, 6)}
+    looks = [(0, (0, 0, 8)), (20, (0, 2, 10)), (40, (0, 3, -40)), (60, (0, 3, -44)), (73, (0, 1, -36))]
+    actors = [{"name": "man", "model": "human", "turn": [0, 0, -20],
+               "keys": walk(72, 2, 24, (-5.4, 1.0), -20, METRE, looks)},
+              {"name": "caterpillar", "model": "caterpillar", "keys": crawl(72, 24, (-3.2, 4.6), 0.54)},
+              standing("teapot", "teapot", 3.6, 9.6, 20), standing("box", "box", 7.0, 4.6, -20),
+              standing("spire", "spire", 7.0, 4.6, 0, 1.8), standing("column-left", "column", -8.2, 10.6),
+              standing("column-right", "column", -5.6, 11.6), standing("ball", "ball", -7.2, 5.6),
+              standing("ring", "ring", 4.9, 0.6, 0), standing("small-box", "box", 9.6, 9.6, 35),
+              standing("hill-left", "hill", -60, 110), standing("hill-right", "long-hill", 45, 115)]
+    camera = {"eye": [0.6, -14.2, 4.2], "at": [-0.25, 0.8, 2.0], "fov": 29.5}
+    return film(72, [960, 540], camera, models, actors, lights=SUN,
+                materials={"hill": paint([0.45, 0.60, 0.50], specular=0)})
 
 
 def robot_film():
@@ -273,9 +295,10 @@ def robot_film():
 
 
 if __name__ == "__main__":
-    (HERE / "models").mkdir(exist_ok=True)
-    written = {"models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(), "models/tiles": tiles(),
-               "caterpillar": caterpillar_film(),
-               "robot-arm": robot_film(), "demo": demo_film()}
+    to = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+    (to / "models").mkdir(exist_ok=True)
+    written = {"models/human": human(METRE), "models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(),
+               "models/tiles": tiles(), "caterpillar": caterpillar_film(), "robot-arm": robot_film(),
+               "demo": demo_film()}
     for name, content in written.items():
-        (HERE / f"{name}.json").write_text(text_of(content) + "\n")
+        (to / f"{name}.json").write_text(text_of(content) + "\n")

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "host/model/body_shapes.h"
 #include "host/model/primitives.h"
 #include "host/model/teapot.h"
 
@@ -43,6 +44,11 @@ struct Primitive {
   std::vector<node::Patch> (*make)(double);
 };
 
+template <BodyPart part>
+std::vector<node::Patch> of_body(double) {
+  return make_body(part);
+}
+
 constexpr Primitive kPrimitives[] = {
     {"box", "", 0, {}, [](double) { return make_box(); }},
     {"sphere", "", 0, {}, [](double) { return make_sphere(); }},
@@ -50,6 +56,21 @@ constexpr Primitive kPrimitives[] = {
     {"cone", "top", 0, {0, 1}, make_cone},
     {"torus", "tube", 0.125, {0.001, 0.2499}, make_torus},
     {"teapot", "lid", 1.077, {0.1, 2}, make_teapot},
+    {"head", "", 0, {}, of_body<BodyPart::head>},
+    {"hair", "", 0, {}, of_body<BodyPart::hair>},
+    {"neck", "", 0, {}, of_body<BodyPart::neck>},
+    {"torso", "", 0, {}, of_body<BodyPart::torso>},
+    {"abdomen", "", 0, {}, of_body<BodyPart::abdomen>},
+    {"pelvis", "", 0, {}, of_body<BodyPart::pelvis>},
+    {"upper_arm", "", 0, {}, of_body<BodyPart::upper_arm>},
+    {"sleeve", "", 0, {}, of_body<BodyPart::sleeve>},
+    {"forearm", "", 0, {}, of_body<BodyPart::forearm>},
+    {"left_hand", "", 0, {}, of_body<BodyPart::left_hand>},
+    {"right_hand", "", 0, {}, of_body<BodyPart::right_hand>},
+    {"thigh", "", 0, {}, of_body<BodyPart::thigh>},
+    {"shin", "", 0, {}, of_body<BodyPart::shin>},
+    {"foot", "", 0, {}, of_body<BodyPart::foot>},
+    {"toes", "", 0, {}, of_body<BodyPart::toes>},
 };
 
 std::vector<std::string_view> names_of(const auto& items) {

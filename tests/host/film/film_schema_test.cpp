@@ -85,11 +85,23 @@ TEST(Examples, MeasuringScenesHaveTheirTriangles) {
   EXPECT_EQ(s3.view().intervals()[0].moving_count, 1u);
 }
 
-TEST(Examples, TheCaterpillarHasFortyJointsAndMovesAlone) {
+TEST(Examples, TheCaterpillarHasFortyJointsAndMovesWithTheManAlone) {
   const CompiledFilm film = load_film(fs::path(MARS_SOURCE_DIR) / "examples/demo.json");
   EXPECT_EQ(load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/caterpillar.json").joints.size(), 40u);
-  for (const std::uint32_t segment : film.view().moving(film.view().intervals()[0]))
-    EXPECT_EQ(film.view().name(film.view().segments()[segment]).substr(0, 12), "caterpillar/");
+  for (const std::uint32_t segment : film.view().moving(film.view().intervals()[0])) {
+    const std::string_view name = film.view().name(film.view().segments()[segment]);
+    EXPECT_TRUE(name.starts_with("caterpillar/") || name.starts_with("man/")) << name;
+  }
+}
+
+TEST(Examples, TheManHasJointsWithLimits) {
+  const Model man = load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/human.json");
+  int turning = 0;
+  for (const Joint& joint : man.joints) {
+    turning += joint.freedoms() > 0;
+    for (const Limits& limits : joint.limits) EXPECT_LE(limits.upper - limits.lower, 225) << joint.name;
+  }
+  EXPECT_GE(turning, 16);
 }
 
 }  // namespace

@@ -1,0 +1,279 @@
+"""A man and his walk, for make_figures.py: in metres and degrees, until the film's unit scales both.
+
+He stands along z and looks along x; y is to his left. Proportions: seven and a half heads, 1.75 m.
+"""
+import math
+
+HIP, THIGH, SHIN, ANKLE = 0.925, 0.435, 0.40, 0.09  # height of the hips; lengths; height of the ankles
+HIP_SIDE = 0.092
+BALL = (0.115, -0.065)                             # of the foot, from the ankle: where the toes bend
+HEEL = (-0.063, -0.09)                             # on which the foot comes down
+
+# The library's shapes at his size, from the joint that carries them.
+BOXES = {
+    "head": [[-0.0956, -0.0869, -0.0276], [0.1074, 0.0869, 0.2090]],
+    "hair": [[-0.1064, -0.0779, 0.0215], [0.0921, 0.0779, 0.2285]],
+    "neck": [[-0.0733, -0.0690, -0.0688], [0.0567, 0.0690, 0.1250]],
+    "torso": [[-0.1295, -0.1848, -0.1500], [0.1255, 0.1848, 0.2970]],
+    "abdomen": [[-0.1313, -0.1834, -0.0960], [0.1228, 0.1834, 0.1750]],
+    "pelvis": [[-0.1196, -0.1661, -0.0880], [0.1065, 0.1661, 0.1650]],
+    "upper_arm": [[-0.0467, -0.0447, -0.3390], [0.0510, 0.0447, 0.0130]],
+    "sleeve": [[-0.0627, -0.0560, -0.1850], [0.0610, 0.0560, 0.0280]],
+    "forearm": [[-0.0435, -0.0418, -0.2820], [0.0442, 0.0418, 0.0380]],
+    "hand": [[-0.0411, -0.0384, -0.1760], [0.0654, 0.0181, 0.0300]],
+    "thigh": [[-0.1060, -0.0847, -0.4920], [0.0913, 0.0847, 0.0780]],
+    "shin": [[-0.0733, -0.0590, -0.3793], [0.0603, 0.0590, 0.0500]],
+    "foot": [[-0.0700, -0.0494, -0.0885], [0.1390, 0.0494, 0.0348]],
+    "toes": [[-0.0220, -0.0501, -0.0235], [0.0800, 0.0501, 0.0273]],
+}
+
+# Others made of the same shapes.
+BOXES |= {"shoulder": [[-0.070, -0.060, -0.085], [0.060, 0.172, 0.046]],
+          "mouth": [[-0.0114, -0.0209, -0.0052], [0.0076, 0.0209, 0.0052]],
+          "sole": [[-0.074, -0.0515, -0.0900], [0.110, 0.0515, -0.0580]],
+          "toe-sole": [[-0.032, -0.0525, -0.0250], [0.0855, 0.0525, -0.0040]]}
+SHAPES = {"shoulder": "sphere", "mouth": "sphere", "sole": "foot", "toe-sole": "toes"}
+
+# Joint: parent, place, limits about x, y, z, shape and material. Those of a pair are the left ones.
+JOINTS = [
+    ("pelvis", None, (0, 0, HIP), {"x": (-40, 40), "y": (-40, 60), "z": (-60, 60)}, "pelvis", "trousers"),
+    ("spine", "pelvis", (-0.005, 0, 0.105), {"x": (-20, 20), "y": (-20, 45), "z": (-15, 15)}, "abdomen", "shirt"),
+    ("chest", "spine", (0, 0, 0.17), {"x": (-20, 20), "y": (-15, 35), "z": (-30, 30)}, "torso", "shirt"),
+    ("neck", "chest", (-0.015, 0, 0.265), {"x": (-25, 25), "y": (-35, 40), "z": (-40, 40)}, "neck", "skin"),
+    ("head", "neck", (0.022, 0, 0.07), {"x": (-20, 20), "y": (-30, 30), "z": (-40, 40)}, "head", "skin"),
+    ("hair", "head", (0, 0, 0), {}, "hair", "hair"),
+    ("mouth", "head", (0.0812, 0, 0.0271), {}, "mouth", "lips"),
+]
+PAIRS = [
+    ("clavicle", "chest", (-0.015, 0.05, 0.20), {"x": (-10, 35), "z": (-25, 25)}, "shoulder", "shirt"),
+    ("upper-arm", "clavicle", (0, 0.125, 0), {"x": (-30, 170), "y": (-170, 55), "z": (-80, 80)}, "upper_arm", "skin"),
+    ("sleeve", "upper-arm", (0, 0, 0), {}, "sleeve", "shirt"),
+    ("forearm", "upper-arm", (0, 0, -0.30), {"y": (-145, 0), "z": (-80, 80)}, "forearm", "skin"),
+    ("hand", "forearm", (0, 0, -0.26), {"x": (-80, 70), "y": (-20, 30)}, "hand", "skin"),
+    ("thigh", "pelvis", (0, HIP_SIDE, 0), {"x": (-25, 45), "y": (-120, 25), "z": (-40, 45)}, "thigh", "trousers"),
+    ("shin", "thigh", (0, 0, -THIGH), {"y": (0, 150)}, "shin", "trousers"),
+    ("foot", "shin", (0, 0, -SHIN), {"x": (-30, 25), "y": (-30, 50), "z": (-20, 20)}, "foot", "shoe"),
+    ("sole", "foot", (0, 0, 0), {}, "sole", "rubber"),
+    ("toes", "foot", (BALL[0], 0, BALL[1]), {"y": (-70, 40)}, "toes", "shoe"),
+    ("toe-sole", "toes", (0, 0, 0), {}, "toe-sole", "rubber"),
+]
+# Balls on the head: name, place of the left one, radii, how far turned to the side, material.
+FACE = [("eye", (0.0670, 0.0294, 0.0921), (0.0128, 0.0142, 0.0114), 0, "white"),
+        ("iris", (0.0755, 0.0299, 0.0917), (0.0057, 0.0065, 0.0068), 0, "iris"),
+        ("lid", (0.0655, 0.0294, 0.0982), (0.0142, 0.0157, 0.0109), 0, "skin"),
+        ("brow", (0.0736, 0.0323, 0.1126), (0.0071, 0.0171, 0.0034), 24, "hair")]
+
+
+def paint(color, **more):
+    return {"color": color, "ambient": 0.22, "diffuse": 0.72, "specular": 0.06, "exponent": 12, **more}
+
+
+MATERIALS = {"skin": paint([0.87, 0.64, 0.50], specular=0.14, exponent=16),
+             "hair": paint([0.22, 0.13, 0.09], specular=0.2),
+             "shirt": paint([0.84, 0.22, 0.20]), "trousers": paint([0.24, 0.34, 0.55]),
+             "shoe": paint([0.42, 0.25, 0.16], specular=0.3, exponent=24), "rubber": paint([0.93, 0.91, 0.86]),
+             "lips": paint([0.76, 0.44, 0.38], specular=0.2), "white": paint([0.95, 0.95, 0.93]),
+             "iris": paint([0.13, 0.10, 0.10], specular=0.6, exponent=60)}
+
+
+def scaled(vector, unit):
+    return [round(x * unit, 4) + 0.0 for x in vector]
+
+
+def human(unit):
+    """The model, a metre being `unit` long."""
+    def joint(name, parent, place, limits, shape, material, sign=1):
+        made = {"name": name} | ({"parent": parent} if parent else {})
+        made |= {"place": scaled((place[0], sign * place[1], place[2]), unit),
+                 "limits": {axis: list(limit) if axis == "y" or sign == 1 else [-limit[1], -limit[0]]
+                            for axis, limit in limits.items()}}
+        if shape:
+            (x0, y0, z0), (x1, y1, z1) = BOXES[shape]
+            ys = (y0, y1) if sign == 1 else (-y1, -y0)
+            if shape == "hand":
+                shape = "left_hand" if sign == 1 else "right_hand"
+            made["segment"] = {"shape": SHAPES.get(shape, shape),
+                               "sbb": [scaled((x0, ys[0], z0), unit), scaled((x1, ys[1], z1), unit)],
+                               "material": material}
+        return made
+
+    joints = [joint(*row) for row in JOINTS]
+    for side, sign in ("left", 1), ("right", -1):
+        for name, parent, place, limits, shape, material in PAIRS:
+            joints.append(joint(f"{side}-{name}", parent if parent in ("chest", "pelvis") else f"{side}-{parent}", place,
+                                limits, shape, material, sign))
+        for name, (x, y, z), radii, aside, material in FACE:
+            c, s = math.cos(math.radians(aside)), sign * math.sin(math.radians(aside))
+            joints.append({"name": f"{side}-{name}", "parent": "head", "place": scaled((x, sign * y, z), unit),
+                           **({"x_axis": scaled((c, s, 0), 1), "y_axis": scaled((-s, c, 0), 1)} if aside else {}),
+                           "limits": {},
+                           "segment": {"shape": "sphere", "sbb": [scaled([-r for r in radii], unit), scaled(radii, unit)],
+                                       "material": material}})
+    return {"materials": MATERIALS, "joints": joints}
+
+
+# ---- Matrices: three rows; turns in degrees as in a pose.
+
+def turn(a, b, c):
+    """Rot(x, a) Rot(y, b) Rot(z, c)."""
+    (ca, sa), (cb, sb), (cc, sc) = ((math.cos(math.radians(t)), math.sin(math.radians(t))) for t in (a, b, c))
+    return [[cb * cc, -cb * sc, sb],
+            [sa * sb * cc + ca * sc, -sa * sb * sc + ca * cc, -sa * cb],
+            [-ca * sb * cc + sa * sc, ca * sb * sc + sa * cc, ca * cb]]
+
+
+def angles(m):
+    """Of the turn that makes `m`."""
+    return [math.degrees(t) for t in (math.atan2(-m[1][2], m[2][2]), math.asin(max(-1, min(1, m[0][2]))),
+                                      math.atan2(-m[0][1], m[0][0]))]
+
+
+def times(a, b):
+    return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+
+def applied(m, v):
+    return [sum(m[i][k] * v[k] for k in range(3)) for i in range(3)]
+
+
+def transposed(m):
+    return [list(row) for row in zip(*m)]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def unit_vector(v):
+    length = math.sqrt(sum(x * x for x in v))
+    return [x / length for x in v]
+
+
+# ---- The walk. A foot's phase runs from 0, where its heel strikes, to 1.
+
+STRIDE = 1.14                                # metres in a cycle
+FLAT, LIFT, OFF = 2 / 24, 8 / 24, 14 / 24     # phases, at keys: sole down, heel rises, toes leave
+STRIKE_PITCH, OFF_PITCH = -20, 50            # degrees of the sole, toes down
+SAG = 0.0015                                 # half of what feet sink between keys
+AHEAD = 0.30                                 # of the pelvis, where a foot stands flat at its strike
+APART, TOE_OUT = 0.062, 6                    # of a foot from the line of the walk; degrees
+SWING_PITCH = [(0.66, 63), (0.76, 38), (0.87, 0), (0.95, -19)]
+SWING_RISE = [(0.625, 0.194), (0.70, 0.216), (0.80, 0.176), (0.90, 0.119)]
+SWING_TOES = [(0.667, -46), (0.72, -18), (0.78, -3), (0.86, 0)]
+
+
+def hermite(points, slopes, x):
+    for (x0, y0), (x1, y1), m0, m1 in zip(points, points[1:], slopes, slopes[1:]):
+        if x <= x1:
+            h, t = x1 - x0, (x - x0) / (x1 - x0)
+            return (((2 * t - 3) * t * t + 1) * y0 + ((t - 2) * t + 1) * t * h * m0 +
+                    (3 - 2 * t) * t * t * y1 + (t - 1) * t * t * h * m1)
+    return points[-1][1]
+
+
+def through(start, between, end, x):
+    """A smooth curve through points; start and end have slopes as well: (x, y, slope)."""
+    points = [start[:2], *between, end[:2]]
+    slopes = [start[2]] + [(c[1] - a[1]) / (c[0] - a[0]) for a, c in zip(points, points[2:])] + [end[2]]
+    return hermite(points, slopes, x)
+
+
+def rolled(pivot, pitch):
+    """How far the ankle of a left foot is ahead and aside of where it stands flat, and its height, when the foot is
+    pitched about a pivot that stays in place."""
+    c, s = math.cos(math.radians(pitch)), math.sin(math.radians(pitch))
+    ahead = pivot[0] - pivot[0] * c - pivot[1] * s
+    out = math.radians(TOE_OUT)
+    return ahead * math.cos(out), ahead * math.sin(out), ANKLE + pivot[1] + pivot[0] * s - pivot[1] * c
+
+
+def standing_foot(phase):
+    """Ankle ahead and aside of where it stands flat, its height, pitch of the sole, turn of the toes."""
+    if phase < FLAT:
+        pitch = STRIKE_PITCH * (1 - phase / FLAT)
+        return (*rolled(HEEL, pitch), pitch, 0)
+    if phase < LIFT:
+        return 0, 0, ANKLE, 0, 0
+    pitch = OFF_PITCH * ((phase - LIFT) / (OFF - LIFT)) ** 2
+    return (*rolled(BALL, pitch), pitch, -pitch)
+
+
+def foot_at(phase):
+    if phase < OFF:
+        return standing_foot(phase)
+    step = 1e-4
+    off, before = standing_foot(OFF - 1e-9), standing_foot(OFF - 1e-9 - step)
+    strike, after = standing_foot(0), standing_foot(step)
+
+    def swung(i, between, more=0):
+        return through((OFF, off[i], (off[i] - before[i]) / step), between,
+                       (1, strike[i] + more, (after[i] - strike[i]) / step), phase)
+    return swung(0, [], STRIDE), swung(1, []), swung(2, SWING_RISE), swung(3, SWING_PITCH), swung(4, SWING_TOES)
+
+
+def leg(pelvis, hip, ankle, pitch, toes, sign):
+    """Turns of thigh, shin, foot and toes that bring the ankle there; knees bend only as knees do."""
+    foot = times(turn(0, 0, sign * TOE_OUT), turn(0, pitch, 0))
+    down = [a - h for a, h in zip(ankle, hip)]
+    length = math.sqrt(sum(x * x for x in down))
+    assert length < 0.9995 * (THIGH + SHIN), f"a leg is too short by {length - THIGH - SHIN}"
+    knee = math.pi - math.acos((THIGH ** 2 + SHIN ** 2 - length ** 2) / (2 * THIGH * SHIN))
+    lean = math.atan2(SHIN * math.sin(knee), THIGH + SHIN * math.cos(knee))  # of the thigh before the straight line
+    hinge = unit_vector(cross([row[0] for row in turn(0, 0, sign * TOE_OUT * 0.7)], down))
+    up = unit_vector([-x for x in down])
+    straight = transposed([cross(hinge, up), hinge, up])
+    thigh = times(straight, turn(0, -math.degrees(lean), 0))
+    shin = times(thigh, turn(0, math.degrees(knee), 0))
+    return (angles(times(transposed(pelvis), thigh)), [0, math.degrees(knee), 0],
+            angles(times(transposed(shin), foot)), [0, toes, 0])
+
+
+def pelvis_at(phase):
+    """Place from the middle of the walk, and turns, by the left foot's phase."""
+    wave = lambda at, times=1: math.cos(2 * math.pi * times * (phase - at))
+    return [0.012 * wave(0.015, 2), 0.020 * wave(0.31), HIP - 0.020 - 0.0115 * wave(0.056, 2)], \
+           [2.5 * wave(0.18), 3 + 1.0 * wave(0.05, 2), -5 * wave(0.0)]
+
+
+def pose_at(phase, forward):
+    """Joints' turns and the pelvis' place, `forward` along the walk."""
+    wave = lambda at: math.cos(2 * math.pi * (phase - at))
+    offset, turns = pelvis_at(phase)
+    place = [forward + offset[0], offset[1], offset[2]]
+    pelvis = turn(*turns)
+    pose = {"pelvis": turns,
+            "spine": [-2.2 * wave(0.18), 0.5, 4.5 * wave(0.02)],
+            "chest": [-1.4 * wave(0.18), 1.5 - 0.8 * math.cos(4 * math.pi * (phase - 0.1)), 5.5 * wave(0.04)],
+            "neck": [0.6 * wave(0.18), 1, -2.6 * wave(0.05)], "head": [0.5 * wave(0.18), -4, -2.4 * wave(0.05)]}
+    for side, sign, own in ("left", 1, phase % 1), ("right", -1, (phase + 0.5) % 1):
+        swing = lambda late: math.cos(2 * math.pi * (own - late))
+        ahead, aside, height, pitch, toes = foot_at(own)
+        ankle = [forward + AHEAD - own * STRIDE + ahead, sign * (APART + aside), height]
+        hip = [p + q for p, q in zip(place, applied(pelvis, [0, sign * HIP_SIDE, 0]))]
+        for name, turns in zip(("thigh", "shin", "foot", "toes"), leg(pelvis, hip, ankle, pitch, toes, sign)):
+            pose[f"{side}-{name}"] = turns
+        pose[f"{side}-clavicle"] = [sign * 1.5 * swing(0.5), 0, sign * 3 * swing(0)]
+        pose[f"{side}-upper-arm"] = [sign * (8 + 1.5 * swing(0.5)), -3 + 21 * swing(0.02), sign * -12]
+        pose[f"{side}-forearm"] = [0, -(30 - 15 * swing(0.09)), sign * -14]
+        pose[f"{side}-hand"] = [sign * (-6 + 5 * swing(0.2)), 4 + 5 * swing(0.16), 0]
+    return place, pose
+
+
+def walk(frames, every, cycle, start, heading, unit, looks):
+    """Keys of an actor that walks towards `heading`, degrees, so that it passes `start` at frame 0.
+
+    `looks`: (frame, turns of the head beyond the walk's own), at least two.
+    """
+    c, s = math.cos(math.radians(heading)), math.sin(math.radians(heading))
+    keys = []
+    for frame in range(0, frames + every, every):
+        (x, y, z), pose = pose_at(frame / cycle, STRIDE * frame / cycle)
+        for joint, share in ("neck", 0.5), ("head", 0.5):
+            for axis in range(3):
+                (first, *between, last) = [(at, to[axis]) for at, to in looks]
+                pose[joint][axis] += share * through((*first, 0), between, (*last, 0), frame)
+        x, y = x * unit, y * unit
+        keys.append({"frame": frame, "place": [round(v, 4) for v in (start[0] + c * x - s * y, start[1] + s * x + c * y,
+                                                                    (z - HIP + SAG) * unit)],
+                     "pose": {name: [round(v, 2) + 0.0 for v in turns] for name, turns in pose.items()}})
+    return keys
