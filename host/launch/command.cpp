@@ -173,12 +173,16 @@ Command mpi_command(const RenderOptions& options, const Programs& programs,
   }
   // It looks for one even where all ranks are on this machine, and gives up without.
   if (surroundings.no_remote_shell) command.environment.emplace_back("OMPI_MCA_plm", "^rsh");
-  // Its other ways of keeping start-up data warn where several jobs or users share a machine.
-  command.environment.emplace_back("PMIX_MCA_gds", "hash");
+  const bool several = !options.hostfile.empty() || surroundings.tasks != 0;
+  if (several) {
+    add_keepalive(command);
+  } else {
+    // Its other ways of keeping start-up data warn where several jobs or users share a machine. Over several
+    // machines this one hangs when it starts two programs from outside of the allocation.
+    command.environment.emplace_back("PMIX_MCA_gds", "hash");
+  }
   // Nodes bind themselves, each by its place on its machine.
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
-  const bool several = !options.hostfile.empty() || surroundings.tasks != 0;
-  if (several) add_keepalive(command);
   if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", options.hostfile});
   const std::uint32_t room = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
   // A hostfile tells its own slots; what is more than these goes round over its hosts.

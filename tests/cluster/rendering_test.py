@@ -1,6 +1,7 @@
 """The same pixels across the hosts of a cluster, however the film is started."""
 
-from virtual_cluster import HOSTS, SOURCES, ClusterTest, events, run_on_cluster, spinning_teapot
+from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, ClusterTest, events, run_on_cluster, spinning_teapot,
+                             wait_until)
 
 SLURM = SOURCES / "cluster/slurm"
 
@@ -24,11 +25,16 @@ class Rendering(ClusterTest):
 
     def submit(self, script, *options):
         output = self.folder / "job.output"
-        self.on("n0", "sbatch", "--wait", "--quiet", "--nodes=4", f"--output={output}", *options, SLURM / script,
-                self.film, "-o", "out")
+        job = self.on("n0", "sbatch", "--parsable", "--nodes=4", "--ntasks-per-node=2", f"--output={output}",
+                      *options, SLURM / script,
+                      self.film, "-o", "out").stdout.strip()
+        ended = lambda: not self.on("n0", "squeue", "--noheader", f"--jobs={job}").stdout
+        wait_until(ended, SECONDS, "the job still runs")
         return output.read_text()
 
     def mpirun(self, *words):
+        """Programs by their paths: what ssh starts has a PATH of its own."""
+        words = [PROGRAMS / word if str(word).startswith("mars-") else word for word in words]
         return self.on("n1", "mpirun", "--hostfile", self.hostfile, "--bind-to", "none", *words).stdout
 
     def test_mpirun_over_ssh(self):
@@ -48,16 +54,16 @@ class Rendering(ClusterTest):
         self.assertShown(run("--nodes", 16), 16)
 
     def test_sbatch_with_mpirun(self):
-        self.assertRendered(self.submit("mpirun.sbatch", "--ntasks=8"), 7)
+        self.assertRendered(self.submit("mpirun.sbatch"), 7)
 
     def test_sbatch_with_srun(self):
-        self.assertRendered(self.submit("srun.sbatch", "--ntasks=8"), 7)
+        self.assertRendered(self.submit("srun.sbatch"), 7)
 
     def test_sbatch_with_srun_16_nodes(self):
-        self.assertRendered(self.submit("srun.sbatch", "--ntasks=17", "--overcommit"), 16)
+        self.assertRendered(self.submit("srun.sbatch", "--ntasks-per-node=5", "--ntasks=17", "--overcommit"), 16)
 
     def test_sbatch_with_mars(self):
-        self.assertShown(self.submit("render.sbatch", "--ntasks-per-node=2"), 7)
+        self.assertShown(self.submit("render.sbatch"), 7)
 
     def test_mars_in_an_allocation(self):
         run = lambda *more: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "render",

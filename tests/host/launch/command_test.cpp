@@ -60,6 +60,7 @@ TEST(Command, ABatchJobHasItsOwnRoom) {
   EXPECT_FALSE(holds(line(7, batch_job(8)), "--oversubscribe"));
   EXPECT_TRUE(holds(line(8, batch_job(8)), "--oversubscribe"));
   EXPECT_TRUE(holds(line(7, batch_job(8)), "OMPI_MCA_oob_tcp_keepalive_time=10"));
+  EXPECT_FALSE(holds(line(7, batch_job(8)), "PMIX_MCA_gds"));
   EXPECT_FALSE(holds(line(3, alone(8)), "keepalive"));
 }
 
