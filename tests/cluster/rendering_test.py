@@ -25,7 +25,7 @@ class Rendering(ClusterTest):
 
     def submit(self, script, *options):
         output = self.folder / "job.output"
-        job = self.on("n0", "sbatch", "--parsable", "--nodes=4", "--ntasks-per-node=2", f"--output={output}",
+        job = self.on("n0", "sbatch", "--parsable", "--nodes=4", f"--output={output}",
                       *options, SLURM / script,
                       self.film, "-o", "out").stdout.strip()
         ended = lambda: not self.on("n0", "squeue", "--noheader", f"--jobs={job}").stdout
@@ -54,16 +54,16 @@ class Rendering(ClusterTest):
         self.assertShown(run("--nodes", 16), 16)
 
     def test_sbatch_with_mpirun(self):
-        self.assertRendered(self.submit("mpirun.sbatch"), 7)
+        self.assertRendered(self.submit("mpirun.sbatch", "--ntasks=8"), 7)
 
     def test_sbatch_with_srun(self):
-        self.assertRendered(self.submit("srun.sbatch"), 7)
+        self.assertRendered(self.submit("srun.sbatch", "--ntasks=8"), 7)
 
     def test_sbatch_with_srun_16_nodes(self):
-        self.assertRendered(self.submit("srun.sbatch", "--ntasks-per-node=5", "--ntasks=17", "--overcommit"), 16)
+        self.assertRendered(self.submit("srun.sbatch", "--ntasks=17", "--overcommit"), 16)
 
     def test_sbatch_with_mars(self):
-        self.assertShown(self.submit("render.sbatch"), 7)
+        self.assertShown(self.submit("render.sbatch", "--ntasks=8"), 7)
 
     def test_mars_in_an_allocation(self):
         run = lambda *more: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "render",
