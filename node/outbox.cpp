@@ -1,6 +1,7 @@
 #include "node/outbox.h"
 
 #include "hal/nx.h"
+#include "hal/recorder.h"
 
 namespace mars::node {
 
@@ -29,7 +30,9 @@ void Outbox::wait_for_credit(Strip& header) {
   if (credits_ > 0) return;
   ++header.work.credits_waited;
   while (credits_ == 0) receive_credit();
-  header.times.credit += dclock() - start;
+  const double end = dclock();
+  header.times.credit += end - start;
+  hal::record_span(static_cast<int>(Phase::credit), start, end);
 }
 
 void Outbox::receive_credit() {
