@@ -26,9 +26,8 @@ void Outbox::send(Strip& header) {
 
 void Outbox::wait_for_credit(Strip& header) {
   const double start = dclock();
-  while (iprobe(kCredit)) receive_credit();
-  if (credits_ > 0) return;
-  ++header.work.credits_waited;
+  while (iprobe(kCredit)) receive_credit();  // which may give the processor away
+  if (credits_ == 0) ++header.work.credits_waited;
   while (credits_ == 0) receive_credit();
   const double end = dclock();
   header.times.credit += end - start;

@@ -102,7 +102,7 @@ void Writer::names() {
   name("thread_name", trace_.host(), kMainThread, text_of({{"name", "farm"}}));
   for (const node::Hello& node : trace_.nodes()) {
     std::string called = "node " + std::to_string(node.node) + " on " + node.host.data();
-    if (node.binding[0] != '\0') called += std::string(", processor ") + node.binding.data();
+    if (node.binding[0] != '\0') called += std::string(", ") + node.binding.data();
     process(node.node, called, node.node + 1);
     name("thread_name", node.node, kMainThread, text_of({{"name", "node"}}));
   }
@@ -157,7 +157,9 @@ void Writer::slice(const TimelineItem& item) {
   constexpr std::array categories{"phase", "message", "message", "wait"};  // by Kind
   open('X', record.rank, thread_of(record), item.begin);
   put(",\"dur\":" + microseconds(item.end - item.begin) + ",\"name\":\"" + slice_name(record) + "\",\"cat\":\"" +
-      categories[static_cast<std::size_t>(record.event.kind)] + "\",\"args\":{" + slice_arguments(record) + "}}");
+      categories[static_cast<std::size_t>(record.event.kind)] + "\"");
+  if (record.event.kind == Kind::waited) put(",\"cname\":\"grey\"");
+  put(",\"args\":{" + slice_arguments(record) + "}}");
 }
 
 // From the beginning of the sending to the middle of the taking, so that each end lies within its slice.
