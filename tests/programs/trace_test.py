@@ -1,10 +1,18 @@
 """--trace FILE: a whole file in every backend, of a run that fails too, and told before rendering if it cannot be."""
 
 import json
+import subprocess
+import unittest
 
-from harness import BACKENDS, ENVIRONMENT, EXAMPLES, ProgramTest, main, spinning_teapot
+from harness import (BACKENDS, ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, main, needs_mpi,
+                     spinning_teapot)
 
 ARM = EXAMPLES / "robot-arm.json"
+
+
+def may_shift_clocks():
+    return subprocess.run(["unshare", "--time", "--monotonic", "5", "--fork", "true"],
+                          capture_output=True).returncode == 0
 
 
 class Traces(ProgramTest):
@@ -48,6 +56,26 @@ class Traces(ProgramTest):
                 self.assertIn("failed: node ", instants[0])
                 self.assertIn("dice", {event["name"] for event in trace["traceEvents"]})
                 (self.folder / "trace.json").unlink()
+
+    @needs_mpi
+    @unittest.skipUnless(may_shift_clocks(), "no time namespaces here")
+    def test_clocks_of_their_own(self):
+        """Nodes whose clocks differ, as on machines of a cluster, are brought to the host's time."""
+        nodes = []
+        for seconds in [12345, 777]:
+            nodes += [":", "-n", 1, "unshare", "--time", "--monotonic", seconds, "--fork", PROGRAMS / "mars-node"]
+        self.succeed(*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", ARM, "--sink", "none", "--frames", "0-9",
+                     "--trace", "trace.json", *nodes)
+        trace = self.trace()
+        error = trace["otherData"]["clock_error_microseconds"]
+        self.assertGreater(error, 0)
+        events = trace["traceEvents"]
+        sent = {event["id"]: event["ts"] for event in events if event["ph"] == "s"}
+        self.assertGreater(len(sent), 20)
+        for event in events:
+            if event["ph"] == "f":
+                self.assertGreater(event["ts"], sent[event["id"]] - 2 * error)
+            self.assertLess(abs(event["ts"]), SECONDS * 1e6)
 
     def test_that_cannot_be_written(self):
         self.fail_clearly(1, "render", ARM, "-o", "out", "--trace", "none/trace.json", says="none/trace.json")
