@@ -90,12 +90,8 @@ struct PhaseTimes {
   double credit;    // waiting for the host: for its credit, or until an earlier strip is gone
 };
 
-// The steps, as a trace's spans name them.
+// What a trace's spans are: these steps, and the frame around them, whose value is its interval.
 enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, depth, credit, keyframe, inbetween };
-// Where PhaseTimes has them; the last two are the frame around them, whose value is its interval.
-inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,  &PhaseTimes::map,
-                                        &PhaseTimes::exchange, &PhaseTimes::fill, &PhaseTimes::scanline,
-                                        &PhaseTimes::depth,    &PhaseTimes::credit};
 
 // What one node did so far for one frame; the frame's last strip has it all.
 struct WorkCounts {

@@ -2,6 +2,7 @@
 // (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,6 +18,11 @@
 #include "node/tracer.h"
 
 namespace mars::node {
+
+// Where PhaseTimes has each step, by Phase.
+inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,  &PhaseTimes::map,
+                                        &PhaseTimes::exchange, &PhaseTimes::fill, &PhaseTimes::scanline,
+                                        &PhaseTimes::depth,    &PhaseTimes::credit};
 
 class Renderer {
  public:

@@ -9,6 +9,7 @@
 
 #include "hal/message_types.h"
 #include "host/trace/trace_file.h"
+#include "node/renderer.h"
 #include "tests/hal/counting_backend.h"
 #include "tests/host/sinks/temporary_folder.h"
 #include "tests/render/film_run.h"
