@@ -5,6 +5,7 @@
 
 #include "hal/failure.h"
 #include "hal/message_types.h"
+#include "hal/nx.h"
 
 namespace mars::hal {
 namespace {
@@ -35,7 +36,8 @@ Process& process() {
 
 const Traffic& traffic() { return process().traffic(); }
 
-Process::Process(Backend& backend) : backend_(backend) {
+Process::Process(Backend& backend)
+    : backend_(backend), numbers_(static_cast<std::size_t>(backend.nodes()) + 1) {
   check(bound_process == nullptr, "a thread is at most one process");
   check(backend.nodes() <= kInternalTypes, "every node has an internal type");
   bound_process = this;
@@ -88,17 +90,22 @@ void Process::check_fits(const Request& request, const Envelope& envelope) const
        "receive into a longer buffer, or cprobe first and ask infocount");
 }
 
-void Process::count(int to, std::size_t length) {
+double Process::recorded_time() const { return recorder_ == nullptr ? 0 : dclock(); }
+
+void Process::note_sent(int to, int type, std::size_t length, double begin) {
   Traffic::Count& sent = to == backend_.host() ? traffic_.to_host : traffic_.to_nodes;
   ++sent.messages;
   sent.bytes += length;
+  const std::uint32_t number = numbers_[static_cast<std::size_t>(to)].sent++;
+  if (recorder_ != nullptr) recorder_->message(Event::Kind::sent, begin, {to, type, length}, number);
 }
 
 void Process::send(const Receivers& receivers, int type, const void* data, std::size_t length) {
   for (int to = receivers.first; to < receivers.last; ++to) {
     if (receivers.several && to == backend_.rank()) continue;
-    count(to, length);
+    const double begin = recorded_time();
     backend_.send(to, type, data, length);
+    note_sent(to, type, length, begin);
   }
 }
 
@@ -115,8 +122,9 @@ long Process::isend(long type, const void* buffer, long length, long node, long 
     send(receivers, static_cast<int>(type), buffer, bytes);
     request.state = Request::State::sent;
   } else {
-    count(receivers.first, bytes);
+    const double begin = recorded_time();
     request.ticket = backend_.start_send(receivers.first, static_cast<int>(type), buffer, bytes);
+    note_sent(receivers.first, static_cast<int>(type), bytes, begin);
     request.state = Request::State::sending;
   }
   return request.mid();
@@ -183,14 +191,22 @@ void Process::conclude(Request& request) {
 }
 
 void Process::wait(Request& request) {
+  const double begin = recorded_time();
+  bool idle = false;
   for (int turn = 0; !done(request);) {
     if (arrive()) {
       turn = 0;
     } else {
+      idle = true;
       backend_.idle(turn++, kSleep);
     }
   }
+  if (idle) note_wait(request.state == Request::State::received ? request.envelope : Envelope{-1, -1, 0}, begin);
   conclude(request);
+}
+
+void Process::note_wait(const Envelope& came, double begin) {
+  if (recorder_ != nullptr) recorder_->message(Event::Kind::waited, begin, came, 0);
 }
 
 void Process::msgwait(long mid) { wait(known_request("msgwait", mid)); }
@@ -206,7 +222,10 @@ bool Process::msgdone(long mid) {
 
 void Process::cprobe(long typesel) {
   const std::int32_t narrow = check_typesel("cprobe", typesel);
-  for (int turn = 0; !look(narrow); ++turn) backend_.idle(turn, kSleep);
+  const double begin = recorded_time();
+  int turn = 0;
+  for (; !look(narrow); ++turn) backend_.idle(turn, kSleep);
+  if (turn > 0) note_wait(info_, begin);
 }
 
 bool Process::iprobe(long typesel) { return look(check_typesel("iprobe", typesel)); }
@@ -251,28 +270,37 @@ void Process::receive_into(Request& request, const Envelope& envelope) {
   requests_.unpost(request);
   if (envelope.length > request.capacity) requests_.release(request);
   check_fits(request, envelope);
-  backend_.take(request.buffer);
+  take(envelope, request.buffer);
   request.envelope = envelope;
   request.state = Request::State::received;
 }
 
 void Process::keep(const Envelope& envelope) {
   Message* message = pool_.acquire(envelope);
-  backend_.take(message->bytes());
+  take(envelope, message->bytes());
   unexpected_.push(message);
 }
 
 void Process::discard(const Envelope& envelope) {
   Message* message = pool_.acquire(envelope);
-  backend_.take(message->bytes());
+  take(envelope, message->bytes());
   pool_.release(message);
+}
+
+void Process::take(const Envelope& envelope, void* buffer) {
+  const double begin = recorded_time();
+  backend_.take(buffer);
+  const std::uint32_t number = numbers_[static_cast<std::size_t>(envelope.from)].taken++;
+  if (recorder_ != nullptr) recorder_->message(Event::Kind::taken, begin, envelope, number);
 }
 
 void Process::flick() { backend_.idle(quiet_turns_++, kFlick); }
 
 void Process::send_internal(int to, const void* data, std::size_t length) {
-  count(to, length);
-  backend_.send(to, kFirstInternalType + backend_.rank(), data, length);
+  const int type = kFirstInternalType + backend_.rank();
+  const double begin = recorded_time();
+  backend_.send(to, type, data, length);
+  note_sent(to, type, length, begin);
 }
 
 void Process::receive_internal(const char* call, int from, void* data, std::size_t length) {

@@ -8,9 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hal/backend.h"
 #include "hal/message_pool.h"
+#include "hal/recorder.h"
 #include "hal/requests.h"
 
 namespace mars::hal {
@@ -61,6 +63,10 @@ class Process {
   Backend& backend() { return backend_; }
   const Traffic& traffic() const { return traffic_; }
 
+  // Whoever records this process, or nullptr; set by the Recorder.
+  Recorder* recorder() const { return recorder_; }
+  void record(Recorder* recorder) { recorder_ = recorder; }
+
  private:
   // Ranks [first, last), without this one if it is one of several.
   struct Receivers {
@@ -74,7 +80,15 @@ class Process {
   std::size_t check_length(const char* call, long length) const;
   void check_fits(const Request& request, const Envelope& envelope) const;
 
-  void count(int to, std::size_t length);
+  // How many messages went to and came from one rank.
+  struct Numbers {
+    std::uint32_t sent = 0;
+    std::uint32_t taken = 0;
+  };
+
+  // The time where somebody records it, else 0.
+  double recorded_time() const;
+  void note_sent(int to, int type, std::size_t length, double begin);
   void send(const Receivers& receivers, int type, const void* data, std::size_t length);
 
   Request& new_request(const char* call);
@@ -83,6 +97,7 @@ class Process {
   bool done(Request& request);
   void conclude(Request& request);
   void wait(Request& request);
+  void note_wait(const Envelope& came, double begin);
 
   bool look(std::int32_t typesel);
   bool arrive();
@@ -90,6 +105,7 @@ class Process {
   void receive_into(Request& request, const Envelope& envelope);
   void keep(const Envelope& envelope);
   void discard(const Envelope& envelope);
+  void take(const Envelope& envelope, void* buffer);
 
   Backend& backend_;
   MessagePool pool_;
@@ -97,6 +113,8 @@ class Process {
   RequestTable requests_;
   Envelope info_;
   Traffic traffic_;
+  std::vector<Numbers> numbers_;  // by rank
+  Recorder* recorder_ = nullptr;
   bool led_ = false;
   int quiet_turns_ = 0;  // flicks since anything arrived
 };

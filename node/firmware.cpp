@@ -27,11 +27,12 @@ class Firmware {
 
   void obey();
   // The node's last words.
-  void tell_fault(const std::string& reason) const;
+  void tell_fault(const std::string& reason);
 
  private:
   void load();
   void render();
+  void tell_time() const;
 
   const Kernels& kernels_;
   std::optional<hal::SharedMemory> film_block_;
@@ -55,7 +56,7 @@ Firmware::Firmware(const NodeIdentity& identity) : kernels_(best_kernels(identit
 void Firmware::obey() {
   for (;;) {
     led(0);
-    cprobe(any_of(kLoad, kRender, kCredit, kStop));
+    cprobe(any_of(kLoad, kRender, kCredit, kStop, kClock));
     led(1);
     switch (infotype()) {
       case kLoad: load(); break;
@@ -63,8 +64,9 @@ void Firmware::obey() {
       case kCredit: renderer_->outbox().receive_credit(); break;
       case kStop:
         crecv(kStop, nullptr, 0);
-        if (renderer_) renderer_->outbox().flush();
+        if (renderer_) renderer_->finish();
         return;
+      case kClock: tell_time(); break;
     }
   }
 }
@@ -91,9 +93,16 @@ void Firmware::render() {
   renderer_->render(command, {frames, command.frame_count});
 }
 
-void Firmware::tell_fault(const std::string& reason) const {
+void Firmware::tell_time() const {
+  crecv(kClock, nullptr, 0);
+  const double now = dclock();
+  csend(kClock, &now, sizeof now, myhost(), 0);
+}
+
+void Firmware::tell_fault(const std::string& reason) {
   Fault fault{};
   fault.node = static_cast<std::int32_t>(mynode());
+  if (renderer_) renderer_->send_trace();
   fault.frame = renderer_ ? static_cast<std::int32_t>(renderer_->frame()) : -1;
   copy_text(reason, fault.reason);
   csend(kFault, &fault, sizeof fault, myhost(), 0);

@@ -1,6 +1,7 @@
 #include "node/outbox.h"
 
 #include "hal/nx.h"
+#include "hal/recorder.h"
 
 namespace mars::node {
 
@@ -25,11 +26,12 @@ void Outbox::send(Strip& header) {
 
 void Outbox::wait_for_credit(Strip& header) {
   const double start = dclock();
-  while (iprobe(kCredit)) receive_credit();
-  if (credits_ > 0) return;
-  ++header.work.credits_waited;
+  while (iprobe(kCredit)) receive_credit();  // which may give the processor away
+  if (credits_ == 0) ++header.work.credits_waited;
   while (credits_ == 0) receive_credit();
-  header.times.credit += dclock() - start;
+  const double end = dclock();
+  header.times.credit += end - start;
+  hal::record_span(static_cast<int>(Phase::credit), start, end);
 }
 
 void Outbox::receive_credit() {

@@ -4,6 +4,7 @@
 //
 //   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
+//   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   node -> node   edge-box counts, triangles, CZB lines (types that say who sends)
 #pragma once
 
@@ -23,6 +24,8 @@ enum MessageType : long {
   kStrip,
   kFault,
   kStop,
+  kClock,  // host -> node: what is the time? (empty); node -> host: its dclock(), a double
+  kTrace,  // hal::Event ..., closed by one of kind lost
 };
 
 // Types of what nodes send each other say from whom, for NX receives by type alone. They are low: an MPI need
@@ -56,6 +59,7 @@ struct Load {
   std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
   std::int32_t credits;   // strips a node may have on the way to the host
   Mapping mapping;
+  std::uint32_t traced;   // 1: the node records what it does and sends it as Trace
 };
 
 // Frames of one interval for one cube: the first is rendered by all its nodes as the keyframe, the others go
@@ -85,6 +89,9 @@ struct PhaseTimes {
   double depth;     // CZB exchange
   double credit;    // waiting for the host: for its credit, or until an earlier strip is gone
 };
+
+// What a trace's spans are: these steps, and the frame around them, whose value is its interval.
+enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, depth, credit, keyframe, inbetween };
 
 // What one node did so far for one frame; the frame's last strip has it all.
 struct WorkCounts {

@@ -5,6 +5,7 @@
 #include "hal/failure.h"
 #include "hal/nx.h"
 #include "hal/process.h"
+#include "hal/recorder.h"
 
 namespace mars::node {
 namespace {
@@ -47,6 +48,7 @@ Renderer::Renderer(const FilmView& film, const Load& load, const Kernels& kernel
   const auto nodes = static_cast<std::size_t>(numnodes());
   for (auto* numbers : {&sums_, &work_}) numbers->resize(film.settings().height + nodes);
   for (auto* ranges : {&homes_, &pass_homes_}) ranges->resize(nodes);
+  if (load.traced == 1) tracer_.emplace();
 }
 
 void Renderer::render(const Render& command, std::span<const std::uint32_t> frames) {
@@ -69,8 +71,18 @@ void Renderer::render(const Render& command, std::span<const std::uint32_t> fram
   }
 }
 
+void Renderer::send_trace() {
+  if (tracer_) tracer_->send();
+}
+
+void Renderer::finish() {
+  outbox_.flush();
+  if (tracer_) tracer_->finish();
+}
+
 void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
-  clock_ = dclock();
+  const double begin = clock_ = dclock();
+  hal::record_frame(static_cast<std::int32_t>(frame_));
   sent_before_ = hal::traffic().to_nodes.bytes;
   scene_.set_frame(frame_);
   strip_ = {};
@@ -80,24 +92,28 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
 
   std::fill(line_counts_.begin(), line_counts_.end(), 0u);
   Polygons own = make_polygons(cube, {});
-  clock(strip_.times.dice);
+  clock(Phase::dice);
   sum_counts(cube);
-  clock(strip_.times.sum);
+  clock(Phase::sum);
   const auto homes = std::span(homes_).first(static_cast<std::size_t>(cube.count));
   map_lines(mapping_, ebc_, homes);
   strip_.load_ratio = load_ratio(ebc_, homes);
   const std::uint32_t passes = plan_passes(cube);
-  clock(strip_.times.map);
+  clock(Phase::map);
 
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     if (passes > 1) {
       arena_.release(0);
       mark_lines(cube, pass, passes);
       own = make_polygons(cube, wanted_lines_);
-      clock(strip_.times.dice);
+      clock(Phase::dice);
     }
     draw_pass(cube, own, pass, passes);
+    if (pass + 1 < passes) send_trace();
   }
+  const Phase whole = kind == FrameKind::keyframe ? Phase::keyframe : Phase::inbetween;
+  hal::record_span(static_cast<int>(whole), begin, clock_, command_.interval);
+  send_trace();
 }
 
 // Triangles of the node's patches: of all in a keyframe, of the moving ones in an inbetween. The first time
@@ -199,18 +215,18 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   const std::uint64_t boxes = ebc_[lines.last] - ebc_[lines.first];
 
   const Polygons polygons = nodes > 1 ? exchange_.triangles(cube, own, pass_homes, scene_.width(), boxes, arena_) : own;
-  clock(strip_.times.exchange);
+  clock(Phase::exchange);
   const LineBoxes line_boxes = fill_lines(polygons, lines, ebc_, scene_.width(), arena_);
   strip_.work.edge_boxes += boxes;
-  clock(strip_.times.fill);
+  clock(Phase::fill);
 
   StripBuffer& buffer = outbox_.begin();
-  clock(strip_.times.credit);
+  clock(Phase::credit);
   const Shading look = shading(polygons);
   if (strip_.kind == FrameKind::keyframe) z_buffer_.draw_stationary(line_boxes, look, buffer);
   strip_.constant_runs = static_cast<std::uint32_t>(buffer.run_count());
   z_buffer_.draw_moving(line_boxes, look, buffer);
-  clock(strip_.times.scanline);
+  clock(Phase::scanline);
 
   const bool last = pass + 1 == passes;
   if (last && strip_.kind == FrameKind::keyframe && nodes > 1) share_depth(cube);
@@ -232,7 +248,7 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
 
 void Renderer::share_depth(const hal::Cube& cube) {
   exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, z_buffer_);
-  clock(strip_.times.depth);
+  clock(Phase::depth);
 }
 
 Shading Renderer::shading(const Polygons& polygons) const {
@@ -240,9 +256,10 @@ Shading Renderer::shading(const Polygons& polygons) const {
           static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }
 
-void Renderer::clock(double& phase) {
+void Renderer::clock(Phase phase) {
   const double now = dclock();
-  phase += now - clock_;
+  strip_.times.*kPhaseTimes[static_cast<std::size_t>(phase)] += now - clock_;
+  hal::record_span(static_cast<int>(phase), clock_, now);
   clock_ = now;
 }
 

@@ -2,7 +2,9 @@
 // (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +15,14 @@
 #include "node/polygons.h"
 #include "node/scanline.h"
 #include "node/scene.h"
+#include "node/tracer.h"
 
 namespace mars::node {
+
+// Where PhaseTimes has each step, by Phase.
+inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,  &PhaseTimes::map,
+                                        &PhaseTimes::exchange, &PhaseTimes::fill, &PhaseTimes::scanline,
+                                        &PhaseTimes::depth,    &PhaseTimes::credit};
 
 class Renderer {
  public:
@@ -22,6 +30,11 @@ class Renderer {
 
   // Draws the caller's share of `frames` (see Render) and sends it.
   void render(const Render& command, std::span<const std::uint32_t> frames);
+
+  // Sends what was recorded so far, where the run is traced.
+  void send_trace();
+  // When there are no more frames: waits until what was sent is gone.
+  void finish();
 
   Outbox& outbox() { return outbox_; }
   // The frame at hand, for a fault's report.
@@ -38,8 +51,9 @@ class Renderer {
   void mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes);
   Shading shading(const Polygons& polygons) const;
   // Adds the time since the last call to `phase`.
-  void clock(double& phase);
+  void clock(Phase phase);
 
+  std::optional<Tracer> tracer_;
   Scene scene_;
   const Kernels& kernels_;
   Mapping mapping_;

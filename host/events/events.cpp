@@ -50,7 +50,7 @@ json to_json(const Fault& fault) {
 }
 
 json to_json(const Done& done) {
-  return {{"event", "done"}, {"frames", done.frames}, {"seconds", done.seconds}, {"folder", done.folder}};
+  return {{"event", "done"}, {"frames", done.frames}, {"seconds", done.seconds}, {"folder", done.folder}, {"trace_lacks", done.trace_lacks}};
 }
 
 Booted read_booted(const json& from) {
@@ -78,7 +78,7 @@ Fault read_fault(const json& from) {
   return fault;
 }
 
-Done read_done(const json& from) { return {from.at("frames"), from.at("seconds"), from.at("folder")}; }
+Done read_done(const json& from) { return {from.at("frames"), from.at("seconds"), from.at("folder"), from.value("trace_lacks", std::uint64_t{0})}; }
 
 std::optional<Event> read_known(const json& from) {
   const std::string name = from.at("event");

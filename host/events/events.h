@@ -59,6 +59,7 @@ struct Done {
   std::uint32_t frames = 0;
   double seconds = 0;
   std::string folder;  // "" without a sink
+  std::uint64_t trace_lacks = 0;  // events left out of the trace
 
   bool operator==(const Done&) const = default;
 };

@@ -11,6 +11,7 @@
 #include "hal/nx.h"
 #include "host/farm/assembly.h"
 #include "host/farm/schedule.h"
+#include "host/farm/tracing.h"
 
 namespace mars::host {
 namespace {
@@ -52,7 +53,9 @@ std::vector<node::Hello> receive_hellos() {
 void load_film(std::span<const std::byte> block, const FarmOptions& options, std::span<const node::Hello> hellos) {
   const auto least = std::min_element(hellos.begin(), hellos.end(),
                                       [](const auto& a, const auto& b) { return a.memory < b.memory; });
-  const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping};
+  const SpanOf span(HostSpan::load, block.size());
+  const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping,
+                        options.trace != nullptr ? 1u : 0u};
   send_to_all(node::kLoad, &load, sizeof load);
   std::vector<long> sends;
   for (const node::Hello& hello : hellos)
@@ -65,13 +68,14 @@ void load_film(std::span<const std::byte> block, const FarmOptions& options, std
 class Farm {
  public:
   Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sinks, const FarmListener& listener,
-       FarmReport& report);
+       FarmReport& report, Tracing& tracing);
 
   void run();
 
  private:
   void give_units();
   void give(std::size_t cube);
+  void receive();
   void receive_strip();
   bool compose_one();
   void note_taken();
@@ -82,6 +86,7 @@ class Farm {
   SinkPool& sinks_;
   const FarmListener& listener_;
   FarmReport& report_;
+  Tracing& tracing_;
   std::uint32_t background_;
 
   std::vector<Unit> units_;
@@ -106,10 +111,11 @@ class Farm {
 };
 
 Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sinks, const FarmListener& listener,
-           FarmReport& report)
+           FarmReport& report, Tracing& tracing)
     : sinks_(sinks),
       listener_(listener),
       report_(report),
+      tracing_(tracing),
       background_(pixel_of(film.settings().background)),
       units_(make_units(film, options.frames, options.coherence)),
       cubes_(make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units_.size())),
@@ -121,13 +127,15 @@ void Farm::run() {
   while (frames_left_ > 0) {
     give_units();
     note_taken();
+    tracing_.drain();
     if (compose_one()) continue;
-    if (iprobe(node::any_of(node::kStrip, node::kFault)))
-      receive_strip();
+    if (iprobe(node::any_of(node::kStrip, node::kFault, node::kTrace)))
+      receive();
     else
       flick();
   }
   report_.render_seconds = dclock() - start_;
+  const SpanOf span(HostSpan::finish);
   sinks_.finish();
   note_taken();
 }
@@ -141,6 +149,7 @@ void Farm::give_units() {
 
 void Farm::give(std::size_t number) {
   const Unit& unit = units_[next_unit_++];
+  const SpanOf span(HostSpan::give, unit.interval);
   const hal::Cube& cube = cubes_[number];
   const auto frames = static_cast<std::uint32_t>(unit.frames.size());
   const node::Render command{unit.interval, cube.first, cube.count, frames, unit.first_inbetween};
@@ -153,12 +162,21 @@ void Farm::give(std::size_t number) {
     csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
 }
 
+void Farm::receive() {
+  switch (infotype()) {
+    case node::kFault: receive_fault();
+    case node::kTrace: tracing_.receive(); break;
+    default: receive_strip();
+  }
+}
+
 void Farm::receive_strip() {
-  if (infotype() == node::kFault) receive_fault();
+  SpanOf span(HostSpan::strip);
   std::vector<std::byte> bytes = buffer_of(static_cast<std::size_t>(infocount()));
   crecv(node::kStrip, bytes.data(), static_cast<long>(bytes.size()));
   StripMessage strip(std::move(bytes));
   const node::Strip header = strip.header();
+  span.set_value(header.frame);
   if (header.last == 1) report_.strips.push_back(header);
   assembly_of(header).receive(std::move(strip));
   // A frame's credit is held until the sinks have it; that of its earlier strips is not.
@@ -181,7 +199,9 @@ bool Farm::compose_one() {
   if (ready == running_.end()) return false;
   Frame* frame = sinks_.free_frame(ready->assembly.background_name());
   if (frame == nullptr) return false;
+  SpanOf span(HostSpan::compose);
   Assembly::Composed composed = ready->assembly.compose(*frame);
+  span.set_value(composed.frame);
   const FinishedFrame finished{composed.frame, ready->interval, composed.kind, dclock() - start_};
   report_.frames.push_back(finished);
   with_sinks_[composed.frame] = {finished, std::move(composed.nodes)};
@@ -198,8 +218,9 @@ bool Farm::compose_one() {
 
 void Farm::note_taken() {
   const node::Credit credit{1};
-  for (const std::uint32_t number : sinks_.taken()) {
-    const auto found = with_sinks_.find(number);
+  for (const SinkPool::Taken& taken : sinks_.taken()) {
+    tracing_.taken(taken);
+    const auto found = with_sinks_.find(taken.number);
     for (const std::int32_t node : found->second.nodes) csend(node::kCredit, &credit, sizeof credit, node, 0);
     if (listener_.finished) listener_.finished(found->second.frame);
     with_sinks_.erase(found);
@@ -249,12 +270,18 @@ FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions&
   const double booted = dclock();
   const auto units = static_cast<std::uint32_t>(make_units(film, options.frames, options.coherence).size());
   if (listener.booted) listener.booted(report.nodes, units, static_cast<std::uint32_t>(options.frames.size()) - units);
+  Tracing tracing(options.trace, report.nodes, kCredits);
   load_film(film_block, options, report.nodes);
   report.load_seconds = dclock() - booted;
   const double start = dclock();
-  Farm(film, options, sinks, listener, report).run();
+  Farm(film, options, sinks, listener, report, tracing).run();
   report.total_seconds = dclock() - start;
+  tracing.read_clocks_again();
   send_to_all(node::kStop, nullptr, 0);
+  while (tracing.nodes_left() > 0) {
+    cprobe(node::kTrace);
+    tracing.receive();
+  }
   return report;
 }
 

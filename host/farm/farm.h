@@ -11,6 +11,7 @@
 
 #include "hal/failure.h"
 #include "host/sinks/sink_pool.h"
+#include "host/trace/trace.h"
 #include "node/film.h"
 #include "node/protocol.h"
 
@@ -32,6 +33,7 @@ struct FarmOptions {
   std::uint32_t cubes = 0;            // that work at a time; 0: as many as pay
   std::vector<std::uint32_t> frames;  // ascending, within the film, at least one
   std::uint64_t memory = 0;           // bytes for a frame on a node; 0: as the node with the least offers
+  Trace* trace = nullptr;             // to be filled; none: nothing is recorded
 };
 
 struct FinishedFrame {

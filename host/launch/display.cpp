@@ -78,6 +78,7 @@ std::string done_text(const Done& done) {
   if (!done.folder.empty()) text += " in " + done.folder;
   text += ", " + one_decimal(done.seconds) + " seconds";
   if (done.seconds > 0) text += ", " + one_decimal(done.frames / done.seconds) + " frames/s";
+  if (done.trace_lacks > 0) text += "\nthe trace was full: it lacks " + counted(done.trace_lacks, "later event");
   return text;
 }
 

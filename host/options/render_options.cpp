@@ -214,6 +214,8 @@ std::vector<Entry> table() {
              "Where frames go; none writes nothing, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
+      option(all, "--trace", "FILE", &RenderOptions::trace,
+             "Write who did what when, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
       flag(person, "-q,--quiet", &RenderOptions::quiet, "Tell only what went wrong. Example: --quiet"),
   };
 }

@@ -40,6 +40,7 @@ struct RenderOptions {
   std::uint32_t cubes = 0;    // intervals rendered at a time; 0: as many as pay
   SinkKind sink = SinkKind::png;
   std::string report;  // file for the measurements; "": none
+  std::string trace;   // file for a picture of the run; "": none
   bool quiet = false;
 
   bool operator==(const RenderOptions&) const = default;

@@ -15,6 +15,7 @@
 #include "host/sinks/frame_folder.h"
 #include "host/sinks/sink_pool.h"
 #include "host/sinks/whole_file.h"
+#include "host/trace/trace_file.h"
 #include "topology/machine.h"
 
 namespace mars::host {
@@ -97,7 +98,14 @@ class Teller {
   Progress progress_;
 };
 
-void render(const RenderOptions& options, const char* backend) {
+// Throws as a trace could not be written, better now than after the last frame.
+std::unique_ptr<Trace> begin_trace(const RenderOptions& options) {
+  if (options.trace.empty()) return nullptr;
+  check_can_write(options.trace);
+  return std::make_unique<Trace>();
+}
+
+void render(const RenderOptions& options, const char* backend, Trace* trace) {
   const CompiledFilm film = load_film_of(options);
   const node::FilmSettings& settings = film.view().settings();
   FarmOptions farm;
@@ -105,6 +113,7 @@ void render(const RenderOptions& options, const char* backend) {
   farm.coherence = !options.no_coherence;
   farm.cubes = options.cubes;
   farm.frames = options.frames.of_film(settings.frames);
+  farm.trace = trace;
 
   // Better now than after the last frame.
   if (!options.report.empty()) check_can_write(options.report);
@@ -118,7 +127,9 @@ void render(const RenderOptions& options, const char* backend) {
                           settings.width, settings.height};
     write_whole_file(options.report, report_text(head, report));
   }
-  tell(Done{static_cast<std::uint32_t>(farm.frames.size()), report.total_seconds, options.folder});
+  if (trace) write_trace(options.trace, {options.film, backend}, *trace);
+  tell(Done{static_cast<std::uint32_t>(farm.frames.size()), report.total_seconds, options.folder,
+            trace ? trace->left_out() : 0});
 }
 
 // Why the run ends; of a node's failure also the command that shows it again, with one frame where it is
@@ -144,10 +155,16 @@ Fault fault_of(const std::exception& reason, RenderOptions options, const char* 
 }  // namespace
 
 void run_render_job(const RenderOptions& options, const char* backend) {
+  std::unique_ptr<Trace> trace;
   try {
-    render(options, backend);
+    trace = begin_trace(options);
+    render(options, backend, trace.get());
   } catch (const std::exception& reason) {
     tell(fault_of(reason, options, backend));
+    if (trace && trace->begun()) {
+      trace->fail(reason.what(), dclock());
+      write_trace(options.trace, {options.film, backend}, *trace);
+    }
     throw;
   }
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hal/failure.h"
+#include "hal/nx.h"
 
 namespace mars::host {
 
@@ -13,7 +14,7 @@ SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) 
     frames_.push_back(std::make_unique<Frame>(shape.width, shape.height, shape.block));
     free_.push_back(frames_.back().get());
   }
-  for (std::uint32_t i = 0; i < shape.threads; ++i) threads_.emplace_back([this] { work(); });
+  for (std::uint32_t i = 0; i < shape.threads; ++i) threads_.emplace_back([this, i] { work(i); });
 }
 
 SinkPool::~SinkPool() {
@@ -42,12 +43,12 @@ void SinkPool::submit(Frame* frame) {
   {
     const std::lock_guard lock(mutex_);
     tell_failure();
-    waiting_.push_back(frame);
+    waiting_.push_back({frame, dclock()});
   }
   submitted_.notify_one();
 }
 
-std::vector<std::uint32_t> SinkPool::taken() {
+std::vector<SinkPool::Taken> SinkPool::taken() {
   const std::lock_guard lock(mutex_);
   tell_failure();
   return std::exchange(taken_, {});
@@ -59,31 +60,33 @@ void SinkPool::finish() {
   tell_failure();
 }
 
-void SinkPool::work() {
+void SinkPool::work(std::uint32_t thread) {
   std::unique_lock lock(mutex_);
   while (true) {
     submitted_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
     if (stop_) return;
-    take(lock);
+    take(lock, thread);
     idle_.notify_all();
   }
 }
 
-void SinkPool::take(std::unique_lock<std::mutex>& lock) {
-  Frame* frame = waiting_.front();
+void SinkPool::take(std::unique_lock<std::mutex>& lock, std::uint32_t thread) {
+  const auto [frame, submitted] = waiting_.front();
   waiting_.pop_front();
   ++busy_;
   lock.unlock();
+  const double begun = dclock();
   std::exception_ptr failure;
   try {
     sink_.take(*frame);
   } catch (...) {
     failure = std::current_exception();
   }
+  const double ended = dclock();
   lock.lock();
   --busy_;
   free_.push_back(frame);
-  if (!failure) taken_.push_back(frame->number);
+  if (!failure) taken_.push_back({frame->number, thread, submitted, begun, ended});
   if (failure && !failure_) failure_ = failure;
 }
 

@@ -40,14 +40,22 @@ class SinkPool {
   // name; nullptr when all are with the sink.
   Frame* free_frame(std::uint64_t background = 0);
   void submit(Frame* frame);
-  // Numbers of the frames the sink has taken since the last call.
-  std::vector<std::uint32_t> taken();
+  // A frame the sink has taken, and when, in seconds of dclock().
+  struct Taken {
+    std::uint32_t number;
+    std::uint32_t thread;  // of the pool's
+    double submitted;
+    double begun;
+    double ended;
+  };
+  // The frames taken since the last call.
+  std::vector<Taken> taken();
   // Waits until every submitted frame was taken.
   void finish();
 
  private:
-  void work();
-  void take(std::unique_lock<std::mutex>& lock);
+  void work(std::uint32_t thread);
+  void take(std::unique_lock<std::mutex>& lock, std::uint32_t thread);
   void tell_failure();
 
   Sink& sink_;
@@ -58,8 +66,12 @@ class SinkPool {
   std::condition_variable submitted_;
   std::condition_variable idle_;
   std::vector<Frame*> free_;
-  std::deque<Frame*> waiting_;
-  std::vector<std::uint32_t> taken_;
+  struct Waiting {
+    Frame* frame;
+    double submitted;
+  };
+  std::deque<Waiting> waiting_;
+  std::vector<Taken> taken_;
   std::size_t busy_ = 0;  // threads within the sink
   bool stop_ = false;
   std::exception_ptr failure_;

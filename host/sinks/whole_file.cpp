@@ -110,15 +110,19 @@ class Part {
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  Part part(path);
-  Descriptor file = part.create();
-  file.write_all(bytes);
-  file.close_checked();
-  part.rename_to_target();
+  write_whole_file(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
-  write_whole_file(path, std::as_bytes(std::span(text.data(), text.size())));
+  write_whole_file(path, [text](const Write& write) { write(text); });
+}
+
+void write_whole_file(const std::filesystem::path& path, const std::function<void(const Write&)>& produce) {
+  Part part(path);
+  Descriptor file = part.create();
+  produce([&file](std::string_view piece) { file.write_all(std::as_bytes(std::span(piece.data(), piece.size()))); });
+  file.close_checked();
+  part.rename_to_target();
 }
 
 void check_can_write(const std::filesystem::path& path) {

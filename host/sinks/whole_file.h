@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ inline constexpr std::string_view kPartSuffix = ".part";
 
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
+// What `produce` writes, piece by piece.
+using Write = std::function<void(std::string_view piece)>;
+void write_whole_file(const std::filesystem::path& path, const std::function<void(const Write&)>& produce);
 
 // Throws as writing `path` would, as far as can be told before; leaves nothing behind.
 void check_can_write(const std::filesystem::path& path);

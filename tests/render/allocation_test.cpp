@@ -65,7 +65,7 @@ class AllocationLog : public hal::CountingBackend {
   std::vector<long>& log_;
 };
 
-TEST(Allocation, NoneInSteadyState) {
+void expect_none_in_steady_state(host::Trace* trace) {
   constexpr int kNodes = 3;
   const FilmBlock block(crowd(64, 36, 600, 3));
   std::vector<std::vector<long>> logs(kNodes + 1);
@@ -74,6 +74,7 @@ TEST(Allocation, NoneInSteadyState) {
   RunOptions options;
   options.nodes = kNodes;
   options.farm.cubes = 1;
+  options.farm.trace = trace;
   options.wrap = [&](hal::Backend& inner) {
     return std::make_unique<AllocationLog>(inner, counts, logs[static_cast<std::size_t>(inner.rank())]);
   };
@@ -85,6 +86,14 @@ TEST(Allocation, NoneInSteadyState) {
     const long late = log.back() - log[log.size() / 2];
     EXPECT_LT(late, static_cast<long>(log.size() / 20)) << "node " << node << " allocated in steady state";
   }
+}
+
+TEST(Allocation, NoneInSteadyState) { expect_none_in_steady_state(nullptr); }
+
+TEST(Allocation, NoneWhereTheRunIsTraced) {
+  host::Trace trace;
+  expect_none_in_steady_state(&trace);
+  EXPECT_GT(trace.records().size(), 10'000u);
 }
 
 }  // namespace

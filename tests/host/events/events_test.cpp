@@ -18,7 +18,7 @@ std::vector<Event> one_of_each() {
       FrameTaken{0, 0, FrameKind::keyframe},
       Fault{"a \"problem\"\nof two lines", "film.json:3", "mend it", {}, {}, ""},
       Fault{"out of memory", "node 3, frame 12", "", 3, 12, "mars render x.json --frames 12"},
-      Done{24, 1.5, "build/demo"},
+      Done{24, 1.5, "build/demo", 7},
   };
 }
 

@@ -48,6 +48,7 @@ RenderOptions unusual() {
   options.cubes = 3;
   options.sink = SinkKind::none;
   options.report = "report.json";
+  options.trace = "trace.json";
   options.quiet = true;
   return options;
 }

@@ -55,7 +55,12 @@ TEST(SinkPool, TakesEveryFrameOnce) {
   SinkPool pool(sink, {8, 8, 4, 3, 2});
   std::vector<std::uint32_t> taken;
   const auto note = [&] {
-    for (const std::uint32_t number : pool.taken()) taken.push_back(number);
+    for (const SinkPool::Taken& frame : pool.taken()) {
+      EXPECT_LE(frame.submitted, frame.begun);
+      EXPECT_LE(frame.begun, frame.ended);
+      EXPECT_LT(frame.thread, 2u);
+      taken.push_back(frame.number);
+    }
   };
   for (std::uint32_t number = 0; number < 500; ++number) {
     Frame& frame = wait_for_frame(pool);

@@ -1,0 +1,58 @@
+#include "host/trace/trace.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace mars::host {
+
+Trace::Trace(std::size_t most_events) : most_(most_events) { records_.reserve(most_events); }
+
+void Trace::begin(std::span<const node::Hello> nodes, int credits, double now) {
+  nodes_.assign(nodes.begin(), nodes.end());
+  clocks_.resize(nodes.size() + 1);
+  lost_.resize(nodes.size() + 1);
+  credits_ = credits;
+  begin_ = now;
+}
+
+void Trace::add(int rank, std::span<const hal::Event> half) {
+  for (const hal::Event& event : half.first(half.size() - 1)) keep({event, rank});
+  lost_.at(static_cast<std::size_t>(rank)) = half.back().value;
+}
+
+void Trace::add(const SinkPool::Taken& frame) {
+  hal::Event event{};
+  event.begin = frame.begun;
+  event.end = frame.ended;
+  event.kind = hal::Event::Kind::span;
+  event.what = static_cast<std::int32_t>(HostSpan::write);
+  event.value = frame.number;
+  event.peer = static_cast<std::int32_t>(frame.thread);
+  event.number = static_cast<std::uint32_t>((frame.begun - frame.submitted) * 1e6);
+  keep({event, host()});
+}
+
+void Trace::fail(const std::string& reason, double now) { fault_ = {reason, now}; }
+
+void Trace::keep(const Record& record) {
+  if (records_.size() < most_) {
+    records_.push_back(record);
+    return;
+  }
+  ++beyond_bound_;
+  if (!first_beyond_) first_beyond_ = record;
+}
+
+double Trace::since_begin(int rank, double time) const {
+  return clocks_.at(static_cast<std::size_t>(rank)).to_host(time) - begin_;
+}
+
+double Trace::clock_error() const {
+  double error = 0;
+  for (const NodeClock& clock : clocks_) error = std::max(error, clock.error());
+  return error;
+}
+
+std::uint64_t Trace::lost() const { return std::accumulate(lost_.begin(), lost_.end(), std::uint64_t{0}); }
+
+}  // namespace mars::host

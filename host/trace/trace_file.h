@@ -1,0 +1,21 @@
+// A trace as a file in the trace event format, which ui.perfetto.dev and chrome://tracing show: one JSON object
+// (docs/tracing.md names what is in it). Times are microseconds of the host's clock since the trace's beginning.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/trace/trace.h"
+
+namespace mars::host {
+
+// What a trace does not know of its run.
+struct TraceHead {
+  std::string film;
+  std::string backend;
+};
+
+// Whole or not at all; throws Failure where it cannot be written.
+void write_trace(const std::filesystem::path& path, const TraceHead& head, const Trace& trace);
+
+}  // namespace mars::host
