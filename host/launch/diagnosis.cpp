@@ -62,6 +62,15 @@ std::optional<Failure> lost_rank(const std::string& words, const std::optional<B
                  remedy_for(signal));
 }
 
+// "ORTE has lost communication with a remote daemon. ... Remote daemon: [[6456,0],2] on node n3"
+std::optional<Failure> lost_machine(const std::string& words) {
+  static const std::regex form("lost communication with a remote daemon[^]*Remote daemon: \\S+ on node (\\S+)");
+  std::smatch match;
+  if (!std::regex_search(words, match, form)) return std::nullopt;
+  return Failure("nothing is heard of it any more", "machine " + match[1].str(),
+                 "see whether it still runs and can be reached; --frames renders what is missing");
+}
+
 std::optional<Failure> no_slots(const std::string& words) {
   const bool few = words.find("not enough slots available") != std::string::npos;
   const bool filled = words.find("are already filled") != std::string::npos;
@@ -98,6 +107,7 @@ Failure diagnose(const Remains& remains, const RenderOptions& options) {
   if (const auto own = own_words(remains.last_words)) return *own;
   const std::string words = join(remains.last_words);
   if (const auto lost = lost_rank(words, remains.booted)) return *lost;
+  if (const auto lost = lost_machine(words)) return *lost;
   if (const auto crowded = no_slots(words)) return *crowded;
   return unknown(remains);
 }

@@ -50,6 +50,14 @@ TEST(Diagnosis, OfAKilledRank) {
   EXPECT_TRUE(holds(message(words("0")), "out of memory"));
 }
 
+TEST(Diagnosis, OfALostMachine) {
+  EXPECT_EQ(message(failed_with({"ORTE has lost communication with a remote daemon.", "",
+                                 "  HNP daemon   : [[6456,0],0] on node n1",
+                                 "  Remote daemon: [[6456,0],2] on node n3"})),
+            "machine n3: nothing is heard of it any more (see whether it still runs and can be reached; "
+            "--frames renders what is missing)");
+}
+
 TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {
   for (const char* words : {"There are not enough slots available in the system to satisfy the 9",
                             "All nodes which are allocated for this job are already filled."}) {

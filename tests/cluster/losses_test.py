@@ -1,0 +1,67 @@
+"""A cluster that loses processes, hosts and cables in the middle of a film: soon one clear end, on every host."""
+
+import subprocess
+
+from virtual_cluster import (CLUSTER, SECONDS, TESTBED, ClusterTest, run_on_cluster, spinning_teapot, testbed,
+                             wait_until)
+
+SOON = 15       # where the loss shows
+SILENCE = 60    # where only silence shows it: 25 seconds until it is believed
+OUR_PROGRAMS = ["mars-host", "mars-node", "orted"]
+
+
+class Losses(ClusterTest):
+    def start(self, *options):
+        film = self.write("film.json", spinning_teapot(100000, [160, 90]))
+        command = ["mars", "render", film, "-o", "out", "--hostfile", self.hostfile, *options]
+        self.process = subprocess.Popen([TESTBED, "exec", "n1", *map(str, command)], cwd=self.folder, env=CLUSTER, text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(self.process.kill)
+        out = self.folder / "out"
+        wait_until(lambda: len(list(out.glob("*.png"))) > 3, SECONDS, "no frame")
+
+    def processes(self, host, *programs):
+        done = testbed("exec", host, "pgrep", "-d", " ", "-f", "|".join(programs))
+        return [int(process) for process in done.stdout.split()]
+
+    def assertEnds(self, says, seconds, hosts):
+        """One clear message that holds `says`; nothing of ours goes on on `hosts`, and no frame is torn."""
+        _, told = self.process.communicate(timeout=seconds)
+        self.assertEqual(self.process.returncode, 1, told)
+        self.assertClear(told, says)
+        for host in hosts:
+            wait_until(lambda: not self.processes(host, *OUR_PROGRAMS), seconds, f"something still runs on {host}")
+        self.assertNothingTorn(self.folder / "out")
+
+    def test_a_killed_node(self):
+        self.start()
+        testbed("exec", "n3", "kill", "-9", self.processes("n3", "mars-node")[0])
+        self.assertEnds("machine n3: node 2 was killed by signal 9", SOON, ["n1", "n2", "n3", "n4"])
+
+    def test_a_stopped_film(self):
+        self.start()
+        testbed("exec", "n1", "pkill", "-TERM", "-x", "mars")
+        self.assertEnds("stopped by Terminated", SOON, ["n1", "n2", "n3", "n4"])
+
+    def test_a_host_cut_off(self):
+        self.start()
+        testbed("cut", "n3")
+        self.addCleanup(testbed, "join", "n3")
+        self.assertEnds("machine n3: nothing is heard of it", SILENCE, ["n1", "n2", "n3", "n4"])
+
+    def test_z_power_cut(self):
+        """The last test of the class by its name: the host is gone for good."""
+        self.start()
+        testbed("kill", "n4")
+        self.assertEnds("machine n4: nothing is heard of it", SILENCE, ["n1", "n2", "n3"])
+
+    def test_a_film_on_a_slow_cable(self):
+        film = self.write("film.json", spinning_teapot(8, [320, 180]))
+        testbed("slow", "n3", "5mbit")
+        self.on("n1", "mars", "render", film, "-o", "out", "--hostfile", self.hostfile)
+        testbed("slow", "n3", "full")
+        self.assertEqual(self.verified_hash("out"), self.alone(film))
+
+
+if __name__ == "__main__":
+    run_on_cluster()
