@@ -1,5 +1,6 @@
 #include "host/options/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 namespace mars::host {

@@ -2,9 +2,11 @@
 // command line itself is wrong (told with what to type instead).
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
 #include <optional>
+
+namespace CLI {
+class App;
+}
 
 namespace mars::host {
 
