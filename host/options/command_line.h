@@ -2,16 +2,23 @@
 // command line itself is wrong (told with what to type instead).
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
 #include <optional>
+
+namespace CLI {
+class App;
+}
 
 namespace mars::host {
 
 inline constexpr int kFailed = 1;
 inline constexpr int kUsage = 2;
 
-// None: go on. Otherwise the exit code, everything already told (0 after --help and --version).
+// None: go on. Otherwise the exit code, everything already told (0 after --help, --version and --list-options).
+// --list-options is for manuals and completion (packaging/): lines of fields between tabs, none of them empty:
+//   command   NAME     PURPOSE                    the program, then each of its commands
+//   argument  COMMAND  NAME   VALUE  NEED  HELP   NEED is required or optional
+//   option    COMMAND  NAMES  VALUE  NEED  HELP   NAMES like -o,--output; VALUE is - where none follows
+//   setting   NAME     MEANING                    of the environment
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
 
 }  // namespace mars::host

@@ -1,11 +1,13 @@
 #include "host/options/render_options.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <functional>
 #include <string_view>
 #include <utility>
 
 #include "hal/failure.h"
+#include "host/options/command_line.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -243,6 +245,13 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
   if (program == Program::compile) return;
   app.parse_complete_callback(
       [&app, &options] { as_usage(app.get_name(), [&] { check_together(options); }); });
+}
+
+std::optional<int> read_render_options(Program program, const char* name, const char* purpose,
+                                       RenderOptions& options, int argc, const char* const* argv) {
+  CLI::App app(purpose, name);
+  add_render_options(app, options, program);
+  return read_command_line(app, argc, argv);
 }
 
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options) {

@@ -3,7 +3,6 @@
 // and both directions: from a command line and to the command line of the program started next.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +10,10 @@
 
 #include "host/options/frame_set.h"
 #include "node/protocol.h"
+
+namespace CLI {
+class App;
+}
 
 namespace mars::host {
 
@@ -52,6 +55,11 @@ enum class Program : unsigned { mars = 1, host = 2, cube = 4, threads = 8, compi
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
 // outlive the parsing.
 void add_render_options(CLI::App& app, RenderOptions& options, Program program);
+
+// Reads the whole command line of a program that does nothing but render; `purpose` heads its help. As
+// read_command_line.
+std::optional<int> read_render_options(Program program, const char* name, const char* purpose,
+                                       RenderOptions& options, int argc, const char* const* argv);
 
 // The arguments that make `program` read these options again, those it takes; defaults are left out.
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options);

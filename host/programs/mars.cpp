@@ -1,4 +1,5 @@
 // mars: what a person types. It knows no MPI: `mars render` starts the programs that do.
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 

@@ -1,16 +1,18 @@
 // mars-cube: host and nodes as one program, for starters that want only one: rank 0 is the host.
 #include "hal/mpi/start.h"
 #include "hal/nx.h"
-#include "host/options/command_line.h"
 #include "host/programs/node_job.h"
 #include "host/programs/render_job.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
-  CLI::App app("Host and nodes in one program, by rank: mpirun -n 5 mars-cube FILM -o DIR", "mars-cube");
+  constexpr const char* kPurpose =
+      "Host and nodes in one program, by rank: mpirun -n 5 mars-cube FILM -o DIR";
   host::RenderOptions options;
-  host::add_render_options(app, options, host::Program::cube);
-  if (const auto code = host::read_command_line(app, argc, argv)) return *code;
+  if (const auto code =
+          host::read_render_options(host::Program::cube, "mars-cube", kPurpose, options, argc, argv)) {
+    return *code;
+  }
   return hal::run_mpi(argc, argv, hal::Role::by_rank, [&](int, char**) {
     if (mynode() == myhost())
       host::run_render_job(options, "mpi");

@@ -1,14 +1,16 @@
 // mars-host: the rank of an MPI job that reads the film, gives out the work and writes the frames.
 #include "hal/mpi/start.h"
-#include "host/options/command_line.h"
 #include "host/programs/render_job.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
-  CLI::App app("The host of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node", "mars-host");
+  constexpr const char* kPurpose =
+      "The host of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node";
   host::RenderOptions options;
-  host::add_render_options(app, options, host::Program::host);
-  if (const auto code = host::read_command_line(app, argc, argv)) return *code;
+  if (const auto code =
+          host::read_render_options(host::Program::host, "mars-host", kPurpose, options, argc, argv)) {
+    return *code;
+  }
   return hal::run_mpi(argc, argv, hal::Role::host, [&](int, char**) {
     host::run_render_job(options, "mpi");
     return 0;

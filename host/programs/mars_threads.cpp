@@ -10,10 +10,12 @@
 
 int main(int argc, char** argv) {
   using namespace mars;
-  CLI::App app("Host and nodes in one process: mars-threads FILM -o DIR --nodes 4", "mars-threads");
+  constexpr const char* kPurpose = "Host and nodes in one process: mars-threads FILM -o DIR --nodes 4";
   host::RenderOptions options;
-  host::add_render_options(app, options, host::Program::threads);
-  if (const auto code = host::read_command_line(app, argc, argv)) return *code;
+  if (const auto code =
+          host::read_render_options(host::Program::threads, "mars-threads", kPurpose, options, argc, argv)) {
+    return *code;
+  }
   try {
     if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
     hal::run_threads(static_cast<int>(options.nodes), [&] { host::run_render_job(options, "threads"); },

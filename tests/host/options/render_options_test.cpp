@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+
 #include "host/options/command_line.h"
 #include "tests/host/document/failure_of.h"
 

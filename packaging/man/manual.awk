@@ -1,0 +1,81 @@
+# Fills a manual page's template in with what programs say about their options (--list-options, described in
+# host/options/command_line.h):  awk -v doc=DIR -v data=DIR -f manual.awk OPTIONS TEMPLATE
+#   @OPTIONS mars render@   the section OPTIONS of a command
+#   @COMMANDS mars@         a subsection for each command that has no page of its own
+#   @SETTINGS@              a list of the environment's variables
+#   @DOC@, @DATA@           where documents and data are installed
+# Templates and result are in mdoc(7).
+BEGIN { FS = "\t" }
+
+# Text as mdoc takes it: nothing is a macro.
+function plain(text) {
+  gsub(/\\/, "\\e", text)
+  gsub(/-/, "\\-", text)
+  return (text ~ /^[.']/ ? "\\&" : "") text
+}
+
+# A sentence a line; an example is what one types.
+function help(text,    at, example) {
+  at = index(text, "Example: ")
+  example = at ? substr(text, at + 9) : ""
+  if (at) text = substr(text, 1, at - 1)
+  sub(/ +$/, "", text)
+  if (text != "") text = plain(text) (text ~ /[.!?]$/ ? "" : ".") "\n"
+  return text (example == "" ? "" : "Example:\n.Ql " plain(example) "\n")
+}
+
+function value(name) {
+  if (name == "-") return ""
+  if (index(name, "|") == 0) return " Ar " name
+  gsub(/\|/, " | Cm ", name)
+  return " Cm " name
+}
+
+function option(names, type,    i, count, each, line) {
+  count = split(names, each, ",")
+  for (i = 1; i <= count; i++) line = line (i > 1 ? " , " : "") "Fl " plain(substr(each[i], 2)) value(type)
+  return line
+}
+
+FILENAME == ARGV[1] && $1 == "command" { commands[++command_count] = $2; purpose[$2] = $3 }
+FILENAME == ARGV[1] && $1 == "argument" {
+  synopsis[$2] = synopsis[$2] " Ar " $3
+  items[$2] = items[$2] ".It Ar " $3 "\n" help($6)
+}
+FILENAME == ARGV[1] && $1 == "option" && $3 !~ /--help/ {
+  if ($5 == "required") synopsis[$2] = synopsis[$2] " " option(first($3), $4)
+  else optional[$2] = 1
+  items[$2] = items[$2] ".It " option($3, $4) "\n" help($6)
+}
+FILENAME == ARGV[1] && $1 == "setting" && !($2 in known) {
+  known[$2] = 1
+  settings = settings ".It Ev " $2 "\n" help(toupper(substr($3, 1, 1)) substr($3, 2))
+}
+FILENAME == ARGV[1] { next }
+
+function first(names) {
+  sub(/,.*/, "", names)
+  return names
+}
+
+function list(text) { return ".Bl -tag -width Ds\n" text ".El" }
+
+# Of "mars": each "mars WORD" that is not in a page of its own.
+function subsections(program,    i, name, text) {
+  for (i = 1; i <= command_count; i++) {
+    name = commands[i]
+    if (index(name, program " ") != 1 || name == program " render") continue
+    text = text ".Ss " name "\n" synopsis_of(program, name) help(purpose[name]) list(items[name]) "\n"
+  }
+  sub(/\n$/, "", text)
+  return text
+}
+
+function synopsis_of(program, name) {
+  return ".Nm Cm " substr(name, length(program) + 2) (optional[name] ? " Oo Ar options Oc" : "") synopsis[name] "\n.Pp\n"
+}
+
+/^@OPTIONS / { gsub(/^@OPTIONS |@$/, ""); print ".Sh OPTIONS\n" list(items[$0]); next }
+/^@COMMANDS / { gsub(/^@COMMANDS |@$/, ""); print subsections($0); next }
+/^@SETTINGS@$/ { print list(settings); next }
+{ gsub(/@DOC@/, doc); gsub(/@DATA@/, data); print }

@@ -1,0 +1,174 @@
+#!/usr/bin/env bash
+# Proves MARS on a bare Debian 12. Needs root, debootstrap and a network:
+#   tests/bare/bare_debian.sh [--base FILE.tar]
+# In one bare system: ./bootstrap demo, test and deb. In a second: the .deb, installed by apt, used by root and
+# by an ordinary user, removed. What is committed is what is tested. --base keeps the bare system itself: FILE
+# is written where it is missing, and spares the next run debootstrap. Takes ten minutes and about 4 GB below
+# TMPDIR (/tmp). Ends with a line for each step; exit code 0 if all went well.
+set -euo pipefail
+
+suite=bookworm
+seconds_for_demo=120
+checkout=$(cd "$(dirname "$0")/../.." && pwd)
+
+give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 1; }
+
+# What apt on this machine fetches the suite from, as lines for sources.list; nothing where there is no apt.
+debian_sources() {
+  command -v apt-get >/dev/null || return 0
+  # shellcheck disable=SC2016  # apt's own variables
+  apt-get indextargets --format '$(ORIGIN) $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
+    awk -v suite="$suite" '$1 == "Debian" && index($3, suite) == 1 && !seen[$0]++ { print "deb", $2, $3, $4 }'
+}
+
+make_base() {
+  local mirror
+  mirror=$(debian_sources | awk -v suite="$suite" '$3 == suite && !found++ { print $2 }')
+  # shellcheck disable=SC2086  # nothing where debootstrap's own mirror is taken
+  debootstrap --variant=minbase --include=ca-certificates "$suite" "$work/base" $mirror
+  tar -C "$work/base" --numeric-owner -cf "$base.part" .
+  mv "$base.part" "$base"
+  rm -rf "$work/base"
+}
+
+# A fresh system in $work/$1 that fetches packages as this machine does.
+unpack_system() {
+  local root=$work/$1 lines
+  mkdir "$root"
+  tar -C "$root" --numeric-owner -xpf "$base"
+  lines=$(debian_sources)
+  [ -z "$lines" ] || echo "$lines" >"$root/etc/apt/sources.list"
+  if command -v apt-config >/dev/null; then
+    apt-config dump | grep -E '^Acquire::https?::' >"$root/etc/apt/apt.conf.d/90machine" || true
+  fi
+  cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
+  mount -t proc proc "$root/proc"
+  mount -t sysfs -o ro sysfs "$root/sys"
+  mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
+  mount -t tmpfs tmpfs "$root/dev/shm"
+}
+
+# within SYSTEM USER SCRIPT: as that user at home, knowing nothing of this machine's environment but proxies.
+within() {
+  local home=/root
+  [ "$2" = root ] || home=/home/$2
+  env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME="$home" TERM=dumb LANG=C.UTF-8 \
+    ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
+    chroot --userspec="$2" "$work/$1" bash -euo pipefail -c "cd
+$3" </dev/null
+}
+
+# step NAME SYSTEM USER SCRIPT: the same, with a line in the summary. Leaves its seconds in $seconds, and those
+# that it had of processors in $processors.
+step() {
+  local name=$1 verdict=ok
+  shift
+  printf '\n==== %s\n' "$name"
+  local TIMEFORMAT='%0R %0U %0S'
+  { time within "$@" >&3 2>&4; } 2>"$work/times" || verdict=FAILED
+  read -r seconds user system <"$work/times"
+  processors=$((user + system))
+  [ "$verdict" = ok ] || failed=$((failed + 1))
+  summary+=("$(printf '%-6s %5d s  %5d s of processors  %s' "$verdict" "$seconds" "$processors" "$name")")
+}
+
+prove_bootstrap() {
+  unpack_system build
+  git -c safe.directory='*' clone -q --no-hardlinks "$checkout" "$work/build/root/mars"
+  step "./bootstrap demo, nothing installed" build root 'mars/bootstrap demo'
+  step "./bootstrap demo, again" build root 'mars/bootstrap demo'
+  step "./bootstrap demo, packages in and nothing built" build root 'rm -r mars/build; mars/bootstrap demo'
+  # On a busy machine it may wait longer: that says nothing where a single processor would have done.
+  if [ "$seconds" -gt $seconds_for_demo ] && [ "$processors" -gt $seconds_for_demo ]; then
+    failed=$((failed + 1))
+    summary+=("FAILED the demo took longer than $seconds_for_demo s")
+  fi
+  step "the demo's frames" build root '
+    cd mars/build
+    release/bin/mars verify demo
+    [ "$(ls demo/frame-*.png | wc -l)" -ge 24 ]'
+  step "./bootstrap test" build root 'mars/bootstrap test'
+  step "./bootstrap deb" build root 'mars/bootstrap deb'
+}
+
+# What both kinds of user do with the installed package.
+use_mars='
+  mkdir film; cd film
+  mars --version
+  mars info /usr/share/doc/mars/examples/robot-arm.json
+  for backend in mpi threads; do
+    mars render /usr/share/doc/mars/examples/robot-arm.json --backend $backend --frames 0-11 --nodes 2 -o $backend
+    mars verify $backend | tee $backend.txt
+  done
+  cmp mpi.txt threads.txt
+  if mars --help | grep -q doctor; then mars doctor; fi'
+
+read_manuals='
+  for page in mars mars-render mars-host mars-node mars-cube mars-threads; do
+    MANWIDTH=80 man --warnings "$page" >page.txt 2>troubles.txt
+    grep -q NAME page.txt
+    [ ! -s troubles.txt ] || { cat troubles.txt; false; }
+  done
+  man mars-render | grep -A 3 -e --backend'
+
+complete_words='
+  set +u
+  . /usr/share/bash-completion/bash_completion
+  _completion_loader mars || [ $? = 124 ]
+  COMP_WORDS=(mars render --backend ""); COMP_CWORD=3; COMP_LINE="mars render --backend "; COMP_POINT=${#COMP_LINE}
+  $(complete -p mars | sed "s/.*-F \([^ ]*\).*/\1/") mars "" --backend
+  echo "${COMPREPLY[@]}"
+  [ "${COMPREPLY[*]}" = "auto mpi threads" ]'
+
+prove_package() {
+  unpack_system user
+  cp "$work"/build/root/mars/build/release/mars_*.deb "$work/user/root/"
+  step "apt-get install the .deb" user root '
+    apt-get update -q
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends ./mars_*.deb
+    ! command -v g++'
+  step "mars, by root" user root "$use_mars"
+  step "an ordinary user" user root 'useradd -m -s /bin/bash person'
+  step "mars, by an ordinary user" user person "$use_mars"
+  step "man-db and bash-completion" user root '
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends man-db bash-completion'
+  step "man mars and its others" user person "$read_manuals"
+  step "completion in bash" user person "$complete_words"
+  step "apt-get purge" user root '
+    apt-get purge -q -y mars
+    ! ls /usr/bin/mars* /usr/share/doc/mars /usr/share/mars'
+}
+
+run() {
+  [ -f "$base" ] || make_base
+  prove_bootstrap
+  if ls "$work"/build/root/mars/build/release/mars_*.deb >/dev/null 2>&1; then prove_package; fi
+  printf '\n==== Summary\n'
+  printf '%s\n' "${summary[@]}"
+  [ "$failed" = 0 ]
+}
+
+summary=()
+failed=0
+
+# The work is done in mount and process namespaces of its own: whatever ends it, nothing stays mounted or running.
+if [ "${1:-}" = --within ]; then
+  work=$2 base=$3
+  exec 3>&1 4>&2
+  run
+  exit
+fi
+
+case "${1:-}" in
+  "") ;;
+  --base) [ $# = 2 ] || give_up "--base needs a file" ;;
+  *) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 2 ;;
+esac
+[ "$(id -u)" = 0 ] || give_up "needs root"
+command -v debootstrap >/dev/null || give_up "needs debootstrap (apt-get install debootstrap)"
+work=$(mktemp -d "${TMPDIR:-/tmp}/mars-bare.XXXXXX")
+trap 'rm -rf --one-file-system "$work"' EXIT
+trap 'exit 130' INT TERM HUP
+base=$(realpath -m "${2:-$work/base.tar}")
+chmod 755 "$work"
+unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base"

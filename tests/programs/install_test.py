@@ -1,0 +1,155 @@
+"""What `cmake --install` leaves works wherever it is, knows nothing of the place it was built in, and its manual
+and completion say what the programs say themselves. And what ./bootstrap says where it may not install."""
+
+import gzip
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import harness
+from harness import BACKENDS, HAVE_MPI, ProgramTest, main
+
+BUILD = harness.PROGRAMS.parent
+STARTERS = ["mars", "mars-threads"] + ["mars-host", "mars-cube"] * HAVE_MPI  # nodes take no arguments
+
+COMPLETE = """
+set -u
+source "$1"
+shift
+COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
+function=$(complete -p "${1##*/}" | sed 's/.*-F \\([^ ]*\\).*/\\1/')
+"$function" "$1" "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}"
+[ ${#COMPREPLY[@]} = 0 ] || printf '%s\\n' "${COMPREPLY[@]}"
+"""
+
+
+class Installation(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        work = pathlib.Path(tempfile.mkdtemp(prefix="mars-install-"))
+        cls.addClassCleanup(shutil.rmtree, work)
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", work / "first", "--strip"], check=True,
+                       capture_output=True)
+        cls.prefix = (work / "first").rename(work / "moved here")
+        harness.PROGRAMS = cls.prefix / "bin"
+
+    def rows(self):
+        """Each starter's table of options: program to rows of fields."""
+        return {each: [row.split("\t") for row in self.succeed(each, "--list-options").splitlines()]
+                for each in STARTERS}
+
+
+class Installed(Installation):
+    def complete(self, *words):
+        words = [harness.PROGRAMS / words[0], *words[1:]]
+        script = self.prefix / "share/bash-completion/completions" / words[0].name
+        return self.succeed("bash", "-c", COMPLETE, "bash", script, *words).splitlines()
+
+    def test_renders_an_installed_example(self):
+        film = self.prefix / "share/doc/mars/examples/robot-arm.json"
+        hashes = set()
+        for backend in BACKENDS:
+            told = self.succeed("mars", "render", film, "-o", backend, "--backend", backend, "--nodes", 2,
+                                "--frames", "0-3", "--size", "96x54")
+            self.assertIn(str(harness.PROGRAMS / ("mars-host" if backend == "mpi" else "mars-threads")), told)
+            hashes.add(self.verified_hash(self.folder / backend))
+        self.assertEqual(len(hashes), 1)
+
+    def test_knows_no_place_of_its_building(self):
+        for file in self.prefix.rglob("*"):
+            if file.is_file():
+                content = file.read_bytes()
+                content = gzip.decompress(content) if file.suffix == ".gz" else content
+                for place in [BUILD, harness.SOURCES]:
+                    self.assertNotIn(os.fsencode(place), content, file)
+
+    def test_schemas_and_documents(self):
+        for name in ["mars/schema/film.schema.json", "mars/schema/model.schema.json", "doc/mars/copyright",
+                     "doc/mars/film-format.md", "doc/mars/examples/models/robot-arm.json"]:
+            self.assertTrue((self.prefix / "share" / name).is_file(), name)
+
+    def test_completes_commands_and_options(self):
+        for program, rows in self.rows().items():
+            commands = [row[1].split(" ") for row in rows if row[0] == "command"]
+            if len(commands) > 1:
+                self.assertEqual(sorted(self.complete(program, "")), sorted(words[1] for words in commands[1:]))
+            for words in commands:
+                names = [name for row in rows if row[:2] == ["option", " ".join(words)] for name in row[2].split(",")]
+                self.assertEqual(self.complete(*words, "-"), names)
+
+    def test_completes_values(self):
+        some = 0
+        for rows in self.rows().values():
+            for row in rows:
+                if row[0] == "option" and "|" in row[3]:
+                    some += 1
+                    name = row[2].split(",")[-1]
+                    self.assertEqual(self.complete(*row[1].split(" "), name, ""), row[3].split("|"))
+                    self.assertEqual(self.complete(*row[1].split(" "), name, "=", ""), row[3].split("|"))
+        self.assertGreater(some, 0)
+
+    def test_completes_films_and_folders(self):
+        for name in ["a film.json", "film.mars", "film.txt"]:
+            self.write(name, "")
+        (self.folder / "frames").mkdir()
+        self.assertEqual(self.complete("mars", "render", ""), ["frames", "a film.json", "film.mars"])
+        self.assertEqual(self.complete("mars", "render", "-o", "f"), ["frames"])
+        self.assertEqual(self.complete("mars", "render", "--nodes", ""), [])
+
+    def test_other_shells_take_their_completion(self):
+        share = self.prefix / "share"
+        for shell, script in [("zsh", share / "zsh/site-functions/_mars"),
+                              ("fish", share / "fish/vendor_completions.d/mars.fish")]:
+            self.assertIn("--list-options", script.read_text())
+            if shutil.which(shell):
+                self.succeed(shell, "-n", script)
+
+
+@unittest.skipUnless((BUILD / "packaging/options").exists(), "built without manual")
+class Manual(Installation):
+    def page(self, name):
+        return self.prefix / "share/man/man1" / f"{name}.1.gz"
+
+    def test_has_every_option_and_setting(self):
+        text = {name: gzip.decompress(self.page(name).read_bytes()).decode().replace("\\-", "-")
+                for name in ["mars", "mars-render", "mars-host"]}
+        for program, rows in self.rows().items():
+            for kind, of, *fields in rows:
+                name = {"mars render": "mars-render"}.get(of, "mars" if program == "mars" else "mars-host")
+                if kind == "setting":
+                    self.assertIn(f".It Ev {of}\n", text[name])
+                elif kind == "option" and of != "mars" and "--help" not in fields[0]:
+                    flags = r" , ".join(f"Fl {each[1:]}[^,\n]*" for each in fields[0].split(","))
+                    self.assertRegex(text[name], rf"(?m)^\.It {flags}$")
+        for page in text.values():
+            self.assertIsNone(re.search("@[A-Z]+", page))
+
+    def test_every_program_has_a_page(self):
+        for program in harness.PROGRAMS.iterdir():
+            self.assertTrue(self.page(program.name).is_file(), program.name)
+
+    @unittest.skipUnless(shutil.which("mandoc"), "needs mandoc")
+    def test_is_well_formed(self):
+        for page in self.page("mars").parent.iterdir():
+            self.succeed("mandoc", "-T", "lint", "-W", "warning", page)
+
+
+class Bootstrap(ProgramTest):
+    def test_names_what_is_missing(self):
+        # Without apt: nothing but a shell and its tools is in the path.
+        for tool in ["bash", "cut", "dirname", "grep", "head", "id", "paste", "sed"]:
+            (self.folder / tool).symlink_to(shutil.which(tool))
+        (self.folder / "dnf").symlink_to(shutil.which("true"))
+        done = self.run_program("bash", harness.SOURCES / "bootstrap", env={"PATH": str(self.folder)})
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"dnf install gcc-c\+\+ cmake ninja-build pkgconf-pkg-config openmpi-devel")
+        self.assertRegex(done.stdout, r"spack install gcc cmake ninja pkgconf openmpi")
+        self.assertNotIn("googletest", done.stdout)
+
+
+if __name__ == "__main__":
+    main()
