@@ -1,0 +1,40 @@
+# Spack's recipe for MARS. Untested: it was only checked to be Python. In a clone of MARS:
+#   spack repo create ~/mars-spack mars-site && mkdir -p ~/mars-spack/packages/mars
+#   cp cluster/spack/package.py ~/mars-spack/packages/mars/ && spack repo add ~/mars-spack
+#   spack dev-build mars@main ^openmpi schedulers=slurm
+from spack.package import *
+
+try:  # from Spack 1.0 on build systems are in the repository of packages
+    from spack_repo.builtin.build_systems.cmake import CMakePackage
+except ImportError:
+    pass
+
+
+class Mars(CMakePackage):
+    """Models articulated figures, animates them by keyframes, and renders the film in parallel."""
+
+    license("MIT")
+
+    # Built from the clone one is in; there is nothing to download.
+    version("main")
+
+    variant("mpi", default=True, description="Nodes as MPI processes; without it, as threads")
+
+    depends_on("c", type="build")
+    depends_on("cxx", type="build")
+    depends_on("cmake@3.25:", type="build")
+    depends_on("ninja", type="build")
+    depends_on("pkgconfig", type="build")
+    depends_on("mpi@3:", when="+mpi")
+    depends_on("hwloc@2:")
+    depends_on("libpng")
+    depends_on("xxhash")
+    depends_on("glm")
+    depends_on("cli11@2:")
+    depends_on("nlohmann-json@3.11:")
+    conflicts("%gcc@:10", msg="MARS is C++20")
+
+    generator("ninja")
+
+    def cmake_args(self):
+        return [self.define_from_variant("MARS_MPI", "mpi"), self.define("BUILD_TESTING", False)]
