@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "programs"))
-from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, living, main, spinning_teapot,  # noqa: E402
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, main, spinning_teapot,  # noqa: E402
                      wait_until)
 
 TESTBED = SOURCES / "cluster/testbed/testbed.sh"
@@ -48,10 +48,6 @@ class ClusterTest(ProgramTest):
         """The film's pixels as one process draws them."""
         self.succeed("mars", "render", film, "-o", "alone", "--backend", "threads", "--nodes", 1, "--quiet")
         return self.verified_hash("alone")
-
-    def running(self, program):
-        """Processes of one of our programs, on whatever host."""
-        return subprocess.run(["pgrep", "-f", f"^{PROGRAMS / program}"], capture_output=True, text=True).stdout.split()
 
 
 def run_on_cluster():

@@ -109,7 +109,7 @@ class Installed(Installation):
                 self.succeed(shell, "-n", script)
 
 
-@unittest.skipUnless((BUILD / "packaging/options").exists(), "built without manual")
+@unittest.skipUnless((BUILD / "cluster/install/options").exists(), "built without manual")
 class Manual(Installation):
     def page(self, name):
         return self.prefix / "share/man/man1" / f"{name}.1.gz"
