@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "hal/failure.h"
 #include "hal/settings.h"
 #include "host/film/compile.h"
 #include "host/film/describe.h"
@@ -54,7 +55,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
   add_render_options(*command, options, Program::mars);
   command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kEnds);
-  command->callback([&options] { launch_render(options, std::filesystem::read_symlink("/proc/self/exe")); });
+  command->callback([&options] { launch_render(options, std::filesystem::read_symlink("/proc/self/exe"), [](const RenderOptions&) { return std::string("mars doctor tells more"); }); });
 }
 
 void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
   try {
     return mars::host::run(argc, argv);
   } catch (const std::exception& failure) {
-    std::cerr << "mars: " << failure.what() << '\n';
+    std::cerr << "mars: " << mars::reason_of(failure) << '\n';
     return mars::host::kFailed;
   }
 }
