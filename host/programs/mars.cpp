@@ -4,6 +4,7 @@
 
 #include "hal/failure.h"
 #include "hal/settings.h"
+#include "host/doctor/doctor.h"
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
@@ -11,6 +12,7 @@
 #include "host/model/patch_file.h"
 #include "host/options/command_line.h"
 #include "host/programs/film_of.h"
+#include "host/programs/node_job.h"
 #include "host/sinks/verify.h"
 
 namespace mars::host {
@@ -38,6 +40,8 @@ struct Names {
   std::string joint;
 };
 
+std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
+
 int verify(const std::string& folder) {
   const Verdict verdict = verify_folder(folder);
   for (const Verdict::Trouble& trouble : verdict.troubles) {
@@ -55,7 +59,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
   add_render_options(*command, options, Program::mars);
   command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kEnds);
-  command->callback([&options] { launch_render(options, std::filesystem::read_symlink("/proc/self/exe"), [](const RenderOptions&) { return std::string("mars doctor tells more"); }); });
+  command->callback([&options] { launch_render(options, own_file(), adviser(own_file())); });
 }
 
 void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
@@ -92,6 +96,19 @@ void add_import(CLI::App& app, Names& names) {
   command->callback([&] { std::cout << import_patches(names.from, names.to, names.joint) << '\n'; });
 }
 
+void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "doctor", "See whether films can be rendered here, and what to do where not");
+  command->add_option("--nodes", options.nodes,
+                      "For so many nodes, and show where each is placed; default: as mars render. "
+                      "Example: --nodes 4")
+      ->check(CLI::Range(1, 1 << 20))
+      ->type_name("N");
+  command->add_flag("--this-machine", options.this_machine)->group("");  // asked by itself, on other machines
+  command->footer(kEnds);
+  command->callback([&] { code = run_doctor(options, own_file()) ? 0 : kFailed; });
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Models, animates and renders films in parallel", "mars");
   app.set_version_flag("--version", "mars " MARS_VERSION);
@@ -105,6 +122,10 @@ int run(int argc, char** argv) {
   add_info(app, names);
   add_verify(app, names, code);
   add_import(app, names);
+  DoctorOptions doctor;
+  doctor.reserved_cores = kCoresForHost;
+  doctor.version = MARS_VERSION;
+  add_doctor(app, doctor, code);
   if (const auto ended = read_command_line(app, argc, argv)) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;
