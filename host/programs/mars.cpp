@@ -1,6 +1,8 @@
 // mars: what a person types. It knows no MPI: `mars render` starts the programs that do.
 #include <filesystem>
 #include <iostream>
+#include <string_view>
+#include <vector>
 
 #include "hal/failure.h"
 #include "hal/settings.h"
@@ -20,18 +22,25 @@ namespace {
 
 constexpr const char* kWayIn = R"(MARS models, animates and renders films in parallel.
 
+Begin with:
+  mars doctor                                  can films be rendered here?
+  mars render examples/demo.json -o demo       the demonstration, as PNG files
+  mars render --help                           every option, with an example
+
+Commands:
   mars render FILM -o DIR          render a film to PNG files
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   what a film holds
   mars verify DIR                  are all frames there, and whole?
   mars import FILE -o MODEL.json   a model from a patch file
+  mars doctor                      what is in the way here, and what to do
 
-  mars render examples/demo.json -o build/demo     renders the demonstration
-  mars COMMAND --help                              every option, with an example
+A film is a JSON file: docs/film-format.md says how to write one.
 )";
 
 constexpr const char* kEnds =
-    R"(Exit codes: 0 all went well; 1 something failed, told on standard error; 2 the command line is wrong.
+    R"(Exit codes: 0 all went well; 1 something failed, told on standard error;
+2 the command line is wrong.
 )";
 
 struct Names {
@@ -102,16 +111,25 @@ void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
   command->add_option("--nodes", options.nodes,
                       "For so many nodes, and show where each is placed; default: as mars render. "
                       "Example: --nodes 4")
-      ->check(CLI::Range(1, 1 << 20))
+      ->check(CLI::Range(1, 1 << 20).description(""))
       ->type_name("N");
   command->add_flag("--this-machine", options.this_machine)->group("");  // asked by itself, on other machines
   command->footer(kEnds);
   command->callback([&] { code = run_doctor(options, own_file()) ? 0 : kFailed; });
 }
 
+// "mars help render" is "mars render --help".
+std::vector<const char*> help_as_option(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || std::string_view(words[1]) != "help") return words;
+  words.erase(words.begin() + 1);
+  words.push_back("--help");
+  return words;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Models, animates and renders films in parallel", "mars");
-  app.set_version_flag("--version", "mars " MARS_VERSION);
+  app.set_version_flag("--version", "mars " MARS_VERSION, "Print the version. Example: --version");
   app.require_subcommand(0, 1);
   app.footer(std::string("mars COMMAND --help tells every option with an example.\n") + kEnds);
   RenderOptions options;
@@ -126,7 +144,8 @@ int run(int argc, char** argv) {
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;
   add_doctor(app, doctor, code);
-  if (const auto ended = read_command_line(app, argc, argv)) return *ended;
+  const std::vector<const char*> words = help_as_option(argc, argv);
+  if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;
 }
