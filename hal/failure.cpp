@@ -1,5 +1,7 @@
 #include "hal/failure.h"
 
+#include <new>
+
 namespace mars {
 namespace {
 
@@ -15,6 +17,12 @@ Failure::Failure(std::string what, std::string at, std::string mend)
       problem(std::move(what)),
       where(std::move(at)),
       remedy(std::move(mend)) {}
+
+std::string reason_of(const std::exception& failure) {
+  if (dynamic_cast<const std::bad_alloc*>(&failure) == nullptr) return failure.what();
+  return "there is no more memory to be had (use fewer nodes, set MARS_MEMORY to fewer MiB, or raise the limit: "
+         "mars doctor shows it)";
+}
 
 void check(bool holds, const char* rule, std::source_location at) {
   if (holds) return;

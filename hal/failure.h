@@ -3,6 +3,7 @@
 // `check`s, which stay on in a release.
 #pragma once
 
+#include <exception>
 #include <source_location>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,9 @@ class Failure : public std::runtime_error {
   std::string where;
   std::string remedy;
 };
+
+// What to tell of any failure; running out of memory says of itself neither what nor what to do.
+std::string reason_of(const std::exception& failure);
 
 // Throws std::logic_error naming the caller's file and line unless `holds`.
 void check(bool holds, const char* rule, std::source_location at = std::source_location::current());

@@ -91,7 +91,7 @@ std::vector<std::string> unknown_settings() {
 std::string settings_text() {
   std::string text;
   for (const Setting& each : kTable) {
-    text += std::string(each.name) + "\n    " + each.meaning + "; without it: " + each.fallback + "\n";
+    text += std::string(each.name) + "\n    " + each.meaning + ";\n    without it: " + each.fallback + "\n";
   }
   return text;
 }

@@ -115,7 +115,7 @@ void run_node(const NodeIdentity& identity) {
   try {
     firmware.obey();
   } catch (const std::exception& failure) {
-    firmware.tell_fault(failure.what());
+    firmware.tell_fault(reason_of(failure));
     crecv(kStop, nullptr, 0);  // the host ends the run; leaving first would take the reason with it
     throw;
   }

@@ -85,7 +85,7 @@ int run_mpi(int& argc, char**& argv, Role role, const std::function<int(int argc
     code = run_rank(
         role, [&] { return body(argc, argv); }, name);
   } catch (const std::exception& failure) {
-    abort_job(named(name, failure.what()));
+    abort_job(named(name, reason_of(failure)));
   }
   MPI_Finalize();
   return code;

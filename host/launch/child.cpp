@@ -171,12 +171,20 @@ void Child::take_signals() {
       reap();
       continue;
     }
-    const bool first = passed_on_ == 0;
-    if (first) passed_on_ = static_cast<int>(signal.ssi_signo);
-    // Whoever asks twice does not want to wait.
-    kill(-process_, first ? static_cast<int>(signal.ssi_signo) : SIGKILL);
-    if (!status_) deadline_ = Clock::now() + kGrace;
+    pass_on(static_cast<int>(signal.ssi_signo));
   }
+}
+
+void Child::pass_on(int signal) {
+  const bool first = passed_on_ == 0;
+  if (first) passed_on_ = signal;
+  // Whoever asks twice does not want to wait.
+  kill(-process_, first ? signal : SIGKILL);
+  if (!status_) deadline_ = Clock::now() + kGrace;
+}
+
+void Child::stop() {
+  if (passed_on_ == 0) pass_on(SIGTERM);
 }
 
 void Child::reap() {

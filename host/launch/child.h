@@ -38,6 +38,9 @@ class Child {
   // has not ended some seconds after is killed.
   Ending wait(const Listener& listener);
 
+  // For listeners: ends it as a SIGTERM to us would.
+  void stop();
+
   // The first signal that was passed on; 0: none.
   int passed_on() const { return passed_on_; }
 
@@ -51,6 +54,7 @@ class Child {
   void start(const Command& command, int output, int error);
   void take(Stream& stream, const std::function<void(const std::string&)>& tell);
   void take_signals();
+  void pass_on(int signal);
   void reap();
   bool ended() const { return status_ && !orphans_ && output_.descriptor < 0 && error_.descriptor < 0; }
 

@@ -1,6 +1,9 @@
 #include "host/launch/command.h"
 
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/uio.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,31 +44,31 @@ bool runnable(const fs::path& file) {
   return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
 }
 
-std::optional<fs::path> find_in_path(const std::string& name, const std::string& path) {
-  std::string_view rest = path;
-  while (!rest.empty()) {
-    const std::string_view folder = rest.substr(0, rest.find(':'));
-    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    if (const fs::path file = fs::path(folder) / name; !folder.empty() && runnable(file)) return file;
-  }
-  return std::nullopt;
-}
-
 std::optional<fs::path> find_ours(const std::string& name, const fs::path& self, const std::string& path) {
   for (const fs::path& folder : {self.parent_path(), self.parent_path().parent_path() / "libexec"}) {
     if (runnable(folder / name)) return folder / name;
   }
-  return find_in_path(name, path);
+  return find_program(name, path);
 }
 
 // Open MPI's large messages within a machine are copied by the receiver straight from the sender's memory,
-// which some containers forbid; it then complains, or fails. Whether they do shows on memory of one's own.
+// which some containers and kernels forbid; it then complains, or fails. Whether they do shows on a process
+// of ours.
 bool may_copy() {
   int from = 1;
   int to = 0;
+  const pid_t other = fork();
+  if (other == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (;;) pause();
+  }
   const iovec local{&to, sizeof to};
   const iovec remote{&from, sizeof from};
-  return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == sizeof from;
+  const bool may = process_vm_readv(other, &local, 1, &remote, 1, 0) == sizeof from;
+  if (other < 0) return true;
+  kill(other, SIGKILL);
+  waitpid(other, nullptr, 0);
+  return may;
 }
 
 std::vector<std::string> settings_in_use() {
@@ -89,6 +92,16 @@ void add_arguments(Command& command, Program program, const RenderOptions& optio
 
 }  // namespace
 
+std::optional<fs::path> find_program(const std::string& name, const std::string& path) {
+  std::string_view rest = path;
+  while (!rest.empty()) {
+    const std::string_view folder = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    if (const fs::path file = fs::path(folder) / name; !folder.empty() && runnable(file)) return file;
+  }
+  return std::nullopt;
+}
+
 std::string shell_text(const Command& command) {
   std::string text;
   for (const auto& [name, value] : command.environment) text += name + "=" + quoted(value) + " ";
@@ -98,12 +111,12 @@ std::string shell_text(const Command& command) {
 }
 
 Programs find_programs(const fs::path& self, const std::string& path) {
-  return {find_in_path("mpirun", path), find_ours("mars-host", self, path),
+  return {find_program("mpirun", path), find_ours("mars-host", self, path),
           find_ours("mars-node", self, path), find_ours("mars-threads", self, path)};
 }
 
 Surroundings look_around(const std::string& path) {
-  const bool remote_shell = find_in_path("ssh", path) || find_in_path("rsh", path);
+  const bool remote_shell = find_program("ssh", path) || find_program("rsh", path);
   const topology::Machine machine = topology::Machine::here();
   const std::string tasks = own_environment().value("SLURM_TASKS_PER_NODE").value_or("");
   return {static_cast<std::uint32_t>(machine.cores()),

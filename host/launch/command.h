@@ -23,6 +23,9 @@ struct Command {
 // As it can be pasted into a shell.
 std::string shell_text(const Command& command);
 
+// The program of that name in `path`, folders separated by colons; none: in none of them.
+std::optional<std::filesystem::path> find_program(const std::string& name, const std::string& path);
+
 // Where the programs are that `mars render` starts; none: not installed.
 struct Programs {
   std::optional<std::filesystem::path> mpirun;
@@ -31,8 +34,7 @@ struct Programs {
   std::optional<std::filesystem::path> threads;
 };
 
-// Looks for our own beside `self`, then in ../libexec from there, then as for mpirun in `path`, folders
-// separated by colons.
+// Looks for our own beside `self`, then in ../libexec from there, then as for mpirun in `path`.
 Programs find_programs(const std::filesystem::path& self, const std::string& path);
 
 // What a start has to mind.

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <regex>
 
+#include "host/launch/mpi_words.h"
+
 namespace mars::host {
 
 namespace {
@@ -71,14 +73,6 @@ std::optional<Failure> lost_machine(const std::string& words) {
                  "see whether it still runs and can be reached; --frames renders what is missing");
 }
 
-std::optional<Failure> no_slots(const std::string& words) {
-  const bool few = words.find("not enough slots available") != std::string::npos;
-  const bool filled = words.find("are already filled") != std::string::npos;
-  if (!few && !filled) return std::nullopt;
-  return Failure("the allocation has no room for the host and so many nodes", "",
-                 "use fewer --nodes, or ask for one task more than nodes");
-}
-
 // "mars: ..." is how our programs tell why they end.
 std::optional<Failure> own_words(const std::deque<std::string>& lines) {
   for (const std::string& line : lines) {
@@ -99,17 +93,26 @@ Failure unknown(const Remains& remains) {
   return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
 }
 
+// Whatever kept it from starting is likely to be seen from here.
+Failure with_advice(const Failure& failure, const Advice& advice) {
+  std::string remedy = failure.remedy;
+  const std::string more = advice();
+  if (!more.empty()) remedy += (remedy.ends_with('\n') ? "" : "\n") + more;
+  return Failure(failure.problem, failure.where, remedy);
+}
+
 }  // namespace
 
-Failure diagnose(const Remains& remains, const RenderOptions& options) {
+Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice) {
   if (remains.passed_on != 0) return stopped(remains, options);
   if (remains.fault) return told(*remains.fault);
   if (const auto own = own_words(remains.last_words)) return *own;
   const std::string words = join(remains.last_words);
-  if (const auto lost = lost_rank(words, remains.booted)) return *lost;
+  if (const auto lost = lost_rank(words, remains.booted))
+    return remains.booted ? *lost : with_advice(*lost, advice);
   if (const auto lost = lost_machine(words)) return *lost;
-  if (const auto crowded = no_slots(words)) return *crowded;
-  return unknown(remains);
+  if (const auto known = meaning_of(words)) return *known;
+  return with_advice(unknown(remains), advice);
 }
 
 }  // namespace mars::host

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,10 @@ struct Remains {
   std::string program;  // that was started
 };
 
-// The one message a person gets.
-Failure diagnose(const Remains& remains, const RenderOptions& options);
+// What is wrong with the surroundings, as lines without the last one's end.
+using Advice = std::function<std::string()>;
+
+// The one message a person gets; with advice where the run never began or nothing else is known.
+Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice);
 
 }  // namespace mars::host

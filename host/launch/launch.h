@@ -1,15 +1,38 @@
 // What `mars render` does: chooses a backend, starts the host and its nodes, shows how far they are, and
-// turns whatever goes wrong into one message.
+// turns whatever goes wrong into one message. And the same start with a tiny film, to see whether it works.
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
 
+#include "hal/failure.h"
+#include "host/events/events.h"
+#include "host/launch/diagnosis.h"
 #include "host/options/render_options.h"
 
 namespace mars::host {
 
+// What is wrong with the surroundings for a run with these options, in lines; asked for only when a start
+// fails.
+using Adviser = std::function<std::string(const RenderOptions& options)>;
+
 // Returns when all frames are where they belong. `self`: the running program's own file. Throws Failure where
 // the run fails or is stopped; nothing it started runs on.
-void launch_render(RenderOptions options, const std::filesystem::path& self);
+void launch_render(RenderOptions options, const std::filesystem::path& self, const Adviser& adviser);
+
+// A start as launch_render's, of the film kTrialFilm.
+struct Trial {
+  std::string command;  // as it can be typed
+  double boot_seconds = 0;
+  Booted booted;  // no nodes: it did not come so far
+  std::uint32_t frames = 0;
+  std::optional<Failure> failure;
+};
+
+// Shows nothing; the number of nodes and the backend are those of `options`. Throws Failure where there is
+// nothing to start.
+Trial try_start(RenderOptions options, const std::filesystem::path& self);
 
 }  // namespace mars::host

@@ -3,9 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "hal/settings.h"
+#include "host/document/fields.h"
+#include "host/options/wrapped.h"
 
 namespace mars::host {
 namespace {
@@ -37,6 +43,54 @@ std::string option_list(const CLI::App& app) {
   return text;
 }
 
+// Help as wide as a terminal, each example on a line of its own.
+class Help : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string text = option->get_description();
+    const std::size_t example = text.find("Example: ");
+    if (example == std::string::npos) return wrapped(text, 0, room());
+    return wrapped(text.substr(0, example), 0, room()) + "\n" + wrapped(text.substr(example), 0, room());
+  }
+
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream line;
+    CLI::detail::format_help(line, command->get_name(), wrapped(command->get_description(), 0, room()),
+                             column_width_);
+    return line.str();
+  }
+
+ private:
+  std::size_t room() const { return kColumns - column_width_; }
+};
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// What is wrong with the first word that the command it was given to does not know, and what could be meant.
+std::string misfit(const CLI::App& app) {
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  const CLI::App& command = given.empty() || given.front()->remaining().empty() ? app : *given.front();
+  const std::string word = command.remaining().front();
+  const std::string name = word.substr(0, word.find('='));
+  const bool option = word.starts_with('-');
+  const std::vector<std::string> known = option ? options_of(command) : commands_of(command);
+  const std::string near = did_you_mean(name, std::vector<std::string_view>(known.begin(), known.end()), "");
+  const char* what = option ? " is not an option" : known.empty() ? " is one word too many" : " is not a command";
+  return "'" + name + "'" + what + (near.empty() ? "" : " (" + near + ")");
+}
+
 }  // namespace
 
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {
@@ -44,9 +98,19 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
     std::cout << option_list(app);
     return 0;
   }
+  const auto help = std::make_shared<Help>();
+  std::vector<CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });
+  commands.push_back(&app);
+  for (CLI::App* command : commands) {
+    command->formatter(help);
+    command->get_help_ptr()->description("Print this help. Example: --help");
+  }
   try {
     app.parse(argc, argv);
     return std::nullopt;
+  } catch (const CLI::ExtrasError&) {
+    app.exit(CLI::ValidationError(misfit(app)), std::cout, std::cerr);
+    return kUsage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error, std::cout, std::cerr) == 0 ? 0 : kUsage;
   }

@@ -17,6 +17,9 @@ class App;
 
 namespace mars::host {
 
+// In place of a film's file: a tiny film that every program has in it, to see whether a start works.
+inline constexpr const char* kTrialFilm = ":trial";
+
 enum class Backend { automatic, mpi, threads };
 enum class Intervals { automatic, keyframes };
 enum class SinkKind { png, none };

@@ -2,8 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
+#include <string_view>
+#include <vector>
 
+#include "hal/failure.h"
 #include "hal/settings.h"
+#include "host/doctor/doctor.h"
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
@@ -11,6 +15,7 @@
 #include "host/model/patch_file.h"
 #include "host/options/command_line.h"
 #include "host/programs/film_of.h"
+#include "host/programs/node_job.h"
 #include "host/sinks/verify.h"
 
 namespace mars::host {
@@ -18,18 +23,25 @@ namespace {
 
 constexpr const char* kWayIn = R"(MARS models, animates and renders films in parallel.
 
+Begin with:
+  mars doctor                                  can films be rendered here?
+  mars render examples/demo.json -o demo       the demonstration, as PNG files
+  mars render --help                           every option, with an example
+
+Commands:
   mars render FILM -o DIR          render a film to PNG files
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   what a film holds
   mars verify DIR                  are all frames there, and whole?
   mars import FILE -o MODEL.json   a model from a patch file
+  mars doctor                      what is in the way here, and what to do
 
-  mars render examples/demo.json -o build/demo     renders the demonstration
-  mars COMMAND --help                              every option, with an example
+A film is a JSON file: docs/film-format.md says how to write one.
 )";
 
 constexpr const char* kEnds =
-    R"(Exit codes: 0 all went well; 1 something failed, told on standard error; 2 the command line is wrong.
+    R"(Exit codes: 0 all went well; 1 something failed, told on standard error;
+2 the command line is wrong.
 )";
 
 struct Names {
@@ -37,6 +49,8 @@ struct Names {
   std::string to;
   std::string joint;
 };
+
+std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
 int verify(const std::string& folder) {
   const Verdict verdict = verify_folder(folder);
@@ -55,7 +69,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
   add_render_options(*command, options, Program::mars);
   command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kEnds);
-  command->callback([&options] { launch_render(options, std::filesystem::read_symlink("/proc/self/exe")); });
+  command->callback([&options] { launch_render(options, own_file(), adviser(own_file())); });
 }
 
 void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
@@ -92,9 +106,31 @@ void add_import(CLI::App& app, Names& names) {
   command->callback([&] { std::cout << import_patches(names.from, names.to, names.joint) << '\n'; });
 }
 
+void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "doctor", "See whether films can be rendered here, and what to do where not");
+  command->add_option("--nodes", options.nodes,
+                      "For so many nodes, and show where each is placed; default: as mars render. "
+                      "Example: --nodes 4")
+      ->check(CLI::Range(1, 1 << 20).description(""))
+      ->type_name("N");
+  command->add_flag("--this-machine", options.this_machine)->group("");  // asked by itself, on other machines
+  command->footer(kEnds);
+  command->callback([&] { code = run_doctor(options, own_file()) ? 0 : kFailed; });
+}
+
+// "mars help render" is "mars render --help".
+std::vector<const char*> help_as_option(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || std::string_view(words[1]) != "help") return words;
+  words.erase(words.begin() + 1);
+  words.push_back("--help");
+  return words;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Models, animates and renders films in parallel", "mars");
-  app.set_version_flag("--version", "mars " MARS_VERSION);
+  app.set_version_flag("--version", "mars " MARS_VERSION, "Print the version. Example: --version");
   app.require_subcommand(0, 1);
   app.footer(std::string("mars COMMAND --help tells every option with an example.\n") + kEnds);
   RenderOptions options;
@@ -105,7 +141,12 @@ int run(int argc, char** argv) {
   add_info(app, names);
   add_verify(app, names, code);
   add_import(app, names);
-  if (const auto ended = read_command_line(app, argc, argv)) return *ended;
+  DoctorOptions doctor;
+  doctor.reserved_cores = kCoresForHost;
+  doctor.version = MARS_VERSION;
+  add_doctor(app, doctor, code);
+  const std::vector<const char*> words = help_as_option(argc, argv);
+  if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;
 }
@@ -117,7 +158,7 @@ int main(int argc, char** argv) {
   try {
     return mars::host::run(argc, argv);
   } catch (const std::exception& failure) {
-    std::cerr << "mars: " << failure.what() << '\n';
+    std::cerr << "mars: " << mars::reason_of(failure) << '\n';
     return mars::host::kFailed;
   }
 }

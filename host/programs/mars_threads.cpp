@@ -2,6 +2,7 @@
 #include <exception>
 #include <iostream>
 
+#include "hal/failure.h"
 #include "hal/threads/run_threads.h"
 #include "host/options/command_line.h"
 #include "host/programs/node_job.h"
@@ -22,7 +23,7 @@ int main(int argc, char** argv) {
                      host::run_node_job);
     return 0;
   } catch (const std::exception& failure) {
-    std::cerr << "mars: " << failure.what() << '\n';
+    std::cerr << "mars: " << reason_of(failure) << '\n';
     return host::kFailed;
   }
 }

@@ -4,6 +4,9 @@
 
 namespace mars::host {
 
+// Left to the host's sinks on a machine that has more cores than nodes.
+inline constexpr int kCoresForHost = 1;
+
 void run_node_job();
 
 }  // namespace mars::host

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "hal/failure.h"
 #include "hal/nx.h"
 #include "host/events/events.h"
 #include "host/farm/farm.h"
@@ -137,7 +138,7 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
 Fault fault_of(const std::exception& reason, RenderOptions options, const char* backend) {
   Fault fault;
   const auto* failure = dynamic_cast<const Failure*>(&reason);
-  fault.problem = failure ? failure->problem : reason.what();
+  fault.problem = failure ? failure->problem : reason_of(reason);
   if (failure) fault.where = failure->where;
   if (failure) fault.remedy = failure->remedy;
   const auto* at_node = dynamic_cast<const NodeFailure*>(&reason);

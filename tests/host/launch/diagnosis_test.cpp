@@ -19,7 +19,7 @@ Remains failed_with(std::deque<std::string> words) {
 std::string message(const Remains& remains) {
   RenderOptions options;
   options.folder = "out";
-  return diagnose(remains, options).what();
+  return diagnose(remains, options, [] { return std::string("/dev/shm is small"); }).what();
 }
 
 TEST(Diagnosis, TheHostsOwnWordComesFirst) {

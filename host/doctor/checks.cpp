@@ -1,0 +1,249 @@
+#include "host/doctor/checks.h"
+
+#include <cstdio>
+#include <regex>
+
+namespace mars::host {
+namespace {
+
+using State = Finding::State;
+
+constexpr std::uint64_t kMiB = 1024 * 1024;
+constexpr std::uint64_t kLittleMemory = 256 * kMiB;    // for a node's frame
+constexpr std::uint64_t kLittleShared = 64 * kMiB;     // what containers get unasked
+constexpr std::uint64_t kLeastShared = 16 * kMiB;
+constexpr std::uint64_t kSharedByANode = 4 * kMiB;     // Open MPI's segment for messages
+constexpr std::uint64_t kLittleTemporary = 16 * kMiB;  // free
+
+std::string counted(std::uint64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+bool several_machines(const Facts& facts) { return facts.slurm && facts.slurm->machines > 1; }
+
+// "5.0.3", with its first number; "" where it is not Open MPI.
+std::string open_mpi_version(const std::string& told) {
+  std::smatch match;
+  static const std::regex form("\\((?:Open MPI|Open RTE|PRRTE)\\) (\\d[\\w.]*)");
+  return std::regex_search(told, match, form) ? match[1].str() : "";
+}
+
+Finding check_mpi(const Facts& facts) {
+  const char* about = "MPI";
+  if (!facts.programs.mpirun) {
+    if (several_machines(facts) || !facts.programs.threads) {
+      return {State::trouble, about, "mpirun was not found",
+              "install Open MPI (Debian: openmpi-bin), or load it (module load openmpi)"};
+    }
+    return {State::note, about, "mpirun was not found: nodes are threads of one process",
+            "for several machines install Open MPI (Debian: openmpi-bin), or load it (module load openmpi)"};
+  }
+  const std::string where = ", " + facts.programs.mpirun->string();
+  if (facts.mpirun_version.empty()) {
+    return {State::trouble, about, "mpirun --version says nothing" + where,
+            "mpirun --version must work: load MPI anew, or use --backend threads"};
+  }
+  const std::string version = open_mpi_version(facts.mpirun_version);
+  if (version.empty()) {
+    return {State::trouble, about, "mpirun is not Open MPI's: " + first_line(facts.mpirun_version) + where,
+            "put Open MPI's mpirun first in the PATH (module load openmpi), or use --backend threads"};
+  }
+  if (version.starts_with("4.")) return {State::good, about, "Open MPI " + version + where, ""};
+  return {State::note, about, "Open MPI " + version + where,
+          "MARS is tried with Open MPI 4.1: see below whether a start works"};
+}
+
+Finding check_programs(const Facts& facts) {
+  const char* about = "programs";
+  const Programs& programs = facts.programs;
+  std::string lacking;
+  for (const auto& [name, there] : {std::pair{"mars-host", programs.host.has_value()},
+                                    std::pair{"mars-node", programs.node.has_value()},
+                                    std::pair{"mars-threads", programs.threads.has_value()}}) {
+    if (!there) lacking += (lacking.empty() ? "" : ", ") + std::string(name);
+  }
+  if (!lacking.empty()) {
+    const bool needed = programs.mpirun || !programs.threads;
+    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + lacking,
+            "build MARS where MPI is installed, and keep its programs in one folder"};
+  }
+  if (!facts.lacking.empty()) {
+    std::string names;
+    for (const std::string& name : facts.lacking) names += (names.empty() ? "" : ", ") + name;
+    return {State::trouble, about, "mars-node lacks libraries: " + names,
+            "load the MPI that MARS was built with (module load ...), or install it on this machine"};
+  }
+  const auto folder = programs.node->parent_path();
+  if (programs.host->parent_path() != folder || programs.threads->parent_path() != folder) {
+    return {State::note, about, programs.host->string() + ", but " + programs.node->string(),
+            "keep MARS's programs in one folder: of different versions they do not understand each other"};
+  }
+  return {State::good, about, "mars-host, mars-node, mars-threads in " + folder.string(), ""};
+}
+
+Finding check_processors(const Facts& facts) {
+  const std::uint32_t cores = facts.surroundings.cores;
+  std::string found = counted(cores, "core");
+  if (facts.processors != cores) found += ", " + counted(facts.processors, "hardware thread");
+  found += ", " + facts.simd;
+  if (facts.processors < facts.machine_processors) {
+    return {facts.slurm ? State::good : State::note, "processors",
+            found + "; the machine has " + std::to_string(facts.machine_processors) + " processors",
+            facts.slurm ? "" : "MARS uses what it is given: see taskset -p $$, or the container's --cpuset-cpus"};
+  }
+  if (facts.simd == "sse2")
+    return {State::note, "processors", found + " only: renders, but slower than with AVX2", ""};
+  return {State::good, "processors", found, ""};
+}
+
+Finding check_nodes(const Facts& facts) {
+  const char* about = "slots";
+  const std::uint32_t cores = facts.surroundings.cores;
+  if (facts.slurm && facts.slurm->tasks != 0 && !several_machines(facts) &&
+      facts.slurm->tasks < facts.nodes + 1) {
+    return {State::note, about,
+            "the job has " + counted(facts.slurm->tasks, "task") + ", the host and " +
+                counted(facts.nodes, "node") + " want " + std::to_string(facts.nodes + 1),
+            "ask for one task more than nodes (sbatch -n " + std::to_string(facts.nodes + 1) +
+                "), or use --nodes " + std::to_string(std::max(1u, facts.slurm->tasks - 1))};
+  }
+  if (facts.nodes > cores) {
+    return {State::note, about,
+            counted(facts.nodes, "node") + " on " + counted(cores, "core") + ": they take turns, bound to none",
+            "--nodes " + std::to_string(cores) + " gives each a core of its own"};
+  }
+  return {State::good, about, counted(facts.nodes, "node") + " on " + counted(cores, "core") + ": each bound to its own",
+          ""};
+}
+
+Finding check_memory(const Facts& facts) {
+  const char* about = "memory";
+  std::string found = facts.memory != 0 ? bytes_text(facts.memory) : "of unknown size";
+  if (facts.limit.together != 0 && (facts.memory == 0 || facts.limit.together < facts.memory))
+    found += ", " + bytes_text(facts.limit.together) + " of it for this job (cgroup)";
+  if (facts.limit.each != 0) found += ", " + bytes_text(facts.limit.each) + " a process (ulimit -v or -d)";
+  const std::uint64_t share = facts.memory_setting.value_or(
+      topology::memory_share(facts.memory, facts.limit, static_cast<int>(facts.nodes)));
+  found += "; for a node's frame " + bytes_text(share) + (facts.memory_setting ? " (MARS_MEMORY)" : "");
+  if (share >= kLittleMemory) return {State::good, about, found, ""};
+  return {State::note, about, found,
+          "if frames take several passes (--report): fewer --nodes, or more memory (sbatch --mem, "
+          "docker run --memory)"};
+}
+
+Finding check_shared(const Facts& facts) {
+  const char* about = "/dev/shm";
+  const char* remedy =
+      "enlarge it: mount -o remount,size=1G /dev/shm, or start the container with --shm-size=1g";
+  if (!facts.shared) return {State::trouble, about, "is not there", "mount a tmpfs at /dev/shm"};
+  const Space& space = *facts.shared;
+  const std::string found = bytes_text(space.total) + ", " + bytes_text(space.left) + " free";
+  if (space.left < kLeastShared)
+    return {State::trouble, about, found, std::string(remedy) + "; what ended jobs left there may be deleted"};
+  if (space.total <= kLittleShared || space.left < (facts.nodes + 1) * kSharedByANode)
+    return {State::note, about, found + ": too little for large films or many nodes", remedy};
+  return {State::good, about, found, ""};
+}
+
+Finding check_copies(const Facts& facts) {
+  if (!facts.surroundings.copies_forbidden)
+    return {State::good, "copies", "processes may copy from each other's memory (CMA)", ""};
+  return {State::note, "copies", "processes may not copy from each other's memory (CMA): slower messages",
+          "mars render minds it; for mpirun by hand export OMPI_MCA_btl_vader_single_copy_mechanism=none. "
+          "Containers allow it with --cap-add=SYS_PTRACE, kernels with sysctl kernel.yama.ptrace_scope=0"};
+}
+
+Finding check_user(const Facts& facts) {
+  const std::string place = facts.container.empty() ? "" : " in a container (" + facts.container + ")";
+  if (!facts.surroundings.root) return {State::good, "user", "not root" + place, ""};
+  return {State::note, "user", "root" + place + ": Open MPI wants to be told twice",
+          "mars render does; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
+          "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+}
+
+Finding check_temporary(const Facts& facts) {
+  const char* about = "TMPDIR";
+  if (!facts.temporary_space) {
+    return {State::trouble, about, facts.temporary + " cannot be written",
+            "Open MPI needs it: set TMPDIR to a folder on a local disk that you may write"};
+  }
+  const std::string found = facts.temporary + ", " + bytes_text(facts.temporary_space->left) + " free";
+  if (facts.temporary_space->left < kLittleTemporary)
+    return {State::trouble, about, found, "empty it, or set TMPDIR to a folder on a local disk that has room"};
+  return {State::good, about, found, ""};
+}
+
+Finding check_video(const Facts& facts) {
+  if (facts.ffmpeg) return {State::good, "ffmpeg", "is there, to make a video of the frames", ""};
+  return {State::note, "ffmpeg", "was not found: frames can be rendered, but no video made of them",
+          "install it (Debian: ffmpeg)"};
+}
+
+void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
+  const SlurmJob& job = *facts.slurm;
+  const std::string found = "job " + job.id + ", " + counted(job.machines, "machine") +
+                            (job.tasks != 0 ? ", " + counted(job.tasks, "task") : "");
+  findings.push_back({State::good, "Slurm", found, ""});
+  if (!job.plugins) {
+    const bool stuck = several_machines(facts) && facts.surroundings.no_remote_shell;
+    findings.push_back({stuck ? State::trouble : State::note, "srun", "was not found",
+                        "have Slurm's client programs on this machine, or start from one that has"});
+  } else if (!has(*job.plugins, "pmix")) {
+    findings.push_back({State::note, "srun", "has no plugin pmix: srun cannot start Open MPI's programs",
+                        "start by mars render or mpirun, or install the plugin (Debian: slurm-wlm-basic-plugins)"});
+  }
+  if (!job.cpus_per_task.empty() && job.srun_cpus_per_task != job.cpus_per_task) {
+    findings.push_back({State::note, "srun", "does not take over --cpus-per-task of the job",
+                        "in a job script: export SRUN_CPUS_PER_TASK=$SLURM_CPUS_PER_TASK"});
+  }
+}
+
+}  // namespace
+
+std::string bytes_text(std::uint64_t bytes) {
+  char text[40];
+  if (bytes >= 10 * 1024 * kMiB) {
+    std::snprintf(text, sizeof text, "%.0f GiB", static_cast<double>(bytes) / (1024.0 * kMiB));
+  } else if (bytes >= 1024 * kMiB) {
+    std::snprintf(text, sizeof text, "%.1f GiB", static_cast<double>(bytes) / (1024.0 * kMiB));
+  } else {
+    std::snprintf(text, sizeof text, "%.0f MiB", static_cast<double>(bytes) / kMiB);
+  }
+  return text;
+}
+
+std::vector<Finding> check_machine(const Facts& facts) {
+  std::vector<Finding> findings{check_mpi(facts)};
+  for (const auto check : {check_programs, check_processors, check_nodes, check_memory, check_shared,
+                           check_copies, check_user, check_temporary}) {
+    findings.push_back(check(facts));
+  }
+  if (facts.slurm) check_slurm(facts, findings);
+  if (facts.programs.mpirun && !facts.slurm && facts.surroundings.no_remote_shell) {
+    findings.push_back({State::note, "ssh", "was not found: MPI can start on this machine only",
+                        "for other machines install ssh (Debian: openssh-client)"});
+  }
+  findings.push_back(check_video(facts));
+  return findings;
+}
+
+Finding check_start(const Trial& trial) {
+  if (trial.failure) {
+    const Failure& failure = *trial.failure;
+    const std::string found = failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem;
+    return {State::trouble, "a start", found, failure.remedy + (failure.remedy.empty() ? "" : "\n") + trial.command};
+  }
+  char seconds[40];
+  std::snprintf(seconds, sizeof seconds, "%.1f", trial.boot_seconds);
+  const Booted& booted = trial.booted;
+  return {State::good, "a start",
+          counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") + " (" +
+              booted.backend + ") booted in " + seconds + " s, rendered " + counted(trial.frames, "frame"),
+          ""};
+}
+
+}  // namespace mars::host

@@ -1,0 +1,134 @@
+#include "host/doctor/facts.h"
+
+#include <stdlib.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <charconv>
+
+#include "hal/failure.h"
+#include "hal/settings.h"
+#include "host/launch/child.h"
+#include "host/launch/environment.h"
+#include "topology/machine.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Both outputs of a short program; "" where it cannot be started. What does not answer soon is stopped.
+std::string answer(const std::vector<std::string>& words) try {
+  constexpr std::chrono::seconds kLongest{10};
+  const auto deadline = std::chrono::steady_clock::now() + kLongest;
+  std::string text;
+  const auto take = [&](const std::string& line) { text += line + "\n"; };
+  Child child({{}, words});
+  child.wait({take, take, [&] {
+                if (std::chrono::steady_clock::now() > deadline) child.stop();
+              }});
+  return text;
+} catch (const Failure&) {
+  return "";
+}
+
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+std::string container(const Environment& environment) {
+  if (const auto name = environment.value("container")) return *name;
+  if (environment.value("APPTAINER_NAME") || environment.value("SINGULARITY_NAME")) return "apptainer";
+  std::error_code ignored;
+  if (fs::exists("/.dockerenv", ignored)) return "docker";
+  return fs::exists("/run/.containerenv", ignored) ? "podman" : "";
+}
+
+// Lines like "libmpi.so.40 => not found".
+std::vector<std::string> lacking_libraries(const fs::path& program) {
+  std::vector<std::string> names;
+  const std::string text = answer({"/bin/sh", "-c", "ldd \"$0\"", program.string()});
+  for (std::size_t at = 0; (at = text.find(" => not found", at)) != std::string::npos; ++at) {
+    const std::size_t begin = text.find_last_of("\t\n ", at - 1) + 1;
+    names.push_back(text.substr(begin, at - begin));
+  }
+  return names;
+}
+
+std::string simd() {
+  if (__builtin_cpu_supports("avx512f")) return "avx512";
+  return __builtin_cpu_supports("avx2") ? "avx2" : "sse2";
+}
+
+std::optional<Space> space(const fs::path& folder) {
+  struct statvfs found = {};
+  if (statvfs(folder.c_str(), &found) != 0) return std::nullopt;
+  return Space{std::uint64_t{found.f_blocks} * found.f_frsize, std::uint64_t{found.f_bavail} * found.f_frsize};
+}
+
+std::optional<Space> writable_space(const std::string& folder) {
+  std::string name = folder + "/mars-doctor-XXXXXX";
+  const int file = mkstemp(name.data());
+  if (file < 0) return std::nullopt;
+  close(file);
+  unlink(name.c_str());
+  return space(folder);
+}
+
+// As Open MPI looks for it.
+std::string temporary_folder(const Environment& environment) {
+  for (const char* name : {"TMPDIR", "TEMP", "TMP"})
+    if (const auto value = environment.value(name)) return *value;
+  return "/tmp";
+}
+
+std::uint32_t number(const std::optional<std::string>& text, std::uint32_t otherwise) {
+  std::uint32_t value = otherwise;
+  if (text) std::from_chars(text->data(), text->data() + text->size(), value);
+  return value;
+}
+
+std::optional<SlurmJob> slurm_job(const Environment& environment, const std::string& path) {
+  const auto id = environment.value("SLURM_JOB_ID");
+  if (!id) return std::nullopt;
+  SlurmJob job{*id,
+               number(environment.value("SLURM_NNODES"), 1),
+               number(environment.value("SLURM_NTASKS"), 0),
+               environment.value("SLURM_CPUS_PER_TASK").value_or(""),
+               environment.value("SRUN_CPUS_PER_TASK").value_or(""),
+               std::nullopt};
+  if (const auto srun = find_program("srun", path)) job.plugins = answer({srun->string(), "--mpi=list"});
+  return job;
+}
+
+}  // namespace
+
+Facts gather_facts(const fs::path& self, std::uint32_t nodes) {
+  const Environment environment = own_environment();
+  const std::string path = environment.value("PATH").value_or("/usr/bin:/bin");
+  const topology::Machine machine = topology::Machine::here();
+  Facts facts;
+  facts.host = host_name();
+  facts.container = container(environment);
+  facts.programs = find_programs(self, path);
+  facts.surroundings = look_around(path);
+  if (facts.programs.mpirun) facts.mpirun_version = answer({facts.programs.mpirun->string(), "--version"});
+  if (facts.programs.node) facts.lacking = lacking_libraries(*facts.programs.node);
+  facts.processors = static_cast<std::uint32_t>(machine.processors());
+  facts.machine_processors = static_cast<std::uint32_t>(sysconf(_SC_NPROCESSORS_ONLN));
+  facts.simd = simd();
+  facts.memory = machine.memory();
+  facts.limit = topology::memory_limit();
+  facts.memory_setting = hal::read_settings().memory;
+  facts.shared = space("/dev/shm");
+  facts.temporary = temporary_folder(environment);
+  facts.temporary_space = writable_space(facts.temporary);
+  facts.ffmpeg = find_program("ffmpeg", path).has_value();
+  facts.slurm = slurm_job(environment, path);
+  facts.nodes = nodes != 0 ? nodes : facts.processors;
+  return facts;
+}
+
+}  // namespace mars::host

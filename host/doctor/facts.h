@@ -1,0 +1,55 @@
+// What is known of the surroundings of a rendering on this machine, as plain values: found out once, and made
+// up in tests. What a start itself minds (programs, root, copies) is found by host/launch, as for mars render.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/launch/command.h"
+#include "topology/memory_limit.h"
+
+namespace mars::host {
+
+struct Space {
+  std::uint64_t total = 0;  // bytes
+  std::uint64_t left = 0;
+};
+
+// Of the job that Slurm gave us, by its environment.
+struct SlurmJob {
+  std::string id;
+  std::uint32_t machines = 1;
+  std::uint32_t tasks = 0;          // 0: not said
+  std::string cpus_per_task;        // "" where not said; in it Slurm says it, in the other srun reads it
+  std::string srun_cpus_per_task;
+  std::optional<std::string> plugins;  // what srun --mpi=list says; none: there is no srun
+};
+
+struct Facts {
+  std::string host;
+  std::string container;  // "docker", "podman", ...; "" in none
+  Programs programs;
+  Surroundings surroundings;
+  std::string mpirun_version;            // all that mpirun --version says
+  std::vector<std::string> lacking;      // libraries that mars-node needs and this machine has not
+  std::uint32_t processors = 1;          // that this process may use
+  std::uint32_t machine_processors = 1;  // that the machine has
+  std::string simd;                      // "avx512", "avx2", "sse2"
+  std::uint64_t memory = 0;              // bytes of the machine; 0: unknown
+  topology::MemoryLimit limit;
+  std::optional<std::uint64_t> memory_setting;  // MARS_MEMORY, bytes
+  std::optional<Space> shared;                  // /dev/shm; none: there is none
+  std::string temporary;                        // the folder for temporary files
+  std::optional<Space> temporary_space;         // none: we may not write there
+  bool ffmpeg = false;
+  std::optional<SlurmJob> slurm;
+  std::uint32_t nodes = 1;  // of a rendering on this machine
+};
+
+// `self`: the running program's own file; `nodes`: 0 for one a processor.
+Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes);
+
+}  // namespace mars::host

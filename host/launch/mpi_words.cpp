@@ -1,0 +1,78 @@
+#include "host/launch/mpi_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace mars::host {
+namespace {
+
+constexpr const char* kNoRoom = "the allocation has no room for the host and so many nodes";
+constexpr const char* kAskForMore = "use fewer --nodes, or ask for one task more than nodes";
+constexpr const char* kWrongMpi = "this mpirun is not of the MPI that MARS was built with";
+constexpr const char* kOneMpi =
+    "load the MPI that MARS was built with (module load ...), or build MARS again with this one";
+constexpr const char* kMakeShmLarger =
+    "enlarge /dev/shm: mount -o remount,size=1G /dev/shm, or start the container with --shm-size=1g";
+constexpr const char* kOpenPorts =
+    "open the ports between the machines, or name their network: export OMPI_MCA_btl_tcp_if_include=eth0 "
+    "OMPI_MCA_oob_tcp_if_include=eth0";
+
+constexpr std::array kTable = {
+    MpiWords{"not enough slots available", kNoRoom, kAskForMore},
+    MpiWords{"are already filled", kNoRoom, kAskForMore},
+    MpiWords{"detected an attempt to run as root", "Open MPI does not start as root",
+             "use another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"},
+    MpiWords{"error while loading shared libraries", "a machine lacks a library that MARS was built with",
+             "install the same MPI on every machine, or load it in the job (module load ...)"},
+    MpiWords{"unrecognized argument", kWrongMpi, kOneMpi},
+    MpiWords{"HYDRA", kWrongMpi, kOneMpi},
+    MpiWords{"call to mkdir was unable to create", "Open MPI cannot write its temporary files",
+             "set TMPDIR to a folder on a local disk that you may write, on every machine"},
+    MpiWords{"orte_session_dir failed", "Open MPI cannot write its temporary files",
+             "set TMPDIR to a folder on a local disk that you may write, on every machine"},
+    MpiWords{"No space left on device", "a disk is full", "empty it, or set TMPDIR to a folder that has room"},
+    MpiWords{"plm_rsh_agent", "there is neither ssh nor rsh to reach the other machines with",
+             "install ssh (Debian: openssh-client), or start inside a Slurm job"},
+    MpiWords{"could not access or execute an executable", "a machine does not have MARS's programs",
+             "put them under the same path on every machine, as on a shared file system"},
+    MpiWords{"unable to find the specified executable file", "a machine does not have MARS's programs",
+             "put them under the same path on every machine, as on a shared file system"},
+    MpiWords{"unable to reliably start one or more daemons", "Open MPI cannot start on another machine",
+             "ssh MACHINE true must work without a password, and Open MPI be under the same path on each"},
+    MpiWords{"unexpectedly failed after launch", "Open MPI's daemon on another machine cannot reach this one",
+             kOpenPorts},
+    MpiWords{"lost communication with a remote daemon", "a machine was lost",
+             "see whether it still runs; mars render goes on with --frames for what is missing"},
+    MpiWords{"unable to complete a TCP connection", "two machines cannot reach each other",
+             kOpenPorts},
+    MpiWords{"Read -1, expected", "the system forbids processes to copy from each other's memory",
+             "export OMPI_MCA_btl_vader_single_copy_mechanism=none, or give the container "
+             "--cap-add=SYS_PTRACE"},
+    MpiWords{"not enough space for", "there is too little shared memory for messages", kMakeShmLarger},
+};
+
+// Help texts are wrapped at any word.
+std::string on_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    const bool space = std::isspace(static_cast<unsigned char>(c)) != 0;
+    if (!space || (!line.empty() && line.back() != ' ')) line += space ? ' ' : c;
+  }
+  return line;
+}
+
+}  // namespace
+
+std::span<const MpiWords> mpi_words() { return kTable; }
+
+std::optional<Failure> meaning_of(const std::string& text) {
+  const std::string line = on_one_line(text);
+  const auto* known = std::find_if(kTable.begin(), kTable.end(), [&](const MpiWords& each) {
+    return line.find(each.words) != std::string::npos;
+  });
+  if (known == kTable.end()) return std::nullopt;
+  return Failure(known->problem, "", known->remedy);
+}
+
+}  // namespace mars::host

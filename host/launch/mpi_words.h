@@ -1,0 +1,26 @@
+// What Open MPI's many words on standard error mean, where they are known to mean a thing that a person can
+// mend. docs/doctor.md lists them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+struct MpiWords {
+  std::string_view words;  // as Open MPI writes them, on one line
+  const char* problem;
+  const char* remedy;
+};
+
+// Nearest to the cause first.
+std::span<const MpiWords> mpi_words();
+
+// The first of them that `text` holds, wherever its lines are broken.
+std::optional<Failure> meaning_of(const std::string& text);
+
+}  // namespace mars::host

@@ -1,0 +1,93 @@
+// Limits as made-up /proc and /sys trees tell them, and as this process sets them.
+#include "topology/memory_limit.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <string>
+
+namespace mars::topology {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMiB = 1024 * 1024;
+constexpr std::uint64_t kGiB = 1024 * kMiB;
+
+class MemoryLimitTest : public testing::Test {
+ protected:
+  MemoryLimitTest() {
+    std::string name = (fs::temp_directory_path() / "mars-test-XXXXXX").string();
+    root_ = mkdtemp(name.data());
+  }
+  ~MemoryLimitTest() override { fs::remove_all(root_); }
+
+  void write(const std::string& file, const std::string& text) {
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text << '\n';
+  }
+  std::uint64_t together() const { return memory_limit(root_).together; }
+
+  fs::path root_;
+};
+
+TEST_F(MemoryLimitTest, NothingThereIsNoLimit) { EXPECT_EQ(together(), 0u); }
+
+TEST_F(MemoryLimitTest, Version2TakesTheLeastOnTheWayUp) {
+  write("proc/self/cgroup", "0::/system.slice/slurmd/job_7/step_0");
+  write("sys/fs/cgroup/system.slice/slurmd/job_7/step_0/memory.max", "max");
+  EXPECT_EQ(together(), 0u);
+  write("sys/fs/cgroup/system.slice/slurmd/job_7/memory.max", std::to_string(2 * kGiB));
+  EXPECT_EQ(together(), 2 * kGiB);
+  write("sys/fs/cgroup/system.slice/memory.max", std::to_string(3 * kGiB));
+  EXPECT_EQ(together(), 2 * kGiB);
+  write("sys/fs/cgroup/system.slice/slurmd/job_7/step_0/memory.max", std::to_string(kGiB));
+  EXPECT_EQ(together(), kGiB);
+}
+
+TEST_F(MemoryLimitTest, AContainersMountIsItsOwnRoot) {
+  write("proc/self/cgroup", "0::/");
+  write("sys/fs/cgroup/memory.max", std::to_string(512 * kMiB));
+  EXPECT_EQ(together(), 512 * kMiB);
+}
+
+TEST_F(MemoryLimitTest, Version1NamesItsController) {
+  write("proc/self/cgroup", "5:cpu,cpuacct:/job\n4:memory:/slurm/job_7\n0::/");
+  write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712");
+  write("sys/fs/cgroup/memory/slurm/job_7/memory.limit_in_bytes", "9223372036854771712");
+  EXPECT_EQ(together(), 0u);
+  write("sys/fs/cgroup/memory/slurm/memory.limit_in_bytes", std::to_string(kGiB));
+  EXPECT_EQ(together(), kGiB);
+}
+
+TEST_F(MemoryLimitTest, OfAContainersPathOnTheMachineOnlyTheMountIsSeen) {
+  write("proc/self/cgroup", "4:memory:/docker/0123abc");
+  write("sys/fs/cgroup/memory/memory.limit_in_bytes", std::to_string(256 * kMiB));
+  EXPECT_EQ(together(), 256 * kMiB);
+}
+
+TEST_F(MemoryLimitTest, TheProcessMayHaveALimitOfItsOwn) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
+  rlimit less = before;
+  less.rlim_cur = 7 * kGiB;
+  ASSERT_EQ(setrlimit(RLIMIT_DATA, &less), 0);
+  const MemoryLimit limit = memory_limit(root_);
+  setrlimit(RLIMIT_DATA, &before);
+  EXPECT_EQ(limit, (MemoryLimit{0, 7 * kGiB}));
+}
+
+TEST(MemoryShare, IsHalfOfAnEqualPartOfTheLeast) {
+  EXPECT_EQ(memory_share(16 * kGiB, {}, 4), 2 * kGiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {8 * kGiB, 0}, 4), kGiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {64 * kGiB, 0}, 4), 2 * kGiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {0, kGiB}, 4), kGiB / 2);
+  EXPECT_EQ(memory_share(1024 * kGiB, {}, 1), 4 * kGiB);
+  EXPECT_EQ(memory_share(0, {}, 1), kGiB / 2);
+  EXPECT_EQ(memory_share(0, {256 * kMiB, 0}, 1), 128 * kMiB);
+}
+
+}  // namespace
+}  // namespace mars::topology

@@ -1,0 +1,75 @@
+#include "topology/memory_limit.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace mars::topology {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostShare = std::uint64_t{4} << 30;
+constexpr std::uint64_t kUnknownMemory = std::uint64_t{1} << 30;
+constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;  // version 1 writes "none" as a number near 2^63
+
+std::uint64_t lesser(std::uint64_t a, std::uint64_t b) { return a == 0 || (b != 0 && b < a) ? b : a; }
+
+// 0 where there is no file or no number in it ("max").
+std::uint64_t read_limit(const fs::path& file) {
+  std::uint64_t bytes = 0;
+  if (!(std::ifstream(file) >> bytes) || bytes >= kNoLimit) return 0;
+  return bytes;
+}
+
+// The least limit of a group and all above it. In a container the group's path may be the machine's, and only
+// the mount itself be there.
+std::uint64_t least_up(const fs::path& mount, fs::path group, const char* file) {
+  std::uint64_t least = read_limit(mount / file);
+  for (; group.has_relative_path(); group = group.parent_path())
+    least = lesser(least, read_limit(mount / group.relative_path() / file));
+  return least;
+}
+
+bool has_word(const std::string& list, const std::string& word) {
+  return ("," + list + ",").find("," + word + ",") != std::string::npos;
+}
+
+// Lines of /proc/self/cgroup are number:controllers:path; version 2 has no controllers.
+std::uint64_t group_limit(const fs::path& root) {
+  const fs::path groups = root / "sys/fs/cgroup";
+  std::ifstream lines(root / "proc/self/cgroup");
+  std::uint64_t least = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream parts(line);
+    std::string number, controllers, path;
+    std::getline(std::getline(std::getline(parts, number, ':'), controllers, ':'), path);
+    if (controllers.empty()) least = lesser(least, least_up(groups, path, "memory.max"));
+    if (has_word(controllers, "memory"))
+      least = lesser(least, least_up(groups / "memory", path, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
+std::uint64_t own_limit(int resource) {
+  rlimit limit{};
+  if (getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) return 0;
+  return limit.rlim_cur == RLIM_INFINITY ? 0 : limit.rlim_cur;
+}
+
+}  // namespace
+
+MemoryLimit memory_limit(const fs::path& root) {
+  return {group_limit(root), lesser(own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA))};
+}
+
+std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes) {
+  const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
+  const std::uint64_t part = lesser(known, limit.together) / static_cast<std::uint64_t>(processes);
+  return std::min(kMostShare, lesser(part, limit.each) / 2);
+}
+
+}  // namespace mars::topology

@@ -1,0 +1,26 @@
+// How much memory may be used here, beside what the machine has: limits of control groups (a Slurm job's
+// --mem, a container's) and of the process itself (ulimit). And what that leaves for each of several like
+// processes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace mars::topology {
+
+// Bytes; 0: no limit.
+struct MemoryLimit {
+  std::uint64_t together = 0;  // all processes of the control group at once
+  std::uint64_t each = 0;      // this process: ulimit -v or -d
+
+  bool operator==(const MemoryLimit&) const = default;
+};
+
+// Of the calling process. `root` is where proc/ and sys/ are.
+MemoryLimit memory_limit(const std::filesystem::path& root = "/");
+
+// The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame when
+// nobody says how many: half of its equal share, at most 4 GiB.
+std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes);
+
+}  // namespace mars::topology
