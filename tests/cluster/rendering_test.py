@@ -1,6 +1,6 @@
 """The same pixels across the hosts of a cluster, however the film is started."""
 
-from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, ClusterTest, events, run_on_cluster, spinning_teapot,
+from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, ClusterTest, events, run_on_cluster, spinning_teapot, testbed,
                              wait_until)
 
 SLURM = SOURCES / "cluster/slurm"
@@ -70,6 +70,18 @@ class Rendering(ClusterTest):
                                     self.film, "-o", "out", *more).stdout
         self.assertShown(run(), 7)
         self.assertShown(run("--nodes", 16), 16)
+
+    def test_the_doctor_sees_every_machine(self):
+        look = lambda code: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "doctor",
+                                    code=code).stdout
+        told = look(0)
+        self.assertIn("on n1-n4", told)
+        self.assertIn("7 nodes on 4 machines (mpi)", " ".join(told.split()))
+        testbed("exec", "n3", "mount", "-o", "remount,size=8m", "/dev/shm")
+        self.addCleanup(testbed, "exec", "n3", "mount", "-o", "remount,size=1g", "/dev/shm")
+        told = look(1)
+        self.assertRegex(told, r"TROUBLE +/dev/shm +n3: 8 MiB")
+        self.assertRegex(told, r"/dev/shm +n1,n2,n4: ")
 
 
 if __name__ == "__main__":

@@ -77,10 +77,10 @@ TEST(Text, AdviceIsOnlyOfTroubles) {
 }
 
 TEST(Placement, TellsCoresAndWhatTheyShare) {
-  const auto machine = topology::Machine::synthetic("pack:2 l3:1 core:4 pu:1");
+  const auto machine = topology::Machine::synthetic("pack:2 numa:1 l3:1 core:4 pu:1");
   EXPECT_EQ(placement_text(machine, 4, 0),
             "Nodes by core, as mars render places them on this machine:\n"
-            "  0:  cores 0-1    1:  cores 2-3    2:  cores 4-5    3:  cores 6-7\n"
+            "  0:  cores 0-1      1:  cores 2-3      2:  cores 4-5      3:  cores 6-7\n"
             "  across dimension 0 neighbours share an L3 cache\n"
             "  across dimension 1 neighbours share the machine\n");
   EXPECT_TRUE(holds(placement_text(machine, 9, 1), "9 nodes on 8 cores: none is bound"));

@@ -1,0 +1,82 @@
+"""mars doctor, the advice of a start that fails, and the help."""
+
+import os
+import re
+import stat
+
+from harness import ENVIRONMENT, EXAMPLES, ProgramTest, main, needs_mpi
+
+
+def plain(text):
+    """Without the breaks of lines."""
+    return " ".join(text.split())
+
+
+class Doctor(ProgramTest):
+    def doctor(self, *words, code=0, **environment):
+        done = self.mars("doctor", *words, env=dict(ENVIRONMENT, **environment))
+        self.assertEqual((done.returncode, done.stderr), (code, ""), done.stdout)
+        return done.stdout
+
+    def fake_mpirun(self, words, code=1):
+        """A PATH whose first mpirun only says something on standard error."""
+        fake = self.write("bin/mpirun", f"#!/bin/sh\ncase $1 in --version) echo 'mpirun (Open MPI) 4.1.4'; exit;; esac\n"
+                                        f"cat >&2 <<'WORDS'\n{words}\nWORDS\nexit {code}\n")
+        fake.chmod(fake.stat().st_mode | stat.S_IXUSR)
+        return f"{fake.parent}:{os.environ['PATH']}"
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "bin").mkdir()
+
+    @needs_mpi
+    def test_a_sound_machine(self):
+        told = self.doctor("--nodes", 2)
+        for about in ["MPI", "programs", "processors", "slots", "memory", "/dev/shm", "copies", "user", "TMPDIR",
+                      "ffmpeg", "a start"]:
+            self.assertRegex(told, rf"(?m)^  (ok|note) +{about} ")
+        self.assertIn("2 nodes on 1 machine (mpi) booted in", plain(told))
+        self.assertIn("Nothing is in the way", told)
+
+    @needs_mpi
+    def test_a_start_that_fails(self):
+        path = self.fake_mpirun("A call to mkdir was unable to create the desired directory:")
+        told = self.doctor(code=1, PATH=path)
+        self.assertRegex(told, r"TROUBLE +a start +Open MPI cannot write its temporary files")
+        self.assertIn("set TMPDIR", told)
+
+    def test_temporary_files_have_no_place(self):
+        self.assertRegex(self.doctor(code=1, TMPDIR="/nowhere"), r"TROUBLE +TMPDIR +/nowhere cannot be written")
+
+    @needs_mpi
+    def test_render_tells_the_same(self):
+        told = lambda **environment: plain(self.mars("render", EXAMPLES / "teapot.json", "-o", "out", "--frames", 0,
+                                                     env=dict(ENVIRONMENT, **environment)).stderr)
+        self.assertIn("Open MPI cannot write its temporary files (set TMPDIR",
+                      told(PATH=self.fake_mpirun("A call to mkdir was unable to create the desired directory:")))
+        unknown = told(PATH=self.fake_mpirun("Something that nobody has seen"), TMPDIR="/nowhere")
+        self.assertIn("Something that nobody has seen", unknown)
+        self.assertIn("TMPDIR: /nowhere cannot be written", unknown)
+        self.assertIn("mars doctor", unknown)
+
+
+class Help(ProgramTest):
+    def test_every_option_has_an_example(self):
+        commands = re.findall(r"^  mars (\w+) ", self.succeed("mars"), re.MULTILINE)
+        self.assertIn("doctor", commands)
+        for command in sorted(set(commands)) + [""]:
+            text = self.succeed("mars", *command.split(), "--help")
+            options = re.split(r"\n(?=  (?:-|FILM|FILE|DIR))", text.partition("Environment")[0])[1:]
+            self.assertTrue(options)
+            for option in options:
+                with self.subTest(command=command, option=option.split()[0]):
+                    self.assertIn("Example: ", option)
+            self.assertLessEqual(max(map(len, text.splitlines())), 80)
+
+    def test_what_could_be_meant(self):
+        self.fail_clearly(2, "rendre", says="did you mean 'render'?")
+        self.fail_clearly(2, "info", "film.json", "--nodez", says="'--nodez' is not an option")
+
+
+if __name__ == "__main__":
+    main()
