@@ -108,11 +108,13 @@ Failure diagnose(const Remains& remains, const RenderOptions& options, const Adv
   if (remains.fault) return told(*remains.fault);
   if (const auto own = own_words(remains.last_words)) return *own;
   const std::string words = join(remains.last_words);
-  if (const auto lost = lost_rank(words, remains.booted))
-    return remains.booted ? *lost : with_advice(*lost, advice);
+  const auto advised = [&](const Failure& failure) {
+    return remains.booted ? failure : with_advice(failure, advice);
+  };
+  if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);
   if (const auto lost = lost_machine(words)) return *lost;
   if (const auto known = meaning_of(words)) return *known;
-  return with_advice(unknown(remains), advice);
+  return advised(unknown(remains));
 }
 
 }  // namespace mars::host

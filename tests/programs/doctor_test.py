@@ -46,7 +46,7 @@ class Doctor(ProgramTest):
         self.assertIn("set TMPDIR", told)
 
     def test_temporary_files_have_no_place(self):
-        self.assertRegex(self.doctor(code=1, TMPDIR="/nowhere"), r"TROUBLE +TMPDIR +/nowhere cannot be written")
+        self.assertRegex(self.doctor(code=1, TMPDIR="/proc/nowhere"), r"TROUBLE +TMPDIR +/proc/nowhere cannot be written")
 
     @needs_mpi
     def test_render_tells_the_same(self):
@@ -54,9 +54,9 @@ class Doctor(ProgramTest):
                                                      env=dict(ENVIRONMENT, **environment)).stderr)
         self.assertIn("Open MPI cannot write its temporary files (set TMPDIR",
                       told(PATH=self.fake_mpirun("A call to mkdir was unable to create the desired directory:")))
-        unknown = told(PATH=self.fake_mpirun("Something that nobody has seen"), TMPDIR="/nowhere")
+        unknown = told(PATH=self.fake_mpirun("Something that nobody has seen"), TMPDIR="/proc/nowhere")
         self.assertIn("Something that nobody has seen", unknown)
-        self.assertIn("TMPDIR: /nowhere cannot be written", unknown)
+        self.assertIn("TMPDIR: /proc/nowhere cannot be written", unknown)
         self.assertIn("mars doctor", unknown)
 
 

@@ -71,7 +71,10 @@ TEST(Diagnosis, OfOurOwnWords) {
 
 TEST(Diagnosis, OfWhatIsNotUnderstoodTheLastWords) {
   EXPECT_EQ(message(failed_with({"first", "second"})),
-            "mpirun ended with exit code 1 (its last words:\nfirst\nsecond\n)");
+            "mpirun ended with exit code 1 (its last words:\nfirst\nsecond\n/dev/shm is small)");
+  Remains booted = failed_with({"first"});
+  booted.booted = Booted{};
+  EXPECT_EQ(message(booted), "mpirun ended with exit code 1 (its last words:\nfirst\n)") << "it could start";
   Remains killed = failed_with({});
   killed.ending = {0, SIGSEGV};
   EXPECT_TRUE(holds(message(killed), "mpirun was killed by signal 11 (Segmentation fault)"));
