@@ -78,8 +78,8 @@ prove_bootstrap() {
   step "./bootstrap demo, nothing installed" build root 'mars/bootstrap demo'
   step "./bootstrap demo, again" build root 'mars/bootstrap demo'
   step "./bootstrap demo, packages in and nothing built" build root 'rm -r mars/build; mars/bootstrap demo'
-  # On a busy machine it may wait longer: that says nothing where a single processor would have done.
-  if [ "$seconds" -gt $seconds_for_demo ] && [ "$processors" -gt $seconds_for_demo ]; then
+  # On a machine that has other things to do it takes longer: its processor time tells.
+  if [ "$seconds" -gt $seconds_for_demo ]; then
     failed=$((failed + 1))
     summary+=("FAILED the demo took longer than $seconds_for_demo s")
   fi
