@@ -97,7 +97,7 @@ Failure unknown(const Remains& remains) {
 Failure with_advice(const Failure& failure, const Advice& advice) {
   std::string remedy = failure.remedy;
   const std::string more = advice();
-  if (!more.empty()) remedy += (remedy.ends_with('\n') ? "" : "\n") + more;
+  if (!more.empty()) remedy += (remedy.empty() || remedy.ends_with('\n') ? "" : "\n") + more;
   return Failure(failure.problem, failure.where, remedy);
 }
 
@@ -106,11 +106,11 @@ Failure with_advice(const Failure& failure, const Advice& advice) {
 Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice) {
   if (remains.passed_on != 0) return stopped(remains, options);
   if (remains.fault) return told(*remains.fault);
-  if (const auto own = own_words(remains.last_words)) return *own;
-  const std::string words = join(remains.last_words);
   const auto advised = [&](const Failure& failure) {
     return remains.booted ? failure : with_advice(failure, advice);
   };
+  if (const auto own = own_words(remains.last_words)) return advised(*own);
+  const std::string words = join(remains.last_words);
   if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);
   if (const auto lost = lost_machine(words)) return *lost;
   if (const auto known = meaning_of(words)) return *known;

@@ -66,7 +66,8 @@ TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {
 }
 
 TEST(Diagnosis, OfOurOwnWords) {
-  EXPECT_EQ(message(failed_with({"noise", "mars: node 3: this is wrong", "noise"})), "node 3: this is wrong");
+  EXPECT_EQ(message(failed_with({"noise", "mars: node 3: this is wrong", "noise"})),
+            "node 3: this is wrong (/dev/shm is small)");
 }
 
 TEST(Diagnosis, OfWhatIsNotUnderstoodTheLastWords) {
