@@ -153,7 +153,7 @@ up() {
   mkdir -p "$dir"/{pid,log,spool,state,ssh} /root/.ssh
   chmod 700 "$dir" "$dir/ssh"
   write_settings
-  start_namespaces switch
+  start_namespaces switch --pid
   at_switch ip link add bridge type bridge
   at_switch ip link set bridge up
   local host
