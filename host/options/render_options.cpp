@@ -243,8 +243,10 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
     if (takes(program, entry)) entry.add(app, options);
   }
   if (program == Program::compile) return;
-  app.parse_complete_callback(
-      [&app, &options] { as_usage(app.get_name(), [&] { check_together(options); }); });
+  app.parse_complete_callback([&app, &options] {
+    if (app.remaining_size() > 0) return;  // what it does not know is told first
+    as_usage(app.get_name(), [&] { check_together(options); });
+  });
 }
 
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose,

@@ -75,7 +75,7 @@ class Help(ProgramTest):
 
     def test_what_could_be_meant(self):
         self.fail_clearly(2, "rendre", says="did you mean 'render'?")
-        self.fail_clearly(2, "info", "film.json", "--nodez", says="'--nodez' is not an option")
+        self.fail_clearly(2, "render", "film.json", "--nodez", says="'--nodez' is not an option (did you mean")
 
 
 if __name__ == "__main__":
