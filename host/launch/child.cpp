@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kTick{100};
 constexpr std::chrono::seconds kGrace{6};     // from a signal passed on to the kill; mpirun takes up to five
 constexpr std::chrono::seconds kDraining{3};  // from its end to the kill of what it left
+constexpr std::chrono::seconds kReaping{1};   // from that to giving up on what the kernel holds
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};  // read, write
@@ -140,8 +141,10 @@ Ending Child::wait(const Listener& listener) {
     listener.tick();
     if (!deadline_ || Clock::now() < *deadline_) continue;
     if (status_) {
+      if (std::exchange(orphans_killed_, true)) break;
       kill_orphans();
-      break;
+      deadline_ = Clock::now() + kReaping;
+      continue;
     }
     kill(-process_, SIGKILL);
     deadline_.reset();

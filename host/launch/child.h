@@ -65,6 +65,7 @@ class Child {
   sigset_t signals_before_{};
   std::optional<int> status_;  // once it has ended
   bool orphans_ = false;       // processes that it started may still run
+  bool orphans_killed_ = false;
   int passed_on_ = 0;
   std::optional<std::chrono::steady_clock::time_point> deadline_;  // to be killed, or to have read the rest
 };
