@@ -18,7 +18,7 @@ constexpr std::uint64_t kMiB = 1024 * 1024;
 
 constexpr std::array<Setting, 2> kTable = {{
     {"MARS_MEMORY", "MiB that a node may use for one frame", "a share of the machine's memory"},
-    {"MARS_SIMD", "widest instruction set that is used: sse2, avx2 or avx512",
+    {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512",
      "the widest the processor has"},
 }};
 
@@ -34,9 +34,9 @@ std::uint64_t parse_memory(const std::string& text) {
 }
 
 std::string parse_simd(const std::string& text) {
-  if (text == "sse2" || text == "avx2" || text == "avx512") return text;
+  if (text == "sse2" || text == "sse4" || text == "avx2" || text == "avx512") return text;
   throw Failure("\"" + text + "\" is not an instruction set", "environment variable MARS_SIMD",
-                "set it to sse2, avx2 or avx512, or unset it");
+                "set it to sse2, sse4, avx2 or avx512, or unset it");
 }
 
 // Letters to insert, delete or change to get from one to the other.

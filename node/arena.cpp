@@ -1,32 +1,32 @@
 #include "node/arena.h"
 
 #include <algorithm>
-#include <new>
 #include <string>
 
 #include "hal/failure.h"
 
 namespace mars::node {
-namespace {
 
-constexpr std::size_t kGrain = 16;  // items begin on multiples of this
-
-}  // namespace
-
-Arena::Arena(std::size_t bytes) : size_(bytes / kGrain * kGrain) {
-  block_.reset(new (std::nothrow) std::byte[size_]);
+Arena::Arena(std::size_t bytes) : size_(bytes / kGrain * kGrain), back_(size_) {
+  block_.reset(new (std::align_val_t{kGrain}, std::nothrow) std::byte[size_]);
   if (!block_)
     throw Failure("the machine does not give a node " + std::to_string(bytes >> 20) + " MiB", "memory",
                   "start fewer nodes a machine, or set MARS_MEMORY to fewer MiB");
 }
 
 std::byte* Arena::take_bytes(std::size_t bytes) {
-  const std::size_t grains = (bytes + kGrain - 1) / kGrain * kGrain;
-  check(grains <= size_ - used_, "an arena has room for what is taken from it");
-  std::byte* start = block_.get() + used_;
-  used_ += grains;
-  fullest_ = std::max(fullest_, used_);
+  std::byte* start = block_.get() + front_;
+  keep(bytes, 0);
   return start;
+}
+
+void Arena::keep(std::size_t at_front, std::size_t at_back) {
+  const auto grains = [](std::size_t bytes) { return (bytes + kGrain - 1) / kGrain * kGrain; };
+  check(grains(at_front) <= back_ - front_ && grains(at_back) <= back_ - front_ - grains(at_front),
+        "an arena has room for what is taken from it");
+  front_ += grains(at_front);
+  back_ -= grains(at_back);
+  fullest_ = std::max(fullest_, used());
 }
 
 }  // namespace mars::node

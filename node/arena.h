@@ -1,9 +1,10 @@
-// A node's memory for one frame: one block, set aside when a film is loaded, handed out front to back and
-// taken back whole. Nothing is allocated while frames are drawn.
+// A node's memory for one frame: one block, set aside when a film is loaded, handed out from both ends and taken
+// back whole. Nothing is allocated while frames are drawn.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
 
 namespace mars::node {
@@ -19,26 +20,31 @@ class Arena {
   std::span<T> take(std::size_t count) {
     return {reinterpret_cast<T*>(take_bytes(count * sizeof(T))), count};
   }
-  // All that could be taken now, not yet taken: whoever does not know how much it needs fills it from the front
-  // and then takes that much.
-  template <typename T>
-  std::span<T> rest() const {
-    return {reinterpret_cast<T*>(block_.get() + used_), (size_ - used_) / sizeof(T)};
-  }
+  // All that is not taken: whoever does not know how much it needs fills it from both ends and then keeps that
+  // many bytes at the front and at the back.
+  std::span<std::byte> rest() const { return {block_.get() + front_, back_ - front_}; }
+  void keep(std::size_t at_front, std::size_t at_back);
 
-  std::size_t mark() const { return used_; }
-  void release(std::size_t mark) { used_ = mark; }  // frees what was taken since mark()
+  void clear() { front_ = 0, back_ = size_; }
 
   std::size_t size() const { return size_; }
   std::size_t fullest() const { return fullest_; }  // most bytes in use since forget_fullest()
-  void forget_fullest() { fullest_ = used_; }
+  void forget_fullest() { fullest_ = used(); }
 
  private:
-  std::byte* take_bytes(std::size_t bytes);
+  // Items begin on multiples of this: a cache line.
+  static constexpr std::size_t kGrain = 64;
+  struct Release {
+    void operator()(std::byte* block) const { ::operator delete[](block, std::align_val_t{kGrain}); }
+  };
 
-  std::unique_ptr<std::byte[]> block_;
+  std::byte* take_bytes(std::size_t bytes);
+  std::size_t used() const { return front_ + (size_ - back_); }
+
+  std::unique_ptr<std::byte[], Release> block_;
   std::size_t size_ = 0;
-  std::size_t used_ = 0;
+  std::size_t front_ = 0;
+  std::size_t back_ = 0;
   std::size_t fullest_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 // All rates' tables in one block: for each rate, seven arrays of rate + 1.
 class BasisTables {
  public:
-  BasisTables() : numbers_(static_cast<std::size_t>(7 * (kMaxRate + 1) * (kMaxRate + 2) / 2)) {
+  BasisTables() : numbers_(static_cast<std::size_t>(7 * (kMaxRate + 1) * (kMaxRate + 2) / 2 + kVectorSlack)) {
     float* next = numbers_.data();
     for (int rate = 1; rate <= kMaxRate; ++rate) next = fill(rate, next);
   }

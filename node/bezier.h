@@ -31,6 +31,8 @@ struct Rates {
   int u;
   int v;
   int side[4];  // indexed by Side
+
+  bool operator==(const Rates&) const = default;
 };
 
 // world_to_eye * to_world, rounded once.

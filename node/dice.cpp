@@ -6,8 +6,8 @@
 namespace mars::node {
 namespace {
 
-constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1);
-constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate;
+constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1) + kVectorSlack;
+constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate + kVectorSlack;
 constexpr Side kSides[] = {Side::bottom, Side::right, Side::top, Side::left};
 
 void subtract(const float* a, const float* b, float* out) {
@@ -56,27 +56,31 @@ Row side_row(const EyePatch& patch, Side side) {
 
 Dicer::Dicer(const Kernels& kernels)
     : kernels_(kernels),
-      numbers_(new float[7 * kMostVertices]),
+      numbers_(new float[6 * kMostVertices]),
       places_(new std::int32_t[2 * kMostVertices]),
       flags_(new std::uint8_t[kMostVertices]),
-      triangles_(new Corner3[kMostTriangles]) {
+      values_(new float[kMostVertices][kValues]),
+      corners_(new std::uint32_t[3 * kMostTriangles]()) {
   for (int axis = 0; axis < 3; ++axis) {
     vertices_.place[axis] = numbers_.get() + axis * kMostVertices;
     vertices_.normal[axis] = numbers_.get() + (3 + axis) * kMostVertices;
   }
-  vertices_.inverse_w = numbers_.get() + 6 * kMostVertices;
+  vertices_.values = values_.get();
   vertices_.x = places_.get();
   vertices_.y = places_.get() + kMostVertices;
   vertices_.outside = flags_.get();
+  triangles_ = {corners_.get(), corners_.get() + kMostTriangles, corners_.get() + 2 * kMostTriangles, 0};
 }
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
-  lay_out(rates(patch, projection, fixed_rate));
+  const Rates wanted = rates(patch, projection, fixed_rate);
+  lay_out(wanted);
   evaluate_inside(patch);
   for (const Side side : kSides) evaluate_side(patch, side);
   mend_normals(patch);
-  kernels_.project(projection, vertices_, vertex_count_);
-  triangulate();
+  reaches_outside_ = kernels_.project(projection, vertices_, vertex_count_);
+  if (wanted != triangulated_) triangulate();
+  triangulated_ = wanted;
 }
 
 // Decides between grid and strip, and where each side's vertices stand.
@@ -159,7 +163,7 @@ void Dicer::mend_normal(const EyePatch& patch, int vertex, float u, float v) {
 }
 
 void Dicer::triangulate() {
-  triangle_count_ = 0;
+  triangles_.count = 0;
   if (columns_ > 0) {
     fill_inside();
     for (const Side side : kSides) stitch(side_chain(side), inner_chain(side));
@@ -201,8 +205,10 @@ void Dicer::stitch(const Chain& outer, const Chain& inner) {
 }
 
 void Dicer::add(std::int32_t a, std::int32_t b, std::int32_t c) {
-  triangles_[triangle_count_++] = {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                   static_cast<std::uint32_t>(c)};
+  const std::uint32_t k = triangles_.count++;
+  corners_[k] = static_cast<std::uint32_t>(a);
+  corners_[kMostTriangles + k] = static_cast<std::uint32_t>(b);
+  corners_[2 * kMostTriangles + k] = static_cast<std::uint32_t>(c);
 }
 
 Dicer::Chain Dicer::side_chain(Side side) const {

@@ -5,17 +5,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "node/bezier.h"
 #include "node/kernels.h"
 
 namespace mars::node {
-
-// Vertices of one diced triangle, counter-clockwise seen from outside in an eye space that is not mirrored.
-struct Corner3 {
-  std::uint32_t a, b, c;
-};
 
 class Dicer {
  public:
@@ -26,7 +20,8 @@ class Dicer {
 
   const Vertices& vertices() const { return vertices_; }
   int vertex_count() const { return vertex_count_; }
-  std::span<const Corner3> triangles() const { return {triangles_.get(), triangle_count_}; }
+  const Triangles& triangles() const { return triangles_; }
+  bool reaches_outside() const { return reaches_outside_; }  // whether any vertex is outside
 
  private:
   // A row of vertices along one side of a stitched band, with the place of each along that side:
@@ -56,15 +51,18 @@ class Dicer {
   std::unique_ptr<float[]> numbers_;
   std::unique_ptr<std::int32_t[]> places_;
   std::unique_ptr<std::uint8_t[]> flags_;
-  std::unique_ptr<Corner3[]> triangles_;
+  std::unique_ptr<float[][kValues]> values_;
+  std::unique_ptr<std::uint32_t[]> corners_;
   Vertices vertices_;
+  Triangles triangles_{};
+  bool reaches_outside_ = false;
   Rates rates_{};
+  Rates triangulated_{};  // what triangles_ are for
   bool flat_in_v_ = false;
   int columns_ = 0;       // of the inside grid; 0 for a strip
   int rows_ = 0;
   int side_at_[4] = {};   // first vertex of each side, in the direction of u or v
   int vertex_count_ = 0;
-  std::size_t triangle_count_ = 0;
 };
 
 }  // namespace mars::node

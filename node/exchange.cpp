@@ -1,7 +1,6 @@
 #include "node/exchange.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "hal/failure.h"
 #include "hal/nx.h"
@@ -10,78 +9,93 @@
 namespace mars::node {
 namespace {
 
-// Ends a message of triangles: the first `stationary` of them stand still, the rest move.
-struct Trailer {
-  std::uint32_t stationary;
-  std::uint32_t moving;
-};
-
 LineRange overlap(const LineRange& a, const LineRange& b) {
   const std::uint32_t first = std::max(a.first, b.first), last = std::min(a.last, b.last);
   return {first, std::max(first, last)};
 }
 
-// Copies those of triangles[first, first + count) that have an edge box on `home` to `out`; how many.
-std::uint32_t select(std::span<const Triangle> triangles, const LineRange& home, std::int32_t width, Triangle* out) {
-  std::uint32_t kept = 0;
-  const auto at_home = [&](std::int32_t row) { return static_cast<std::uint32_t>(row) >= home.first; };
-  for (const Triangle& triangle : triangles) {
-    const Crossings crossings(triangle, width, static_cast<std::int32_t>(home.last));
-    if (has_edge_box(crossings, at_home)) out[kept++] = triangle;
-  }
-  return kept;
-}
+// Copies crossings (from the last to the first) on `home` to the end of a piece of memory and their triangles to
+// its front, numbered anew.
+class Selection {
+ public:
+  Selection(std::span<std::byte> room)
+      : triangles_(reinterpret_cast<Triangle*>(room.data())),
+        end_(reinterpret_cast<Crossing*>(room.data() + room.size())),
+        crossing_(end_) {}
 
-Trailer select_both(const Polygons& own, const LineRange& home, std::int32_t width, Triangle* out) {
-  const Polygons::Source& source = own.sources.front();
-  Trailer kept{};
-  kept.stationary = select(own.triangles.subspan(source.first, source.stationary), home, width, out);
-  kept.moving = select(own.triangles.subspan(source.first + source.stationary, source.moving), home, width,
-                       out + kept.stationary);
-  return kept;
+  void add(const Triangle* triangles, std::span<const Crossing> crossings, const LineRange& home) {
+    std::uint32_t copied = kNoTriangle;  // the triangle copied last
+    for (auto next = crossings.rbegin(); next != crossings.rend(); ++next) {
+      if (next->line < home.first || next->line >= home.last) continue;
+      if (next->box.triangle != copied) {
+        copied = next->box.triangle;
+        triangles_[count_++] = triangles[copied];
+      }
+      *--crossing_ = *next;
+      crossing_->box.triangle = static_cast<std::uint32_t>(count_ - 1);
+    }
+  }
+
+  std::span<const Triangle> triangles() const { return {triangles_, count_}; }
+  std::span<const Crossing> crossings() const { return {crossing_, static_cast<std::size_t>(end_ - crossing_)}; }
+
+ private:
+  Triangle* triangles_;
+  Crossing* end_;
+  Crossing* crossing_;
+  std::size_t count_ = 0;
+};
+
+template <typename T>
+long bytes_of(std::span<const T> items) {
+  return static_cast<long>(items.size_bytes());
 }
 
 }  // namespace
 
 Exchange::Exchange(int nodes) {
-  pending_.reserve(2 * static_cast<std::size_t>(nodes));
+  pending_.reserve(4 * static_cast<std::size_t>(nodes));
   sources_.reserve(static_cast<std::size_t>(nodes));
 }
 
 Polygons Exchange::triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
-                             std::int32_t width, std::uint64_t most_boxes, Arena& arena) {
+                             Arena& arena) {
   const int self = static_cast<int>(mynode()) - cube.first;
   for (int i = 1; i < cube.count; ++i) {
     const int index = (self + i) % cube.count;  // so that not all send to the same node first
-    send_triangles(index, cube, own, homes[static_cast<std::size_t>(index)], width, arena);
+    send_triangles(cube.first + index, own, homes[static_cast<std::size_t>(index)], arena);
   }
-  const auto here = arena.take<Triangle>(most_boxes + 1);  // + 1: the trailer comes behind the last
-  sources_.clear();
-  const Trailer kept = select_both(own, homes[static_cast<std::size_t>(self)], width, here.data());
-  sources_.push_back({0, kept.stationary, kept.moving});
-  std::uint32_t count = kept.stationary + kept.moving;
-  for (int i = 1; i < cube.count; ++i) {
-    const int from = cube.first + (self + cube.count - i) % cube.count;
-    crecv(triangles_from(from), here.data() + count, static_cast<long>((here.size() - count) * sizeof(Triangle)));
-    const auto bytes = static_cast<std::size_t>(infocount()) - sizeof(Trailer);
-    Trailer trailer;
-    std::memcpy(&trailer, reinterpret_cast<const std::byte*>(here.data() + count) + bytes, sizeof trailer);
-    sources_.push_back({count, trailer.stationary, trailer.moving});
-    count += trailer.stationary + trailer.moving;
-  }
+  sources_.assign(own.sources.begin(), own.sources.end());
+  for (int i = 1; i < cube.count; ++i)
+    receive_triangles(cube.first + (self + cube.count - i) % cube.count, own.triangles, arena);
   wait_all();
-  return {here.first(count), sources_};
+  return {own.triangles, sources_};
 }
 
-void Exchange::send_triangles(int index, const hal::Cube& cube, const Polygons& own, const LineRange& home,
-                              std::int32_t width, Arena& arena) {
-  const auto room = arena.rest<Triangle>();
-  const Trailer kept = select_both(own, home, width, room.data());
-  const std::uint32_t count = kept.stationary + kept.moving;
-  std::memcpy(room.data() + count, &kept, sizeof kept);
-  arena.take<Triangle>(count + 1);
-  const std::size_t bytes = count * sizeof(Triangle) + sizeof kept;
-  pending_.push_back(isend(triangles_from(mynode()), room.data(), static_cast<long>(bytes), cube.first + index, 0));
+void Exchange::send_triangles(int node, const Polygons& own, const LineRange& home, Arena& arena) {
+  Selection selection(arena.rest());
+  const Polygons::Source& source = own.sources.front();
+  selection.add(own.triangles, source.stationary, home);
+  selection.add(own.triangles, source.moving, home);
+  const auto triangles = selection.triangles();
+  const auto crossings = selection.crossings();
+  arena.keep(triangles.size_bytes(), crossings.size_bytes());
+  pending_.push_back(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
+  pending_.push_back(isend(crossings_from(mynode()), crossings.data(), bytes_of(crossings), node, 0));
+}
+
+void Exchange::receive_triangles(int node, const Triangle* first, Arena& arena) {
+  cprobe(triangles_from(node));
+  const auto triangles = arena.take<Triangle>(static_cast<std::size_t>(infocount()) / sizeof(Triangle));
+  crecv(triangles_from(node), triangles.data(), bytes_of(std::span<const Triangle>(triangles)));
+  cprobe(crossings_from(node));
+  const auto crossings = arena.take<Crossing>(static_cast<std::size_t>(infocount()) / sizeof(Crossing));
+  crecv(crossings_from(node), crossings.data(), bytes_of(std::span<const Crossing>(crossings)));
+  const auto moving_end =
+      std::partition_point(crossings.begin(), crossings.end(), [](const Crossing& c) { return c.moving == 1; });
+  const auto moving = static_cast<std::size_t>(moving_end - crossings.begin());
+  sources_.push_back({static_cast<std::uint32_t>(triangles.data() - first), crossings.subspan(moving),
+                      crossings.first(moving)});
 }
 
 void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,

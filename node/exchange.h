@@ -16,19 +16,18 @@ class Exchange {
  public:
   explicit Exchange(int nodes);
 
-  // `own`: the calling node's triangles, one source. `homes`: lines of each of the cube's nodes, of which
-  // `most_boxes` edge boxes lie on the caller's. Returns the triangles with a box on the caller's lines, in
-  // `arena`, which must have room for them and for a copy of what is sent.
-  Polygons triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
-                     std::int32_t width, std::uint64_t most_boxes, Arena& arena);
+  // `own`: the calling node's triangles, one source. `homes`: lines of each of the cube's nodes. Returns with them
+  // the triangles that others have on the caller's lines, in `arena` behind the own ones, where there must be room
+  // for them and for a copy of what is sent.
+  Polygons triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes, Arena& arena);
 
   // Lines `needed` of CZB from their homes to the cube's nodes for which draws[index] is set.
   void depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
                    std::span<const std::uint8_t> draws, ZBuffer& buffer);
 
  private:
-  void send_triangles(int index, const hal::Cube& cube, const Polygons& own, const LineRange& home,
-                      std::int32_t width, Arena& arena);
+  void send_triangles(int node, const Polygons& own, const LineRange& home, Arena& arena);
+  void receive_triangles(int node, const Triangle* first, Arena& arena);
   void wait_all();
 
   std::vector<long> pending_;  // message ids

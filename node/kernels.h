@@ -1,4 +1,4 @@
-// The inner loops, each written once and compiled for several instruction sets (kernels.cpp); the bits are
+// The inner loops, each written once and compiled for several instruction sets (kernels/); the bits are
 // the same for all of them. Plain structs and pointers only: nothing inline may be shared with code that is
 // compiled for a lesser CPU.
 #pragma once
@@ -28,15 +28,66 @@ struct Row {
   float sign;
 };
 
+// Kernels work on whole vectors: every array of vertices and of triangles' corners has room for this many items
+// more than are asked for, which may be written (with anything) or read.
+inline constexpr int kVectorSlack = 16;
+
 // Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then
-// what projection adds: screen place, 1 / w, and whether the vertex is on the screen's plane at all.
+// what projection adds: values, screen place, and whether the vertex is on the screen's plane at all.
 struct Vertices {
   float* place[3];
   float* normal[3];
-  float* inverse_w;
+  float (*values)[kValues];  // 1 / w, normal / w
   std::int32_t* x;
   std::int32_t* y;
   std::uint8_t* outside;  // 1: nearer than near, farther than far, or beyond the guard band
+};
+
+// Vertices of one triangle, counter-clockwise seen from outside in an eye space that is not mirrored.
+struct Corner3 {
+  std::uint32_t a, b, c;
+};
+
+// The triangles of a diced patch, one array a corner.
+struct Triangles {
+  const std::uint32_t* a;
+  const std::uint32_t* b;
+  const std::uint32_t* c;
+  std::uint32_t count;
+
+  Corner3 operator[](std::uint32_t k) const { return {a[k], b[k], c[k]}; }
+};
+
+// Triangles no higher than this many 1/256 pixel may have been turned over by snapping.
+inline constexpr int kThin = 4;
+
+// What is asked of triangles whose vertices are all on the screen's plane.
+struct Examination {
+  std::int32_t width;
+  std::int32_t height;
+  bool one_sided;  // those whose outside is turned away are dropped
+  bool mirrored;   // their outside is the other side
+};
+
+inline constexpr std::uint32_t kExamined = 16;     // triangles at a time
+inline constexpr std::int32_t kMostExtent = 64;    // pixels; larger triangles are left undecided
+
+// Sixteen triangles in one of three states: decided, with the columns they may cover row by row; undecided, where
+// they are larger than kMostExtent or may have been turned over; or dropped: turned away or between samples.
+struct Examined {
+  std::uint32_t decided;    // one bit a triangle
+  std::uint32_t undecided;
+  std::uint32_t faces;      // the side from which a, b, c run counter-clockwise is turned to the eye
+  alignas(64) std::int32_t first_row[kExamined];
+  alignas(64) std::int32_t last_row[kExamined];
+  alignas(64) std::int32_t first[kMostExtent][kExamined];  // columns [first, last) of row first_row + r at [r]
+  alignas(64) std::int32_t last[kMostExtent][kExamined];
+  // b - a and c - a, 1/256 pixel, and 1 / twice the area.
+  alignas(64) float x1[kExamined];
+  alignas(64) float y1[kExamined];
+  alignas(64) float x2[kExamined];
+  alignas(64) float y2[kExamined];
+  alignas(64) float inverse[kExamined];
 };
 
 // screen x = center[0] + scale * x / w, y = center[1] - scale * y / w, w = -z, in pixels.
@@ -82,11 +133,17 @@ struct Kernels {
   // Vertices first..last - 1 of `row` at first/rate.. into out[at..].
   void (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
 
-  void (*project)(const Projection& projection, const Vertices& vertices, int count);
+  // Whether any of the vertices is outside.
+  bool (*project)(const Projection& projection, const Vertices& vertices, int count);
 
-  // Draws `count` edge boxes of one line, in order: a sample nearer than depth[x] takes over depth and id.
+  // Looks at triangles at .. at + kExamined - 1, as far as there are.
+  void (*examine)(const Examination& task, const Vertices& vertices, const Triangles& triangles, std::uint32_t at,
+                  Examined& out);
+
+  // Draws `count` edge boxes of line `line`, in order: a sample nearer than depth[x] takes over depth and id.
   // Says which columns the boxes span.
-  Extent (*draw)(const EdgeBox* boxes, std::uint32_t count, float* depth, std::uint32_t* ids);
+  Extent (*draw)(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
+                 float* depth, std::uint32_t* ids);
 
   // Shades the samples of line `line` within `extent` whose id is not kNoTriangle, their runs to `runs` and
   // their pixels to `pixels`; says how many of each.
@@ -94,7 +151,8 @@ struct Kernels {
                   std::uint32_t* pixels);
 };
 
-// The widest kernels that this CPU runs and that are not wider than `limit` ("sse2", "avx2", "avx512";
+// The widest kernels that this CPU runs and that are not wider than `limit` ("sse2", "sse4", "avx2",
+// "avx512";
 // "" for no limit). Throws Failure for another name.
 const Kernels& best_kernels(std::string_view limit);
 

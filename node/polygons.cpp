@@ -6,7 +6,7 @@ PolygonMaker::PolygonMaker(const Kernels& kernels) : kernels_(kernels), dicer_(k
 
 void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work) {
   const FilmView& film = scene.film();
-  const SetUp set_up(kernels_, scene.projection(), scene.width(), scene.height());
+  SetUp set_up(kernels_, scene.projection(), scene.width(), scene.height());
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   const int fixed_rate = static_cast<int>(film.settings().dice);
   for (std::size_t s = 0; s < film.segments().size(); ++s) {
@@ -17,7 +17,7 @@ void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, S
     if (i >= shape.patch_count) continue;
     const EyeMatrix matrix = scene.matrix(s);
     const std::uint32_t look = scene.look(s);
-    PatchIdentity identity{0, look, mirrors(matrix), film.materials()[look].sides == 1};
+    PatchIdentity identity{0, look, mirrors(matrix), film.materials()[look].sides == 1, part == Part::moving};
     for (; i < shape.patch_count; i += scatter.count) {
       const EyePatch patch = to_eye(matrix, film.patches()[shape.first_patch + i]);
       if (unseen(patch, scene.projection(), width, height)) continue;

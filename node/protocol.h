@@ -5,7 +5,7 @@
 //   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   edge-box counts, triangles, CZB lines (types that say who sends)
+//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines (types that say who sends)
 #pragma once
 
 #include <array>
@@ -30,8 +30,9 @@ enum MessageType : long {
 
 // Types of what nodes send each other say from whom, for NX receives by type alone. They are low: an MPI need
 // not carry high ones.
-constexpr long triangles_from(long node) { return 32 + 2 * node; }
-constexpr long depth_lines_from(long node) { return 33 + 2 * node; }
+constexpr long triangles_from(long node) { return 32 + 3 * node; }
+constexpr long crossings_from(long node) { return 33 + 3 * node; }
+constexpr long depth_lines_from(long node) { return 34 + 3 * node; }
 
 // The NX type selector for any of several types below 30.
 template <typename... Types>

@@ -28,7 +28,11 @@ std::uint32_t passes_for_message(std::uint64_t width, std::uint64_t height) {
 
 // Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
 // piece of memory is rounded up.
-std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 64 * lines + 32 * nodes + 4096; }
+std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 16 * lines + 512 * nodes + 4096; }
+
+// Bytes of edge boxes that travel with their triangles, at most; and of those that lie in their lines.
+constexpr std::uint64_t kTravelling = sizeof(Triangle) + sizeof(Crossing);
+constexpr std::uint64_t kInLine = sizeof(EdgeBox);
 
 }  // namespace
 
@@ -87,11 +91,13 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
   scene_.set_frame(frame_);
   strip_ = {};
   strip_.kind = kind;
-  arena_.release(0);
+  arena_.clear();
   arena_.forget_fullest();
 
-  std::fill(line_counts_.begin(), line_counts_.end(), 0u);
-  Polygons own = make_polygons(cube, {});
+  std::fill(wanted_lines_.begin(), wanted_lines_.end(), std::uint8_t{1});
+  Polygons own = make_polygons(cube);
+  strip_.work.triangles = made_.triangles;
+  strip_.work.edge_boxes_diced = made_.edge_boxes;
   clock(Phase::dice);
   sum_counts(cube);
   clock(Phase::sum);
@@ -103,9 +109,10 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
 
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     if (passes > 1) {
-      arena_.release(0);
+      arena_.clear();
       mark_lines(cube, pass, passes);
-      own = make_polygons(cube, wanted_lines_);
+      own = make_polygons(cube);
+      check(made_.all_stored, "a pass's triangles fit the memory planned for it");
       clock(Phase::dice);
     }
     draw_pass(cube, own, pass, passes);
@@ -117,25 +124,20 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
 }
 
 // Triangles of the node's patches: of all in a keyframe, of the moving ones in an inbetween. The first time
-// in a frame their boxes are counted; later, for passes, only those on `wanted_lines` are kept.
-Polygons Renderer::make_polygons(const hal::Cube& cube, std::span<const std::uint8_t> wanted_lines) {
-  const bool counting = wanted_lines.empty();
-  SetUps out{.triangles = arena_.rest<Triangle>(), .line_counts = {}, .wanted_lines = wanted_lines};
-  if (counting) out.line_counts = line_counts_;
-  WorkCounts work{};
+// in a frame every line is wanted and their boxes are counted; later, for passes, those of some lines are made again.
+Polygons Renderer::make_polygons(const hal::Cube& cube) {
+  std::fill(line_counts_.begin(), line_counts_.end(), 0u);
+  SetUps out(arena_.rest(), line_counts_, wanted_lines_);
+  strip_.work.patches = strip_.work.vertices = 0;
   const Scatter scatter{static_cast<std::uint32_t>(mynode() - cube.first), static_cast<std::uint32_t>(cube.count)};
-  if (strip_.kind == FrameKind::keyframe) polygon_maker_.make(scene_, Part::stationary, scatter, out, work);
-  const auto stationary = static_cast<std::uint32_t>(out.stored);
-  polygon_maker_.make(scene_, Part::moving, scatter, out, work);
-  own_source_ = {0, stationary, static_cast<std::uint32_t>(out.stored) - stationary};
-  if (counting) {
-    strip_.work = work;
-    strip_.work.triangles = out.touching;
-    strip_.work.edge_boxes_diced = out.edge_boxes;
-  } else {
-    check(out.stored == out.touching, "a pass's triangles fit the memory planned for it");
-  }
-  return {arena_.take<Triangle>(out.stored), {&own_source_, 1}};
+  if (strip_.kind == FrameKind::keyframe) polygon_maker_.make(scene_, Part::stationary, scatter, out, strip_.work);
+  const std::size_t stationary = out.crossings().size();
+  polygon_maker_.make(scene_, Part::moving, scatter, out, strip_.work);
+  made_ = {out.touching, out.edge_boxes, out.all_stored()};
+  const auto crossings = out.crossings();
+  own_source_ = {0, crossings.last(stationary), crossings.first(crossings.size() - stationary)};
+  arena_.keep(out.triangles().size_bytes(), crossings.size_bytes());
+  return {out.first, {&own_source_, 1}};
 }
 
 // Prefix sum, then global sum of EBC; with it travels each node's memory for its own triangles.
@@ -146,9 +148,9 @@ void Renderer::sum_counts(const hal::Cube& cube) {
   double total = 0;
   for (std::size_t line = 0; line < lines; ++line) sums[line] = total += line_counts_[line];
   std::fill(sums.begin() + static_cast<std::ptrdiff_t>(lines), sums.end(), 0.0);
-  const std::uint64_t copies = cube.count > 1 ? strip_.work.edge_boxes_diced + nodes : 0;
+  const std::uint64_t sent = cube.count > 1 ? made_.edge_boxes * kTravelling : 0;
   sums[lines + static_cast<std::size_t>(mynode() - cube.first)] =
-      static_cast<double>((strip_.work.triangles + copies) * sizeof(Triangle));
+      static_cast<double>(made_.triangles * sizeof(Triangle) + made_.edge_boxes * sizeof(Crossing) + sent);
   if (cube.count > 1) hal::cube_sum(cube, sums, std::span(work_).first(sums.size()));
   for (std::size_t line = 0; line < lines; ++line) ebc_[line + 1] = static_cast<std::uint64_t>(sums[line]);
   strip_.edge_box_total = ebc_[lines];
@@ -163,8 +165,8 @@ std::uint32_t Renderer::plan_passes(const hal::Cube& cube) {
   bool fits = true;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cube.count); ++n) {
     const std::uint64_t boxes = ebc_[homes_[n].last] - ebc_[homes_[n].first];
-    const std::uint64_t received = cube.count > 1 ? boxes + 1 : 0;
-    const double need = sums_[lines + n] + static_cast<double>(received * sizeof(Triangle) + boxes * sizeof(EdgeBox)) +
+    const std::uint64_t received = cube.count > 1 ? boxes * kTravelling : 0;
+    const double need = sums_[lines + n] + static_cast<double>(received + boxes * kInLine) +
                         static_cast<double>(overhead(height, static_cast<std::uint64_t>(cube.count)));
     fits &= need <= static_cast<double>(arena_.size());
   }
@@ -192,9 +194,9 @@ std::uint64_t Renderer::memory_for(const hal::Cube& cube, std::uint32_t passes) 
     }
     const LineRange part = part_of(home, pass, passes);
     const std::uint64_t boxes = ebc_[part.last] - ebc_[part.first];
-    std::uint64_t triangles = std::min(own_boxes, strip_.work.triangles);
-    if (nodes > 1) triangles += own_boxes + nodes + boxes + 1;
-    most = std::max(most, triangles * sizeof(Triangle) + boxes * sizeof(EdgeBox));
+    const std::uint64_t own = std::min(own_boxes, made_.triangles) * sizeof(Triangle) + own_boxes * sizeof(Crossing);
+    const std::uint64_t travelling = nodes > 1 ? (own_boxes + boxes) * kTravelling : 0;
+    most = std::max(most, own + travelling + boxes * kInLine);
   }
   return most + overhead(line_counts_.size(), nodes);
 }
@@ -214,9 +216,9 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   const LineRange lines = pass_homes[static_cast<std::size_t>(mynode() - cube.first)];
   const std::uint64_t boxes = ebc_[lines.last] - ebc_[lines.first];
 
-  const Polygons polygons = nodes > 1 ? exchange_.triangles(cube, own, pass_homes, scene_.width(), boxes, arena_) : own;
+  const Polygons polygons = nodes > 1 ? exchange_.triangles(cube, own, pass_homes, arena_) : own;
   clock(Phase::exchange);
-  const LineBoxes line_boxes = fill_lines(polygons, lines, ebc_, scene_.width(), arena_);
+  const LineBoxes line_boxes = fill_lines(polygons, lines, ebc_, arena_);
   strip_.work.edge_boxes += boxes;
   clock(Phase::fill);
 
@@ -252,7 +254,7 @@ void Renderer::share_depth(const hal::Cube& cube) {
 }
 
 Shading Renderer::shading(const Polygons& polygons) const {
-  return {polygons.triangles.data(), scene_.film().materials().data(), scene_.lights().data(),
+  return {polygons.triangles, scene_.film().materials().data(), scene_.lights().data(),
           static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }
 

@@ -42,7 +42,7 @@ class Renderer {
 
  private:
   void draw_frame(FrameKind kind, const hal::Cube& cube);
-  Polygons make_polygons(const hal::Cube& cube, std::span<const std::uint8_t> wanted_lines);
+  Polygons make_polygons(const hal::Cube& cube);
   void sum_counts(const hal::Cube& cube);
   std::uint32_t plan_passes(const hal::Cube& cube);
   std::uint64_t memory_for(const hal::Cube& cube, std::uint32_t passes) const;
@@ -74,6 +74,11 @@ class Renderer {
   std::vector<LineRange> pass_homes_;
   std::vector<std::uint8_t> wanted_lines_;
   Polygons::Source own_source_{};
+  struct {
+    std::uint64_t triangles;
+    std::uint64_t edge_boxes;
+    bool all_stored;
+  } made_{};  // by make_polygons
   Strip strip_{};  // of the frame at hand
   std::uint64_t sent_before_ = 0;
   double clock_ = 0;

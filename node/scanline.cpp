@@ -7,41 +7,52 @@
 namespace mars::node {
 namespace {
 
-// Goes through the triangles of several senders in the order of patches; within a patch in the order of its
+// Goes through the crossings of several senders in the order of patches; within a patch in the order of its
 // dicing, for all triangles of a patch come from one sender.
 class PatchOrder {
  public:
-  // [next, end) of every sender's triangles of one part.
+  // A sender's crossings [end, next) of one part, from the back.
   struct Head {
-    std::uint32_t next;
-    std::uint32_t end;
+    const Crossing* next;
+    const Crossing* end;
+    std::uint32_t first_triangle;
   };
 
-  PatchOrder(std::span<const Triangle> triangles, std::span<Head> heads) : triangles_(triangles), heads_(heads) {
+  PatchOrder(const Triangle* triangles, std::span<Head> heads) : triangles_(triangles), heads_(heads) {
     const auto empty = std::remove_if(heads_.begin(), heads_.end(), [](const Head& h) { return h.next == h.end; });
     heads_ = heads_.first(static_cast<std::size_t>(empty - heads_.begin()));
   }
 
+  // visit(crossing, number of its triangle).
   template <typename Visit>
   void visit_all(const Visit& visit) {
-    const auto later = [this](const Head& a, const Head& b) {
-      return triangles_[a.next].patch > triangles_[b.next].patch;
-    };
+    const auto later = [this](const Head& a, const Head& b) { return patch(a) > patch(b); };
     std::make_heap(heads_.begin(), heads_.end(), later);
-    while (!heads_.empty()) {
+    while (heads_.size() > 1) {
       std::pop_heap(heads_.begin(), heads_.end(), later);
       Head& head = heads_.back();
-      const std::uint32_t patch = triangles_[head.next].patch;
-      while (head.next != head.end && triangles_[head.next].patch == patch) visit(head.next++);
+      const std::uint32_t first = patch(head);
+      while (head.next != head.end && patch(head) == first) visit_next(head, visit);
       if (head.next == head.end)
         heads_ = heads_.first(heads_.size() - 1);
       else
         std::push_heap(heads_.begin(), heads_.end(), later);
     }
+    if (heads_.empty()) return;
+    while (heads_[0].next != heads_[0].end) visit_next(heads_[0], visit);
   }
 
  private:
-  std::span<const Triangle> triangles_;
+  std::uint32_t patch(const Head& head) const {
+    return triangles_[head.first_triangle + head.next[-1].box.triangle].patch;
+  }
+  template <typename Visit>
+  static void visit_next(Head& head, const Visit& visit) {
+    const Crossing& crossing = *--head.next;
+    visit(crossing, head.first_triangle + crossing.box.triangle);
+  }
+
+  const Triangle* triangles_;
   std::span<Head> heads_;
 };
 
@@ -59,26 +70,30 @@ std::span<const EdgeBox> LineBoxes::moving(std::uint32_t line) const {
 }
 
 LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span<const std::uint64_t> ebc,
-                     std::int32_t width, Arena& arena) {
+                     Arena& arena) {
   const std::uint64_t before = ebc[lines.first];
   const auto boxes = arena.take<EdgeBox>(ebc[lines.last] - before);
   const auto cursor = arena.take<std::uint64_t>(lines.count());
   const auto stationary_end = arena.take<std::uint64_t>(lines.count());
-  const auto heads = arena.take<PatchOrder::Head>(polygons.sources.size());
   for (std::size_t i = 0; i < cursor.size(); ++i) cursor[i] = ebc[lines.first + i] - before;
 
-  const auto place = [&](std::uint32_t number) {
-    place_edge_boxes(polygons.triangles[number], number, width, lines, cursor, boxes);
+  const auto all_heads = arena.take<PatchOrder::Head>(polygons.sources.size());
+  const auto place = [&](const Crossing& crossing, std::uint32_t triangle) {
+    const std::uint32_t line = crossing.line - lines.first;
+    if (line >= cursor.size()) return;
+    boxes[cursor[line]++] = {triangle, crossing.box.first, crossing.box.last};
   };
-  const auto place_all = [&](auto head_of) {
-    std::transform(polygons.sources.begin(), polygons.sources.end(), heads.begin(), head_of);
+  const auto place_all = [&](auto part) {
+    const auto heads = std::span(all_heads.data(), polygons.sources.size());
+    std::transform(polygons.sources.begin(), polygons.sources.end(), heads.begin(), [&](const Polygons::Source& s) {
+      const std::span<const Crossing> crossings = s.*part;
+      return PatchOrder::Head{crossings.data() + crossings.size(), crossings.data(), s.first};
+    });
     PatchOrder(polygons.triangles, heads).visit_all(place);
   };
-  place_all([](const Polygons::Source& s) { return PatchOrder::Head{s.first, s.first + s.stationary}; });
+  place_all(&Polygons::Source::stationary);
   std::copy(cursor.begin(), cursor.end(), stationary_end.begin());
-  place_all([](const Polygons::Source& s) {
-    return PatchOrder::Head{s.first + s.stationary, s.first + s.stationary + s.moving};
-  });
+  place_all(&Polygons::Source::moving);
   for (std::size_t i = 0; i < cursor.size(); ++i)
     check(cursor[i] == ebc[lines.first + i + 1] - before, "the edge boxes of a line are those EBC counted");
   return {lines, boxes, cursor, stationary_end};
@@ -97,7 +112,8 @@ void ZBuffer::draw_stationary(const LineBoxes& boxes, const Shading& shading, St
     std::fill(depth.begin(), depth.end(), 0.0f);
     const auto list = boxes.stationary(line);
     if (list.empty()) continue;
-    const Extent extent = kernels_.draw(list.data(), static_cast<std::uint32_t>(list.size()), depth.data(), ids_.data());
+    const Extent extent = kernels_.draw(shading.triangles, list.data(), static_cast<std::uint32_t>(list.size()), line,
+                                        depth.data(), ids_.data());
     shade_line(shading, line, extent, out);
   }
 }
@@ -110,7 +126,8 @@ void ZBuffer::draw_moving(const LineBoxes& boxes, const Shading& shading, StripB
     const auto depth = this->depth({line, line + 1});
     std::copy(depth.begin(), depth.end(), moving_.begin());
     const Extent extent =
-        kernels_.draw(list.data(), static_cast<std::uint32_t>(list.size()), moving_.data(), ids_.data());
+        kernels_.draw(shading.triangles, list.data(), static_cast<std::uint32_t>(list.size()), line, moving_.data(),
+                      ids_.data());
     shade_line(shading, line, extent, out);
   }
 }

@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "node/arena.h"
-#include "node/edge_boxes.h"
 #include "node/kernels.h"
+#include "node/mapping.h"
 #include "node/strip_buffer.h"
 
 namespace mars::node {
 
-// The triangles of one frame on one node: all in one array, in `sources` (one a sender), each of them first
-// its stationary and then its moving triangles in the order of their polygon numbers.
+// The triangles of one frame on one node, and from each sender their crossings: first those that stand still,
+// then those that move, each in the order of polygon numbers.
 struct Polygons {
   struct Source {
-    std::uint32_t first;
-    std::uint32_t stationary;
-    std::uint32_t moving;
+    std::uint32_t first;  // where this sender's triangles begin; its crossings count from there
+    std::span<const Crossing> stationary;  // the last comes first
+    std::span<const Crossing> moving;
   };
-  std::span<const Triangle> triangles;
+  const Triangle* triangles;
   std::span<const Source> sources;
 };
 
@@ -37,10 +37,10 @@ struct LineBoxes {
   std::span<const EdgeBox> moving(std::uint32_t line) const;
 };
 
-// `ebc`: running totals by line, as in mapping.h; they are the sort's offsets. Takes its arrays from `arena`.
-// check()s that the boxes are exactly those that EBC counted.
+// `ebc`: running totals by line, as in mapping.h; they are the sort's offsets. Crossings of other lines are left
+// out. Takes its arrays from `arena`. check()s that the boxes are exactly those that EBC counted.
 LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span<const std::uint64_t> ebc,
-                     std::int32_t width, Arena& arena);
+                     Arena& arena);
 
 // The z-buffer: CZB for the whole picture, kept through an interval, and one line of MZB.
 class ZBuffer {

@@ -1,6 +1,8 @@
 #include "node/setup.h"
 
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "node/clip.h"
 
@@ -10,30 +12,68 @@ namespace {
 // Cut vertices lie on the planes but for rounding: they pass a projection this much wider.
 constexpr float kSlack = 1.001f;
 
-// Triangles no higher than this many 1/256 pixel may have been turned over by snapping.
-constexpr std::int64_t kThin = 4;
+// Four floats that the compiler keeps in one register; arithmetic is lane by lane.
+typedef float Float4 __attribute__((vector_size(16)));
 
-// The plane through values f0, f1, f2 at the triangle's vertices.
-class PlaneMaker {
- public:
-  PlaneMaker(const Triangle& t, float determinant)
-      : x1_(static_cast<float>(t.x[1] - t.x[0])),
-        x2_(static_cast<float>(t.x[2] - t.x[0])),
-        y1_(static_cast<float>(t.y[1] - t.y[0])),
-        y2_(static_cast<float>(t.y[2] - t.y[0])),
-        inverse_(1.0f / determinant) {}
+Float4 load(const float* four) {
+  Float4 out;
+  std::memcpy(&out, four, sizeof out);
+  return out;
+}
 
-  Plane operator()(float f0, float f1, float f2) const {
-    const float d1 = f1 - f0, d2 = f2 - f0;
-    return {f0, (d1 * y2_ - d2 * y1_) * inverse_, (d2 * x1_ - d1 * x2_) * inverse_};
-  }
-
- private:
-  float x1_, x2_, y1_, y2_, inverse_;
+// Edges from a triangle's first vertex, 1/256 pixel.
+struct Edges {
+  float x1, y1, x2, y2;
 };
 
+// The planes through the values of three vertices.
+void set_planes(const Vertices& v, const Corner3& corners, const Edges& edges, float inverse, bool faces,
+                Triangle& out) {
+  const float sign = faces ? 1.0f : -1.0f;
+  const Float4 turned = {1, sign, sign, sign};
+  const Float4 first = turned * load(v.values[corners.a]);
+  const Float4 d1 = turned * load(v.values[corners.b]) - first, d2 = turned * load(v.values[corners.c]) - first;
+  const Float4 per_x = (d1 * edges.y2 - d2 * edges.y1) * inverse;
+  const Float4 per_y = (d2 * edges.x1 - d1 * edges.x2) * inverse;
+  std::memcpy(out.at_first, &first, sizeof first);
+  std::memcpy(out.per_x, &per_x, sizeof per_x);
+  std::memcpy(out.per_y, &per_y, sizeof per_y);
+}
+
+void set_identity(const Vertices& v, const Corner3& corners, const PatchIdentity& identity, Triangle& out) {
+  out.first_x = v.x[corners.a];
+  out.first_y = v.y[corners.a];
+  out.patch = identity.patch;
+  out.look = identity.look;
+}
+
+// Counts the edge boxes of rows [first, last) and stores them if there is room for the triangle too; whether there
+// were any and they were stored.
+template <typename ColumnsOf>
+bool cross(std::int32_t first, std::int32_t last, const ColumnsOf& columns_of, bool moving, SetUps& out) {
+  const bool room = reinterpret_cast<std::byte*>(out.next + 1) <= reinterpret_cast<std::byte*>(out.crossing - (last - first));
+  const auto number = static_cast<std::uint32_t>(out.next - out.first);
+  Crossing unstored;
+  Crossing* at = room ? out.crossing : &unstored + 1;
+  std::uint32_t boxes = 0;
+  for (std::int32_t row = first; row < last; ++row) {
+    const Outline::Columns columns = columns_of(row);
+    const bool kept = (columns.first < columns.last) & (out.wanted_lines[static_cast<std::size_t>(row)] != 0);
+    at[-1] = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
+              static_cast<std::uint16_t>(row),
+              moving};
+    at -= kept & room;
+    out.line_counts[static_cast<std::size_t>(row)] += kept;
+    boxes += kept;
+  }
+  out.edge_boxes += boxes;
+  out.touching += boxes > 0;
+  if (room) out.crossing = at;
+  return room && boxes > 0;
+}
+
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
-std::int64_t determinant(const Triangle& t) {
+std::int64_t determinant(const Corners& t) {
   const std::int64_t x1 = t.x[1] - t.x[0], x2 = t.x[2] - t.x[0];
   const std::int64_t y1 = t.y[1] - t.y[0], y2 = t.y[2] - t.y[0];
   return x1 * y2 - x2 * y1;
@@ -67,38 +107,68 @@ bool faces_eye(const Vertices& v, const Corner3& corners) {
   return std::abs(volume) > doubt ? volume < 0 : normals_face_eye(v, corners);
 }
 
+// A clipped triangle has at most nine corners.
+constexpr int kFew = 9 + kVectorSlack;
+
 // A handful of vertices on the stack, as kernels want them.
 struct FewVertices {
-  float numbers[7][9];
-  std::int32_t places[2][9];
-  std::uint8_t flags[9];
+  float numbers[6][kFew];
+  std::int32_t places[2][kFew];
+  std::uint8_t flags[kFew];
+  alignas(64) float values[kFew][kValues];
 
   Vertices view() {
-    return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, numbers[6], places[0],
-            places[1], flags};
+    return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, values, places[0], places[1], flags};
   }
 };
 
 }  // namespace
 
+SetUps::SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts,
+               std::span<const std::uint8_t> wanted_lines)
+    : first(reinterpret_cast<Triangle*>(memory.data())),
+      next(first),
+      crossing(reinterpret_cast<Crossing*>(memory.data() + memory.size())),
+      end(crossing),
+      line_counts(line_counts),
+      wanted_lines(wanted_lines) {}
+
 SetUp::SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height)
     : kernels_(kernels), projection_(projection), width_(width), height_(height) {}
 
-void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const {
+void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) {
+  if (diced.reaches_outside()) return add_plainly(diced, identity, out);
   const Vertices& v = diced.vertices();
-  std::uint32_t index = 0;
-  for (const Corner3& corners : diced.triangles()) {
-    const int outside = v.outside[corners.a] + v.outside[corners.b] + v.outside[corners.c];
-    if (outside == 0)
-      add_triangle(v, corners, {index, std::nullopt}, identity, out);
-    else
-      add_clipped(v, corners, {index, faces_eye(v, corners)}, identity, out);
-    ++index;
+  const Triangles& triangles = diced.triangles();
+  const Examination task{width_, height_, identity.one_sided, identity.mirrored};
+  for (std::uint32_t k = 0; k < triangles.count; k += kExamined) {
+    kernels_.examine(task, v, triangles, k, examined_);
+    for (std::uint32_t left = examined_.decided | examined_.undecided; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const Corner3 corners = triangles[k + static_cast<std::uint32_t>(lane)];
+      if (examined_.undecided >> lane & 1)
+        add_whole(v, corners, std::nullopt, identity, out);
+      else
+        add_examined(v, corners, lane, identity, out);
+    }
   }
 }
 
-void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const Facing& facing,
-                        const PatchIdentity& identity, SetUps& out) const {
+void SetUp::add_plainly(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const {
+  for (std::uint32_t k = 0; k < diced.triangles().count; ++k)
+    add_one(diced.vertices(), diced.triangles()[k], identity, out);
+}
+
+void SetUp::add_one(const Vertices& v, const Corner3& corners, const PatchIdentity& identity, SetUps& out) const {
+  const int outside = v.outside[corners.a] + v.outside[corners.b] + v.outside[corners.c];
+  if (outside == 0)
+    add_whole(v, corners, std::nullopt, identity, out);
+  else
+    add_clipped(v, corners, identity, out);
+}
+
+void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const PatchIdentity& identity,
+                        SetUps& out) const {
   ClipPolygon polygon;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c}) {
     ClipVertex& vertex = polygon.vertex[static_cast<std::size_t>(polygon.count++)];
@@ -108,7 +178,7 @@ void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const Facing&
     }
   }
   clip(projection_, polygon);
-  FewVertices few;
+  FewVertices few{};
   for (int i = 0; i < polygon.count; ++i)
     for (int axis = 0; axis < 3; ++axis) {
       few.numbers[axis][i] = polygon.vertex[static_cast<std::size_t>(i)].place[axis];
@@ -119,16 +189,17 @@ void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const Facing&
   wider.far *= kSlack;
   wider.guard *= kSlack;
   kernels_.project(wider, few.view(), polygon.count);
+  const bool faces = faces_eye(v, corners);
   for (std::uint32_t i = 1; static_cast<int>(i) + 1 < polygon.count; ++i) {
     const bool whole = few.flags[0] + few.flags[i] + few.flags[i + 1] == 0;  // not where numbers overflowed
-    if (whole) add_triangle(few.view(), {0, i, i + 1}, facing, identity, out);
+    if (whole) add_whole(few.view(), {0, i, i + 1}, faces, identity, out);
   }
 }
 
-void SetUp::add_triangle(const Vertices& v, const Corner3& corners, const Facing& facing,
-                         const PatchIdentity& identity, SetUps& out) const {
+void SetUp::add_whole(const Vertices& v, const Corner3& corners, std::optional<bool> known,
+                      const PatchIdentity& identity, SetUps& out) const {
   const std::uint32_t corner[3] = {corners.a, corners.b, corners.c};
-  Triangle t;
+  Corners t;
   for (int i = 0; i < 3; ++i) {
     t.x[i] = v.x[corner[i]];
     t.y[i] = v.y[corner[i]];
@@ -137,37 +208,27 @@ void SetUp::add_triangle(const Vertices& v, const Corner3& corners, const Facing
   if (area == 0) return;
   const bool sure = std::abs(area) > kThin * (std::abs(t.x[1] - t.x[0]) + std::abs(t.y[1] - t.y[0]) +
                                               std::abs(t.x[2] - t.x[0]) + std::abs(t.y[2] - t.y[0]));
-  const bool faces = facing.eye ? *facing.eye : sure ? area < 0 : faces_eye(v, corners);
+  const bool faces = known ? *known : sure ? area < 0 : faces_eye(v, corners);
   if (identity.one_sided && faces == identity.mirrored) return;
-  const PlaneMaker plane(t, static_cast<float>(area));
-  float w[3];
-  for (int i = 0; i < 3; ++i) w[i] = v.inverse_w[corner[i]];
-  t.depth = plane(w[0], w[1], w[2]);
-  const float sign = faces ? 1.0f : -1.0f;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float* n = v.normal[axis];
-    t.normal[axis] = plane(sign * (n[corner[0]] * w[0]), sign * (n[corner[1]] * w[1]), sign * (n[corner[2]] * w[2]));
-  }
-  t.patch = identity.patch;
-  t.index = facing.index;
-  t.look = identity.look;
-  keep(t, out);
+  const Outline outline(t, width_, height_);
+  const auto columns = [&](std::int32_t row) { return outline.columns(row); };
+  if (!cross(outline.first_row, outline.last_row, columns, identity.moving, out)) return;
+  const Edges edges{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
+                    static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0])};
+  set_identity(v, corners, identity, *out.next);
+  set_planes(v, corners, edges, 1.0f / static_cast<float>(area), faces, *out.next++);
 }
 
-void SetUp::keep(const Triangle& triangle, SetUps& out) const {
-  const Crossings crossings(triangle, width_, height_);
-  if (out.line_counts.empty()) {
-    const auto wanted = [&](std::int32_t row) {
-      return out.wanted_lines.empty() || out.wanted_lines[static_cast<std::size_t>(row)] != 0;
-    };
-    if (!has_edge_box(crossings, wanted)) return;
-  } else {
-    const std::uint32_t boxes = count_edge_boxes(crossings, out.line_counts);
-    if (boxes == 0) return;
-    out.edge_boxes += boxes;
-  }
-  ++out.touching;
-  if (out.stored < out.triangles.size()) out.triangles[out.stored++] = triangle;
+void SetUp::add_examined(const Vertices& v, const Corner3& corners, int lane, const PatchIdentity& identity,
+                         SetUps& out) const {
+  const Examined& e = examined_;
+  const std::int32_t first_row = e.first_row[lane];
+  const auto columns = [&](std::int32_t row) {
+    return Outline::Columns{e.first[row - first_row][lane], e.last[row - first_row][lane]};
+  };
+  if (!cross(first_row, e.last_row[lane], columns, identity.moving, out)) return;
+  set_identity(v, corners, identity, *out.next);
+  set_planes(v, corners, {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane]}, e.inverse[lane], (e.faces >> lane & 1) != 0, *out.next++);
 }
 
 }  // namespace mars::node

@@ -1,6 +1,9 @@
 // A diced patch's triangles become set-ups: snapped, clipped where they must be (at near and far, and at a
 // guard band far outside the picture; a shared edge is cut at the same place by both its triangles), with
-// their plane equations. Those that touch no sample are dropped.
+// their plane equations and edge boxes. Those that touch no sample are dropped.
+//
+// Sixteen at a time where they are small and surely turned one way (kernels.h, examine); the rest one by one.
+// Both decide the same, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -18,41 +21,55 @@ struct PatchIdentity {
   std::uint32_t look;
   bool mirrored;   // its matrix turns shapes inside out
   bool one_sided;  // triangles seen from inside are dropped
+  bool moving;
 };
 
-// Where set-ups go. Those that no longer fit `triangles` are still counted.
+// Set-ups and their edge boxes in one piece of memory: triangles from its front (aligned to a cache line), their
+// crossings from its end towards the front. What no longer fits is still counted.
 struct SetUps {
-  std::span<Triangle> triangles;
-  std::span<std::uint32_t> line_counts;      // edge boxes a line; empty where they are known already
-  std::span<const std::uint8_t> wanted_lines;  // 1: kept if it touches such a line; empty: all
-  std::size_t stored = 0;
-  std::uint64_t touching = 0;  // triangles with a sample, stored or not
+  SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts, std::span<const std::uint8_t> wanted_lines);
+
+  std::span<const Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
+  // The latest first.
+  std::span<const Crossing> crossings() const { return {crossing, static_cast<std::size_t>(end - crossing)}; }
+  bool all_stored() const { return stored_boxes() == edge_boxes; }
+
+  Triangle* first;
+  Triangle* next;      // where the next triangle goes
+  Crossing* crossing;  // the crossing stored last
+  Crossing* end;
+  std::span<std::uint32_t> line_counts;        // edge boxes a line, of all that is added
+  std::span<const std::uint8_t> wanted_lines;  // 1: edge boxes there are kept and counted
+  std::uint64_t touching = 0;                  // triangles with an edge box, stored or not
   std::uint64_t edge_boxes = 0;
+
+ private:
+  std::uint64_t stored_boxes() const { return static_cast<std::uint64_t>(end - crossing); }
 };
 
 class SetUp {
  public:
   SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height);
 
-  void add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const;
+  void add(const Dicer& diced, const PatchIdentity& identity, SetUps& out);
+  // The same without the sixteen at a time: the plain twin.
+  void add_plainly(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const;
 
  private:
-  // A diced triangle's number, and whether its outside by the order of its vertices is turned to the eye, if
-  // that is known already (pieces of a clipped one share it).
-  struct Facing {
-    std::uint32_t index;
-    std::optional<bool> eye;
-  };
-  void add_clipped(const Vertices& vertices, const Corner3& corners, const Facing& facing,
-                   const PatchIdentity& identity, SetUps& out) const;
-  void add_triangle(const Vertices& vertices, const Corner3& corners, const Facing& facing,
-                    const PatchIdentity& identity, SetUps& out) const;
-  void keep(const Triangle& triangle, SetUps& out) const;
+  void add_one(const Vertices& vertices, const Corner3& corners, const PatchIdentity& identity, SetUps& out) const;
+  void add_clipped(const Vertices& vertices, const Corner3& corners, const PatchIdentity& identity,
+                   SetUps& out) const;
+  // `faces`: whether its outside by the order of its vertices is turned to the eye, where that is known already.
+  void add_whole(const Vertices& vertices, const Corner3& corners, std::optional<bool> faces,
+                 const PatchIdentity& identity, SetUps& out) const;
+  void add_examined(const Vertices& vertices, const Corner3& corners, int lane, const PatchIdentity& identity,
+                    SetUps& out) const;
 
   const Kernels& kernels_;
   Projection projection_;
   std::int32_t width_;
   std::int32_t height_;
+  Examined examined_;
 };
 
 }  // namespace mars::node

@@ -38,7 +38,7 @@ TEST_F(SettingsTest, HaveDefaults) {
 TEST_F(SettingsTest, AreRead) {
   const Variable memory("MARS_MEMORY", "64");
   EXPECT_EQ(read_settings().memory, 64u * 1024 * 1024);
-  for (const std::string name : {"sse2", "avx2", "avx512"}) {
+  for (const std::string name : {"sse2", "sse4", "avx2", "avx512"}) {
     const Variable simd("MARS_SIMD", name);
     EXPECT_EQ(read_settings().simd, name);
   }

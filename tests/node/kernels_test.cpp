@@ -23,7 +23,7 @@ using node::Kernels;
 // All that this CPU runs, the narrowest first.
 std::vector<const Kernels*> all_kernels() {
   std::vector<const Kernels*> all;
-  for (const char* limit : {"sse2", "avx2", "avx512"}) {
+  for (const char* limit : {"sse2", "sse4", "avx2", "avx512"}) {
     const Kernels& kernels = node::best_kernels(limit);
     if (all.empty() || all.back() != &kernels) all.push_back(&kernels);
   }

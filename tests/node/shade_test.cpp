@@ -157,7 +157,7 @@ TEST(Shade, GivesTheSameBitsEverywhere) {
   for (int trial = 0; trial < 150; ++trial) {
     const Scenery scenery = random_scenery(random, random.whole(1, 900));
     const Result narrow = shade_all(scenery, "sse2");
-    for (const char* limit : {"avx2", "avx512"}) {
+    for (const char* limit : {"sse4", "avx2", "avx512"}) {
       const Result wide = shade_all(scenery, limit);
       EXPECT_EQ(wide.pixels, narrow.pixels) << node::best_kernels(limit).name << ", trial " << trial;
     }

@@ -73,7 +73,7 @@ TEST_P(Identity, AnyBlockSize) {
 }
 
 TEST_P(Identity, AnyInstructionSet) {
-  for (const char* simd : {"sse2", "avx2", "avx512"}) {
+  for (const char* simd : {"sse2", "sse4", "avx2", "avx512"}) {
     RunOptions options;
     options.nodes = 2;
     options.simd = simd;

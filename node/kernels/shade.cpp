@@ -1,94 +1,10 @@
-// Compiled once for each instruction set (CMakeLists.txt), with MARS_KERNELS naming the result. Loops are
-// plain, for the compiler to vectorise; each vector lane does what the scalar loop would, so the bits agree.
+// Phong's model at the samples that are seen.
 #include <cmath>
 
-#include "node/kernels.h"
+#include "node/kernels/simd.h"
 
-namespace mars::node {
+namespace mars::node::MARS_SET {
 namespace {
-
-// One component of a cubic and of a quadratic with these coefficients at step k.
-struct Cubic {
-  const float *a, *b, *c, *d;
-  float at(int k, const float (*p)[3], int axis) const {
-    return a[k] * p[0][axis] + b[k] * p[1][axis] + c[k] * p[2][axis] + d[k] * p[3][axis];
-  }
-};
-struct Quadratic {
-  const float *a, *b, *c;
-  float at(int k, const float (*p)[3], int axis) const {
-    return a[k] * p[0][axis] + b[k] * p[1][axis] + c[k] * p[2][axis];
-  }
-};
-
-void evaluate(const Row& given, const Basis& basis, int first, int last, const Vertices& out, int at) {
-  const Row row = given;
-  const Cubic cubic{basis.cubic[0] + first, basis.cubic[1] + first, basis.cubic[2] + first, basis.cubic[3] + first};
-  const Quadratic quadratic{basis.quadratic[0] + first, basis.quadratic[1] + first, basis.quadratic[2] + first};
-  float *px = out.place[0] + at, *py = out.place[1] + at, *pz = out.place[2] + at;
-  float *nx = out.normal[0] + at, *ny = out.normal[1] + at, *nz = out.normal[2] + at;
-#pragma GCC ivdep  // components are arrays of their own
-  for (int k = 0; k < last - first; ++k) {
-    px[k] = cubic.at(k, row.point, 0);
-    py[k] = cubic.at(k, row.point, 1);
-    pz[k] = cubic.at(k, row.point, 2);
-    const float ux = quadratic.at(k, row.slope, 0), uy = quadratic.at(k, row.slope, 1), uz = quadratic.at(k, row.slope, 2);
-    const float vx = cubic.at(k, row.cross, 0), vy = cubic.at(k, row.cross, 1), vz = cubic.at(k, row.cross, 2);
-    const float x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    const float square = x * x + y * y + z * z;
-    const float lengths = (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz);
-    // Where the two directions vanish or coincide there is no normal: the caller looks beside the place.
-    const float unit = row.sign / std::sqrt(square);
-    const float scale = square > 1e-12f * lengths ? unit : 0.0f;
-    nx[k] = x * scale;
-    ny[k] = y * scale;
-    nz[k] = z * scale;
-  }
-}
-
-void project(const Projection& given, const Vertices& v, int count) {
-  const Projection p = given;
-  const float *px = v.place[0], *py = v.place[1], *pz = v.place[2];
-  float* inverse_w = v.inverse_w;
-  std::int32_t *x = v.x, *y = v.y;
-  std::uint8_t* outside = v.outside;
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k) {
-    const float w = -pz[k];
-    const float inverse = 1.0f / w;
-    const float dx = p.scale * (px[k] * inverse);
-    const float dy = -p.scale * (py[k] * inverse);
-    // Written so that a NaN counts as outside.
-    const bool inside = (w >= p.near) & (w <= p.far) & (dx >= -p.guard) & (dx <= p.guard) & (dy >= -p.guard) &
-                        (dy <= p.guard);
-    const float sx = inside ? (p.center[0] + dx) * kSubpixels + 0.5f : 0.0f;
-    const float sy = inside ? (p.center[1] + dy) * kSubpixels + 0.5f : 0.0f;
-    const auto ix = static_cast<std::int32_t>(sx);
-    const auto iy = static_cast<std::int32_t>(sy);
-    x[k] = ix - (static_cast<float>(ix) > sx ? 1 : 0);
-    y[k] = iy - (static_cast<float>(iy) > sy ? 1 : 0);
-    inverse_w[k] = inverse;
-    outside[k] = inside ? 0 : 1;
-  }
-}
-
-Extent draw(const EdgeBox* boxes, std::uint32_t count, float* __restrict depth, std::uint32_t* __restrict ids) {
-  Extent extent{0xffffffffu, 0};
-  for (std::uint32_t b = 0; b < count; ++b) {
-    const EdgeBox& box = boxes[b];
-    extent.first = box.first < extent.first ? box.first : extent.first;
-    extent.last = box.last > extent.last ? box.last : extent.last;
-    const std::int32_t from_first = kSampleOffset - box.x0;
-    for (std::int32_t column = box.first; column < box.last; ++column) {
-      const auto dx = static_cast<float>(column * kSubpixels + from_first);
-      const float here = box.depth_at_x0 + dx * box.depth_per_x;
-      const bool nearer = here > depth[column];
-      depth[column] = nearer ? here : depth[column];
-      ids[column] = nearer ? box.triangle : ids[column];
-    }
-  }
-  return extent;
-}
 
 // Samples of one look that are shaded together: what is interpolated for each.
 constexpr int kBatch = 256;
@@ -205,24 +121,24 @@ void shade_batch(const Shading& shading, const Batch& batch, float line, const M
     pixels[k] = level(color[0][k]) | level(color[1][k]) << 8 | level(color[2][k]) << 16;
 }
 
-float on_line(const Plane& plane, float dy) { return plane.at_first + dy * plane.per_y; }
-
 // Adds columns [first, last), all of one triangle, to the batch.
 void interpolate(const Triangle& triangle, std::int32_t line, std::int32_t first, std::int32_t last, Batch& batch) {
-  const auto dy = static_cast<float>(line * kSubpixels + kSampleOffset - triangle.y[0]);
-  const float normal[3] = {on_line(triangle.normal[0], dy), on_line(triangle.normal[1], dy),
-                           on_line(triangle.normal[2], dy)};
-  const float depth = on_line(triangle.depth, dy);
-  const std::int32_t from_first = kSampleOffset - triangle.x[0];
+  const auto dy = static_cast<float>(line * kSubpixels + kSampleOffset - triangle.first_y);
+  float on_line[kValues];
+  for (int v = 0; v < kValues; ++v) on_line[v] = triangle.at_first[v] + dy * triangle.per_y[v];
+  const std::int32_t from_first = kSampleOffset - triangle.first_x;
   const int at = batch.count - first;
   for (std::int32_t column = first; column < last; ++column) {
     const auto dx = static_cast<float>(column * kSubpixels + from_first);
-    for (int axis = 0; axis < 3; ++axis) batch.normal[axis][at + column] = normal[axis] + dx * triangle.normal[axis].per_x;
-    batch.inverse_w[at + column] = depth + dx * triangle.depth.per_x;
+    for (int axis = 0; axis < 3; ++axis)
+      batch.normal[axis][at + column] = on_line[kNormalX + axis] + dx * triangle.per_x[kNormalX + axis];
+    batch.inverse_w[at + column] = on_line[kDepth] + dx * triangle.per_x[kDepth];
     batch.column[at + column] = static_cast<float>(column);
   }
   batch.count += last - first;
 }
+
+}  // namespace
 
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
              std::uint32_t* pixels) {
@@ -259,9 +175,4 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
   return done;
 }
 
-}  // namespace
-
-extern const Kernels MARS_KERNELS;
-const Kernels MARS_KERNELS = {MARS_KERNELS_NAME, evaluate, project, draw, shade};
-
-}  // namespace mars::node
+}  // namespace mars::node::MARS_SET

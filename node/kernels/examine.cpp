@@ -1,0 +1,145 @@
+// Sixteen triangles at a time: which way they face, which samples they cover. In 32-bit integers, exact for
+// triangles no larger than kMostExtent: places relative to the triangle stay below 2^14, products below 2^29.
+#include "node/kernels/simd.h"
+
+namespace mars::node::MARS_SET {
+namespace {
+
+using Mask = hn::Mask<IntTag>;
+
+Ints constant(std::int32_t number) { return hn::Set(kInts, number); }
+
+struct Point {
+  Ints x, y;
+};
+
+// So that a's y is the lesser one.
+void order(Point& a, Point& b) {
+  const Mask swap = hn::Lt(b.y, a.y);
+  const Point was = a;
+  a = {hn::IfThenElse(swap, b.x, a.x), hn::IfThenElse(swap, b.y, a.y)};
+  b = {hn::IfThenElse(swap, was.x, b.x), hn::IfThenElse(swap, was.y, b.y)};
+}
+
+// First row or column whose sample lies at or after a place.
+Ints sample_after(Ints place) { return hn::ShiftRight<8>(hn::Add(place, constant(kSampleOffset - 1))); }
+
+// A side's crossing of a row is (numerator / denominator) columns from where columns are counted.
+struct Side {
+  Ints numerator, step, denominator;
+  Floats inverse;
+
+  // At the row of sample place `y`, columns counted from sample place `x`.
+  Side(const Point& from, const Point& to, Ints x, Ints y) {
+    const Ints dx = hn::Sub(to.x, from.x), dy = hn::Sub(to.y, from.y);
+    numerator = hn::Add(hn::Mul(hn::Sub(y, from.y), dx), hn::Mul(hn::Sub(from.x, x), dy));
+    step = hn::ShiftLeft<8>(dx);
+    denominator = hn::ShiftLeft<8>(dy);
+    inverse = hn::Div(hn::Set(kFloats, 1.0f), hn::ConvertTo(kFloats, denominator));
+  }
+  void next_row() { numerator = hn::Add(numerator, step); }
+};
+
+// The quotient rounded up. Its estimate, rounded to the nearest, is that or one less: its error is far below 1/2.
+Ints first_sample(Ints numerator, Ints denominator, Floats inverse) {
+  const Ints estimate = hn::NearestInt(hn::Mul(hn::ConvertTo(kFloats, numerator), inverse));
+  const Mask low = hn::Lt(hn::Mul(estimate, denominator), numerator);
+  return hn::Sub(estimate, hn::VecFromMask(kInts, low));
+}
+
+std::uint32_t bits(Mask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(kInts, mask, bytes);
+  return (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) & ((1u << kLanes) - 1);
+}
+
+struct Triangle3 {
+  Point a, b, c;
+};
+
+Triangle3 gather(const Vertices& v, const Triangles& triangles, std::uint32_t at) {
+  const auto corner = [&](const std::uint32_t* numbers) {
+    const Ints index = hn::LoadU(kInts, reinterpret_cast<const std::int32_t*>(numbers) + at);
+    return Point{hn::GatherIndex(kInts, v.x, index), hn::GatherIndex(kInts, v.y, index)};
+  };
+  return {corner(triangles.a), corner(triangles.b), corner(triangles.c)};
+}
+
+void set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask decided, std::int32_t width,
+                 std::uint32_t lane, Examined& out) {
+  order(t.a, t.b);
+  order(t.b, t.c);
+  order(t.a, t.b);
+  const Ints column = hn::ShiftRight<8>(left);
+  const Ints x = hn::Add(hn::ShiftLeft<8>(column), constant(kSampleOffset));
+  Ints y = hn::Add(hn::ShiftLeft<8>(first_row), constant(kSampleOffset));
+  Side full(t.a, t.c, x, y), upper(t.a, t.b, x, y), lower(t.b, t.c, x, y);
+  alignas(64) std::int32_t rows[kLanes];
+  hn::Store(hn::IfThenElseZero(decided, hn::Sub(last_row, first_row)), kInts, rows);
+  std::int32_t most = 0;
+  for (const std::int32_t count : rows) most = count > most ? count : most;
+  for (std::int32_t r = 0; r < most; ++r) {
+    const Mask above = hn::Lt(y, t.b.y);
+    const Ints one = first_sample(full.numerator, full.denominator, full.inverse);
+    const Ints other = first_sample(hn::IfThenElse(above, upper.numerator, lower.numerator),
+                                    hn::IfThenElse(above, upper.denominator, lower.denominator),
+                                    hn::IfThenElse(hn::RebindMask(kFloats, above), upper.inverse, lower.inverse));
+    const Ints first = hn::Max(hn::Add(hn::Min(one, other), column), hn::Zero(kInts));
+    const Ints last = hn::Min(hn::Add(hn::Max(one, other), column), constant(width));
+    hn::Store(first, kInts, out.first[r] + lane);
+    hn::Store(last, kInts, out.last[r] + lane);
+    y = hn::Add(y, constant(kSubpixels));
+    full.next_row();
+    upper.next_row();
+    lower.next_row();
+  }
+}
+
+}  // namespace
+
+void examine(const Examination& task, const Vertices& v, const Triangles& triangles, std::uint32_t at,
+             Examined& out) {
+  out.decided = out.undecided = out.faces = 0;
+  const std::uint32_t left_over = triangles.count - at;
+  for (std::uint32_t lane = 0; lane < kExamined && lane < left_over; lane += kLanes) {
+    const Triangle3 t = gather(v, triangles, at + lane);
+    const Ints left = hn::Min(hn::Min(t.a.x, t.b.x), t.c.x), right = hn::Max(hn::Max(t.a.x, t.b.x), t.c.x);
+    const Ints top = hn::Min(hn::Min(t.a.y, t.b.y), t.c.y), bottom = hn::Max(hn::Max(t.a.y, t.b.y), t.c.y);
+    const Ints first_row = hn::Max(sample_after(top), hn::Zero(kInts));
+    const Ints last_row = hn::Min(sample_after(bottom), constant(task.height));
+    const Ints first_column = sample_after(left), last_column = sample_after(right);
+    const Mask touches =
+        hn::And(hn::And(hn::Lt(first_row, last_row), hn::FirstN(kInts, left_over - lane)),
+                hn::And(hn::Lt(first_column, hn::Min(last_column, constant(task.width))),
+                        hn::Gt(last_column, hn::Zero(kInts))));
+    if (hn::AllFalse(kInts, touches)) continue;
+
+    const Ints most = constant(kMostExtent * kSubpixels);
+    const Mask small = hn::And(hn::Lt(hn::Sub(right, left), most), hn::Lt(hn::Sub(bottom, top), most));
+    const Ints x1 = hn::Sub(t.b.x, t.a.x), y1 = hn::Sub(t.b.y, t.a.y), x2 = hn::Sub(t.c.x, t.a.x),
+               y2 = hn::Sub(t.c.y, t.a.y);
+    const Ints area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
+    const Ints lengths = hn::Add(hn::Add(hn::Abs(x1), hn::Abs(y1)), hn::Add(hn::Abs(x2), hn::Abs(y2)));
+    const Mask sure = hn::Gt(hn::Abs(area), hn::Mul(constant(kThin), lengths));
+    const Mask faces = hn::Lt(area, hn::Zero(kInts));
+    const Mask seen = !task.one_sided ? hn::Eq(left, left) : task.mirrored ? hn::Not(faces) : faces;
+    const Mask decided = hn::And(hn::And(touches, small), hn::And(sure, seen));
+    const Mask flat = hn::And(small, hn::Eq(area, hn::Zero(kInts)));
+    const Mask undecided = hn::AndNot(hn::Or(flat, hn::And(small, sure)), touches);
+    out.undecided |= bits(undecided) << lane;
+    if (hn::AllFalse(kInts, decided)) continue;
+
+    out.decided |= bits(decided) << lane;
+    out.faces |= bits(faces) << lane;
+    hn::Store(first_row, kInts, out.first_row + lane);
+    hn::Store(last_row, kInts, out.last_row + lane);
+    hn::Store(hn::ConvertTo(kFloats, x1), kFloats, out.x1 + lane);
+    hn::Store(hn::ConvertTo(kFloats, y1), kFloats, out.y1 + lane);
+    hn::Store(hn::ConvertTo(kFloats, x2), kFloats, out.x2 + lane);
+    hn::Store(hn::ConvertTo(kFloats, y2), kFloats, out.y2 + lane);
+    hn::Store(hn::Div(hn::Set(kFloats, 1.0f), hn::ConvertTo(kFloats, area)), kFloats, out.inverse + lane);
+    set_columns(t, left, first_row, last_row, decided, task.width, lane, out);
+  }
+}
+
+}  // namespace mars::node::MARS_SET

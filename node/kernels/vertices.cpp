@@ -1,0 +1,89 @@
+// Points and normals of a patch, and where they lie on the screen.
+#include <cstring>
+
+#include "node/kernels/simd.h"
+
+namespace mars::node::MARS_SET {
+namespace {
+
+Floats constant(float number) { return hn::Set(kFloats, number); }
+
+Floats sum_of_squares(Floats x, Floats y, Floats z) {
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+Floats cross_term(Floats a, Floats b, Floats c, Floats d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
+
+// One component of a sum of `Count` points, each times its weight.
+template <int Count>
+struct Blend {
+  Floats weight[Count];
+
+  Blend(const float* const* table, int at) {
+    for (int i = 0; i < Count; ++i) weight[i] = hn::LoadU(kFloats, table[i] + at);
+  }
+  Floats of(const float (*points)[3], int axis) const {
+    Floats sum = hn::Mul(weight[0], constant(points[0][axis]));
+    for (int i = 1; i < Count; ++i) sum = hn::Add(sum, hn::Mul(weight[i], constant(points[i][axis])));
+    return sum;
+  }
+};
+
+}  // namespace
+
+void evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at) {
+  for (int k = first; k < last; k += kLanes, at += kLanes) {
+    const Blend<4> cubic(basis.cubic, k);
+    const Blend<3> quadratic(basis.quadratic, k);
+    Floats u[3], v[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      hn::StoreU(cubic.of(row.point, axis), kFloats, out.place[axis] + at);
+      u[axis] = quadratic.of(row.slope, axis);
+      v[axis] = cubic.of(row.cross, axis);
+    }
+    const Floats x = cross_term(u[1], v[2], u[2], v[1]), y = cross_term(u[2], v[0], u[0], v[2]),
+                 z = cross_term(u[0], v[1], u[1], v[0]);
+    const Floats square = sum_of_squares(x, y, z);
+    const Floats lengths = hn::Mul(sum_of_squares(u[0], u[1], u[2]), sum_of_squares(v[0], v[1], v[2]));
+    // Where the two directions vanish or coincide there is no normal: the caller looks beside the place.
+    const Floats unit = hn::Div(constant(row.sign), hn::Sqrt(square));
+    const Floats scale = hn::IfThenElseZero(hn::Gt(square, hn::Mul(constant(1e-12f), lengths)), unit);
+    hn::StoreU(hn::Mul(x, scale), kFloats, out.normal[0] + at);
+    hn::StoreU(hn::Mul(y, scale), kFloats, out.normal[1] + at);
+    hn::StoreU(hn::Mul(z, scale), kFloats, out.normal[2] + at);
+  }
+}
+
+bool project(const Projection& p, const Vertices& v, int count) {
+  const Floats guard = constant(p.guard), no_guard = constant(-p.guard), half = constant(0.5f),
+               subpixels = constant(kSubpixels);
+  bool any = false;
+  for (int k = 0; k < count; k += kLanes) {
+    const Floats w = hn::Neg(hn::LoadU(kFloats, v.place[2] + k));
+    const Floats inverse = hn::Div(constant(1.0f), w);
+    const Floats dx = hn::Mul(constant(p.scale), hn::Mul(hn::LoadU(kFloats, v.place[0] + k), inverse));
+    const Floats dy = hn::Mul(constant(-p.scale), hn::Mul(hn::LoadU(kFloats, v.place[1] + k), inverse));
+    // A NaN is not inside.
+    const auto deep = hn::And(hn::Ge(w, constant(p.near)), hn::Le(w, constant(p.far)));
+    const auto wide = hn::And(hn::Ge(dx, no_guard), hn::Le(dx, guard));
+    const auto high = hn::And(hn::Ge(dy, no_guard), hn::Le(dy, guard));
+    const auto inside = hn::And(deep, hn::And(wide, high));
+    const Floats x = hn::Add(hn::Mul(hn::Add(constant(p.center[0]), dx), subpixels), half);
+    const Floats y = hn::Add(hn::Mul(hn::Add(constant(p.center[1]), dy), subpixels), half);
+    hn::StoreU(hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, x))), kInts, v.x + k);
+    hn::StoreU(hn::ConvertTo(kInts, hn::Floor(hn::IfThenElseZero(inside, y))), kInts, v.y + k);
+    hn::StoreInterleaved4(inverse, hn::Mul(hn::LoadU(kFloats, v.normal[0] + k), inverse),
+                          hn::Mul(hn::LoadU(kFloats, v.normal[1] + k), inverse),
+                          hn::Mul(hn::LoadU(kFloats, v.normal[2] + k), inverse), kFloats, v.values[k]);
+    const auto outside = hn::AndNot(inside, hn::FirstN(kFloats, static_cast<std::size_t>(count - k)));
+    std::memset(v.outside + k, 0, kLanes);
+    if (hn::AllFalse(kFloats, outside)) continue;
+    any = true;
+    float flags[kLanes];
+    hn::StoreU(hn::IfThenElseZero(outside, constant(1.0f)), kFloats, flags);
+    for (int lane = 0; lane < kLanes; ++lane) v.outside[k + lane] = flags[lane] != 0.0f;
+  }
+  return any;
+}
+
+}  // namespace mars::node::MARS_SET
