@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1) + kVectorSlack;
 constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate + kVectorSlack;
+constexpr int kMostBatches = 2 * kMaxRate * (kMaxRate / static_cast<int>(kExamined) + 1) + 4 * kMaxRate;
 constexpr Side kSides[] = {Side::bottom, Side::right, Side::top, Side::left};
 
 void subtract(const float* a, const float* b, float* out) {
@@ -18,15 +19,20 @@ void set_slopes(Row& row) {
   for (int i = 0; i < 3; ++i) subtract(row.point[i + 1], row.point[i], row.slope[i]);
 }
 
-// The row of constant v at step j of `basis`, along u.
+// The row of constant v at step j of `basis`, along u. A patch's row of points is twelve numbers on end, as is the
+// result's, so that these loops become vectors.
 Row inside_row(const EyePatch& patch, const Basis& basis, int j) {
-  Row row{};
-  for (int i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto p = [&](int k) { return patch.point[4 * k + i][axis]; };
-      for (int k = 0; k < 4; ++k) row.point[i][axis] += basis.cubic[k][j] * p(k);
-      for (int k = 0; k < 3; ++k) row.cross[i][axis] += basis.quadratic[k][j] * (p(k + 1) - p(k));
-    }
+  constexpr int kNumbers = 12;
+  Row row;
+  const float* p = patch.point[0];
+  float* point = row.point[0];
+  float* cross = row.cross[0];
+  const float c[4] = {basis.cubic[0][j], basis.cubic[1][j], basis.cubic[2][j], basis.cubic[3][j]};
+  const float q[3] = {basis.quadratic[0][j], basis.quadratic[1][j], basis.quadratic[2][j]};
+  for (int n = 0; n < kNumbers; ++n) {
+    const float p0 = p[n], p1 = p[n + kNumbers], p2 = p[n + 2 * kNumbers], p3 = p[n + 3 * kNumbers];
+    point[n] = c[0] * p0 + c[1] * p1 + c[2] * p2 + c[3] * p3;
+    cross[n] = q[0] * (p1 - p0) + q[1] * (p2 - p1) + q[2] * (p3 - p2);
   }
   set_slopes(row);
   row.sign = 1;
@@ -60,7 +66,8 @@ Dicer::Dicer(const Kernels& kernels)
       places_(new std::int32_t[2 * kMostVertices]),
       flags_(new std::uint8_t[kMostVertices]),
       values_(new float[kMostVertices][kValues]),
-      corners_(new std::uint32_t[3 * kMostTriangles]()) {
+      corners_(new std::uint32_t[3 * kMostTriangles]()),
+      batches_(new Batch[kMostBatches]) {
   for (int axis = 0; axis < 3; ++axis) {
     vertices_.place[axis] = numbers_.get() + axis * kMostVertices;
     vertices_.normal[axis] = numbers_.get() + (3 + axis) * kMostVertices;
@@ -69,15 +76,15 @@ Dicer::Dicer(const Kernels& kernels)
   vertices_.x = places_.get();
   vertices_.y = places_.get() + kMostVertices;
   vertices_.outside = flags_.get();
-  triangles_ = {corners_.get(), corners_.get() + kMostTriangles, corners_.get() + 2 * kMostTriangles, 0};
+  triangles_ = {corners_.get(), corners_.get() + kMostTriangles, corners_.get() + 2 * kMostTriangles, 0, batches_.get(), 0};
 }
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
   const Rates wanted = rates(patch, projection, fixed_rate);
   lay_out(wanted);
-  evaluate_inside(patch);
-  for (const Side side : kSides) evaluate_side(patch, side);
-  mend_normals(patch);
+  bool normals = evaluate_inside(patch);
+  for (const Side side : kSides) normals &= evaluate_side(patch, side);
+  if (!normals) mend_normals(patch);
   reaches_outside_ = kernels_.project(projection, vertices_, vertex_count_);
   if (wanted != triangulated_) triangulate();
   triangulated_ = wanted;
@@ -101,22 +108,25 @@ void Dicer::lay_out(const Rates& wanted) {
   }
 }
 
-void Dicer::evaluate_inside(const EyePatch& patch) {
+bool Dicer::evaluate_inside(const EyePatch& patch) {
   const Basis& along = basis(rates_.u);
   const Basis& up = basis(rates_.v);
+  bool normals = true;
   for (int j = 1; j <= rows_; ++j)
-    kernels_.evaluate(inside_row(patch, up, j), along, 1, rates_.u, vertices_, (j - 1) * columns_);
+    normals &= kernels_.evaluate(inside_row(patch, up, j), along, 1, rates_.u, vertices_, (j - 1) * columns_);
+  return normals;
 }
 
-void Dicer::evaluate_side(const EyePatch& patch, Side side) {
+bool Dicer::evaluate_side(const EyePatch& patch, Side side) {
   const int s = static_cast<int>(side);
   const int rate = rates_.side[s];
   const int at = side_at_[s];
-  kernels_.evaluate(side_row(patch, side), basis(rate), 0, rate + 1, vertices_, at);
-  if (!edge(patch, side).reversed) return;
+  const bool normals = kernels_.evaluate(side_row(patch, side), basis(rate), 0, rate + 1, vertices_, at);
+  if (!edge(patch, side).reversed) return normals;
   for (float* component : {vertices_.place[0], vertices_.place[1], vertices_.place[2], vertices_.normal[0],
                            vertices_.normal[1], vertices_.normal[2]})
     std::reverse(component + at, component + at + rate + 1);
+  return normals;
 }
 
 // Where a side is collapsed or its tangents vanish the surface's normal is that of a place just inside.
@@ -163,10 +173,11 @@ void Dicer::mend_normal(const EyePatch& patch, int vertex, float u, float v) {
 }
 
 void Dicer::triangulate() {
-  triangles_.count = 0;
+  triangles_.count = triangles_.batch_count = 0;
   if (columns_ > 0) {
     fill_inside();
     for (const Side side : kSides) stitch(side_chain(side), inner_chain(side));
+    end_batches(false);
     return;
   }
   const Side near = flat_in_v_ ? Side::bottom : Side::right;
@@ -174,15 +185,28 @@ void Dicer::triangulate() {
   opposite.first += opposite.steps * opposite.stride;  // both run the same way
   opposite.stride = -opposite.stride;
   stitch(side_chain(near), opposite);
+  end_batches(false);
 }
 
+// Row by row the lower triangles of its quads, then the upper ones.
 void Dicer::fill_inside() {
-  for (int j = 0; j + 1 < rows_; ++j)
-    for (int i = 0; i + 1 < columns_; ++i) {
-      const int a = j * columns_ + i;
-      add(a, a + 1, a + columns_ + 1);
-      add(a, a + columns_ + 1, a + columns_);
-    }
+  for (int j = 0; j + 1 < rows_; ++j) {
+    const int first = j * columns_, last = first + columns_ - 1;
+    for (int a = first; a < last; ++a) add(a, a + 1, a + columns_ + 1);
+    end_batches(true);
+    for (int a = first; a < last; ++a) add(a, a + columns_ + 1, a + columns_);
+    end_batches(true);
+  }
+}
+
+// Cuts the triangles added since the last time into batches.
+void Dicer::end_batches(bool consecutive) {
+  std::uint32_t first = triangles_.batch_count == 0 ? 0 : batches_[triangles_.batch_count - 1].last;
+  while (first < triangles_.count) {
+    const std::uint32_t last = std::min(first + kExamined, triangles_.count);
+    batches_[triangles_.batch_count++] = {first, last, consecutive};
+    first = last;
+  }
 }
 
 // Triangles between two chains that run the same way, inner to the left of outer: at each step the chain whose

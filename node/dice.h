@@ -35,14 +35,16 @@ class Dicer {
   };
 
   void lay_out(const Rates& rates);
-  void evaluate_inside(const EyePatch& patch);
-  void evaluate_side(const EyePatch& patch, Side side);
+  // Whether all of these vertices have a normal.
+  bool evaluate_inside(const EyePatch& patch);
+  bool evaluate_side(const EyePatch& patch, Side side);
   void mend_normals(const EyePatch& patch);
   void mend_normal(const EyePatch& patch, int vertex, float u, float v);
   void triangulate();
   void fill_inside();
   void stitch(const Chain& outer, const Chain& inner);
   void add(std::int32_t a, std::int32_t b, std::int32_t c);
+  void end_batches(bool consecutive);
 
   Chain side_chain(Side side) const;   // counter-clockwise round the patch
   Chain inner_chain(Side side) const;  // the inside's outermost row along that side
@@ -53,6 +55,7 @@ class Dicer {
   std::unique_ptr<std::uint8_t[]> flags_;
   std::unique_ptr<float[][kValues]> values_;
   std::unique_ptr<std::uint32_t[]> corners_;
+  std::unique_ptr<Batch[]> batches_;
   Vertices vertices_;
   Triangles triangles_{};
   bool reaches_outside_ = false;

@@ -48,12 +48,23 @@ struct Corner3 {
   std::uint32_t a, b, c;
 };
 
-// The triangles of a diced patch, one array a corner.
+inline constexpr std::uint32_t kExamined = 16;  // triangles at most in a batch
+
+// Triangles [first, last), which are examined together. `consecutive`: each corner's numbers go up by one.
+struct Batch {
+  std::uint32_t first;
+  std::uint32_t last;
+  bool consecutive;
+};
+
+// The triangles of a diced patch, one array a corner, and the batches that tile them.
 struct Triangles {
   const std::uint32_t* a;
   const std::uint32_t* b;
   const std::uint32_t* c;
   std::uint32_t count;
+  const Batch* batches;
+  std::uint32_t batch_count;
 
   Corner3 operator[](std::uint32_t k) const { return {a[k], b[k], c[k]}; }
 };
@@ -69,19 +80,18 @@ struct Examination {
   bool mirrored;   // their outside is the other side
 };
 
-inline constexpr std::uint32_t kExamined = 16;     // triangles at a time
-inline constexpr std::int32_t kMostExtent = 64;    // pixels; larger triangles are left undecided
+inline constexpr std::int32_t kMostExtent = 64;  // pixels; larger triangles are left undecided
 
-// Sixteen triangles in one of three states: decided, with the columns they may cover row by row; undecided, where
-// they are larger than kMostExtent or may have been turned over; or dropped: turned away or between samples.
+// A batch's triangles in one of three states: decided, with the columns they cover row by row, at least one;
+// undecided, where they are larger than kMostExtent or may have been turned over; or dropped: turned away or
+// between samples.
 struct Examined {
   std::uint32_t decided;    // one bit a triangle
   std::uint32_t undecided;
   std::uint32_t faces;      // the side from which a, b, c run counter-clockwise is turned to the eye
   alignas(64) std::int32_t first_row[kExamined];
   alignas(64) std::int32_t last_row[kExamined];
-  alignas(64) std::int32_t first[kMostExtent][kExamined];  // columns [first, last) of row first_row + r at [r]
-  alignas(64) std::int32_t last[kMostExtent][kExamined];
+  alignas(64) std::uint32_t columns[kMostExtent][kExamined];  // of row first_row + r at [r]: first | last << 16, or 0
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
   alignas(64) float x1[kExamined];
   alignas(64) float y1[kExamined];
@@ -130,14 +140,13 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 struct Kernels {
   const char* name;
 
-  // Vertices first..last - 1 of `row` at first/rate.. into out[at..].
-  void (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
+  // Vertices first..last - 1 of `row` at first/rate.. into out[at..]. Whether all have a normal.
+  bool (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
 
   // Whether any of the vertices is outside.
   bool (*project)(const Projection& projection, const Vertices& vertices, int count);
 
-  // Looks at triangles at .. at + kExamined - 1, as far as there are.
-  void (*examine)(const Examination& task, const Vertices& vertices, const Triangles& triangles, std::uint32_t at,
+  void (*examine)(const Examination& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,
                   Examined& out);
 
   // Draws `count` edge boxes of line `line`, in order: a sample nearer than depth[x] takes over depth and id.

@@ -1,7 +1,9 @@
 #include "node/setup.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "node/clip.h"
@@ -47,30 +49,36 @@ void set_identity(const Vertices& v, const Corner3& corners, const PatchIdentity
   out.look = identity.look;
 }
 
+// An edge box in two moves: columns are first | last << 16.
+void put(std::uint32_t number, std::uint32_t columns, std::int32_t row, bool moving, Crossing* out) {
+  const std::uint32_t line = static_cast<std::uint32_t>(row) | std::uint32_t{moving} << 16;
+  const std::uint32_t words[] = {number, columns, line};
+  static_assert(offsetof(Crossing, line) == 8 && sizeof words == sizeof *out);
+  std::memcpy(out, words, sizeof words);
+}
+
 // Counts the edge boxes of rows [first, last) and stores them if there is room for the triangle too; whether there
 // were any and they were stored.
-template <typename ColumnsOf>
-bool cross(std::int32_t first, std::int32_t last, const ColumnsOf& columns_of, bool moving, SetUps& out) {
-  const bool room = reinterpret_cast<std::byte*>(out.next + 1) <= reinterpret_cast<std::byte*>(out.crossing - (last - first));
+bool cross(const Outline& outline, bool moving, SetUps& out) {
+  const std::int32_t first = outline.first_row, last = std::max(first, outline.last_row);
+  const bool room =
+      reinterpret_cast<std::byte*>(out.next + 1) <= reinterpret_cast<std::byte*>(out.crossing - (last - first));
   const auto number = static_cast<std::uint32_t>(out.next - out.first);
-  Crossing unstored;
-  Crossing* at = room ? out.crossing : &unstored + 1;
   std::uint32_t boxes = 0;
   for (std::int32_t row = first; row < last; ++row) {
-    const Outline::Columns columns = columns_of(row);
-    const bool kept = (columns.first < columns.last) & (out.wanted_lines[static_cast<std::size_t>(row)] != 0);
-    at[-1] = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
-              static_cast<std::uint16_t>(row),
-              moving};
-    at -= kept & room;
-    out.line_counts[static_cast<std::size_t>(row)] += kept;
-    boxes += kept;
+    const Outline::Columns columns = outline.columns(row);
+    if (columns.first >= columns.last || out.wanted_lines[static_cast<std::size_t>(row)] == 0) continue;
+    if (room) put(number, static_cast<std::uint32_t>(columns.first | columns.last << 16), row, moving, --out.crossing);
+    ++out.line_counts[static_cast<std::size_t>(row)];
+    ++boxes;
   }
   out.edge_boxes += boxes;
   out.touching += boxes > 0;
-  if (room) out.crossing = at;
   return room && boxes > 0;
 }
+
+// Memory that no batch exceeds.
+constexpr std::ptrdiff_t kBatchBytes = kExamined * (sizeof(Triangle) + kMostExtent * sizeof(Crossing));
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
 std::int64_t determinant(const Corners& t) {
@@ -141,17 +149,51 @@ void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) 
   const Vertices& v = diced.vertices();
   const Triangles& triangles = diced.triangles();
   const Examination task{width_, height_, identity.one_sided, identity.mirrored};
-  for (std::uint32_t k = 0; k < triangles.count; k += kExamined) {
-    kernels_.examine(task, v, triangles, k, examined_);
-    for (std::uint32_t left = examined_.decided | examined_.undecided; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      const Corner3 corners = triangles[k + static_cast<std::uint32_t>(lane)];
-      if (examined_.undecided >> lane & 1)
-        add_whole(v, corners, std::nullopt, identity, out);
-      else
-        add_examined(v, corners, lane, identity, out);
-    }
+  for (const Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
+    const bool room = reinterpret_cast<std::byte*>(out.crossing) - reinterpret_cast<std::byte*>(out.next) >= kBatchBytes;
+    if (room)
+      kernels_.examine(task, v, triangles, batch, examined_);
+    else
+      examined_.decided = 0, examined_.undecided = (1u << (batch.last - batch.first)) - 1;
+    if ((examined_.decided | examined_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
   }
+}
+
+void SetUp::add_batch(const Vertices& v, const Triangles& triangles, const Batch& batch,
+                      const PatchIdentity& identity, SetUps& out) {
+  const Examined& e = examined_;
+  Triangle* next = out.next;
+  Crossing* crossing = out.crossing;
+  const auto store = [&] {
+    out.touching += static_cast<std::uint64_t>(next - out.next);
+    out.edge_boxes += static_cast<std::uint64_t>(out.crossing - crossing);
+    out.next = next;
+    out.crossing = crossing;
+  };
+  for (std::uint32_t left = e.decided | e.undecided; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+    const Corner3 corners = triangles[batch.first + lane];
+    if (e.undecided >> lane & 1) {
+      store();
+      add_whole(v, corners, std::nullopt, identity, out);
+      next = out.next;
+      crossing = out.crossing;
+      continue;
+    }
+    const Crossing* const before = crossing;
+    const std::uint32_t* columns = &e.columns[0][lane];
+    for (std::int32_t row = e.first_row[lane]; row < e.last_row[lane]; ++row, columns += kExamined) {
+      const bool kept = (*columns != 0) & (out.wanted_lines[static_cast<std::size_t>(row)] != 0);
+      put(static_cast<std::uint32_t>(next - out.first), *columns, row, identity.moving, crossing - 1);
+      crossing -= kept;
+      out.line_counts[static_cast<std::size_t>(row)] += kept;
+    }
+    if (crossing == before) continue;
+    set_identity(v, corners, identity, *next);
+    set_planes(v, corners, {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane]}, e.inverse[lane], (e.faces >> lane & 1) != 0, *next);
+    ++next;
+  }
+  store();
 }
 
 void SetUp::add_plainly(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const {
@@ -211,24 +253,11 @@ void SetUp::add_whole(const Vertices& v, const Corner3& corners, std::optional<b
   const bool faces = known ? *known : sure ? area < 0 : faces_eye(v, corners);
   if (identity.one_sided && faces == identity.mirrored) return;
   const Outline outline(t, width_, height_);
-  const auto columns = [&](std::int32_t row) { return outline.columns(row); };
-  if (!cross(outline.first_row, outline.last_row, columns, identity.moving, out)) return;
+  if (!cross(outline, identity.moving, out)) return;
   const Edges edges{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
                     static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0])};
   set_identity(v, corners, identity, *out.next);
   set_planes(v, corners, edges, 1.0f / static_cast<float>(area), faces, *out.next++);
-}
-
-void SetUp::add_examined(const Vertices& v, const Corner3& corners, int lane, const PatchIdentity& identity,
-                         SetUps& out) const {
-  const Examined& e = examined_;
-  const std::int32_t first_row = e.first_row[lane];
-  const auto columns = [&](std::int32_t row) {
-    return Outline::Columns{e.first[row - first_row][lane], e.last[row - first_row][lane]};
-  };
-  if (!cross(first_row, e.last_row[lane], columns, identity.moving, out)) return;
-  set_identity(v, corners, identity, *out.next);
-  set_planes(v, corners, {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane]}, e.inverse[lane], (e.faces >> lane & 1) != 0, *out.next++);
 }
 
 }  // namespace mars::node

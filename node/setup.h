@@ -62,8 +62,8 @@ class SetUp {
   // `faces`: whether its outside by the order of its vertices is turned to the eye, where that is known already.
   void add_whole(const Vertices& vertices, const Corner3& corners, std::optional<bool> faces,
                  const PatchIdentity& identity, SetUps& out) const;
-  void add_examined(const Vertices& vertices, const Corner3& corners, int lane, const PatchIdentity& identity,
-                    SetUps& out) const;
+  void add_batch(const Vertices& vertices, const Triangles& triangles, const Batch& batch,
+                 const PatchIdentity& identity, SetUps& out);
 
   const Kernels& kernels_;
   Projection projection_;

@@ -57,15 +57,18 @@ struct Triangle3 {
   Point a, b, c;
 };
 
-Triangle3 gather(const Vertices& v, const Triangles& triangles, std::uint32_t at) {
+Triangle3 load(const Vertices& v, const Triangles& triangles, std::uint32_t at, bool consecutive) {
   const auto corner = [&](const std::uint32_t* numbers) {
-    const Ints index = hn::LoadU(kInts, reinterpret_cast<const std::int32_t*>(numbers) + at);
-    return Point{hn::GatherIndex(kInts, v.x, index), hn::GatherIndex(kInts, v.y, index)};
+    const std::uint32_t first = numbers[at];
+    if (consecutive) return Point{hn::LoadU(kInts, v.x + first), hn::LoadU(kInts, v.y + first)};
+    const Ints number = hn::LoadU(kInts, reinterpret_cast<const std::int32_t*>(numbers) + at);
+    return Point{hn::GatherIndex(kInts, v.x, number), hn::GatherIndex(kInts, v.y, number)};
   };
   return {corner(triangles.a), corner(triangles.b), corner(triangles.c)};
 }
 
-void set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask decided, std::int32_t width,
+// Columns of those that `may` cover samples, row by row; which of them do.
+Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may, std::int32_t width,
                  std::uint32_t lane, Examined& out) {
   order(t.a, t.b);
   order(t.b, t.c);
@@ -74,11 +77,11 @@ void set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask dec
   const Ints x = hn::Add(hn::ShiftLeft<8>(column), constant(kSampleOffset));
   Ints y = hn::Add(hn::ShiftLeft<8>(first_row), constant(kSampleOffset));
   Side full(t.a, t.c, x, y), upper(t.a, t.b, x, y), lower(t.b, t.c, x, y);
-  alignas(64) std::int32_t rows[kLanes];
-  hn::Store(hn::IfThenElseZero(decided, hn::Sub(last_row, first_row)), kInts, rows);
-  std::int32_t most = 0;
-  for (const std::int32_t count : rows) most = count > most ? count : most;
-  for (std::int32_t r = 0; r < most; ++r) {
+  const Ints end = hn::IfThenElseZero(may, hn::ShiftLeft<8>(last_row));
+  Mask covers = hn::Lt(y, y);
+  for (std::int32_t r = 0;; ++r) {
+    const Mask within = hn::Lt(y, end);
+    if (hn::AllFalse(kInts, within)) return covers;
     const Mask above = hn::Lt(y, t.b.y);
     const Ints one = first_sample(full.numerator, full.denominator, full.inverse);
     const Ints other = first_sample(hn::IfThenElse(above, upper.numerator, lower.numerator),
@@ -86,8 +89,10 @@ void set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask dec
                                     hn::IfThenElse(hn::RebindMask(kFloats, above), upper.inverse, lower.inverse));
     const Ints first = hn::Max(hn::Add(hn::Min(one, other), column), hn::Zero(kInts));
     const Ints last = hn::Min(hn::Add(hn::Max(one, other), column), constant(width));
-    hn::Store(first, kInts, out.first[r] + lane);
-    hn::Store(last, kInts, out.last[r] + lane);
+    const Mask covered = hn::And(within, hn::Lt(first, last));
+    const Ints columns = hn::IfThenElseZero(covered, hn::Or(first, hn::ShiftLeft<16>(last)));
+    hn::Store(columns, kInts, reinterpret_cast<std::int32_t*>(out.columns[r]) + lane);
+    covers = hn::Or(covers, covered);
     y = hn::Add(y, constant(kSubpixels));
     full.next_row();
     upper.next_row();
@@ -97,19 +102,19 @@ void set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask dec
 
 }  // namespace
 
-void examine(const Examination& task, const Vertices& v, const Triangles& triangles, std::uint32_t at,
+void examine(const Examination& task, const Vertices& v, const Triangles& triangles, const Batch& batch,
              Examined& out) {
   out.decided = out.undecided = out.faces = 0;
-  const std::uint32_t left_over = triangles.count - at;
-  for (std::uint32_t lane = 0; lane < kExamined && lane < left_over; lane += kLanes) {
-    const Triangle3 t = gather(v, triangles, at + lane);
+  const std::uint32_t count = batch.last - batch.first;
+  for (std::uint32_t lane = 0; lane < count; lane += kLanes) {
+    const Triangle3 t = load(v, triangles, batch.first + lane, batch.consecutive);
     const Ints left = hn::Min(hn::Min(t.a.x, t.b.x), t.c.x), right = hn::Max(hn::Max(t.a.x, t.b.x), t.c.x);
     const Ints top = hn::Min(hn::Min(t.a.y, t.b.y), t.c.y), bottom = hn::Max(hn::Max(t.a.y, t.b.y), t.c.y);
     const Ints first_row = hn::Max(sample_after(top), hn::Zero(kInts));
     const Ints last_row = hn::Min(sample_after(bottom), constant(task.height));
     const Ints first_column = sample_after(left), last_column = sample_after(right);
     const Mask touches =
-        hn::And(hn::And(hn::Lt(first_row, last_row), hn::FirstN(kInts, left_over - lane)),
+        hn::And(hn::And(hn::Lt(first_row, last_row), hn::FirstN(kInts, count - lane)),
                 hn::And(hn::Lt(first_column, hn::Min(last_column, constant(task.width))),
                         hn::Gt(last_column, hn::Zero(kInts))));
     if (hn::AllFalse(kInts, touches)) continue;
@@ -123,13 +128,14 @@ void examine(const Examination& task, const Vertices& v, const Triangles& triang
     const Mask sure = hn::Gt(hn::Abs(area), hn::Mul(constant(kThin), lengths));
     const Mask faces = hn::Lt(area, hn::Zero(kInts));
     const Mask seen = !task.one_sided ? hn::Eq(left, left) : task.mirrored ? hn::Not(faces) : faces;
-    const Mask decided = hn::And(hn::And(touches, small), hn::And(sure, seen));
+    const Mask may = hn::And(hn::And(touches, small), hn::And(sure, seen));
     const Mask flat = hn::And(small, hn::Eq(area, hn::Zero(kInts)));
     const Mask undecided = hn::AndNot(hn::Or(flat, hn::And(small, sure)), touches);
     out.undecided |= bits(undecided) << lane;
-    if (hn::AllFalse(kInts, decided)) continue;
+    if (hn::AllFalse(kInts, may)) continue;
 
-    out.decided |= bits(decided) << lane;
+    const Mask covers = set_columns(t, left, first_row, last_row, may, task.width, lane, out);
+    out.decided |= bits(covers) << lane;
     out.faces |= bits(faces) << lane;
     hn::Store(first_row, kInts, out.first_row + lane);
     hn::Store(last_row, kInts, out.last_row + lane);
@@ -138,7 +144,6 @@ void examine(const Examination& task, const Vertices& v, const Triangles& triang
     hn::Store(hn::ConvertTo(kFloats, x2), kFloats, out.x2 + lane);
     hn::Store(hn::ConvertTo(kFloats, y2), kFloats, out.y2 + lane);
     hn::Store(hn::Div(hn::Set(kFloats, 1.0f), hn::ConvertTo(kFloats, area)), kFloats, out.inverse + lane);
-    set_columns(t, left, first_row, last_row, decided, task.width, lane, out);
   }
 }
 

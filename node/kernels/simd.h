@@ -21,9 +21,9 @@ inline constexpr FloatTag kFloats;
 inline constexpr IntTag kInts;
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 
-void evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
+bool evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
 bool project(const Projection& projection, const Vertices& vertices, int count);
-void examine(const Examination& task, const Vertices& vertices, const Triangles& triangles, std::uint32_t at,
+void examine(const Examination& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,
              Examined& out);
 Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line, float* depth,
             std::uint32_t* ids);

@@ -31,7 +31,8 @@ struct Blend {
 
 }  // namespace
 
-void evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at) {
+bool evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at) {
+  bool all = true;
   for (int k = first; k < last; k += kLanes, at += kLanes) {
     const Blend<4> cubic(basis.cubic, k);
     const Blend<3> quadratic(basis.quadratic, k);
@@ -47,11 +48,14 @@ void evaluate(const Row& row, const Basis& basis, int first, int last, const Ver
     const Floats lengths = hn::Mul(sum_of_squares(u[0], u[1], u[2]), sum_of_squares(v[0], v[1], v[2]));
     // Where the two directions vanish or coincide there is no normal: the caller looks beside the place.
     const Floats unit = hn::Div(constant(row.sign), hn::Sqrt(square));
-    const Floats scale = hn::IfThenElseZero(hn::Gt(square, hn::Mul(constant(1e-12f), lengths)), unit);
+    const auto missing = hn::Not(hn::Gt(square, hn::Mul(constant(1e-12f), lengths)));
+    const Floats scale = hn::IfThenZeroElse(missing, unit);
     hn::StoreU(hn::Mul(x, scale), kFloats, out.normal[0] + at);
     hn::StoreU(hn::Mul(y, scale), kFloats, out.normal[1] + at);
     hn::StoreU(hn::Mul(z, scale), kFloats, out.normal[2] + at);
+    all &= hn::AllFalse(kFloats, hn::And(missing, hn::FirstN(kFloats, static_cast<std::size_t>(last - k))));
   }
+  return all;
 }
 
 bool project(const Projection& p, const Vertices& v, int count) {
