@@ -32,14 +32,15 @@ class PatchOrder {
       std::pop_heap(heads_.begin(), heads_.end(), later);
       Head& head = heads_.back();
       const std::uint32_t first = patch(head);
-      while (head.next != head.end && patch(head) == first) visit_next(head, visit);
+      const Crossing* last = head.next - 1;
+      while (last != head.end && patch({last, head.end, head.first_triangle}) == first) --last;
+      visit_to(last, head, visit);
       if (head.next == head.end)
         heads_ = heads_.first(heads_.size() - 1);
       else
         std::push_heap(heads_.begin(), heads_.end(), later);
     }
-    if (heads_.empty()) return;
-    while (heads_[0].next != heads_[0].end) visit_next(heads_[0], visit);
+    if (!heads_.empty()) visit_to(heads_[0].end, heads_[0], visit);
   }
 
  private:
@@ -47,9 +48,13 @@ class PatchOrder {
     return triangles_[head.first_triangle + head.next[-1].box.triangle].patch;
   }
   template <typename Visit>
-  static void visit_next(Head& head, const Visit& visit) {
-    const Crossing& crossing = *--head.next;
-    visit(crossing, head.first_triangle + crossing.box.triangle);
+  static void visit_to(const Crossing* last, Head& head, const Visit& visit) {
+    const std::uint32_t first_triangle = head.first_triangle;
+    for (const Crossing* next = head.next; next != last;) {
+      const Crossing crossing = *--next;
+      visit(crossing, first_triangle + crossing.box.triangle);
+    }
+    head.next = last;
   }
 
   const Triangle* triangles_;
@@ -78,10 +83,10 @@ LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span
   for (std::size_t i = 0; i < cursor.size(); ++i) cursor[i] = ebc[lines.first + i] - before;
 
   const auto all_heads = arena.take<PatchOrder::Head>(polygons.sources.size());
-  const auto place = [&](const Crossing& crossing, std::uint32_t triangle) {
-    const std::uint32_t line = crossing.line - lines.first;
-    if (line >= cursor.size()) return;
-    boxes[cursor[line]++] = {triangle, crossing.box.first, crossing.box.last};
+  const auto place = [first = lines.first, count = lines.count(), next = cursor.data(), to = boxes.data()](
+                         const Crossing& crossing, std::uint32_t triangle) {
+    const std::uint32_t line = crossing.line - first;
+    if (line < count) to[next[line]++] = {triangle, crossing.box.first, crossing.box.last};
   };
   const auto place_all = [&](auto part) {
     const auto heads = std::span(all_heads.data(), polygons.sources.size());
