@@ -40,27 +40,9 @@ class BasisTables {
 
 float square_length(float x, float y, float z) { return x * x + y * y + z * z; }
 
-// |a - 2 b + c|^2
-float bend(const float* a, const float* b, const float* c) {
-  return square_length(a[0] - 2 * b[0] + c[0], a[1] - 2 * b[1] + c[1], a[2] - 2 * b[2] + c[2]);
-}
-
-// Greatest |second difference|^2 of four points `stride` apart.
-float curve_bend(const float (*p)[3], int stride) {
-  return std::max(bend(p[0], p[stride], p[2 * stride]), bend(p[stride], p[2 * stride], p[3 * stride]));
-}
-
-// Greatest |mixed difference|^2 of the patch's nine cells.
-float twist(const EyePatch& patch) {
-  float greatest = 0;
-  for (int cell = 0; cell < 11; ++cell) {
-    if (cell % 4 == 3) continue;
-    const float *a = patch.point[cell], *b = patch.point[cell + 1], *c = patch.point[cell + 4],
-                *d = patch.point[cell + 5];
-    greatest = std::max(greatest, square_length(a[0] - b[0] - c[0] + d[0], a[1] - b[1] - c[1] + d[1],
-                                                a[2] - b[2] - c[2] + d[2]));
-  }
-  return greatest;
+// |a x b|^2
+float square_cross(const float* a, const float* b) {
+  return square_length(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 
 // A bound from below for the distance from the eye to the hull of `count` points.
@@ -84,12 +66,35 @@ float magnification(const float (*p)[3], int count, const Projection& projection
   return projection.scale / (projection.corner * depth);
 }
 
-// Steps for a second derivative of `bound` pixels: ceil(sqrt(bound / (8 tolerance))).
-int steps(float bound) {
-  const float rate = std::sqrt(bound / (8 * kTolerance));
+int whole_steps(float rate) {
   if (!(rate < kMaxRate)) return kMaxRate;
   const int whole = static_cast<int>(rate);
   return std::max(1, static_cast<float>(whole) < rate ? whole + 1 : whole);
+}
+
+// Steps for a second derivative of `bound` pixels: ceil(sqrt(bound / (8 tolerance))).
+int steps(float bound) { return whole_steps(std::sqrt(bound / (8 * kTolerance))); }
+
+// Places near the patch's borders and between.
+SurveyWeights survey_weights() {
+  constexpr double kPlaces[] = {1.0 / 16, 3.0 / 8, 5.0 / 8, 15.0 / 16};
+  // Bernstein polynomials and their first and second derivatives.
+  const auto polynomials = [](double t) {
+    const double s = 1 - t;
+    return std::array<std::array<double, 4>, 3>{{{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t},
+                                                 {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t},
+                                                 {6 * s, 6 * t - 12 * s, 6 * s - 12 * t, 6 * t}}};
+  };
+  constexpr int kOrder[SurveyWeights::kKinds][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
+  SurveyWeights out;
+  for (std::size_t place = 0; place < 16; ++place) {
+    const auto along_u = polynomials(kPlaces[place % 4]), along_v = polynomials(kPlaces[place / 4]);
+    for (std::size_t kind = 0; kind < SurveyWeights::kKinds; ++kind)
+      for (std::size_t i = 0; i < 16; ++i)
+        out.weight[kind][i][place] = static_cast<float>(along_u[static_cast<std::size_t>(kOrder[kind][0])][i % 4] *
+                                                        along_v[static_cast<std::size_t>(kOrder[kind][1])][i / 4]);
+  }
+  return out;
 }
 
 bool comes_after(const Curve& curve) {
@@ -153,23 +158,29 @@ Edge edge(const EyePatch& patch, Side side) {
   return out;
 }
 
+// Second differences of the control points, times six, bound the second derivative. Seen from the eye, what of it
+// lies along a ray does not show; across, at depth w, a length shows at most scale |p| / w^2 times, along the ray
+// through p. Both bounds hold for all rays to the curve if they do for those to its control points.
 int edge_rate(const Curve& curve, const Projection& projection) {
-  const float second = 6 * std::sqrt(curve_bend(curve.point, 1));
-  return steps(second * magnification(curve.point, 4, projection));
+  const auto& p = curve.point;
+  float bend = 0, across = 0, nearest = -p[0][2];
+  for (int i = 1; i < 4; ++i) nearest = std::min(nearest, -p[i][2]);
+  for (int k = 0; k < 2; ++k) {
+    float second[3];
+    for (int axis = 0; axis < 3; ++axis) second[axis] = p[k][axis] - 2 * p[k + 1][axis] + p[k + 2][axis];
+    bend = std::max(bend, square_length(second[0], second[1], second[2]));
+    for (const auto& ray : p) across = std::max(across, square_cross(second, ray));
+  }
+  const float depth = std::max(nearest, projection.near);
+  return steps(6 * std::min(std::sqrt(bend) * magnification(p, 4, projection),
+                            std::sqrt(across) * projection.scale / (depth * depth)));
 }
 
-Rates rates(const EyePatch& patch, const Projection& projection, int fixed) {
+Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& projection, int fixed) {
   if (fixed > 0) return {fixed, fixed, {fixed, fixed, fixed, fixed}};
-  float along_u = 0, along_v = 0;
-  for (int i = 0; i < 4; ++i) {
-    along_u = std::max(along_u, curve_bend(patch.point + 4 * i, 1));
-    along_v = std::max(along_v, curve_bend(patch.point + i, 4));
-  }
-  const float scale = magnification(patch.point, 16, projection);
-  const float mixed = 9 * std::sqrt(twist(patch));
-  Rates out{};
-  out.u = steps((6 * std::sqrt(along_u) + mixed) * scale);
-  out.v = steps((6 * std::sqrt(along_v) + mixed) * scale);
+  static const SurveyWeights weights = survey_weights();
+  const Fineness inside = kernels.survey(weights, patch.point, projection);
+  Rates out{whole_steps(inside.u), whole_steps(inside.v), {}};
   for (const Side side : {Side::bottom, Side::right, Side::top, Side::left})
     out.side[static_cast<int>(side)] = edge_rate(edge(patch, side).curve, projection);
   return out;

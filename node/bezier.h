@@ -8,8 +8,6 @@
 namespace mars::node {
 
 inline constexpr int kMaxRate = 256;
-// A diced curve strays from the true one by no more than this many pixels (edges), or twice this (insides).
-inline constexpr float kTolerance = 0.125f;
 
 struct EyeMatrix {
   float m[3][4];
@@ -57,8 +55,9 @@ Edge edge(const EyePatch& patch, Side side);
 // algorithms using bounds on derivatives", 1986), from the four points alone; direction does not matter.
 int edge_rate(const Curve& curve, const Projection& projection);
 
-// Rates of the sides and of the inside. `fixed`: N for all, 0 for adaptive.
-Rates rates(const EyePatch& patch, const Projection& projection, int fixed);
+// Rates of the sides and of the inside. `fixed`: N for all, 0 for adaptive: what it bends along its normal, as it
+// is seen, and how its normal turns, at sixteen places.
+Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& projection, int fixed);
 
 // Whether the patch surely leaves no mark on a picture of width x height: its hull lies outside.
 bool unseen(const EyePatch& patch, const Projection& projection, float width, float height);

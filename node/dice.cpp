@@ -80,7 +80,7 @@ Dicer::Dicer(const Kernels& kernels)
 }
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
-  const Rates wanted = rates(patch, projection, fixed_rate);
+  const Rates wanted = rates(kernels_, patch, projection, fixed_rate);
   lay_out(wanted);
   bool normals = evaluate_inside(patch);
   for (const Side side : kSides) normals &= evaluate_side(patch, side);

@@ -28,6 +28,26 @@ struct Row {
   float sign;
 };
 
+// What weighs a patch's 16 control points at each of 16 places of it: for the place itself and its derivatives.
+struct SurveyWeights {
+  enum Kind { kPlace, kU, kV, kUU, kUV, kVV, kKinds };
+  alignas(64) float weight[kKinds][16][16];  // [control point][place]
+};
+
+// A diced curve strays from the true one by no more than this many pixels; the inside of a surface by about twice
+// as much, where it is seen edge-on, as outlines are.
+inline constexpr float kTolerance = 0.1875f;
+// Nor does its normal turn by more than about this (radians) in a step, unless the step is shorter than kLeastStep
+// pixels.
+inline constexpr float kTurn = 0.3f;
+inline constexpr float kLeastStep = 4.0f;
+
+// How finely a patch's inside is to be diced, in steps, before rounding.
+struct Fineness {
+  float u;
+  float v;
+};
+
 // Kernels work on whole vectors: every array of vertices and of triangles' corners has room for this many items
 // more than are asked for, which may be written (with anything) or read.
 inline constexpr int kVectorSlack = 16;
@@ -139,6 +159,9 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 struct Kernels {
   const char* name;
+
+  // Of a patch's inside: see inside_rates (bezier.h).
+  Fineness (*survey)(const SurveyWeights& weights, const float (*points)[3], const Projection& projection);
 
   // Vertices first..last - 1 of `row` at first/rate.. into out[at..]. Whether all have a normal.
   bool (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);

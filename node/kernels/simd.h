@@ -21,6 +21,7 @@ inline constexpr FloatTag kFloats;
 inline constexpr IntTag kInts;
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 
+Fineness survey(const SurveyWeights& weights, const float (*points)[3], const Projection& projection);
 bool evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
 bool project(const Projection& projection, const Vertices& vertices, int count);
 void examine(const Examination& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,

@@ -19,6 +19,8 @@ using node::EyePatch;
 using node::Projection;
 using node::Side;
 
+const node::Kernels& kernels = node::best_kernels("");
+
 bool same_bits(const Curve& a, const Curve& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 TEST(Bezier, BasisSumsToOne) {
@@ -68,9 +70,9 @@ TEST(Bezier, SharedEdgesAreOneCurveFromBothSides) {
     const Edge one = node::edge(first, of_a), other = node::edge(b, of_b);
     EXPECT_TRUE(same_bits(one.curve, other.curve));
     EXPECT_EQ(one.reversed != other.reversed, against);
-    EXPECT_EQ(node::rates(first, view, 0).side[static_cast<int>(of_a)],
-              node::rates(b, view, 0).side[static_cast<int>(of_b)]);
-    EXPECT_EQ(node::rates(b, view, 0).side[static_cast<int>(of_b)], node::edge_rate(one.curve, view));
+    EXPECT_EQ(node::rates(kernels, first, view, 0).side[static_cast<int>(of_a)],
+              node::rates(kernels, b, view, 0).side[static_cast<int>(of_b)]);
+    EXPECT_EQ(node::rates(kernels, b, view, 0).side[static_cast<int>(of_b)], node::edge_rate(one.curve, view));
   }
 }
 
@@ -127,69 +129,132 @@ TEST(Bezier, EdgeRatesKeepTheirTolerance) {
   EXPECT_GT(worst, node::kTolerance / 3) << "rates are much finer than they need be";
 }
 
-// Straight before the eye second differences of d pixels need ceil(sqrt(6 d)) steps; in the picture's corner,
-// where lengths show 1 / cosine longer, just enough more, and nobody knows yet where the curve will be seen.
-TEST(Bezier, RatesOfAParabola) {
+// Second differences of d pixels, times six, bound the second derivative. Before the eye a bend across the view shows
+// whole (or 1 / cosine longer, if nobody knows yet where), one along it not at all.
+TEST(Bezier, EdgeRatesOfAParabola) {
   const Projection view = projection(200, 200, 1);  // 100 pixels a unit at distance 1
-  for (const double d : {0.0, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0}) {
-    const EyePatch patch = make_patch([&](int i, int j) {
-      return Vec3{i * 0.1, j * 0.1 + d / 100 * (i == 1 || i == 2), -1};
-    });
-    const int expected = std::clamp(static_cast<int>(std::ceil(std::sqrt(6 * d / view.corner))), 1, node::kMaxRate);
-    const node::Rates rates = node::rates(patch, view, 0);
-    EXPECT_EQ(rates.u, expected) << d;
-    EXPECT_EQ(rates.v, 1);
-    EXPECT_EQ(rates.side[static_cast<int>(Side::bottom)], expected);
-    EXPECT_EQ(rates.side[static_cast<int>(Side::left)], 1);
-  }
+  const auto steps = [](double pixels) { return std::sqrt(6 * pixels / (8 * double{node::kTolerance})); };
+  for (const double d : {0.0, 0.02, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0})
+    for (const bool across : {true, false}) {
+      const EyePatch patch = make_patch([&](int i, int j) {
+        const double off = d / 100 * (i == 1 || i == 2);
+        return Vec3{i * 1e-4, j * 1e-4 + (across ? off : 0), -1 - (across ? 0 : off)};
+      });
+      const int rate = node::edge_rate(node::edge(patch, Side::bottom).curve, view);
+      if (across) {
+        EXPECT_GE(rate, std::min(std::ceil(steps(0.999 * d)), 1.0 * node::kMaxRate)) << d;
+        EXPECT_LE(rate, std::clamp(std::ceil(steps(1.001 * d / view.corner)), 1.0, 1.0 * node::kMaxRate)) << d;
+      } else {
+        EXPECT_LE(rate, std::max(1.0, std::ceil(steps(1e-3 * d)))) << d;
+      }
+    }
 }
 
 TEST(Bezier, FixedRatesAreThoseGiven) {
   Random random(13);
-  const node::Rates rates = node::rates(random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), 7);
+  const node::Rates rates = node::rates(kernels, random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), 7);
   EXPECT_EQ(rates.u, 7);
   EXPECT_EQ(rates.v, 7);
   for (const int side : rates.side) EXPECT_EQ(side, 7);
 }
 
-// Greatest visible distance of the surface from the triangles of its inside grid, at equal parameters.
-double grid_error(const EyePatch& patch, const node::Rates& rates, const Projection& view) {
-  double worst = 0;
+// The cubic through four points at thirds of its length, as Bezier points.
+std::array<double, 4> through(const std::array<double, 4>& p) {
+  return {p[0], (-5 * p[0] + 18 * p[1] - 9 * p[2] + 2 * p[3]) / 6, (2 * p[0] - 9 * p[1] + 18 * p[2] - 5 * p[3]) / 6,
+          p[3]};
+}
+
+// The bicubic patch that is at(i, j) at thirds of its parameters.
+template <typename At>
+EyePatch patch_through(const At& at) {
+  double points[4][4][3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<std::array<double, 4>, 4> rows;  // by j
+    for (int j = 0; j < 4; ++j)
+      rows[static_cast<std::size_t>(j)] = through({at(0, j)[axis], at(1, j)[axis], at(2, j)[axis], at(3, j)[axis]});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto column = through({rows[0][i], rows[1][i], rows[2][i], rows[3][i]});
+      for (std::size_t j = 0; j < 4; ++j) points[j][i][axis] = column[j];
+    }
+  }
+  return make_patch([&](int i, int j) { return Vec3{points[j][i][0], points[j][i][1], points[j][i][2]}; });
+}
+
+// Part of a sphere, `turn` radians each way from a longitude and a latitude on.
+EyePatch sphere_part(const Vec3& middle, double radius, double longitude, double latitude, double turn) {
+  return patch_through([&](int i, int j) {
+    const double a = longitude + turn * i / 3, b = latitude + turn * j / 3;
+    return Vec3{middle[0] + radius * std::cos(b) * std::cos(a), middle[1] + radius * std::cos(b) * std::sin(a),
+                middle[2] + radius * std::sin(b)};
+  });
+}
+
+Vec3 normal_at(const EyePatch& patch, double u, double v) {
+  constexpr double kStep = 1e-4;
+  const Vec3 n = cross(point_at(patch, u + kStep, v) - point_at(patch, u - kStep, v),
+                       point_at(patch, u, v + kStep) - point_at(patch, u, v - kStep));
+  return {n[0] / length(n), n[1] / length(n), n[2] / length(n)};
+}
+
+double angle(const Vec3& a, const Vec3& b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
+
+// How far the surface lies off the triangles of its inside grid, along its normal and as it is seen, in pixels; and
+// how much its normal turns from one step to the next, where steps are long.
+struct GridError {
+  double outline = 0;
+  double turn = 0;
+};
+
+GridError grid_error(const EyePatch& patch, const node::Rates& rates, const Projection& view) {
+  GridError worst;
   for (int j = 0; j < rates.v; ++j)
     for (int i = 0; i < rates.u; ++i) {
-      const double u = static_cast<double>(i) / rates.u, v = static_cast<double>(j) / rates.v;
-      const double du = 1.0 / rates.u, dv = 1.0 / rates.v;
-      const Vec3 a = point_at(patch, u, v), b = point_at(patch, u + du, v),
-                 c = point_at(patch, u + du, v + dv);
-      for (int k = 1; k < 4; ++k)
-        for (int l = 1; l <= k; ++l) {
-          const double s = k / 4.0, t = l / 4.0;  // in the triangle a b c
-          Vec3 flat;
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            flat[axis] = a[axis] + s * (b[axis] - a[axis]) + t * (c[axis] - b[axis]);
-          const Vec3 p = point_at(patch, u + s * du, v + t * dv);
-          if (!visible(view, p, 640, 480) || -flat[2] < view.near) continue;
-          const auto x = on_screen(view, p), y = on_screen(view, flat);
-          worst = std::max(worst, std::hypot(x[0] - y[0], x[1] - y[1]));
-        }
+      const double du = 1.0 / rates.u, dv = 1.0 / rates.v, u = i * du, v = j * dv;
+      const Vec3 a = point_at(patch, u, v), b = point_at(patch, u + du, v), c = point_at(patch, u + du, v + dv);
+      const Vec3 flat{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
+      const Vec3 p = point_at(patch, u + 2 * du / 3, v + dv / 3), n = normal_at(patch, u + 2 * du / 3, v + dv / 3);
+      const double pixels = view.scale / -p[2], toward = dot(n, p) / length(p);
+      const double off = std::abs(dot(p - flat, n)) * std::sqrt(std::max(0.0, 1 - toward * toward)) * pixels;
+      worst.outline = std::max(worst.outline, off);
+      const Vec3 at_b = normal_at(patch, u + du, v);
+      if (length(b - a) * pixels > node::kLeastStep) worst.turn = std::max(worst.turn, angle(normal_at(patch, u, v), at_b));
+      if (length(c - b) * pixels > node::kLeastStep)
+        worst.turn = std::max(worst.turn, angle(at_b, normal_at(patch, u + du, v + dv)));
     }
   return worst;
 }
 
-TEST(Bezier, InsideRatesKeepTwiceTheTolerance) {
+TEST(Bezier, InsideRatesKeepOutlinesAndTurns) {
   Random random(14);
   const Projection view = projection(640, 480, 3);
-  double worst = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const EyePatch patch =
-        random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)},
-                     std::pow(10, random.real(-2, 0.3)));
-    const node::Rates rates = node::rates(patch, view, 0);
-    if (rates.u < node::kMaxRate && rates.v < node::kMaxRate)
-      worst = std::max(worst, grid_error(patch, rates, view));
+  GridError worst;
+  std::uint64_t cells = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const EyePatch patch = sphere_part({random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)},
+                                       std::pow(10, random.real(-2, 0.3)), random.real(0, 6.28), random.real(-1.2, 0.3),
+                                       random.real(0.1, 0.9));
+    const node::Rates rates = node::rates(kernels, patch, view, 0);
+    cells += static_cast<std::uint64_t>(rates.u * rates.v);
+    const GridError error = grid_error(patch, rates, view);
+    worst = {std::max(worst.outline, error.outline), std::max(worst.turn, error.turn)};
   }
-  EXPECT_LE(worst, 2 * node::kTolerance * 1.01 / view.corner);
-  EXPECT_GT(worst, node::kTolerance / 3);
+  EXPECT_LE(worst.outline, 2 * node::kTolerance);
+  EXPECT_GT(worst.outline, node::kTolerance / 3) << "rates are much finer than they need be";
+  EXPECT_LE(worst.turn, 1.1 * node::kTurn);
+  EXPECT_GT(worst.turn, node::kTurn / 2) << "rates are much finer than they need be";
+  EXPECT_GT(cells, 400u * 4);
+}
+
+// The survey's bits are the same for all instruction sets.
+TEST(Bezier, RatesAreTheSameEverywhere) {
+  Random random(19);
+  const Projection view = projection(640, 480, 2);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const EyePatch patch = random_patch(random, {0, 0, random.real(-20, 1)}, std::pow(10, random.real(-3, 1)));
+    const node::Rates expected = node::rates(node::best_kernels("sse2"), patch, view, 0);
+    for (const char* set : {"sse4", "avx2", "avx512"})
+      ASSERT_EQ(node::rates(node::best_kernels(set), patch, view, 0), expected) << set << ' ' << trial;
+  }
 }
 
 node::Matrix random_matrix(Random& random, double size) {

@@ -64,7 +64,7 @@ TEST(Dice, AnyRatesMakeADiscWithoutTJoints) {
   std::set<std::array<int, 6>> reached;
   for (int trial = 0; trial < 60000; ++trial) {
     const EyePatch patch = random_hills(random);
-    const Rates rates = node::rates(patch, kView, 0);
+    const Rates rates = node::rates(node::best_kernels(""), patch, kView, 0);
     if (*std::max_element(rates.side, rates.side + 4) > 5 || rates.u > 6 || rates.v > 6) continue;
     const std::array<int, 6> key{rates.u,       rates.v,       rates.side[0],
                                  rates.side[1], rates.side[2], rates.side[3]};
@@ -92,7 +92,7 @@ TEST(Dice, HighAndUnequalRates) {
       dicer.dice(patch, kView, 0);
       const Mesh mesh = mesh_of(dicer);
       expect_tiled(mesh);
-      ASSERT_TRUE(sound_disc(mesh, patch, node::rates(patch, kView, 0)));
+      ASSERT_TRUE(sound_disc(mesh, patch, node::rates(node::best_kernels(""), patch, kView, 0)));
     }
 }
 
@@ -221,7 +221,7 @@ TEST(Dice, ACylindersSideIsAStrip) {
   Dicer dicer(node::best_kernels(""));
   const EyePatch cylinder = cone_quarter(middle, 1, 2);
   for (const EyePatch& patch : {cylinder, swapped(cylinder)}) {
-    const Rates rates = node::rates(patch, kView, 0);
+    const Rates rates = node::rates(node::best_kernels(""), patch, kView, 0);
     const bool upright = rates.v == 1;
     EXPECT_EQ(upright ? rates.v : rates.u, 1);
     const int along = rates.side[upright ? 0 : 1];
