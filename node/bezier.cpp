@@ -97,6 +97,11 @@ SurveyWeights survey_weights() {
   return out;
 }
 
+bool is_point(const Curve& curve) {
+  const auto& p = curve.point;
+  return std::all_of(p + 1, p + 4, [&](const auto& other) { return std::equal(other, other + 3, p[0]); });
+}
+
 bool comes_after(const Curve& curve) {
   const auto& p = curve.point;
   for (const auto& [a, b] : {std::pair{0, 3}, std::pair{1, 2}})
@@ -181,8 +186,19 @@ Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& pro
   static const SurveyWeights weights = survey_weights();
   const Fineness inside = kernels.survey(weights, patch.point, projection);
   Rates out{whole_steps(inside.u), whole_steps(inside.v), {}};
-  for (const Side side : {Side::bottom, Side::right, Side::top, Side::left})
-    out.side[static_cast<int>(side)] = edge_rate(edge(patch, side).curve, projection);
+  for (const Side side : {Side::bottom, Side::right, Side::top, Side::left}) {
+    const Curve curve = edge(patch, side).curve;
+    int& rate = out.side[static_cast<int>(side)];
+    if (!is_point(curve)) {
+      rate = edge_rate(curve, projection);
+    } else if (side == Side::bottom || side == Side::top) {
+      rate = out.u;
+      out.v = std::max(out.v, out.u);
+    } else {
+      rate = out.v;
+      out.u = std::max(out.u, out.v);
+    }
+  }
   return out;
 }
 

@@ -56,7 +56,9 @@ Edge edge(const EyePatch& patch, Side side);
 int edge_rate(const Curve& curve, const Projection& projection);
 
 // Rates of the sides and of the inside. `fixed`: N for all, 0 for adaptive: what it bends along its normal, as it
-// is seen, and how its normal turns, at sixteen places.
+// is seen, and how its normal turns, at sixteen places. A side that is one point is as fine as the inside, for
+// its normals differ, and no other patch's edge can come apart from it; rows towards it are as many, for between
+// two of its normals shading breaks.
 Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& projection, int fixed);
 
 // Whether the patch surely leaves no mark on a picture of width x height: its hull lies outside.

@@ -39,7 +39,7 @@ struct SurveyWeights {
 inline constexpr float kTolerance = 0.1875f;
 // Nor does its normal turn by more than about this (radians) in a step, unless the step is shorter than kLeastStep
 // pixels.
-inline constexpr float kTurn = 0.3f;
+inline constexpr float kTurn = 0.2f;
 inline constexpr float kLeastStep = 4.0f;
 
 // How finely a patch's inside is to be diced, in steps, before rounding.
