@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/farm/tracing.h"
-
 namespace mars::host {
 namespace {
 
 Frame* begun(Frame* frame, const Compositor& compositor) {
   if (frame == nullptr) return nullptr;
-  const SpanOf span(HostSpan::prepare);
   compositor.begin_frame(*frame);
   return frame;
 }
@@ -67,7 +64,6 @@ std::optional<Assembly::Pasted> Assembly::paste(Compositor& compositor, SinkPool
   if (ready == waiting_.end()) return std::nullopt;
   const std::uint32_t number = *ready;
   waiting_.erase(ready);
-  const SpanOf span(HostSpan::compose, number);
   Parts& parts = parts_.at(number);
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);

@@ -190,20 +190,24 @@ Assembly& Farm::assembly_of(const node::Strip& strip) {
                 "please report it");
 }
 
-// While nothing comes: a buffer for a keyframe that is being drawn; whether there was one to prepare.
+// While nothing comes: a buffer for a frame that is being drawn; whether there was one to prepare.
 bool Farm::prepare_one() {
-  return std::any_of(work_.begin(), work_.end(), [&](Work& work) {
-    return !work.units.empty() && work.units.front().prepare(work.compositor, sinks_);
-  });
+  SpanOf span(HostSpan::prepare);
+  for (Work& work : work_)
+    if (!work.units.empty() && work.units.front().prepare(work.compositor, sinks_)) return true;
+  span.forget();
+  return false;
 }
 
 // Pastes what came of one frame, if it can be; whether it did.
 bool Farm::compose_one() {
+  SpanOf span(HostSpan::compose);
   for (Work& work : work_) {
     if (work.units.empty()) continue;
     Assembly& unit = work.units.front();
     const std::optional<Assembly::Pasted> pasted = unit.paste(work.compositor, sinks_, store_);
     if (!pasted) continue;
+    span.set_value(pasted->number);
     if (pasted->whole != nullptr) submit(*pasted, unit.interval());
     if (unit.done()) {
       work.units.pop_front();
@@ -211,6 +215,7 @@ bool Farm::compose_one() {
     }
     return true;
   }
+  span.forget();
   return false;
 }
 

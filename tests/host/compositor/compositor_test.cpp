@@ -197,7 +197,7 @@ TEST(Compositor, RestoresFlaggedBlocksOnly) {
   Compositor compositor(64, 64, 16, 0);
   Frame frame(64, 64, 16);
   compositor.begin_frame(frame);
-  compositor.paste_moving(frame, std::vector<node::Run>{{20, 20, 3}}, std::vector<std::uint32_t>(3, 7));
+  compositor.paste_moving(frame, std::vector<node::Run>{{20, 20, 3}}, Pixels(3, 7));
   compositor.finish_frame(frame, 0);
   frame.pixels[0] = 5;
   frame.pixels[17 * 64 + 17] = 5;
@@ -205,6 +205,43 @@ TEST(Compositor, RestoresFlaggedBlocksOnly) {
   EXPECT_EQ(frame.pixels[0], 5u);
   EXPECT_EQ(frame.pixels[17 * 64 + 17], 0u);
   EXPECT_EQ(frame.pixels[20 * 64 + 20], 0u);
+  frame.pixels[17 * 64 + 17] = 5;
+  compositor.begin_frame(frame);
+  EXPECT_EQ(frame.pixels[17 * 64 + 17], 5u) << "no flag is left from the frame before";
+}
+
+// From one interval to the next only blocks with CFB of either are written, in the frame and in the saved
+// background.
+TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
+  Compositor compositor(64, 64, 16, 0);
+  Frame keyframe(64, 64, 16);
+  Frame other(64, 64, 16);
+  const auto begin = [&](std::uint32_t line) {
+    compositor.begin_interval();
+    compositor.begin_frame(keyframe);
+    compositor.paste_constant(std::vector<node::Run>{{line, 0, 3}}, Pixels(3, 7), &keyframe);
+    compositor.finish_frame(keyframe, 0);
+  };
+  begin(0);
+  compositor.begin_frame(other);
+  for (std::uint32_t line : {1u, 21u, 41u}) other.pixels[line * 64] = 5;
+  begin(20);
+  compositor.begin_frame(other);
+  EXPECT_EQ(other.pixels[0], 0u);
+  EXPECT_EQ(other.pixels[1 * 64], 0u);
+  EXPECT_EQ(other.pixels[20 * 64], 7u);
+  EXPECT_EQ(other.pixels[21 * 64], 0u);
+  EXPECT_EQ(other.pixels[41 * 64], 5u);
+  EXPECT_EQ(other.constant.count(), 1u);
+}
+
+TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
+  Compositor compositor(64, 64, 16, 0);
+  Frame frame(64, 64, 16);
+  const std::vector<node::Run> runs{{0, 0, 1}};
+  compositor.begin_frame(frame);
+  compositor.paste_constant(runs, Pixels{7}, nullptr);
+  EXPECT_THROW(compositor.paste_constant(runs, Pixels{7}, &frame), std::logic_error);
 }
 
 TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
@@ -213,7 +250,7 @@ TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
   for (std::uint32_t number = 0; number < 2; ++number) {
     compositor.begin_frame(frame);
     const std::vector<node::Run> runs{{number * 40, static_cast<std::uint16_t>(number * 40), 1}};
-    compositor.paste_moving(frame, runs, std::vector<std::uint32_t>{7});
+    compositor.paste_moving(frame, runs, Pixels{7});
     compositor.finish_frame(frame, number);
   }
   EXPECT_EQ(frame.changed_since, 0u);
@@ -226,7 +263,7 @@ TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
   Compositor compositor(10, 5, 4, 0);
   Frame frame(10, 5, 4);
   compositor.begin_frame(frame);
-  const std::vector<std::uint32_t> pixels(3, 7);
+  const Pixels pixels(3, 7);
   const auto wrong = [&](node::Run run) {
     const std::vector<node::Run> runs{{0, 0, 0}, run};
     const std::span<const node::Run> one = std::span(runs).subspan(1);
@@ -240,7 +277,7 @@ TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
   EXPECT_TRUE(holds(wrong({0, 0, 0}), "0 pixels"));
   EXPECT_TRUE(holds(wrong({0, 0, 2}), "has 3 pixels where its runs count 2"));
   EXPECT_TRUE(holds(wrong({0, 0, 4}), "has 3 pixels where its runs count 4"));
-  EXPECT_EQ(frame.pixels, std::vector<std::uint32_t>(50, 0));
+  EXPECT_EQ(frame.pixels, Pixels(50, 0));
 }
 
 }  // namespace
