@@ -216,22 +216,22 @@ TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
   Compositor compositor(64, 64, 16, 0);
   Frame keyframe(64, 64, 16);
   Frame other(64, 64, 16);
-  const auto begin = [&](std::uint32_t line) {
+  const auto begin = [&](std::uint16_t column) {
     compositor.begin_interval();
     compositor.begin_frame(keyframe);
-    compositor.paste_constant(std::vector<node::Run>{{line, 0, 3}}, Pixels(3, 7), &keyframe);
+    compositor.paste_constant(std::vector<node::Run>{{0, column, 3}}, Pixels(3, 7), &keyframe);
     compositor.finish_frame(keyframe, 0);
   };
   begin(0);
   compositor.begin_frame(other);
-  for (std::uint32_t line : {1u, 21u, 41u}) other.pixels[line * 64] = 5;
+  for (const std::size_t column : {1u, 21u, 41u}) other.pixels[64 + column] = 5;
   begin(20);
   compositor.begin_frame(other);
   EXPECT_EQ(other.pixels[0], 0u);
-  EXPECT_EQ(other.pixels[1 * 64], 0u);
-  EXPECT_EQ(other.pixels[20 * 64], 7u);
-  EXPECT_EQ(other.pixels[21 * 64], 0u);
-  EXPECT_EQ(other.pixels[41 * 64], 5u);
+  EXPECT_EQ(other.pixels[20], 7u);
+  EXPECT_EQ(other.pixels[64 + 1], 0u);
+  EXPECT_EQ(other.pixels[64 + 21], 0u);
+  EXPECT_EQ(other.pixels[64 + 41], 5u);
   EXPECT_EQ(other.constant.count(), 1u);
 }
 
@@ -239,6 +239,7 @@ TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
   Compositor compositor(64, 64, 16, 0);
   Frame frame(64, 64, 16);
   const std::vector<node::Run> runs{{0, 0, 1}};
+  compositor.paste_constant(runs, Pixels{7}, nullptr);
   compositor.begin_frame(frame);
   compositor.paste_constant(runs, Pixels{7}, nullptr);
   EXPECT_THROW(compositor.paste_constant(runs, Pixels{7}, &frame), std::logic_error);
