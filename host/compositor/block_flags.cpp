@@ -48,6 +48,10 @@ void BlockFlags::set_all() {
   }
 }
 
+void BlockFlags::clear_row(std::uint32_t row) {
+  std::fill_n(&words_[std::size_t{row} * words_a_row_], words_a_row_, 0);
+}
+
 bool BlockFlags::at(std::uint32_t column, std::uint32_t row) const {
   return words_[std::size_t{row} * words_a_row_ + column / 64] >> (column % 64) & 1;
 }
@@ -62,6 +66,11 @@ BlockFlags& BlockFlags::operator|=(const BlockFlags& other) {
   check(block_ == other.block_ && words_.size() == other.words_.size(), "flags of pictures of one shape");
   for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= other.words_[i];
   return *this;
+}
+
+void BlockFlags::add_row(const BlockFlags& other, std::uint32_t row) {
+  const std::size_t first = std::size_t{row} * words_a_row_;
+  for (std::size_t i = first; i < first + words_a_row_; ++i) words_[i] |= other.words_[i];
 }
 
 }  // namespace mars::host

@@ -23,12 +23,14 @@ class BlockFlags {
   void set_pixels(std::uint32_t line, std::uint32_t first, std::uint32_t count);
   void set_all();
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
+  void clear_row(std::uint32_t row);
 
   bool at(std::uint32_t column, std::uint32_t row) const;
   std::uint64_t count() const;
 
-  // Also those of `other`, which has the same shape.
+  // Also those of `other`, which has the same shape; of all rows, or of one.
   BlockFlags& operator|=(const BlockFlags& other);
+  void add_row(const BlockFlags& other, std::uint32_t row);
   bool operator==(const BlockFlags&) const = default;
 
   // Calls visit(first, last) for each unbroken stretch [first, last) of flagged columns in a row of blocks.
@@ -40,6 +42,19 @@ class BlockFlags {
       const std::uint32_t last = next(words, first, ~std::uint64_t{0});
       visit(first, last);
       first = next(words, last, 0);
+    }
+  }
+
+  // Calls visit(first, last, flagged) for each part of the columns [first, last) in a row that is flagged
+  // throughout or not at all.
+  template <typename Visit>
+  void for_parts(std::uint32_t row, std::uint32_t first, std::uint32_t last, Visit visit) const {
+    while (first < last) {
+      const bool flagged = at(first, row);
+      const std::uint64_t flip = flagged ? ~std::uint64_t{0} : 0;
+      const std::uint32_t end = std::min(last, next(&words_[std::size_t{row} * words_a_row_], first, flip));
+      visit(first, end, flagged);
+      first = end;
     }
   }
 

@@ -2,11 +2,13 @@
 
 namespace mars::host {
 
-Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block)
+Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t plain)
     : width(width),
       height(height),
-      pixels(std::size_t{width} * height),
+      pixels(std::size_t{width} * height, plain),
       changed(width, height, block),
+      plain(plain),
+      constant(width, height, block),
       overwritten(width, height, block) {}
 
 }  // namespace mars::host

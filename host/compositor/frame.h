@@ -12,7 +12,8 @@
 namespace mars::host {
 
 struct Frame {
-  Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block);
+  // Every pixel is `plain`.
+  Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t plain = 0);
 
   std::uint32_t number = 0;  // of the film's frames, from 0
   std::uint32_t width;
@@ -23,8 +24,11 @@ struct Frame {
   BlockFlags changed;
   std::optional<std::uint32_t> changed_since;
 
-  // The compositor's: the saved background these pixels show (0: none yet) wherever no block is flagged.
+  // The compositor's: wherever no block is flagged as overwritten, these pixels show the saved background of
+  // that name (0: none but the plain one), which may differ from `plain` in the blocks flagged as constant.
+  std::uint32_t plain;
   std::uint64_t background = 0;
+  BlockFlags constant;
   BlockFlags overwritten;
 };
 

@@ -1,61 +1,70 @@
-// Frames of one unit put together from the strips of its cube's nodes, whatever the order of their arrival:
-// CFB pixels go into the saved background at once; a frame is whole when the last strips of all who draw it
-// are here, and can be composed when the background is.
+// Frames of one unit put together from the strips of its cube's nodes, whatever the order of their arrival.
+// A strip is pasted as soon as its frame has a buffer, and inbetweens when the keyframe is there, whose CFB
+// they show.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <vector>
 
-#include "hal/cube.h"
 #include "host/compositor/compositor.h"
 #include "host/farm/schedule.h"
 #include "host/farm/strip_message.h"
+#include "host/sinks/sink_pool.h"
 
 namespace mars::host {
 
 class Assembly {
  public:
-  Assembly(const Unit& unit, const hal::Cube& cube, Compositor compositor);
+  // `nodes`: of the cube that draws the unit.
+  Assembly(const Unit& unit, int nodes);
 
+  std::uint32_t interval() const { return interval_; }
   // Whether strips of `frame` are still to come.
   bool wants(std::uint32_t frame) const;
   // A strip of a frame it wants.
   void receive(StripMessage strip);
 
-  // Whether a frame can be composed, and which background it will show.
-  bool ready() const { return background_parts_ == 0 && !whole_.empty(); }
-  std::uint64_t background_name() const { return compositor_.background_name(); }
+  // From here on it has the cube's compositor, whose interval has begun and which nobody else uses until all
+  // is done. Buffers come from `sinks`.
 
-  struct Composed {
-    std::uint32_t frame;
+  // The frame that begins next gets its buffer before its strips come, if there are enough; whether it did.
+  bool prepare(const Compositor& compositor, SinkPool& sinks);
+
+  struct Pasted {
+    std::uint32_t number;
     node::FrameKind kind;
-    std::vector<std::int32_t> nodes;            // that drew it
-    std::vector<std::vector<std::byte>> bytes;  // of its strips, no longer needed
+    Frame* whole;                     // the finished frame; nullptr while strips of it are to come
+    std::vector<std::int32_t> nodes;  // that drew it
   };
-  // Composes the next ready frame into `frame`.
-  Composed compose(Frame& frame);
+  // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
+  // goes to `store`.
+  std::optional<Pasted> paste(Compositor& compositor, SinkPool& sinks, StripStore& store);
 
-  bool done() const { return frames_left_ == 0; }
-  // The compositor, for another unit.
-  Compositor release() { return std::move(compositor_); }
-  const hal::Cube& cube() const { return cube_; }
+  bool done() const { return parts_.empty(); }
 
  private:
-  // A frame's strips so far.
+  // What is there of a frame.
   struct Parts {
-    std::vector<StripMessage> strips;
     int artists_left = 0;
+    std::vector<std::int32_t> artists;
+    std::vector<StripMessage> strips;  // to be pasted
+    Frame* picture = nullptr;          // where they go; begun
   };
 
-  hal::Cube cube_;
+  bool background_there() const { return !parts_.contains(keyframe_); }
+  bool begin(Parts& parts, const Compositor& compositor, SinkPool& sinks);
+  void paste_strip(const StripMessage& strip, Frame& picture, Compositor& compositor) const;
+
+  std::uint32_t interval_;
   std::uint32_t keyframe_;
-  Compositor compositor_;
-  std::map<std::uint32_t, Parts> parts_;
-  std::deque<std::uint32_t> whole_;
-  int background_parts_;  // nodes whose CFB is still to come
-  std::size_t frames_left_;
+  bool alone_;  // the keyframe has no inbetweens: nobody needs its saved background
+  std::map<std::uint32_t, Parts> parts_;  // of frames that are not finished
+  std::deque<std::uint32_t> waiting_;     // those with strips to be pasted, as they came
+  std::size_t not_begun_;                 // those without a picture
+  Frame* prepared_ = nullptr;             // begun for one of these
 };
 
 }  // namespace mars::host

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
-#include <list>
 #include <string>
 #include <unordered_map>
 
@@ -73,39 +72,37 @@ class Farm {
   void run();
 
  private:
+  // A cube's units are composed one after another, so it needs one saved background at most.
+  struct Work {
+    hal::Cube cube;
+    Compositor compositor;       // the first unit's
+    std::deque<Assembly> units;  // given to the cube and not done
+  };
+
   void give_units();
-  void give(std::size_t cube);
+  void give(Work& work);
   void receive();
   void receive_strip();
+  bool prepare_one();
   bool compose_one();
+  void submit(const Assembly::Pasted& frame, std::uint32_t interval);
   void note_taken();
   Assembly& assembly_of(const node::Strip& strip);
-  std::vector<std::byte> buffer_of(std::size_t bytes);
-  Compositor spare_compositor();
 
   SinkPool& sinks_;
   const FarmListener& listener_;
   FarmReport& report_;
   Tracing& tracing_;
-  std::uint32_t background_;
 
   std::vector<Unit> units_;
   std::size_t next_unit_ = 0;
-  std::vector<hal::Cube> cubes_;
-  std::vector<std::size_t> units_given_;  // to each cube and not done
-  struct Running {
-    std::size_t cube;
-    std::uint32_t interval;
-    Assembly assembly;
-  };
-  std::list<Running> running_;
+  std::vector<Work> work_;
   struct OnTheWay {
     FinishedFrame frame;
     std::vector<std::int32_t> nodes;  // whose credit it holds
   };
   std::unordered_map<std::uint32_t, OnTheWay> with_sinks_;
-  std::vector<std::vector<std::byte>> spare_buffers_;
-  std::vector<Compositor> spare_compositors_;
+  StripStore store_;
   std::size_t frames_left_;
   double start_;
 };
@@ -116,12 +113,14 @@ Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sin
       listener_(listener),
       report_(report),
       tracing_(tracing),
-      background_(pixel_of(film.settings().background)),
       units_(make_units(film, options.frames, options.coherence)),
-      cubes_(make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units_.size())),
-      units_given_(cubes_.size()),
       frames_left_(options.frames.size()),
-      start_(dclock()) {}
+      start_(dclock()) {
+  const SinkPool::Shape& shape = sinks.shape();
+  const std::uint32_t background = pixel_of(film.settings().background);
+  for (const hal::Cube& cube : make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units_.size()))
+    work_.push_back({cube, Compositor(shape.width, shape.height, shape.block, background), {}});
+}
 
 void Farm::run() {
   while (frames_left_ > 0) {
@@ -131,7 +130,7 @@ void Farm::run() {
     if (compose_one()) continue;
     if (iprobe(node::any_of(node::kStrip, node::kFault, node::kTrace)))
       receive();
-    else
+    else if (!prepare_one())
       flick();
   }
   report_.render_seconds = dclock() - start_;
@@ -143,23 +142,22 @@ void Farm::run() {
 void Farm::give_units() {
   // Every cube gets its first before any gets one ahead: there may be few.
   for (std::size_t ahead = 1; ahead <= kUnitsAhead; ++ahead)
-    for (std::size_t cube = 0; cube < cubes_.size(); ++cube)
-      if (units_given_[cube] < ahead && next_unit_ < units_.size()) give(cube);
+    for (Work& work : work_)
+      if (work.units.size() < ahead && next_unit_ < units_.size()) give(work);
 }
 
-void Farm::give(std::size_t number) {
+void Farm::give(Work& work) {
   const Unit& unit = units_[next_unit_++];
   const SpanOf span(HostSpan::give, unit.interval);
-  const hal::Cube& cube = cubes_[number];
+  const hal::Cube& cube = work.cube;
   const auto frames = static_cast<std::uint32_t>(unit.frames.size());
   const node::Render command{unit.interval, cube.first, cube.count, frames, unit.first_inbetween};
   std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
   std::memcpy(message.data(), &command, sizeof command);
   std::memcpy(message.data() + sizeof command, unit.frames.data(), frames * sizeof(std::uint32_t));
-  running_.push_back({number, unit.interval, Assembly(unit, cube, spare_compositor())});
-  ++units_given_[number];
   for (int node = cube.first; node < cube.first + cube.count; ++node)
     csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
+  work.units.emplace_back(unit, cube.count);
 }
 
 void Farm::receive() {
@@ -172,8 +170,8 @@ void Farm::receive() {
 
 void Farm::receive_strip() {
   SpanOf span(HostSpan::strip);
-  std::vector<std::byte> bytes = buffer_of(static_cast<std::size_t>(infocount()));
-  crecv(node::kStrip, bytes.data(), static_cast<long>(bytes.size()));
+  StripBytes bytes = store_.take(static_cast<std::size_t>(infocount()));
+  crecv(node::kStrip, bytes.data.get(), static_cast<long>(bytes.size));
   StripMessage strip(std::move(bytes));
   const node::Strip header = strip.header();
   span.set_value(header.frame);
@@ -185,35 +183,48 @@ void Farm::receive_strip() {
 }
 
 Assembly& Farm::assembly_of(const node::Strip& strip) {
-  const auto wants = [&](const Running& r) { return r.assembly.wants(strip.frame); };
-  const auto found = std::find_if(running_.begin(), running_.end(), wants);
-  if (found == running_.end())
-    throw Failure("a strip came for a frame that was not asked for", "frame " + std::to_string(strip.frame),
-                  "please report it");
-  return found->assembly;
+  for (Work& work : work_)
+    for (Assembly& unit : work.units)
+      if (unit.wants(strip.frame)) return unit;
+  throw Failure("a strip came for a frame that was not asked for", "frame " + std::to_string(strip.frame),
+                "please report it");
 }
 
-// Composes one frame if one is ready and a buffer is free; whether it did.
+// While nothing comes: a buffer for a frame that is being drawn; whether there was one to prepare.
+bool Farm::prepare_one() {
+  SpanOf span(HostSpan::prepare);
+  for (Work& work : work_)
+    if (!work.units.empty() && work.units.front().prepare(work.compositor, sinks_)) return true;
+  span.forget();
+  return false;
+}
+
+// Pastes what came of one frame, if it can be; whether it did.
 bool Farm::compose_one() {
-  const auto ready = std::find_if(running_.begin(), running_.end(), [](const Running& r) { return r.assembly.ready(); });
-  if (ready == running_.end()) return false;
-  Frame* frame = sinks_.free_frame(ready->assembly.background_name());
-  if (frame == nullptr) return false;
   SpanOf span(HostSpan::compose);
-  Assembly::Composed composed = ready->assembly.compose(*frame);
-  span.set_value(composed.frame);
-  const FinishedFrame finished{composed.frame, ready->interval, composed.kind, dclock() - start_};
-  report_.frames.push_back(finished);
-  with_sinks_[composed.frame] = {finished, std::move(composed.nodes)};
-  sinks_.submit(frame);
-  --frames_left_;
-  std::move(composed.bytes.begin(), composed.bytes.end(), std::back_inserter(spare_buffers_));
-  if (ready->assembly.done()) {
-    --units_given_[ready->cube];
-    spare_compositors_.push_back(ready->assembly.release());
-    running_.erase(ready);
+  for (Work& work : work_) {
+    if (work.units.empty()) continue;
+    Assembly& unit = work.units.front();
+    const std::optional<Assembly::Pasted> pasted = unit.paste(work.compositor, sinks_, store_);
+    if (!pasted) continue;
+    span.set_value(pasted->number);
+    if (pasted->whole != nullptr) submit(*pasted, unit.interval());
+    if (unit.done()) {
+      work.units.pop_front();
+      work.compositor.begin_interval();
+    }
+    return true;
   }
-  return true;
+  span.forget();
+  return false;
+}
+
+void Farm::submit(const Assembly::Pasted& frame, std::uint32_t interval) {
+  const FinishedFrame finished{frame.number, interval, frame.kind, dclock() - start_};
+  report_.frames.push_back(finished);
+  with_sinks_[frame.number] = {finished, frame.nodes};
+  sinks_.submit(frame.whole);
+  --frames_left_;
 }
 
 void Farm::note_taken() {
@@ -225,24 +236,6 @@ void Farm::note_taken() {
     if (listener_.finished) listener_.finished(found->second.frame);
     with_sinks_.erase(found);
   }
-}
-
-std::vector<std::byte> Farm::buffer_of(std::size_t bytes) {
-  std::vector<std::byte> buffer;
-  if (!spare_buffers_.empty()) {
-    buffer = std::move(spare_buffers_.back());
-    spare_buffers_.pop_back();
-  }
-  buffer.resize(bytes);
-  return buffer;
-}
-
-Compositor Farm::spare_compositor() {
-  const SinkPool::Shape& shape = sinks_.shape();
-  if (spare_compositors_.empty()) return {shape.width, shape.height, shape.block, background_};
-  Compositor spare = std::move(spare_compositors_.back());
-  spare_compositors_.pop_back();
-  return spare;
 }
 
 }  // namespace

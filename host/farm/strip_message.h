@@ -1,8 +1,9 @@
-// A strip as it arrived, with its parts in place (node/protocol.h).
+// A strip as it arrived, with its parts in place (node/protocol.h), and the memory that strips arrive in.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,25 +11,41 @@
 
 namespace mars::host {
 
+// The bytes of one message; undefined until it is received.
+struct StripBytes {
+  std::unique_ptr<std::byte[]> data;
+  std::size_t size = 0;
+  std::size_t room = 0;  // at least size
+};
+
+// Memory of strips that were pasted, for those to come: once warm, nothing is allocated.
+class StripStore {
+ public:
+  StripBytes take(std::size_t size);
+  void give_back(StripBytes bytes) { spare_.push_back(std::move(bytes)); }
+
+ private:
+  std::vector<StripBytes> spare_;  // last given back first: what is still in a cache
+};
+
 class StripMessage {
  public:
   // Throws Failure unless the bytes are exactly what the strip's header promises.
-  explicit StripMessage(std::vector<std::byte> bytes);
+  explicit StripMessage(StripBytes bytes);
 
-  const node::Strip& header() const { return *reinterpret_cast<const node::Strip*>(bytes_.data()); }
+  const node::Strip& header() const { return *reinterpret_cast<const node::Strip*>(bytes_.data.get()); }
+  std::span<const node::Run> runs() const;
   std::span<const node::Run> constant_runs() const { return runs().first(header().constant_runs); }
   std::span<const node::Run> moving_runs() const { return runs().subspan(header().constant_runs); }
+  std::span<const std::uint32_t> pixels() const;
   std::span<const std::uint32_t> constant_pixels() const { return pixels().first(constant_pixels_); }
   std::span<const std::uint32_t> moving_pixels() const { return pixels().subspan(constant_pixels_); }
 
   // The bytes, to be used for another message.
-  std::vector<std::byte> release() { return std::move(bytes_); }
+  StripBytes release() { return std::move(bytes_); }
 
  private:
-  std::span<const std::uint32_t> pixels() const;
-  std::span<const node::Run> runs() const;
-
-  std::vector<std::byte> bytes_;
+  StripBytes bytes_;
   std::uint64_t constant_pixels_ = 0;
 };
 

@@ -48,6 +48,8 @@ class SpanOf {
   SpanOf& operator=(const SpanOf&) = delete;
 
   void set_value(std::uint64_t value) { value_ = value; }
+  // There was nothing to do.
+  void forget() { begin_ = 0; }
 
  private:
   HostSpan what_;

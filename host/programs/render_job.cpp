@@ -53,7 +53,7 @@ SinkPool::Shape pool_shape(const node::FilmSettings& settings, std::uint32_t blo
   const std::uint64_t threads = std::clamp<std::uint64_t>(processors, 2, 16);
   const std::uint64_t frames = std::clamp<std::uint64_t>(kMostBytes / frame_bytes, 2, threads + 2);
   return {settings.width, settings.height, block, static_cast<std::uint32_t>(frames),
-          static_cast<std::uint32_t>(std::min(threads, frames))};
+          static_cast<std::uint32_t>(std::min(threads, frames)), pixel_of(settings.background)};
 }
 
 Booted booted_event(std::span<const node::Hello> hellos, const char* backend) {

@@ -7,13 +7,16 @@
 #include "hal/nx.h"
 
 namespace mars::host {
+namespace {
+
+constexpr std::uint32_t kReady = 2;  // frames made from the start: one with the sink, one being composed
+
+}  // namespace
 
 SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) {
   check(shape.frames >= 1 && shape.threads >= 1, "a sink pool has a frame and a thread");
-  for (std::uint32_t i = 0; i < shape.frames; ++i) {
-    frames_.push_back(std::make_unique<Frame>(shape.width, shape.height, shape.block));
-    free_.push_back(frames_.back().get());
-  }
+  // These first frames do not wait for fresh memory.
+  while (frames_.size() < std::min(shape.frames, kReady)) make_frame();
   for (std::uint32_t i = 0; i < shape.threads; ++i) threads_.emplace_back([this, i] { work(i); });
 }
 
@@ -27,15 +30,35 @@ SinkPool::~SinkPool() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-Frame* SinkPool::free_frame(std::uint64_t background) {
+void SinkPool::make_frame() {
+  frames_.push_back(std::make_unique<Frame>(shape_.width, shape_.height, shape_.block, shape_.background));
   const std::lock_guard lock(mutex_);
+  free_.push_back(frames_.back().get());
+}
+
+Frame* SinkPool::free_frame(std::uint64_t background) { return take_free(background, 0); }
+
+Frame* SinkPool::early_frame(std::uint64_t background) {
+  return take_free(background, std::max<std::size_t>(1, shape_.frames / 2));
+}
+
+// One of the free frames, if more than `left` are.
+Frame* SinkPool::take_free(std::uint64_t background, std::size_t left) {
+  std::unique_lock lock(mutex_);
   tell_failure();
-  if (free_.empty()) return nullptr;
-  auto best = std::find_if(free_.begin(), free_.end(),
-                           [&](const Frame* frame) { return frame->background == background; });
-  if (best == free_.end()) best = free_.end() - 1;
-  Frame* frame = *best;
-  free_.erase(best);
+  if (free_.size() + shape_.frames - frames_.size() <= left) return nullptr;
+  if (free_.empty()) {
+    lock.unlock();
+    make_frame();
+    lock.lock();
+  }
+  // The one given back last is the likeliest to be in a cache still.
+  const auto shows_it = [&](const Frame* frame) { return frame->background == background; };
+  auto best = std::find_if(free_.rbegin(), free_.rend(), shows_it);
+  if (best == free_.rend()) best = free_.rbegin();
+  std::swap(*best, free_.back());
+  Frame* frame = free_.back();
+  free_.pop_back();
   return frame;
 }
 

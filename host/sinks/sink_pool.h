@@ -23,8 +23,9 @@ class SinkPool {
     std::uint32_t width;  // pixels
     std::uint32_t height;
     std::uint32_t block;    // side of a flag's block in pixels
-    std::uint32_t frames;   // buffers, at least 1
+    std::uint32_t frames;   // buffers at most, at least 1
     std::uint32_t threads;  // at least 1
+    std::uint32_t background = 0;  // the pixel that new buffers show
   };
 
   // `sink` must outlive the pool.
@@ -39,6 +40,9 @@ class SinkPool {
   // A frame to compose, the caller's until submitted, preferably one that shows the saved background of that
   // name; nullptr when all are with the sink.
   Frame* free_frame(std::uint64_t background = 0);
+  // Likewise for a frame that is long in the making: nullptr also where that left less than half of all, or
+  // none, to frames that are soon submitted.
+  Frame* early_frame(std::uint64_t background = 0);
   void submit(Frame* frame);
   // A frame the sink has taken, and when, in seconds of dclock().
   struct Taken {
@@ -54,13 +58,15 @@ class SinkPool {
   void finish();
 
  private:
+  void make_frame();
+  Frame* take_free(std::uint64_t background, std::size_t left);
   void work(std::uint32_t thread);
   void take(std::unique_lock<std::mutex>& lock, std::uint32_t thread);
   void tell_failure();
 
   Sink& sink_;
   const Shape shape_;
-  std::vector<std::unique_ptr<Frame>> frames_;
+  std::vector<std::unique_ptr<Frame>> frames_;  // made as they are needed
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable submitted_;

@@ -19,8 +19,9 @@ namespace mars::host {
 enum class HostSpan : std::int32_t {
   load,     // the film to the nodes; value: its bytes
   give,     // a unit to a cube; value: its interval
-  strip,    // a strip received and its background pixels set
-  compose,  // a frame
+  strip,    // a strip received
+  prepare,  // the next frame's buffer, before its strips are there
+  compose,  // strips pasted into a frame
   finish,   // waiting for the sinks at the end
   write,    // a frame by a sink's thread (`peer`); `number`: microseconds it had waited for the thread
 };

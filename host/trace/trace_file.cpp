@@ -22,7 +22,7 @@ constexpr std::size_t kBlock = 1 << 20;  // bytes written at a time
 
 constexpr std::array kPhaseNames{"dice",     "sum",   "map",    "exchange", "fill",
                                  "scanline", "depth", "credit", "keyframe", "inbetween"};
-constexpr std::array kHostSpanNames{"load film", "give", "strip", "compose", "wait for sinks", "write"};
+constexpr std::array kHostSpanNames{"load film", "give", "strip", "prepare", "compose", "wait for sinks", "write"};
 constexpr std::array kMessageNames{"",       "Hello", "Load",  "film", "Loaded", "Render",
                                    "Credit", "Strip", "Fault", "Stop", "Clock",  "Trace"};
 constexpr std::array kCounterNames{"credits", "strips on the way", "frames with the sinks"};
@@ -146,6 +146,7 @@ std::string Writer::slice_arguments(const Trace::Record& record) const {
   switch (static_cast<HostSpan>(event.what)) {
     case HostSpan::load: return "\"bytes\":" + value;
     case HostSpan::give: return "\"interval\":" + value;
+    case HostSpan::prepare:
     case HostSpan::finish: return "";
     case HostSpan::write: return "\"frame\":" + value + ",\"queued_microseconds\":" + std::to_string(event.number);
     default: return "\"frame\":" + value;

@@ -1,8 +1,9 @@
-// The compositor against a plain twin that copies the whole background for every frame.
+// The compositor against a plain twin that draws every frame from scratch.
 #include "host/compositor/compositor.h"
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <random>
 
@@ -11,33 +12,41 @@
 namespace mars::host {
 namespace {
 
-constexpr std::uint32_t kPlain = 0x00302010;
+using Pixels = std::vector<std::uint32_t>;
 
 struct Runs {
   std::vector<node::Run> runs;
-  std::vector<std::uint32_t> pixels;
+  Pixels pixels;
 };
 
-Runs random_runs(std::mt19937& random, std::uint32_t width, std::uint32_t height) {
+struct Size {
+  std::uint32_t width, height, block;
+};
+
+// Within part `part` of `parts` of the lines, for strips share no pixel.
+Runs random_runs(std::mt19937& random, const Size& size, std::uint32_t part, std::uint32_t parts) {
   Runs out;
-  for (std::uint32_t run = random() % 12; run > 0; --run) {
-    const std::uint32_t first = random() % width;
-    const std::uint32_t count = 1 + random() % (width - first);
-    out.runs.push_back({static_cast<std::uint32_t>(random() % height), static_cast<std::uint16_t>(first),
+  const std::uint32_t top = size.height * part / parts;
+  const std::uint32_t lines = size.height * (part + 1) / parts - top;
+  for (std::uint32_t run = lines == 0 ? 0 : random() % 12; run > 0; --run) {
+    const std::uint32_t first = random() % size.width;
+    const std::uint32_t most = size.width - first;
+    const std::uint32_t count = 1 + random() % (random() % 2 == 0 ? most : std::min(most, 20u));
+    out.runs.push_back({static_cast<std::uint32_t>(top + random() % lines), static_cast<std::uint16_t>(first),
                         static_cast<std::uint16_t>(count)});
     for (std::uint32_t i = 0; i < count; ++i) out.pixels.push_back(random() & 0xffffff);
   }
   return out;
 }
 
-void paste(const Runs& runs, std::uint32_t width, std::vector<std::uint32_t>& picture) {
+void paste(const Runs& runs, std::uint32_t width, Pixels& picture) {
   const std::uint32_t* source = runs.pixels.data();
   for (const node::Run& run : runs.runs)
     for (std::uint32_t x = 0; x < run.count; ++x) picture[run.line * width + run.first + x] = *source++;
 }
 
 // Blocks in which two pictures differ must be flagged.
-void expect_told(const Frame& frame, const std::vector<std::uint32_t>& before) {
+void expect_told(const Frame& frame, const Pixels& before) {
   const std::uint32_t block = frame.changed.block();
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     const auto x = static_cast<std::uint32_t>(i % frame.width);
@@ -47,45 +56,127 @@ void expect_told(const Frame& frame, const std::vector<std::uint32_t>& before) {
   }
 }
 
-// Several intervals of one size, with frames from a small set of buffers in random order.
-void expect_twins(std::uint32_t width, std::uint32_t height, std::uint32_t block, unsigned seed) {
-  std::mt19937 random(seed);
-  Compositor compositor(width, height, block, kPlain);
-  std::vector<std::unique_ptr<Frame>> buffers;
-  for (int i = 0; i < 3; ++i) buffers.push_back(std::make_unique<Frame>(width, height, block));
-  for (int interval = 0; interval < 4; ++interval) {
-    std::vector<std::uint32_t> background(std::size_t{width} * height, kPlain);
-    compositor.begin_interval();
-    for (int strip = interval % 3; strip > 0; --strip) {
-      const Runs constant = random_runs(random, width, height);
-      compositor.paste_constant(constant.runs, constant.pixels);
-      paste(constant, width, background);
-    }
-    std::vector<std::uint32_t> before;
-    for (std::uint32_t number = 0; number < 6; ++number) {
-      Frame& frame = *buffers[random() % buffers.size()];
-      std::vector<std::uint32_t> plain = background;
-      compositor.begin_frame(frame, number);
-      for (int strip = 0; strip < 2; ++strip) {
-        const Runs moving = random_runs(random, width, height);
-        compositor.paste_moving(frame, moving.runs, moving.pixels);
-        paste(moving, width, plain);
-      }
-      compositor.finish_frame(frame);
-      ASSERT_EQ(frame.pixels, plain) << width << "x" << height << ", blocks of " << block;
-      ASSERT_EQ(frame.number, number);
-      ASSERT_EQ(frame.changed_since.has_value(), number > 0);
-      if (number > 0) expect_told(frame, before);
-      before = plain;
-    }
+// A compositor and its twin, a strip a step: units of one frame, and units of several with two inbetweens in the
+// making at a time.
+class Twins {
+ public:
+  Twins(const Size& size, std::uint32_t plain, std::vector<Frame*>& buffers)
+      : size_(size), plain_(plain), buffers_(buffers), compositor_(size.width, size.height, size.block, plain) {}
+
+  void step(std::mt19937& random) {
+    if (open_.empty() && left_ == 0) begin_unit(random);
+    const auto all = static_cast<std::uint32_t>(open_.size());
+    if (keyframe_parts_ == 0 && all < 2 && left_ > 0 && !buffers_.empty()) return begin_frame(random);
+    if (keyframe_parts_ > 0) return keyframe_strip(random);
+    if (all > 0) inbetween_strip(random, open_.begin() + random() % all);
   }
+
+ private:
+  struct Open {
+    std::uint32_t number;
+    Frame* frame;
+    Pixels twin;
+    std::uint32_t parts_left;
+  };
+
+  void begin_unit(std::mt19937& random) {
+    compositor_.begin_interval();
+    background_.assign(std::size_t{size_.width} * size_.height, plain_);
+    before_.reset();
+    left_ = random() % 3 == 0 ? 1 : 2 + random() % 4;
+    alone_ = left_ == 1;
+    next_ = 0;
+    keyframe_parts_ = kParts;
+  }
+
+  void begin_frame(std::mt19937& random) {
+    Frame*& buffer = buffers_[random() % buffers_.size()];
+    std::swap(buffer, buffers_.back());
+    open_.push_back({next_++, buffers_.back(), background_, kParts});
+    buffers_.pop_back();
+    --left_;
+    compositor_.begin_frame(*open_.back().frame);
+  }
+
+  // The keyframe gets its buffer before the first strip or later; a strip's MFB must wait for it.
+  void keyframe_strip(std::mt19937& random) {
+    if (open_.empty() && !buffers_.empty() && (alone_ || random() % 2 == 0)) begin_frame(random);
+    if (open_.empty() && (alone_ || keyframe_parts_ == 1)) return;
+    Open* keyframe = open_.empty() ? nullptr : &open_.front();
+    const std::uint32_t part = --keyframe_parts_;
+    const Runs constant = random_runs(random, size_, part, kParts);
+    if (alone_) {
+      compositor_.paste_moving(*keyframe->frame, constant.runs, constant.pixels);
+    } else {
+      compositor_.paste_constant(constant.runs, constant.pixels, keyframe ? keyframe->frame : nullptr);
+      paste(constant, size_.width, background_);
+    }
+    if (keyframe) paste(constant, size_.width, keyframe->twin);
+    if (keyframe) paste_moving(random, *keyframe, part);
+    if (keyframe_parts_ == 0) finish(open_.begin());
+  }
+
+  void inbetween_strip(std::mt19937& random, std::vector<Open>::iterator at) {
+    paste_moving(random, *at, --at->parts_left);
+    if (at->parts_left == 0) finish(at);
+  }
+
+  void paste_moving(std::mt19937& random, Open& open, std::uint32_t part) {
+    const Runs moving = random_runs(random, size_, part, kParts);
+    compositor_.paste_moving(*open.frame, moving.runs, moving.pixels);
+    paste(moving, size_.width, open.twin);
+  }
+
+  void finish(std::vector<Open>::iterator at) {
+    const Frame& frame = *at->frame;
+    compositor_.finish_frame(*at->frame, at->number);
+    ASSERT_EQ(frame.pixels, at->twin) << size_.width << "x" << size_.height << ", blocks of " << size_.block;
+    ASSERT_EQ(frame.number, at->number);
+    ASSERT_EQ(frame.changed_since.has_value(), before_.has_value());
+    if (before_) {
+      ASSERT_EQ(frame.changed_since, before_->number);
+      expect_told(frame, before_->twin);
+    } else {
+      ASSERT_EQ(frame.changed.count(), std::uint64_t{frame.changed.rows()} * frame.changed.columns());
+    }
+    buffers_.push_back(at->frame);
+    before_ = std::move(*at);
+    open_.erase(at);
+  }
+
+  static constexpr std::uint32_t kParts = 3;
+
+  Size size_;
+  std::uint32_t plain_;
+  std::vector<Frame*>& buffers_;
+  Compositor compositor_;
+  Pixels background_;
+  bool alone_ = false;
+  std::uint32_t next_ = 0;
+  std::uint32_t left_ = 0;            // frames to begin
+  std::uint32_t keyframe_parts_ = 0;  // to come
+  std::vector<Open> open_;
+  std::optional<Open> before_;
+};
+
+// Intervals of two compositors interleaved, with the same plain background or another, in shared buffers.
+void expect_twins(const Size& size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::unique_ptr<Frame>> frames;
+  std::vector<Frame*> buffers;
+  for (int i = 0; i < 4; ++i) {
+    frames.push_back(std::make_unique<Frame>(size.width, size.height, size.block, i % 2 * 0x00302010));
+    buffers.push_back(frames.back().get());
+  }
+  Twins twins[2] = {{size, 0x00302010, buffers}, {size, seed % 3 == 0 ? 0x00102030u : 0x00302010u, buffers}};
+  for (int i = 0; i < 120 && !testing::Test::HasFatalFailure(); ++i) twins[random() % 2].step(random);
 }
 
-TEST(Compositor, AsTheTwinThatCopiesEverything) {
+TEST(Compositor, AsTheTwinThatDrawsFromScratch) {
   unsigned seed = 0;
   for (const std::uint32_t block : {1u, 2u, 3u, 5u, 8u, 16u, 31u, 64u, 16384u})
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 3u}, {64u, 64u}, {65u, 17u}, {131u, 97u}})
-      expect_twins(width, height, block, ++seed);
+      for (int round = 0; round < 4; ++round) expect_twins({width, height, block}, ++seed);
 }
 
 TEST(Compositor, FramesPassFromOneToAnother) {
@@ -93,10 +184,10 @@ TEST(Compositor, FramesPassFromOneToAnother) {
   Compositor first(20, 10, 4, 1);
   Compositor second(20, 10, 4, 2);
   const std::vector<node::Run> runs{{3, 2, 5}};
-  const std::vector<std::uint32_t> pixels(5, 9);
+  const Pixels pixels(5, 9);
   for (const auto& [compositor, background] : {std::pair{&first, 1u}, {&second, 2u}, {&first, 1u}}) {
-    compositor->begin_frame(frame, 0);
-    EXPECT_EQ(frame.pixels, std::vector<std::uint32_t>(200, background));
+    compositor->begin_frame(frame);
+    EXPECT_EQ(frame.pixels, Pixels(200, background));
     compositor->paste_moving(frame, runs, pixels);
   }
 }
@@ -105,25 +196,63 @@ TEST(Compositor, FramesPassFromOneToAnother) {
 TEST(Compositor, RestoresFlaggedBlocksOnly) {
   Compositor compositor(64, 64, 16, 0);
   Frame frame(64, 64, 16);
-  compositor.begin_frame(frame, 0);
-  compositor.paste_moving(frame, std::vector<node::Run>{{20, 20, 3}}, std::vector<std::uint32_t>(3, 7));
-  compositor.finish_frame(frame);
+  compositor.begin_frame(frame);
+  compositor.paste_moving(frame, std::vector<node::Run>{{20, 20, 3}}, Pixels(3, 7));
+  compositor.finish_frame(frame, 0);
   frame.pixels[0] = 5;
   frame.pixels[17 * 64 + 17] = 5;
-  compositor.begin_frame(frame, 1);
+  compositor.begin_frame(frame);
   EXPECT_EQ(frame.pixels[0], 5u);
   EXPECT_EQ(frame.pixels[17 * 64 + 17], 0u);
   EXPECT_EQ(frame.pixels[20 * 64 + 20], 0u);
+  frame.pixels[17 * 64 + 17] = 5;
+  compositor.begin_frame(frame);
+  EXPECT_EQ(frame.pixels[17 * 64 + 17], 5u) << "no flag is left from the frame before";
+}
+
+// From one interval to the next only blocks with CFB of either are written, in the frame and in the saved
+// background.
+TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
+  Compositor compositor(64, 64, 16, 0);
+  Frame keyframe(64, 64, 16);
+  Frame other(64, 64, 16);
+  const auto begin = [&](std::uint16_t column) {
+    compositor.begin_interval();
+    compositor.begin_frame(keyframe);
+    compositor.paste_constant(std::vector<node::Run>{{0, column, 3}}, Pixels(3, 7), &keyframe);
+    compositor.finish_frame(keyframe, 0);
+  };
+  begin(0);
+  compositor.begin_frame(other);
+  for (const std::size_t column : {1u, 21u, 41u}) other.pixels[64 + column] = 5;
+  begin(20);
+  compositor.begin_frame(other);
+  EXPECT_EQ(other.pixels[0], 0u);
+  EXPECT_EQ(other.pixels[20], 7u);
+  EXPECT_EQ(other.pixels[64 + 1], 0u);
+  EXPECT_EQ(other.pixels[64 + 21], 0u);
+  EXPECT_EQ(other.pixels[64 + 41], 5u);
+  EXPECT_EQ(other.constant.count(), 1u);
+}
+
+TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
+  Compositor compositor(64, 64, 16, 0);
+  Frame frame(64, 64, 16);
+  const std::vector<node::Run> runs{{0, 0, 1}};
+  compositor.paste_constant(runs, Pixels{7}, nullptr);
+  compositor.begin_frame(frame);
+  compositor.paste_constant(runs, Pixels{7}, nullptr);
+  EXPECT_THROW(compositor.paste_constant(runs, Pixels{7}, &frame), std::logic_error);
 }
 
 TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
   Compositor compositor(64, 64, 16, 0);
   Frame frame(64, 64, 16);
   for (std::uint32_t number = 0; number < 2; ++number) {
-    compositor.begin_frame(frame, number);
+    compositor.begin_frame(frame);
     const std::vector<node::Run> runs{{number * 40, static_cast<std::uint16_t>(number * 40), 1}};
-    compositor.paste_moving(frame, runs, std::vector<std::uint32_t>{7});
-    compositor.finish_frame(frame);
+    compositor.paste_moving(frame, runs, Pixels{7});
+    compositor.finish_frame(frame, number);
   }
   EXPECT_EQ(frame.changed_since, 0u);
   EXPECT_EQ(frame.changed.count(), 2u);
@@ -134,13 +263,13 @@ TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
 TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
   Compositor compositor(10, 5, 4, 0);
   Frame frame(10, 5, 4);
-  compositor.begin_frame(frame, 0);
-  const std::vector<std::uint32_t> pixels(3, 7);
+  compositor.begin_frame(frame);
+  const Pixels pixels(3, 7);
   const auto wrong = [&](node::Run run) {
     const std::vector<node::Run> runs{{0, 0, 0}, run};
     const std::span<const node::Run> one = std::span(runs).subspan(1);
     const std::string moving = failure_of([&] { compositor.paste_moving(frame, one, pixels); });
-    EXPECT_EQ(moving, failure_of([&] { compositor.paste_constant(one, pixels); }));
+    EXPECT_EQ(moving, failure_of([&] { compositor.paste_constant(one, pixels, &frame); }));
     return moving;
   };
   EXPECT_TRUE(holds(wrong({5, 0, 3}), "3 pixels from column 0 of line 5"));
@@ -149,7 +278,7 @@ TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
   EXPECT_TRUE(holds(wrong({0, 0, 0}), "0 pixels"));
   EXPECT_TRUE(holds(wrong({0, 0, 2}), "has 3 pixels where its runs count 2"));
   EXPECT_TRUE(holds(wrong({0, 0, 4}), "has 3 pixels where its runs count 4"));
-  EXPECT_EQ(frame.pixels, std::vector<std::uint32_t>(50, 0));
+  EXPECT_EQ(frame.pixels, Pixels(50, 0));
 }
 
 }  // namespace

@@ -110,6 +110,27 @@ TEST(SinkPool, PrefersAFrameThatShowsTheBackground) {
   EXPECT_EQ(pool.free_frame(99), frames[2]);
 }
 
+TEST(SinkPool, EarlyFramesLeaveHalfToTheOthers) {
+  TestSink sink;
+  for (const auto& [frames, early] : {std::pair{1u, 0u}, {2u, 1u}, {3u, 2u}, {4u, 2u}, {7u, 4u}}) {
+    SinkPool pool(sink, {8, 8, 4, frames, 1});
+    std::uint32_t given = 0;
+    while (pool.early_frame() != nullptr) ++given;
+    EXPECT_EQ(given, early) << "of " << frames;
+    while (pool.free_frame() != nullptr) ++given;
+    EXPECT_EQ(given, frames);
+  }
+}
+
+TEST(SinkPool, NewFramesShowTheBackground) {
+  TestSink sink;
+  SinkPool pool(sink, {8, 8, 4, 4, 1, 77});
+  while (const Frame* frame = pool.free_frame()) {
+    EXPECT_EQ(frame->plain, 77u);
+    EXPECT_EQ(frame->pixels, std::vector<std::uint32_t>(64, 77));
+  }
+}
+
 TEST(SinkPool, AFailureReachesTheLoop) {
   TestSink sink;
   sink.fails_at = 1;

@@ -1,0 +1,77 @@
+#include "host/farm/strip_message.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/host/document/failure_of.h"
+#include "tests/host/farm/strips.h"
+
+namespace mars::host {
+namespace {
+
+node::Strip keyframe_strip() {
+  node::Strip strip{};
+  strip.kind = node::FrameKind::keyframe;
+  return strip;
+}
+
+const Runs kConstant{{{0, 1, 2}, {1, 0, 1}}, {10, 11, 12}};
+const Runs kMoving{{{1, 1, 1}}, {20}};
+
+TEST(StripMessage, HasItsPartsInPlace) {
+  StripStore store;
+  const StripMessage strip(strip_bytes(keyframe_strip(), kConstant, kMoving, store));
+  EXPECT_EQ(strip.runs().size(), 3u);
+  EXPECT_EQ(strip.pixels().size(), 4u);
+  ASSERT_EQ(strip.constant_runs().size(), 2u);
+  EXPECT_EQ(strip.constant_runs()[1].line, 1u);
+  EXPECT_EQ(strip.constant_pixels()[2], 12u);
+  ASSERT_EQ(strip.moving_runs().size(), 1u);
+  EXPECT_EQ(strip.moving_runs()[0].first, 1u);
+  ASSERT_EQ(strip.moving_pixels().size(), 1u);
+  EXPECT_EQ(strip.moving_pixels()[0], 20u);
+}
+
+TEST(StripMessage, OtherThanItsHeaderSaysIsAFailure) {
+  StripStore store;
+  const auto spoilt = [&](const auto& spoil) {
+    StripBytes bytes = strip_bytes(keyframe_strip(), kConstant, kMoving, store);
+    spoil(bytes, *reinterpret_cast<node::Strip*>(bytes.data.get()));
+    return failure_of([&] { StripMessage strip(std::move(bytes)); });
+  };
+  const auto expect_failure = [&](const auto& spoil) {
+    EXPECT_TRUE(holds(spoilt(spoil), "not what its header says"));
+  };
+  expect_failure([](StripBytes& bytes, node::Strip&) { bytes.size = sizeof(node::Strip) - 1; });
+  expect_failure([](StripBytes& bytes, node::Strip&) { bytes.size -= 1; });
+  expect_failure([](StripBytes&, node::Strip& strip) { strip.pixels = ~std::uint64_t{0} / 4; });
+  expect_failure([](StripBytes&, node::Strip& strip) { strip.constant_runs = 0xffffffff; });
+  expect_failure([](StripBytes&, node::Strip& strip) { strip.kind = node::FrameKind::inbetween; });
+  // As many bytes, but a pixel's are taken for half a run's.
+  expect_failure([](StripBytes&, node::Strip& strip) { strip.pixels += 2, strip.moving_runs -= 1; });
+}
+
+TEST(StripStore, UsesMemoryAgain) {
+  StripStore store;
+  std::set<const std::byte*> used;
+  for (int frame = 0; frame < 100; ++frame) {
+    std::vector<StripBytes> held;
+    // Sizes grow at first and vary then; three are in use at a time.
+    for (const std::size_t size : {100u, 900u + frame % 7u, 500u + frame % 3u}) {
+      held.push_back(store.take(size));
+      EXPECT_EQ(held.back().size, size);
+      EXPECT_GE(held.back().room, size);
+      std::fill_n(held.back().data.get(), size, std::byte{1});
+    }
+    std::set<const std::byte*> now;
+    for (StripBytes& bytes : held) now.insert(bytes.data.get());
+    EXPECT_EQ(now.size(), 3u);
+    if (frame >= 3) used.insert(now.begin(), now.end());
+    for (StripBytes& bytes : held) store.give_back(std::move(bytes));
+  }
+  EXPECT_EQ(used.size(), 3u) << "memory was made anew when there was some to use";
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,34 @@
+// Strips as nodes send them, for tests.
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "host/farm/strip_message.h"
+
+namespace mars::host {
+
+struct Runs {
+  std::vector<node::Run> runs;
+  std::vector<std::uint32_t> pixels;
+};
+
+// The message of a strip with `header`'s names and these contents, in memory of `store`.
+inline StripBytes strip_bytes(node::Strip header, const Runs& constant, const Runs& moving, StripStore& store) {
+  header.constant_runs = static_cast<std::uint32_t>(constant.runs.size());
+  header.moving_runs = static_cast<std::uint32_t>(moving.runs.size());
+  header.pixels = constant.pixels.size() + moving.pixels.size();
+  const std::size_t runs = (constant.runs.size() + moving.runs.size()) * sizeof(node::Run);
+  StripBytes bytes = store.take(sizeof header + header.pixels * sizeof(std::uint32_t) + runs);
+  std::byte* to = bytes.data.get();
+  const auto append = [&](const void* from, std::size_t size) {
+    if (size > 0) std::memcpy(to, from, size);
+    to += size;
+  };
+  append(&header, sizeof header);
+  for (const Runs* part : {&constant, &moving}) append(part->pixels.data(), part->pixels.size() * sizeof(std::uint32_t));
+  for (const Runs* part : {&constant, &moving}) append(part->runs.data(), part->runs.size() * sizeof(node::Run));
+  return bytes;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,94 @@
+// The host's pictures are bounded: the sinks' frames, and one saved background a cube where intervals have
+// inbetweens. Counts the host thread's blocks of a picture's size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <new>
+#include <numeric>
+
+#include "host/sinks/sink_pool.h"
+#include "node/firmware.h"
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+
+namespace {
+
+constexpr std::uint32_t kWidth = 200, kHeight = 150;
+constexpr std::size_t kPicture = std::size_t{kWidth} * kHeight * sizeof(std::uint32_t);
+
+thread_local bool is_host = false;
+std::array<void*, 1000> pictures;  // the host's own, of which some are freed
+std::size_t made = 0;
+std::size_t live = 0;
+std::size_t most = 0;
+
+void* counted(std::size_t size) {
+  void* block = std::malloc(size);
+  if (block == nullptr) throw std::bad_alloc();
+  if (is_host && size == kPicture) {
+    pictures.at(made++) = block;
+    most = std::max(most, ++live);
+  }
+  return block;
+}
+
+void release(void* block) {
+  void** end = pictures.data() + made;
+  void** found = is_host && block != nullptr ? std::find(pictures.data(), end, block) : end;
+  if (found != end) *found = nullptr, --live;
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void operator delete(void* block) noexcept { release(block); }
+void operator delete(void* block, std::size_t) noexcept { release(block); }
+
+namespace mars::test {
+namespace {
+
+constexpr std::uint32_t kFrames = 3;  // buffers
+
+// The most pictures the host had at a time while it rendered the film.
+std::size_t most_pictures(const node::FilmData& film, bool coherence, std::uint32_t cubes) {
+  const FilmBlock block(film);
+  host::FarmOptions options;
+  options.coherence = coherence;
+  options.cubes = cubes;
+  options.frames.resize(film.settings.frames);
+  std::iota(options.frames.begin(), options.frames.end(), 0u);
+  made = live = most = 0;
+  const auto host = [&] {
+    is_host = true;
+    host::NothingSink sink;
+    {
+      host::SinkPool pool(sink, {kWidth, kHeight, 16, kFrames, 1});
+      host::render_film(block.bytes(), options, pool, {});
+    }
+    is_host = false;
+  };
+  hal::run_threads(4, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
+  EXPECT_EQ(live, 0u);
+  return most;
+}
+
+TEST(HostMemory, OneSavedBackgroundACube) {
+  const node::FilmData film = crowd(kWidth, kHeight, 60, 3);
+  for (const std::uint32_t cubes : {1u, 2u, 4u}) {
+    const std::size_t pictures = most_pictures(film, true, cubes);
+    EXPECT_LE(pictures, kFrames + cubes);
+    EXPECT_GE(pictures, 2u) << "the hook counts";
+  }
+}
+
+TEST(HostMemory, NoneWhereNoIntervalHasInbetweens) {
+  const node::FilmData film = crowd(kWidth, kHeight, 20, 3);
+  EXPECT_LE(most_pictures(film, false, 4), kFrames);
+  EXPECT_LE(most_pictures(crowd(kWidth, kHeight, 20, 1), true, 4), kFrames);
+}
+
+}  // namespace
+}  // namespace mars::test
