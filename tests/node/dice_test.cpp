@@ -101,7 +101,7 @@ TEST(Dice, FixedRateGivesTwoTrianglesAQuad) {
   const EyePatch patch = make_patch([](int i, int j) { return Vec3{i / 3.0, j / 3.0, -3 + 0.1 * i * j}; });
   for (const int rate : {1, 2, 3, 4, 5, 8, 17, 64, 256}) {
     dicer.dice(patch, kView, rate);
-    EXPECT_EQ(dicer.triangles().size(), static_cast<std::size_t>(2 * rate * rate));
+    EXPECT_EQ(dicer.triangles().count, static_cast<std::uint32_t>(2 * rate * rate));
     const Mesh mesh = mesh_of(dicer);
     expect_tiled(mesh);
     EXPECT_EQ(mesh.places.size(), static_cast<std::size_t>((rate + 1) * (rate + 1)));
@@ -227,7 +227,7 @@ TEST(Dice, ACylindersSideIsAStrip) {
     const int along = rates.side[upright ? 0 : 1];
     EXPECT_GT(along, 3);
     dicer.dice(patch, kView, 0);
-    EXPECT_EQ(dicer.triangles().size(), static_cast<std::size_t>(2 * along));
+    EXPECT_EQ(dicer.triangles().count, static_cast<std::uint32_t>(2 * along));
     ASSERT_TRUE(sound_disc(mesh_of(dicer), patch, rates));
     for (int k = 0; k < dicer.vertex_count(); ++k) {
       const Vec3 from_axis = place_of(dicer, k) - middle;

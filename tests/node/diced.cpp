@@ -19,8 +19,10 @@ Mesh mesh_of(const node::Dicer& diced) {
     if (added) mesh.places.push_back(place);
     return at->second;
   };
-  for (const node::Corner3& corner : diced.triangles())
+  for (std::uint32_t k = 0; k < diced.triangles().count; ++k) {
+    const node::Corner3 corner = diced.triangles()[k];
     mesh.faces.push_back({number(corner.a), number(corner.b), number(corner.c)});
+  }
   return mesh;
 }
 
@@ -62,10 +64,12 @@ std::set<ScreenVertex> boundary_vertices(const node::Dicer& diced) {
   const auto next = boundary(mesh);
   const node::Vertices& v = diced.vertices();
   std::set<ScreenVertex> vertices;
-  for (const node::Corner3& corners : diced.triangles())
+  for (std::uint32_t t = 0; t < diced.triangles().count; ++t) {
+    const node::Corner3 corners = diced.triangles()[t];
     for (const std::uint32_t k : {corners.a, corners.b, corners.c})
       if (next.contains(mesh.numbers.at(place_of(v, k))))
-        vertices.insert({{v.place[0][k], v.place[1][k], v.place[2][k]}, v.x[k], v.y[k], v.inverse_w[k]});
+        vertices.insert({{v.place[0][k], v.place[1][k], v.place[2][k]}, v.x[k], v.y[k], v.values[k][node::kDepth]});
+  }
   return vertices;
 }
 

@@ -1,4 +1,4 @@
-// Which samples a triangle covers: Crossings against a plain test with edge functions in 64-bit integers, and
+// Which samples a triangle covers: Outline against a plain test with edge functions in 64-bit integers, and
 // meshes that must cover every sample once.
 #include "node/edge_boxes.h"
 
@@ -8,65 +8,34 @@
 #include <vector>
 
 #include "tests/node/patches.h"
+#include "tests/node/plain_set_up.h"
 
 namespace mars::test {
 namespace {
 
-using node::Crossings;
-using node::EdgeBox;
-using node::Triangle;
+using node::Corners;
 
 struct Point {
   std::int32_t x, y;  // 1/256 pixel
 };
 
-Triangle triangle(const Point& a, const Point& b, const Point& c) {
-  Triangle t{};
-  const Point corner[] = {a, b, c};
-  for (std::size_t k = 0; k < 3; ++k) {
-    t.x[k] = corner[k].x;
-    t.y[k] = corner[k].y;
-  }
-  return t;
-}
-
-// Twice the signed area of a, b, p.
-std::int64_t side_of(const Point& a, const Point& b, const Point& p) {
-  return std::int64_t{b.x - a.x} * (p.y - a.y) - std::int64_t{b.y - a.y} * (p.x - a.x);
-}
-
-// Inside, or on a left or top edge. With positive area and y downwards left edges go up, top ones to the
-// right.
-bool covers(const Triangle& t, std::int32_t column, std::int32_t row) {
-  Point corner[3] = {{t.x[0], t.y[0]}, {t.x[1], t.y[1]}, {t.x[2], t.y[2]}};
-  const std::int64_t area = side_of(corner[0], corner[1], corner[2]);
-  if (area == 0) return false;
-  if (area < 0) std::swap(corner[1], corner[2]);
-  const Point sample{256 * column + 128, 256 * row + 128};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point &a = corner[k], &b = corner[(k + 1) % 3];
-    const std::int64_t side = side_of(a, b, sample);
-    const bool belongs = b.y < a.y || (b.y == a.y && b.x > a.x);
-    if (side < 0 || (side == 0 && !belongs)) return false;
-  }
-  return true;
-}
+Corners triangle(const Point& a, const Point& b, const Point& c) { return {{a.x, b.x, c.x}, {a.y, b.y, c.y}}; }
 
 class Coverage {
  public:
   Coverage(std::int32_t width, std::int32_t height) : width(width), height(height), count(size()) {}
 
-  void add(const Triangle& t) {
-    const Crossings crossings(t, width, height);
-    EXPECT_GE(crossings.first_row, 0);
-    EXPECT_LE(crossings.last_row, std::max(height, crossings.first_row));
-    for (std::int32_t row = crossings.first_row; row < crossings.last_row; ++row) {
-      const auto columns = crossings.columns(row);
+  void add(const Corners& t) {
+    const node::Outline outline(t, width, height);
+    EXPECT_GE(outline.first_row, 0);
+    EXPECT_LE(outline.last_row, std::max(height, outline.first_row));
+    for (std::int32_t row = outline.first_row; row < outline.last_row; ++row) {
+      const auto columns = outline.columns(row);
       for (std::int32_t column = columns.first; column < columns.last; ++column)
         ++count.at(static_cast<std::size_t>(row * width + column));
     }
   }
-  void add_plainly(const Triangle& t) {
+  void add_plainly(const Corners& t) {
     for (std::size_t k = 0; k < size(); ++k)
       count[k] += covers(t, static_cast<std::int32_t>(k) % width, static_cast<std::int32_t>(k) / width);
   }
@@ -95,7 +64,7 @@ Point random_point(Random& random, int kind) {
   }
 }
 
-Triangle random_triangle(Random& random) {
+Corners random_triangle(Random& random) {
   const int kind = random.whole(0, 5);
   Point p[3];
   for (Point& corner : p) corner = random_point(random, kind);
@@ -118,11 +87,11 @@ Triangle random_triangle(Random& random) {
   return triangle(p[0], p[1], p[2]);
 }
 
-TEST(EdgeBoxes, CrossingsAreThoseOfAPlainTest) {
+TEST(Outline, ColumnsAreThoseOfAPlainTest) {
   Random random(5);
   int covered = 0;
   for (int trial = 0; trial < 40000; ++trial) {
-    const Triangle t = random_triangle(random);
+    const Corners t = random_triangle(random);
     Coverage fast(24, 24), plain(24, 24);
     fast.add(t);
     plain.add_plainly(t);
@@ -134,10 +103,10 @@ TEST(EdgeBoxes, CrossingsAreThoseOfAPlainTest) {
 }
 
 // Where numbers are largest: pictures as long as they may be, corners beyond the guard band.
-TEST(EdgeBoxes, LongPictures) {
+TEST(Outline, LongPictures) {
   Random random(6);
   for (int trial = 0; trial < 400; ++trial) {
-    Triangle t{};
+    Corners t{};
     for (int k = 0; k < 3; ++k) {
       t.x[k] = random.whole(-8400000, 12600000);
       t.y[k] = random.whole(-8400000, 12600000);
@@ -153,7 +122,7 @@ TEST(EdgeBoxes, LongPictures) {
   }
 }
 
-TEST(EdgeBoxes, FansCoverEverySampleOnce) {
+TEST(Outline, FansCoverEverySampleOnce) {
   Random random(7);
   for (int trial = 0; trial < 500; ++trial) {
     const Point middle = random_point(random, trial % 2 ? 2 : 3);
@@ -172,7 +141,7 @@ TEST(EdgeBoxes, FansCoverEverySampleOnce) {
 
 // Rows of strips with corners moved at random, often onto samples (but by less than a quarter of a cell, or
 // quads would fold), drawn with either diagonal.
-TEST(EdgeBoxes, StripsCoverEverySampleOnce) {
+TEST(Outline, StripsCoverEverySampleOnce) {
   Random random(8);
   constexpr int kCells = 10;
   for (int trial = 0; trial < 500; ++trial) {
@@ -193,63 +162,6 @@ TEST(EdgeBoxes, StripsCoverEverySampleOnce) {
         coverage.add(turned ? triangle(d, b, c) : triangle(c, a, d));
       }
     ASSERT_EQ(coverage.count, std::vector<int>(coverage.size(), 1)) << "trial " << trial;
-  }
-}
-
-std::vector<EdgeBox> placed(const Triangle& t, std::int32_t width, const node::LineRange& lines,
-                            std::vector<std::uint64_t>& cursor) {
-  std::vector<EdgeBox> boxes(cursor.back() + 1000);
-  node::place_edge_boxes(t, 9, width, lines, cursor, boxes);
-  return boxes;
-}
-
-TEST(EdgeBoxes, AreAsManyAsCounted) {
-  Random random(9);
-  for (int trial = 0; trial < 5000; ++trial) {
-    const Triangle t = random_triangle(random);
-    std::vector<std::uint32_t> counts(24);
-    const Crossings crossings(t, 24, 24);
-    const std::uint32_t boxes = node::count_edge_boxes(crossings, counts);
-    std::vector<std::uint64_t> cursor(24);
-    for (std::size_t row = 0; row < 24; ++row) cursor[row] = 2 * row;
-    placed(t, 24, {0, 24}, cursor);
-    std::uint32_t sum = 0;
-    for (std::uint32_t row = 0; row < 24; ++row) {
-      EXPECT_EQ(cursor[row] - 2 * row, counts[row]);
-      EXPECT_LE(counts[row], 1u);
-      sum += counts[row];
-      const auto this_row = [&](std::int32_t r) { return r == static_cast<std::int32_t>(row); };
-      EXPECT_EQ(node::has_edge_box(crossings, this_row), counts[row] == 1);
-    }
-    EXPECT_EQ(boxes, sum);
-  }
-}
-
-// A node places only its own lines; its boxes are those of the whole, field for field.
-TEST(EdgeBoxes, OfSomeLinesAreTheCutOfAll) {
-  Random random(10);
-  for (int trial = 0; trial < 5000; ++trial) {
-    Triangle t = random_triangle(random);
-    t.depth = {static_cast<float>(random.real(0, 1)), static_cast<float>(random.real(-1, 1)),
-               static_cast<float>(random.real(-1, 1))};
-    const auto first = static_cast<std::uint32_t>(random.whole(0, 24));
-    const auto last = static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), 24));
-    std::vector<std::uint64_t> all_cursor(25), cursor(last - first + 1);
-    for (std::size_t row = 0; row < all_cursor.size(); ++row) all_cursor[row] = row;
-    for (std::size_t row = 0; row < cursor.size(); ++row) cursor[row] = first + row;
-    const auto all = placed(t, 24, {0, 24}, all_cursor);
-    const auto some = placed(t, 24, {first, last}, cursor);
-    for (std::uint32_t row = first; row < last; ++row) {
-      ASSERT_EQ(cursor[row - first], all_cursor[row]);
-      if (cursor[row - first] == row) continue;
-      const EdgeBox &a = all[row], &b = some[row];
-      EXPECT_EQ(a.triangle, 9u);
-      EXPECT_EQ(a.x0, t.x[0]);
-      const float dy = static_cast<float>(static_cast<std::int32_t>(256 * row + 128) - t.y[0]);
-      EXPECT_EQ(a.depth_at_x0, t.depth.at_first + dy * t.depth.per_y);
-      EXPECT_EQ(std::tie(a.triangle, a.first, a.last, a.x0, a.depth_at_x0, a.depth_per_x),
-                std::tie(b.triangle, b.first, b.last, b.x0, b.depth_at_x0, b.depth_per_x));
-    }
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -11,58 +13,74 @@
 
 #include "hal/failure.h"
 #include "node/bezier.h"
+#include "tests/node/kernel_sets.h"
 #include "tests/node/patches.h"
 
 namespace mars::test {
 namespace {
 
-using node::EdgeBox;
-using node::Extent;
 using node::Kernels;
 
-// All that this CPU runs, the narrowest first.
-std::vector<const Kernels*> all_kernels() {
-  std::vector<const Kernels*> all;
-  for (const char* limit : {"sse2", "sse4", "avx2", "avx512"}) {
-    const Kernels& kernels = node::best_kernels(limit);
-    if (all.empty() || all.back() != &kernels) all.push_back(&kernels);
-  }
-  return all;
-}
-
-template <typename T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
-// Vertices in memory of their own; beyond `count` lie values that no kernel may touch.
+// Vertices in memory of their own, with the slack that kernels may write and guards that they may not.
 struct VertexMemory {
   explicit VertexMemory(int count)
-      : numbers(static_cast<std::size_t>(7 * (count + kGuard)), kUntouched),
-        places(static_cast<std::size_t>(2 * (count + kGuard)), 77),
-        flags(static_cast<std::size_t>(count + kGuard), 77),
-        stride(count + kGuard) {}
+      : count(count),
+        stride(static_cast<std::size_t>(count + node::kVectorSlack + kGuard)),
+        numbers(10 * stride, kUntouched),
+        places(2 * stride, 77),
+        flags(stride, 77) {}
 
   node::Vertices view() {
     float* n = numbers.data();
     return {{n, n + stride, n + 2 * stride},
             {n + 3 * stride, n + 4 * stride, n + 5 * stride},
-            n + 6 * stride,
+            reinterpret_cast<float (*)[node::kValues]>(n + 6 * stride),
             places.data(),
             places.data() + stride,
             flags.data()};
   }
-  bool operator==(const VertexMemory& other) const {
-    return same_bits(numbers, other.numbers) && same_bits(places, other.places) &&
-           same_bits(flags, other.flags);
+  // Fills the slack with bits of all kinds: NaNs, infinities, numbers.
+  void litter(Random& random) {
+    for (int k = count; k < count + node::kVectorSlack; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      for (std::size_t array = 0; array < 6; ++array) numbers[array * stride + at] = garbage(random);
+      for (std::size_t value = 0; value < 4; ++value) numbers[6 * stride + 4 * at + value] = garbage(random);
+    }
+  }
+  // Whether all before the slack is the same bits.
+  bool same(const VertexMemory& other) const {
+    const auto counted = static_cast<std::size_t>(count);
+    bool equal = true;
+    for (std::size_t array = 0; array < 6; ++array) equal &= same_bits(numbers, other.numbers, array * stride, counted);
+    return equal && same_bits(numbers, other.numbers, 6 * stride, 4 * counted) &&
+           same_bits(places, other.places, 0, counted) && same_bits(places, other.places, stride, counted) &&
+           same_bits(flags, other.flags, 0, counted);
+  }
+  bool guards_intact() const {
+    const std::size_t end = stride - kGuard;
+    bool intact = true;
+    for (std::size_t k = end; k < stride; ++k) {
+      for (std::size_t array = 0; array < 6; ++array) intact &= numbers[array * stride + k] == kUntouched;
+      for (std::size_t value = 0; value < 4; ++value) intact &= numbers[6 * stride + 4 * k + value] == kUntouched;
+      intact &= places[k] == 77 && places[stride + k] == 77 && flags[k] == 77;
+    }
+    return intact;
   }
 
-  static constexpr int kGuard = 20;
+  static constexpr std::size_t kGuard = 20;
   static constexpr float kUntouched = 123;
+  int count;
+  std::size_t stride;
   std::vector<float> numbers;
   std::vector<std::int32_t> places;
   std::vector<std::uint8_t> flags;
-  int stride;
+
+ private:
+  static float garbage(Random& random) { return std::bit_cast<float>(random.bits()); }
+  template <typename T>
+  static bool same_bits(const std::vector<T>& a, const std::vector<T>& b, std::size_t first, std::size_t count) {
+    return std::memcmp(a.data() + first, b.data() + first, count * sizeof(T)) == 0;
+  }
 };
 
 node::Row random_row(Random& random) {
@@ -95,9 +113,10 @@ TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
     for (const Kernels* kernels : all_kernels()) {
       VertexMemory memory(offset + last - first);
       kernels->evaluate(row, node::basis(rate), first, last, memory.view(), offset);
-      EXPECT_EQ(memory.view().normal[2][offset + last - first], VertexMemory::kUntouched);
       results.push_back(memory);
-      EXPECT_TRUE(memory == results[0]) << kernels->name << ", trial " << trial;
+      EXPECT_TRUE(memory.guards_intact()) << kernels->name << ", trial " << trial;
+      EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
+      for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
     }
   }
 }
@@ -144,17 +163,32 @@ VertexMemory random_places(Random& random, int count) {
 TEST(Kernels, ProjectGivesTheSameBitsEverywhere) {
   Random random(52);
   const node::Projection view = projection(639, 481, 2, 0.1, 500);
+  int any = 0, none = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const int count = random.whole(0, 90);
-    const VertexMemory places = random_places(random, count);
+    VertexMemory places = random_places(random, count);
+    if (trial % 2)  // all in view
+      for (int k = 0; k < count; ++k) {
+        for (int axis = 0; axis < 2; ++axis) places.view().place[axis][k] = static_cast<float>(random.real(-1, 1));
+        places.view().place[2][k] = static_cast<float>(random.real(-9, -0.2));
+      }
     std::vector<VertexMemory> results;
-    for (const Kernels* kernels : all_kernels()) {
-      results.push_back(places);
-      kernels->project(view, results.back().view(), count);
-      EXPECT_TRUE(results.back() == results[0]) << kernels->name << ", trial " << trial;
-      EXPECT_EQ(results.back().flags[static_cast<std::size_t>(count)], 77);
-    }
+    std::vector<bool> reaches;
+    for (const Kernels* kernels : all_kernels())
+      for (const bool littered : {false, true}) {
+        VertexMemory memory = places;
+        if (littered) memory.litter(random);
+        reaches.push_back(kernels->project(view, memory.view(), count));
+        results.push_back(memory);
+        EXPECT_TRUE(memory.guards_intact()) << kernels->name << ", trial " << trial;
+        EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
+        EXPECT_EQ(reaches.back(), std::count(memory.flags.begin(), memory.flags.begin() + count, 1) > 0);
+      }
+    any += reaches[0];
+    none += !reaches[0] && count > 0;
   }
+  EXPECT_GT(any, 50);
+  EXPECT_GT(none, 50);
 }
 
 TEST(Kernels, ProjectSnapsToTheNearestSubpixel) {
@@ -177,78 +211,11 @@ TEST(Kernels, ProjectSnapsToTheNearestSubpixel) {
     ++inside;
     EXPECT_NEAR(v.x[k] / 256.0, x, 0.5 / 256 + std::abs(x) * 4e-7 + 1e-4);
     EXPECT_NEAR(v.y[k] / 256.0, y, 0.5 / 256 + std::abs(y) * 4e-7 + 1e-4);
-    EXPECT_NEAR(v.inverse_w[k] * w, 1, 2e-7);
+    EXPECT_NEAR(v.values[k][node::kDepth] * w, 1, 2e-7);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(v.values[k][node::kNormalX + axis], v.normal[axis][k] * v.values[k][node::kDepth]);
   }
   EXPECT_GT(inside, 1000);
-}
-
-// Boxes of one line, some of them with the same plane, so that depths tie.
-std::vector<EdgeBox> random_boxes(Random& random, std::int32_t width, int count) {
-  std::vector<EdgeBox> boxes;
-  for (int b = 0; b < count; ++b) {
-    const std::int32_t first = random.whole(0, width - 1);
-    EdgeBox box{static_cast<std::uint32_t>(1000 + b),
-                static_cast<std::uint16_t>(first),
-                static_cast<std::uint16_t>(random.whole(first + 1, width)),
-                128,
-                0,
-                0};
-    if (random.whole(0, 2)) {
-      box.depth_at_x0 = static_cast<float>(random.whole(1, 3));
-    } else {
-      box.x0 = random.whole(-5000, 256 * width);
-      box.depth_at_x0 = static_cast<float>(random.real(0, 4));
-      box.depth_per_x = static_cast<float>(random.real(-1e-4, 1e-4));
-    }
-    boxes.push_back(box);
-  }
-  return boxes;
-}
-
-struct Line {
-  explicit Line(std::int32_t width)
-      : depth(static_cast<std::size_t>(width)), ids(depth.size(), node::kNoTriangle) {}
-  std::vector<float> depth;
-  std::vector<std::uint32_t> ids;
-};
-
-// Sample by sample, box by box; of equals the first stays.
-void draw_plainly(const std::vector<EdgeBox>& boxes, Line& line) {
-  for (const EdgeBox& box : boxes)
-    for (std::int32_t column = box.first; column < box.last; ++column) {
-      const auto at = static_cast<std::size_t>(column);
-      const float depth = box.depth_at_x0 + static_cast<float>(256 * column + 128 - box.x0) * box.depth_per_x;
-      if (!(depth > line.depth[at])) continue;
-      line.depth[at] = depth;
-      line.ids[at] = box.triangle;
-    }
-}
-
-TEST(Kernels, DrawIsAPlainZBuffer) {
-  Random random(54);
-  for (int trial = 0; trial < 2000; ++trial) {
-    const std::int32_t width = random.whole(1, 150);
-    const auto boxes = random_boxes(random, width, random.whole(0, 12));
-    Line plain(width);
-    if (trial % 2)
-      for (float& depth : plain.depth) depth = static_cast<float>(random.whole(0, 2));  // drawn before
-    const Line before = plain;
-    draw_plainly(boxes, plain);
-    std::uint32_t first = 0xffffffff, last = 0;
-    for (const EdgeBox& box : boxes) {
-      first = std::min<std::uint32_t>(first, box.first);
-      last = std::max<std::uint32_t>(last, box.last);
-    }
-    for (const Kernels* kernels : all_kernels()) {
-      Line line = before;
-      const auto count = static_cast<std::uint32_t>(boxes.size());
-      const Extent extent = kernels->draw(boxes.data(), count, line.depth.data(), line.ids.data());
-      EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids)
-          << kernels->name << ' ' << trial;
-      EXPECT_EQ(extent.last, last);
-      EXPECT_EQ(extent.first, first);
-    }
-  }
 }
 
 }  // namespace

@@ -9,39 +9,42 @@
 #include <vector>
 
 #include "tests/node/patches.h"
+#include "tests/node/plain_set_up.h"
+#include "tests/node/set_ups.h"
 
 namespace mars::test {
 namespace {
 
+using node::Corners;
 using node::Dicer;
 using node::EyePatch;
 using node::PatchIdentity;
-using node::Plane;
-using node::SetUps;
 using node::Side;
 using node::Triangle;
+using node::Value;
 
 constexpr std::int32_t kWidth = 640, kHeight = 480;
 const node::Projection kView = projection(kWidth, kHeight, 2);
 
-struct Kept {
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> line_counts;
-  std::uint64_t touching = 0;
-  std::uint64_t edge_boxes = 0;
+// What set-up makes, with what a triangle does not tell of itself any more.
+struct Kept : Made {
+  std::vector<Corners> corners;        // of each triangle
+  std::vector<std::uint32_t> indices;  // in the patch's dicing
 };
 
 class SetUpTest : public testing::Test {
  protected:
-  Kept set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false},
+  Kept set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
               const node::Projection& view = kView) {
     dicer.dice(patch, view, rate);
-    Kept kept{std::vector<Triangle>(200000), std::vector<std::uint32_t>(kHeight)};
-    SetUps out{.triangles = kept.triangles, .line_counts = kept.line_counts, .wanted_lines = {}};
-    node::SetUp(kernels, view, kWidth, kHeight).add(dicer, identity, out);
-    kept.triangles.resize(out.stored);
-    kept.touching = out.touching;
-    kept.edge_boxes = out.edge_boxes;
+    Kept kept{test::set_up(kernels, {view, kWidth, kHeight}, dicer, identity), {}, {}};
+    EXPECT_TRUE(kept.all_stored);
+    for (const PlainTriangle& plain : plain_set_up(dicer, view, identity)) {
+      if (plain_crossings(plain.corners, kWidth, kHeight).empty()) continue;
+      kept.corners.push_back(plain.corners);
+      kept.indices.push_back(plain.index);
+    }
+    EXPECT_EQ(kept.corners.size(), kept.triangles.size());
     return kept;
   }
 
@@ -54,31 +57,24 @@ EyePatch square(double size, double away) {
   return make_patch([&](int i, int j) { return Vec3{size * (i / 1.5 - 1), size * (j / 1.5 - 1), -away}; });
 }
 
-double at(const Plane& plane, double dx, double dy) {
-  return plane.at_first + dy * plane.per_y + dx * plane.per_x;
+double at(const Triangle& t, Value value, double dx, double dy) {
+  return t.at_first[value] + dy * t.per_y[value] + dx * t.per_x[value];
 }
 
-// Twice the area, in square pixels.
-double area(const Triangle& t) {
-  const double x1 = t.x[1] - t.x[0], x2 = t.x[2] - t.x[0], y1 = t.y[1] - t.y[0], y2 = t.y[2] - t.y[0];
-  return (x1 * y2 - x2 * y1) / 65536;
-}
+// Square pixels.
+double square_pixels(const Corners& t) { return std::abs(static_cast<double>(area(t))) / 131072; }
 
 double covered(const Kept& kept) {
   double sum = 0;
-  for (const Triangle& t : kept.triangles) sum += std::abs(area(t)) / 2;
+  for (const Corners& t : kept.corners) sum += square_pixels(t);
   return sum;
 }
 
 // How often samples of a line are covered, all together.
-int samples_on(const Kept& kept, std::int32_t line) {
+int samples_on(const Made& made, std::int32_t line) {
   int samples = 0;
-  for (const Triangle& t : kept.triangles) {
-    const node::Crossings crossings(t, kWidth, kHeight);
-    if (line < crossings.first_row || line >= crossings.last_row) continue;
-    const auto columns = crossings.columns(line);
-    samples += std::max(columns.last - columns.first, 0);
-  }
+  for (const node::Crossing& crossing : made.crossings)
+    if (crossing.line == line) samples += crossing.box.last - crossing.box.first;
   return samples;
 }
 
@@ -88,7 +84,7 @@ TEST_F(SetUpTest, CarriesWhatThePatchIs) {
   for (std::uint32_t k = 0; k < 18; ++k) {
     EXPECT_EQ(kept.triangles[k].patch, 5u);
     EXPECT_EQ(kept.triangles[k].look, 3u);
-    EXPECT_EQ(kept.triangles[k].index, k);
+    EXPECT_EQ(kept.indices[k], k);
   }
   EXPECT_NEAR(covered(kept), 240 * 240, 2);  // 2 units of 480 / 4 pixels
 }
@@ -97,10 +93,10 @@ TEST_F(SetUpTest, CarriesWhatThePatchIs) {
 TEST_F(SetUpTest, OneSidedAreSeenFromOutsideOnly) {
   const EyePatch front = square(1, 4), back = swapped(front);
   for (const bool mirrored : {false, true}) {
-    EXPECT_EQ(set_up(front, 2, {0, 0, mirrored, true}).touching, mirrored ? 0u : 8u);
-    EXPECT_EQ(set_up(back, 2, {0, 0, mirrored, true}).touching, mirrored ? 8u : 0u);
-    EXPECT_EQ(set_up(front, 2, {0, 0, mirrored, false}).touching, 8u);
-    EXPECT_EQ(set_up(back, 2, {0, 0, mirrored, false}).touching, 8u);
+    EXPECT_EQ(set_up(front, 2, {0, 0, mirrored, true, false}).touching, mirrored ? 0u : 8u);
+    EXPECT_EQ(set_up(back, 2, {0, 0, mirrored, true, false}).touching, mirrored ? 8u : 0u);
+    EXPECT_EQ(set_up(front, 2, {0, 0, mirrored, false, false}).touching, 8u);
+    EXPECT_EQ(set_up(back, 2, {0, 0, mirrored, false, false}).touching, 8u);
   }
 }
 
@@ -113,7 +109,7 @@ TEST_F(SetUpTest, MirroredBodiesShowTheirOutside) {
     node::EyeMatrix matrix{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -4}}};
     for (int axis = 0; axis < 3; ++axis)
       if (flip >> axis & 1) matrix.m[axis][axis] = -1;
-    const PatchIdentity identity{0, 0, node::mirrors(matrix), true};
+    const PatchIdentity identity{0, 0, node::mirrors(matrix), true, false};
     const bool outside = (flip & 4) == 0;  // the outside is +z
     EXPECT_EQ(set_up(node::to_eye(matrix, patch), 2, identity).touching, outside ? 8u : 0u) << flip;
   }
@@ -123,15 +119,17 @@ TEST_F(SetUpTest, NormalsAreTurnedToTheEye) {
   const EyePatch octant = sphere_octant({0, 0, -4}, 1);
   for (const EyePatch& patch : {octant, swapped(octant), turned(octant)})
     for (const bool mirrored : {false, true}) {
-      const Kept kept = set_up(patch, 12, {0, 0, mirrored, false});
+      const Kept kept = set_up(patch, 12, {0, 0, mirrored, false, false});
       ASSERT_GT(kept.triangles.size(), 100u);
-      for (const Triangle& t : kept.triangles) {
-        const double dx = (t.x[1] + t.x[2] - 2 * t.x[0]) / 3.0, dy = (t.y[1] + t.y[2] - 2 * t.y[0]) / 3.0;
-        const double w = 1 / at(t.depth, dx, dy);
-        const double x = (t.x[0] + dx) / 256 - kView.center[0], y = (t.y[0] + dy) / 256 - kView.center[1];
+      for (std::size_t k = 0; k < kept.triangles.size(); ++k) {
+        const Triangle& t = kept.triangles[k];
+        const auto& [cx, cy] = kept.corners[k];
+        const double dx = (cx[1] + cx[2] - 2 * cx[0]) / 3.0, dy = (cy[1] + cy[2] - 2 * cy[0]) / 3.0;
+        const double w = 1 / at(t, node::kDepth, dx, dy);
+        const double x = (cx[0] + dx) / 256 - kView.center[0], y = (cy[0] + dy) / 256 - kView.center[1];
         const Vec3 to_eye{-x / kView.scale, y / kView.scale, 1};
-        const Vec3 normal{at(t.normal[0], dx, dy) * w, at(t.normal[1], dx, dy) * w,
-                          at(t.normal[2], dx, dy) * w};
+        const Vec3 normal{at(t, node::kNormalX, dx, dy) * w, at(t, node::kNormalY, dx, dy) * w,
+                          at(t, node::kNormalZ, dx, dy) * w};
         EXPECT_NEAR(length(normal), 1, 0.02);
         EXPECT_GT(dot(normal, to_eye), -0.07) << "but for the sphere's rim, where facets and normals differ";
       }
@@ -141,25 +139,29 @@ TEST_F(SetUpTest, NormalsAreTurnedToTheEye) {
 // Each value at a vertex is what the vertex had.
 TEST_F(SetUpTest, PlanesGoThroughTheVertices) {
   Random random(40);
+  int checked = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, -6}, 1);
     const Kept kept = set_up(patch, 6);
     const node::Vertices& v = dicer.vertices();
-    for (const Triangle& t : kept.triangles) {
-      const node::Corner3& corners = dicer.triangles()[t.index];
+    for (std::size_t n = 0; n < kept.triangles.size(); ++n) {
+      const Triangle& t = kept.triangles[n];
+      const node::Corner3 corners = dicer.triangles()[kept.indices[n]];
       const std::uint32_t number[] = {corners.a, corners.b, corners.c};
-      if (std::abs(area(t)) < 1) continue;  // rounding decides the planes of slivers
-      const double sign = area(t) < 0 ? 1 : -1;
-      for (std::size_t k = 0; k < 3; ++k) {
-        ASSERT_EQ(t.x[k], v.x[number[k]]);
-        ASSERT_EQ(t.y[k], v.y[number[k]]);
-        const double dx = t.x[k] - t.x[0], dy = t.y[k] - t.y[0], w = 1 / v.inverse_w[number[k]];
-        EXPECT_NEAR(at(t.depth, dx, dy) * w, 1, 1e-4);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          EXPECT_NEAR(at(t.normal[axis], dx, dy) * w, sign * v.normal[axis][number[k]], 1e-3);
+      ASSERT_EQ(t.first_x, v.x[corners.a]);
+      ASSERT_EQ(t.first_y, v.y[corners.a]);
+      if (square_pixels(kept.corners[n]) < 0.5) continue;  // rounding decides the planes of slivers
+      const double sign = area(kept.corners[n]) < 0 ? 1 : -1;
+      for (const std::uint32_t k : number) {
+        const double dx = v.x[k] - t.first_x, dy = v.y[k] - t.first_y, w = 1 / v.values[k][node::kDepth];
+        EXPECT_NEAR(at(t, node::kDepth, dx, dy) * w, 1, 1e-4);
+        for (int axis = 0; axis < 3; ++axis)
+          EXPECT_NEAR(at(t, static_cast<Value>(node::kNormalX + axis), dx, dy) * w, sign * v.normal[axis][k], 1e-3);
+        ++checked;
       }
     }
   }
+  EXPECT_GT(checked, 5000);
 }
 
 TEST_F(SetUpTest, DropsWhatTouchesNoSample) {
@@ -184,7 +186,7 @@ TEST_F(SetUpTest, GroundReachesPastTheEye) {
       const EyePatch ground = make_patch([&](int i, int j) {
         return Vec3{size * (i - 1.4), -1, size * (1.6 - j)};
       });
-      const Kept kept = set_up(ground, rate, {0, 0, false, true}, view);
+      const Kept kept = set_up(ground, rate, {0, 0, false, true, false}, view);
       int holes = 0;
       for (std::int32_t line = 300; line < kHeight; ++line) holes += samples_on(kept, line) != kWidth;
       EXPECT_EQ(holes, 0) << "size " << size << ", rate " << rate;
@@ -202,52 +204,103 @@ TEST_F(SetUpTest, CountsEdgeBoxes) {
     EXPECT_EQ(kept.line_counts[line] > 0, line == 239 || line == 240) << line;
 }
 
-TEST_F(SetUpTest, CountsOnWhenStorageIsFull) {
-  const EyePatch patch = square(1, 4);
-  const Kept all = set_up(patch, 6);
-  for (const std::size_t room : {std::size_t{0}, std::size_t{1}, all.triangles.size() - 1}) {
-    std::vector<Triangle> triangles(room);
-    std::vector<std::uint32_t> counts(kHeight);
-    SetUps out{.triangles = triangles, .line_counts = counts, .wanted_lines = {}};
-    node::SetUp(kernels, kView, kWidth, kHeight).add(dicer, {5, 3, false, false}, out);
-    EXPECT_EQ(out.stored, room);
-    EXPECT_EQ(out.touching, all.touching);
-    EXPECT_EQ(out.edge_boxes, all.edge_boxes);
-    EXPECT_EQ(counts, all.line_counts);
-    for (std::size_t k = 0; k < room; ++k)
-      EXPECT_EQ(std::memcmp(&triangles[k], &all.triangles[k], sizeof(Triangle)), 0);
-  }
+// Patches and looks aside, all that is said of a triangle, one by one.
+struct Whole {
+  Triangle triangle;
+  std::vector<node::Crossing> crossings;
+};
+std::vector<Whole> by_triangle(const Made& made) {
+  std::vector<Whole> out;
+  for (const Triangle& t : made.triangles) out.push_back({t, {}});
+  for (const node::Crossing& crossing : made.crossings) out.at(crossing.box.triangle).crossings.push_back(crossing);
+  return out;
 }
 
-TEST_F(SetUpTest, KeepsWhatTouchesWantedLines) {
+bool same_but_for_number(const node::Crossing& a, const node::Crossing& b) {
+  return a.box.first == b.box.first && a.box.last == b.box.last && a.line == b.line && a.moving == b.moving;
+}
+
+// Of memory that is short, both what is stored and what is only counted.
+TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
+  const Kept all = set_up(sphere_octant({0, 0, -4}, 1), 9);
+  const std::size_t needed = all.triangles.size() * sizeof(Triangle) + all.crossings.size() * sizeof(node::Crossing);
+  const auto whole = by_triangle(all);
+  int short_of_memory = 0;
+  for (std::size_t bytes = 0; bytes < needed + 1000; bytes += bytes < 1000 ? 4 : 236)
+    for (const Way way : {Way::at_a_time, Way::plainly}) {
+      const Made some = test::set_up(kernels, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
+      ASSERT_EQ(some.touching, all.touching);
+      ASSERT_EQ(some.edge_boxes, all.edge_boxes);
+      ASSERT_EQ(some.line_counts, all.line_counts);
+      ASSERT_EQ(some.all_stored, some.crossings.size() == all.crossings.size());
+      ASSERT_LE(some.triangles.size() * sizeof(Triangle) + some.crossings.size() * sizeof(node::Crossing), bytes);
+      ASSERT_TRUE(bytes >= needed || !some.all_stored);
+      short_of_memory += !some.all_stored;
+      // What is stored is stored whole: some of all triangles, in order.
+      auto next = whole.begin();
+      for (const Whole& one : by_triangle(some)) {
+        while (next != whole.end() && std::memcmp(&next->triangle, &one.triangle, sizeof(Triangle)) != 0) ++next;
+        ASSERT_NE(next, whole.end()) << bytes;
+        ASSERT_TRUE(std::equal(one.crossings.begin(), one.crossings.end(), next->crossings.begin(),
+                               next->crossings.end(), same_but_for_number))
+            << bytes;
+        ++next;
+      }
+    }
+  EXPECT_GT(short_of_memory, 100);
+  EXPECT_TRUE(test::set_up(kernels, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, Way::at_a_time, {}, needed + 1000)
+                  .all_stored);
+}
+
+TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
   const Kept all = set_up(square(1, 4), 9);
   std::vector<std::uint8_t> wanted(kHeight);
   std::fill(wanted.begin() + 200, wanted.begin() + 230, std::uint8_t{1});
   wanted[300] = 1;
-  std::vector<Triangle> triangles(all.triangles.size());
-  SetUps out{.triangles = triangles, .line_counts = {}, .wanted_lines = wanted};
-  node::SetUp(kernels, kView, kWidth, kHeight).add(dicer, {5, 3, false, false}, out);
-  std::vector<std::uint32_t> expected;
-  for (const Triangle& t : all.triangles) {
-    std::vector<std::uint32_t> counts(kHeight);
-    node::count_edge_boxes(node::Crossings(t, kWidth, kHeight), counts);
-    bool touches = false;
-    for (std::size_t line = 0; line < kHeight; ++line) touches |= counts[line] > 0 && wanted[line] != 0;
-    if (touches) expected.push_back(t.index);
+  std::vector<Whole> expected;
+  std::vector<std::uint32_t> counts(kHeight);
+  for (const Whole& one : by_triangle(all)) {
+    Whole kept{one.triangle, {}};
+    for (const node::Crossing& crossing : one.crossings)
+      if (wanted[crossing.line]) kept.crossings.push_back(crossing);
+    for (const node::Crossing& crossing : kept.crossings) ++counts[crossing.line];
+    if (!kept.crossings.empty()) expected.push_back(kept);
   }
-  ASSERT_EQ(out.stored, expected.size());
-  EXPECT_EQ(out.touching, expected.size());
   EXPECT_LT(expected.size(), all.triangles.size());
   EXPECT_GT(expected.size(), 0u);
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(triangles[k].index, expected[k]);
+  for (const Way way : {Way::at_a_time, Way::plainly}) {
+    const Made some = test::set_up(kernels, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, wanted);
+    EXPECT_TRUE(some.all_stored);
+    EXPECT_EQ(some.touching, expected.size());
+    EXPECT_EQ(some.edge_boxes, some.crossings.size());
+    EXPECT_EQ(some.line_counts, counts);
+    const auto found = by_triangle(some);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_EQ(std::memcmp(&found[k].triangle, &expected[k].triangle, sizeof(Triangle)), 0);
+      EXPECT_TRUE(std::equal(found[k].crossings.begin(), found[k].crossings.end(), expected[k].crossings.begin(),
+                             expected[k].crossings.end(), same_but_for_number));
+    }
+  }
 }
 
-TEST_F(SetUpTest, WithoutCountsAndWishesKeepsAll) {
-  const Kept all = set_up(square(1, 4), 4);
-  std::vector<Triangle> triangles(all.triangles.size());
-  SetUps out{.triangles = triangles, .line_counts = {}, .wanted_lines = {}};
-  node::SetUp(kernels, kView, kWidth, kHeight).add(dicer, {5, 3, false, false}, out);
-  EXPECT_EQ(out.stored, all.triangles.size());
+// Crossings say whose they are, line after line, and whether it moves.
+TEST_F(SetUpTest, CrossingsFollowTheirTriangles) {
+  for (const bool moving : {false, true}) {
+    const Kept kept = set_up(square(1, 4), 5, {5, 3, false, false, moving});
+    ASSERT_EQ(kept.crossings.size(), kept.edge_boxes);
+    for (std::size_t k = 0; k < kept.crossings.size(); ++k) {
+      const node::Crossing& here = kept.crossings[k];
+      EXPECT_EQ(here.moving, moving);
+      ASSERT_LT(here.box.triangle, kept.triangles.size());
+      if (k == 0) continue;
+      const node::Crossing& before = kept.crossings[k - 1];
+      if (here.box.triangle == before.box.triangle)
+        EXPECT_GT(here.line, before.line);
+      else
+        EXPECT_EQ(here.box.triangle, before.box.triangle + 1);
+    }
+  }
 }
 
 }  // namespace

@@ -53,17 +53,23 @@ Result shade_all(const Scenery& scenery, const char* limit = "") {
   return shade(scenery, node::best_kernels(limit), {0, static_cast<std::uint32_t>(scenery.ids.size())});
 }
 
+void set_plane(Triangle& t, node::Value value, float at_first, float per_x, float per_y) {
+  t.at_first[value] = at_first;
+  t.per_x[value] = per_x;
+  t.per_y[value] = per_y;
+}
+
 // A triangle's planes about depth 1 / w, normals that vary along the line.
 Triangle random_triangle(Random& random, std::size_t looks) {
   Triangle t{};
-  t.x[0] = random.whole(0, 640 * 256);
-  t.y[0] = random.whole(80 * 256, 120 * 256);
-  t.depth = {static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)), 1e-7f};
-  for (node::Plane& normal : t.normal)
-    normal = {static_cast<float>(random.real(-1, 1)), static_cast<float>(random.real(-4e-6, 4e-6)),
-              static_cast<float>(random.real(-4e-6, 4e-6))};
+  t.first_x = random.whole(0, 640 * 256);
+  t.first_y = random.whole(80 * 256, 120 * 256);
+  set_plane(t, node::kDepth, static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)), 1e-7f);
+  for (const node::Value value : {node::kNormalX, node::kNormalY, node::kNormalZ})
+    set_plane(t, value, static_cast<float>(random.real(-1, 1)), static_cast<float>(random.real(-4e-6, 4e-6)),
+              static_cast<float>(random.real(-4e-6, 4e-6)));
   if (random.whole(0, 9) == 0)
-    for (node::Plane& normal : t.normal) normal = {0, 0, 0};
+    for (const node::Value value : {node::kNormalX, node::kNormalY, node::kNormalZ}) set_plane(t, value, 0, 0, 0);
   t.look = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(looks) - 1));
   return t;
 }
@@ -97,8 +103,8 @@ Scenery random_scenery(Random& random, int width) {
   return scenery;
 }
 
-double at(const node::Plane& plane, double dx, double dy) {
-  return plane.at_first + dy * plane.per_y + dx * plane.per_x;
+double at(const Triangle& t, node::Value value, double dx, double dy) {
+  return t.at_first[value] + dy * t.per_y[value] + dx * t.per_x[value];
 }
 
 Vec3 unit(const Vec3& a) {
@@ -110,9 +116,9 @@ Vec3 unit(const Vec3& a) {
 Vec3 phong(const Scenery& scenery, std::uint32_t column) {
   const Triangle& t = scenery.triangles[scenery.ids[column]];
   const node::Material& m = scenery.materials[t.look];
-  const double dx = 256.0 * column + 128 - t.x[0], dy = 256.0 * scenery.line + 128 - t.y[0];
-  const Vec3 normal = unit({at(t.normal[0], dx, dy), at(t.normal[1], dx, dy), at(t.normal[2], dx, dy)});
-  const double w = 1 / at(t.depth, dx, dy);
+  const double dx = 256.0 * column + 128 - t.first_x, dy = 256.0 * scenery.line + 128 - t.first_y;
+  const Vec3 normal = unit({at(t, node::kNormalX, dx, dy), at(t, node::kNormalY, dx, dy), at(t, node::kNormalZ, dx, dy)});
+  const double w = 1 / at(t, node::kDepth, dx, dy);
   const Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
                    -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
   const Vec3 eye = unit(Vec3{} - place);
@@ -225,7 +231,7 @@ TEST(Shade, AmbientAndWhite) {
   Scenery scenery;
   scenery.materials = {{{1, 0.5f, 0}, 0.2f, 1, 1, 10, 2}, {{1, 1, 1}, 3, 1, 1, 10, 2}};
   scenery.triangles.resize(2);
-  for (Triangle& t : scenery.triangles) t.depth = {1, 0, 0};
+  for (Triangle& t : scenery.triangles) set_plane(t, node::kDepth, 1, 0, 0);
   scenery.triangles[1].look = 1;
   scenery.lights = {{false, {0, 0, 1}, {1, 1, 1}}};
   scenery.ids = {0, 1};

@@ -1,6 +1,6 @@
 // The plain twin of the renderer: every triangle against every sample of its box, exact integers for coverage,
 // the rule of ties written out, Phong's formula in double precision. It shares with the nodes what defines the
-// polygons (dicing, clipping, set-up) and nothing of how they are drawn, divided or sent.
+// polygons (dicing, clipping) and nothing of how they are set up, drawn, divided or sent.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "node/film.h"
-#include "node/triangle.h"
+#include "tests/node/plain_set_up.h"
 
 namespace mars::test {
 
@@ -18,7 +18,7 @@ struct ReferenceSample {
 };
 
 struct Reference {
-  std::vector<node::Triangle> triangles;
+  std::vector<PlainTriangle> triangles;
   std::vector<bool> moving;              // of each triangle
   std::vector<ReferenceSample> samples;  // rows from the top
   std::uint32_t width = 0;

@@ -1,0 +1,106 @@
+// The drawing kernel: a plain z-buffer's bits from every instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "node/kernels.h"
+#include "tests/node/kernel_sets.h"
+#include "tests/node/patches.h"
+
+namespace mars::test {
+namespace {
+
+using node::EdgeBox;
+using node::Extent;
+using node::Kernels;
+using node::Triangle;
+
+constexpr std::uint32_t kLine = 7;
+
+// Boxes of one line, some of them with the same plane, so that depths tie.
+struct Boxes {
+  std::vector<Triangle> triangles;
+  std::vector<EdgeBox> boxes;
+};
+
+Boxes random_boxes(Random& random, std::int32_t width, int count) {
+  Boxes out;
+  for (int b = 0; b < count; ++b) {
+    const std::int32_t first = random.whole(0, width - 1);
+    out.boxes.push_back({static_cast<std::uint32_t>(b), static_cast<std::uint16_t>(first),
+                         static_cast<std::uint16_t>(random.whole(first + 1, width))});
+    Triangle t{};
+    t.first_x = 128;
+    if (random.whole(0, 2)) {
+      t.at_first[node::kDepth] = static_cast<float>(random.whole(1, 3));
+    } else {
+      t.first_x = random.whole(-5000, 256 * width);
+      t.first_y = random.whole(-5000, 5000);
+      t.at_first[node::kDepth] = static_cast<float>(random.real(0, 4));
+      t.per_x[node::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
+      t.per_y[node::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
+    }
+    out.triangles.push_back(t);
+  }
+  return out;
+}
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+struct Line {
+  explicit Line(std::int32_t width)
+      : depth(static_cast<std::size_t>(width)), ids(depth.size(), node::kNoTriangle) {}
+  std::vector<float> depth;
+  std::vector<std::uint32_t> ids;
+};
+
+// Sample by sample, box by box; of equals the first stays.
+void draw_plainly(const Boxes& boxes, Line& line) {
+  for (const EdgeBox& box : boxes.boxes)
+    for (std::int32_t column = box.first; column < box.last; ++column) {
+      const auto at = static_cast<std::size_t>(column);
+      const Triangle& t = boxes.triangles[box.triangle];
+      const float row = t.at_first[node::kDepth] +
+                        static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[node::kDepth];
+      const float depth = row + static_cast<float>(256 * column + 128 - t.first_x) * t.per_x[node::kDepth];
+      if (!(depth > line.depth[at])) continue;
+      line.depth[at] = depth;
+      line.ids[at] = box.triangle;
+    }
+}
+
+TEST(Draw, IsAPlainZBuffer) {
+  Random random(54);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::int32_t width = random.whole(1, 150);
+    const auto boxes = random_boxes(random, width, random.whole(0, 12));
+    Line plain(width);
+    if (trial % 2)
+      for (float& depth : plain.depth) depth = static_cast<float>(random.whole(0, 2));  // drawn before
+    const Line before = plain;
+    draw_plainly(boxes, plain);
+    std::uint32_t first = 0xffffffff, last = 0;
+    for (const EdgeBox& box : boxes.boxes) {
+      first = std::min<std::uint32_t>(first, box.first);
+      last = std::max<std::uint32_t>(last, box.last);
+    }
+    for (const Kernels* kernels : all_kernels()) {
+      Line line = before;
+      const auto count = static_cast<std::uint32_t>(boxes.boxes.size());
+      const Extent extent = kernels->draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, line.depth.data(),
+                                          line.ids.data());
+      EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids)
+          << kernels->name << ' ' << trial;
+      EXPECT_EQ(extent.last, last);
+      EXPECT_EQ(extent.first, first);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mars::test

@@ -1,0 +1,175 @@
+#include "tests/node/plain_set_up.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "node/clip.h"
+
+namespace mars::test {
+namespace {
+
+using node::kValues;
+using node::Projection;
+
+struct PlainVertex {
+  node::ClipVertex eye;
+  bool outside = true;
+  std::int32_t x = 0, y = 0;
+  float values[kValues] = {};
+};
+
+PlainVertex project(const Projection& p, const node::ClipVertex& eye) {
+  PlainVertex out{eye};
+  const float w = -eye.place[2], inverse = 1.0f / w;
+  const float dx = p.scale * (eye.place[0] * inverse), dy = -p.scale * (eye.place[1] * inverse);
+  out.outside = !(w >= p.near && w <= p.far && std::abs(dx) <= p.guard && std::abs(dy) <= p.guard);
+  if (out.outside) return out;
+  out.x = static_cast<std::int32_t>(std::floor((p.center[0] + dx) * 256.0f + 0.5f));
+  out.y = static_cast<std::int32_t>(std::floor((p.center[1] + dy) * 256.0f + 0.5f));
+  out.values[node::kDepth] = inverse;
+  for (int axis = 0; axis < 3; ++axis) out.values[node::kNormalX + axis] = eye.normal[axis] * inverse;
+  return out;
+}
+
+PlainVertex vertex(const node::Dicer& diced, const Projection& projection, std::uint32_t number) {
+  const node::Vertices& v = diced.vertices();
+  node::ClipVertex eye;
+  for (int axis = 0; axis < 3; ++axis) {
+    eye.place[axis] = v.place[axis][number];
+    eye.normal[axis] = v.normal[axis][number];
+  }
+  return project(projection, eye);
+}
+
+float sum_of_sizes(const float* a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]); }
+
+// Whether the eye is on the outer side of the triangle in space, or by its normals where it is all but a line.
+bool faces_eye(const PlainVertex (&t)[3]) {
+  const float* a = t[0].eye.place;
+  float b[3], c[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    b[axis] = t[1].eye.place[axis] - a[axis];
+    c[axis] = t[2].eye.place[axis] - a[axis];
+  }
+  const float volume =
+      a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  const float away = sum_of_sizes(a);
+  if (std::abs(volume) > 1e-6f * away * away * (sum_of_sizes(b) + sum_of_sizes(c))) return volume < 0;
+  float toward = 0;
+  for (const PlainVertex& corner : t)
+    for (int axis = 0; axis < 3; ++axis) toward -= corner.eye.normal[axis] * corner.eye.place[axis];
+  return toward > 0;
+}
+
+// As large as four 1/256 pixel times the lengths of two sides.
+bool larger_than_snapping(const node::Corners& t) {
+  std::int64_t lengths = 0;
+  for (int k = 1; k < 3; ++k) lengths += std::abs(t.x[k] - t.x[0]) + std::abs(t.y[k] - t.y[0]);
+  return std::abs(area(t)) > 4 * lengths;
+}
+
+void set_planes(const PlainVertex (&t)[3], bool faces, PlainTriangle& out) {
+  const node::Corners& at = out.corners;
+  const auto x1 = static_cast<float>(at.x[1] - at.x[0]), y1 = static_cast<float>(at.y[1] - at.y[0]);
+  const auto x2 = static_cast<float>(at.x[2] - at.x[0]), y2 = static_cast<float>(at.y[2] - at.y[0]);
+  const float inverse = 1.0f / static_cast<float>(area(at));
+  for (int value = 0; value < kValues; ++value) {
+    const float sign = value == node::kDepth || faces ? 1.0f : -1.0f;
+    const float f0 = sign * t[0].values[value];
+    const float d1 = sign * t[1].values[value] - f0, d2 = sign * t[2].values[value] - f0;
+    out.record.at_first[value] = f0;
+    out.record.per_x[value] = (d1 * y2 - d2 * y1) * inverse;
+    out.record.per_y[value] = (d2 * x1 - d1 * x2) * inverse;
+  }
+}
+
+void add(const PlainVertex (&t)[3], std::optional<bool> known, const node::PatchIdentity& identity,
+         std::uint32_t index, std::vector<PlainTriangle>& out) {
+  PlainTriangle made{};
+  made.corners = {{t[0].x, t[1].x, t[2].x}, {t[0].y, t[1].y, t[2].y}};
+  if (area(made.corners) == 0) return;
+  made.sure = larger_than_snapping(made.corners);
+  const bool faces = known ? *known : made.sure ? area(made.corners) < 0 : faces_eye(t);
+  if (identity.one_sided && faces == identity.mirrored) return;
+  set_planes(t, faces, made);
+  made.record.first_x = t[0].x;
+  made.record.first_y = t[0].y;
+  made.record.patch = identity.patch;
+  made.record.look = identity.look;
+  made.index = index;
+  out.push_back(made);
+}
+
+// A fan of what is left; what clipping cut lies on its planes but for rounding.
+void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const node::PatchIdentity& identity,
+                 std::uint32_t index, std::vector<PlainTriangle>& out) {
+  node::ClipPolygon polygon;
+  for (const PlainVertex& corner : t) polygon.vertex[static_cast<std::size_t>(polygon.count++)] = corner.eye;
+  node::clip(projection, polygon);
+  Projection wider = projection;
+  wider.near /= 1.001f;
+  wider.far *= 1.001f;
+  wider.guard *= 1.001f;
+  const auto corner = [&](int k) { return project(wider, polygon.vertex[static_cast<std::size_t>(k)]); };
+  for (int k = 1; k + 1 < polygon.count; ++k) {
+    const PlainVertex piece[3] = {corner(0), corner(k), corner(k + 1)};
+    if (!piece[0].outside && !piece[1].outside && !piece[2].outside) add(piece, faces_eye(t), identity, index, out);
+  }
+}
+
+}  // namespace
+
+std::vector<PlainTriangle> plain_set_up(const node::Dicer& diced, const Projection& projection,
+                                        const node::PatchIdentity& identity) {
+  std::vector<PlainTriangle> out;
+  for (std::uint32_t k = 0; k < diced.triangles().count; ++k) {
+    const node::Corner3 corners = diced.triangles()[k];
+    const PlainVertex t[3] = {vertex(diced, projection, corners.a), vertex(diced, projection, corners.b),
+                              vertex(diced, projection, corners.c)};
+    if (t[0].outside || t[1].outside || t[2].outside)
+      add_clipped(t, projection, identity, k, out);
+    else
+      add(t, std::nullopt, identity, k, out);
+  }
+  return out;
+}
+
+std::int64_t area(const node::Corners& t) {
+  return std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - std::int64_t{t.x[2] - t.x[0]} * (t.y[1] - t.y[0]);
+}
+
+// With positive area and y downwards left sides go up, top ones to the right.
+bool covers(const node::Corners& t, std::int32_t column, std::int32_t row) {
+  const std::int64_t twice = area(t);
+  if (twice == 0) return false;
+  const std::int64_t x = 256 * std::int64_t{column} + 128, y = 256 * std::int64_t{row} + 128;
+  const int order[] = {0, twice > 0 ? 1 : 2, twice > 0 ? 2 : 1, 0};
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t ax = t.x[order[k]], ay = t.y[order[k]], bx = t.x[order[k + 1]], by = t.y[order[k + 1]];
+    const std::int64_t side = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+    const bool owned = by < ay || (by == ay && bx > ax);
+    if (side < 0 || (side == 0 && !owned)) return false;
+  }
+  return true;
+}
+
+std::vector<node::Crossing> plain_crossings(const node::Corners& t, std::int32_t width, std::int32_t height) {
+  const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  const std::int32_t first = std::max(left / 256 - 1, 0), last = std::min(right / 256 + 1, width);
+  std::vector<node::Crossing> out;
+  for (std::int32_t row = std::max(top / 256 - 1, 0); row < std::min(bottom / 256 + 1, height); ++row) {
+    std::int32_t begin = first;
+    while (begin < last && !covers(t, begin, row)) ++begin;
+    if (begin >= last) continue;
+    std::int32_t end = begin;
+    while (end < last && covers(t, end, row)) ++end;
+    out.push_back({{0, static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end)},
+                   static_cast<std::uint16_t>(row),
+                   0});
+  }
+  return out;
+}
+
+}  // namespace mars::test

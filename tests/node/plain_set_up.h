@@ -1,0 +1,34 @@
+// The plain twin of set-up: a diced patch's triangles one by one, from nothing but the places and normals of its
+// vertices, with planes by the formulas and coverage sample by sample. It shares clipping with the nodes (which
+// clip_test checks) and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/dice.h"
+#include "node/setup.h"
+
+namespace mars::test {
+
+struct PlainTriangle {
+  node::Corners corners;
+  node::Triangle record;  // what a node makes of it
+  std::uint32_t index;    // in the patch's dicing; pieces of a clipped triangle share it
+  bool sure;              // too large to be turned over by snapping
+};
+
+// All that are not turned away or flat, in order, whether they cover a sample or not.
+std::vector<PlainTriangle> plain_set_up(const node::Dicer& diced, const node::Projection& projection,
+                                        const node::PatchIdentity& identity);
+
+// Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
+std::int64_t area(const node::Corners& corners);
+
+// Whether the sample is inside, or on a left or top side: by the three sides' functions in 64-bit integers.
+bool covers(const node::Corners& corners, std::int32_t column, std::int32_t row);
+
+// The boxes of the samples of a picture that the triangle covers, from the top.
+std::vector<node::Crossing> plain_crossings(const node::Corners& corners, std::int32_t width, std::int32_t height);
+
+}  // namespace mars::test

@@ -1,0 +1,62 @@
+#include "tests/node/set_ups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace mars::test {
+namespace {
+
+// Memory that begins and ends between bytes of a known value.
+class GuardedMemory {
+ public:
+  explicit GuardedMemory(std::size_t bytes) : bytes_(bytes), cells_(new Cell[(bytes + 2 * kGuard) / sizeof(Cell) + 1]) {
+    std::fill_n(data(), kGuard, kUntouched);
+    std::fill_n(data() + kGuard + bytes, kGuard, kUntouched);
+  }
+
+  std::span<std::byte> inside() { return {data() + kGuard, bytes_}; }
+  bool intact() {
+    const auto untouched = [](std::byte b) { return b == kUntouched; };
+    return std::all_of(data(), data() + kGuard, untouched) &&
+           std::all_of(data() + kGuard + bytes_, data() + kGuard + bytes_ + kGuard, untouched);
+  }
+
+ private:
+  static constexpr std::size_t kGuard = 4096;
+  static constexpr std::byte kUntouched{0x5a};
+  struct alignas(64) Cell {
+    std::byte bytes[64];
+  };
+  std::byte* data() { return cells_[0].bytes; }
+
+  std::size_t bytes_;
+  std::unique_ptr<Cell[]> cells_;
+};
+
+}  // namespace
+
+Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Dicer& diced,
+            const node::PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines,
+            std::size_t bytes) {
+  GuardedMemory memory(bytes);
+  Made made;
+  made.line_counts.resize(static_cast<std::size_t>(picture.height));
+  const std::vector<std::uint8_t> all(made.line_counts.size(), 1);
+  node::SetUps out(memory.inside(), made.line_counts, wanted_lines.empty() ? all : wanted_lines);
+  node::SetUp set_up(kernels, picture.projection, picture.width, picture.height);
+  if (way == Way::at_a_time)
+    set_up.add(diced, identity, out);
+  else
+    set_up.add_plainly(diced, identity, out);
+  EXPECT_TRUE(memory.intact()) << kernels.name;
+  made.triangles.assign(out.triangles().begin(), out.triangles().end());
+  made.crossings.assign(out.crossings().rbegin(), out.crossings().rend());
+  made.touching = out.touching;
+  made.edge_boxes = out.edge_boxes;
+  made.all_stored = out.all_stored();
+  return made;
+}
+
+}  // namespace mars::test

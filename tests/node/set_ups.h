@@ -1,0 +1,33 @@
+// A patch set up by a node's own code, in memory of the test's.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/setup.h"
+
+namespace mars::test {
+
+struct Made {
+  std::vector<node::Triangle> triangles;
+  std::vector<node::Crossing> crossings;  // the first first
+  std::vector<std::uint32_t> line_counts;
+  std::uint64_t touching = 0;
+  std::uint64_t edge_boxes = 0;
+  bool all_stored = false;
+};
+
+enum class Way { at_a_time, plainly };  // SetUp::add, SetUp::add_plainly
+
+struct Picture {
+  node::Projection projection;
+  std::int32_t width;
+  std::int32_t height;
+};
+
+// `bytes` of memory. Fails the test where anything outside it is written.
+Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Dicer& diced,
+            const node::PatchIdentity& identity, Way way = Way::at_a_time,
+            const std::vector<std::uint8_t>& wanted_lines = {}, std::size_t bytes = 1 << 24);
+
+}  // namespace mars::test
