@@ -144,6 +144,32 @@ struct Shading {
   Projection projection;
 };
 
+// What a patch's triangles have in common.
+struct PatchIdentity {
+  std::uint32_t patch;
+  std::uint32_t look;
+  bool mirrored;   // its matrix turns shapes inside out
+  bool one_sided;  // triangles seen from inside are dropped
+  bool moving;
+};
+
+// b - a and c - a of a triangle, 1/256 pixel, 1 / twice its area, and whether the side from which a, b, c run
+// counter-clockwise is turned to the eye.
+struct ScreenShape {
+  float x1, y1, x2, y2;
+  float inverse;
+  bool faces;
+};
+
+// Where set-ups go: triangles forward from `next`, their crossings backward from `crossing`.
+struct SetUpSpace {
+  Triangle* first;     // the frame's triangles count from here
+  Triangle* next;
+  Crossing* crossing;  // the one stored last
+  std::uint32_t* line_counts;        // edge boxes a line, of all that is added
+  const std::uint8_t* wanted_lines;  // 1: edge boxes there are kept and counted
+};
+
 // Columns [first, last); none where last <= first.
 struct Extent {
   std::uint32_t first;
@@ -171,6 +197,15 @@ struct Kernels {
 
   void (*examine)(const Examination& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,
                   Examined& out);
+
+  // The triangle's identity and planes.
+  void (*set)(const Vertices& vertices, const Corner3& corners, const ScreenShape& shape, const PatchIdentity& identity,
+              Triangle& out);
+
+  // Stores set-ups of those of the batch's decided triangles that `lanes` has bits for, and that have a box on a
+  // wanted line. There must be room for all.
+  void (*keep)(const Vertices& vertices, const Triangles& triangles, const Batch& batch, const Examined& examined,
+               std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 
   // Draws `count` edge boxes of line `line`, in order: a sample nearer than depth[x] takes over depth and id.
   // Says which columns the boxes span.

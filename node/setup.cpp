@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstring>
 
 #include "node/clip.h"
 
@@ -14,62 +12,21 @@ namespace {
 // Cut vertices lie on the planes but for rounding: they pass a projection this much wider.
 constexpr float kSlack = 1.001f;
 
-// Four floats that the compiler keeps in one register; arithmetic is lane by lane.
-typedef float Float4 __attribute__((vector_size(16)));
-
-Float4 load(const float* four) {
-  Float4 out;
-  std::memcpy(&out, four, sizeof out);
-  return out;
-}
-
-// Edges from a triangle's first vertex, 1/256 pixel.
-struct Edges {
-  float x1, y1, x2, y2;
-};
-
-// The planes through the values of three vertices.
-void set_planes(const Vertices& v, const Corner3& corners, const Edges& edges, float inverse, bool faces,
-                Triangle& out) {
-  const float sign = faces ? 1.0f : -1.0f;
-  const Float4 turned = {1, sign, sign, sign};
-  const Float4 first = turned * load(v.values[corners.a]);
-  const Float4 d1 = turned * load(v.values[corners.b]) - first, d2 = turned * load(v.values[corners.c]) - first;
-  const Float4 per_x = (d1 * edges.y2 - d2 * edges.y1) * inverse;
-  const Float4 per_y = (d2 * edges.x1 - d1 * edges.x2) * inverse;
-  std::memcpy(out.at_first, &first, sizeof first);
-  std::memcpy(out.per_x, &per_x, sizeof per_x);
-  std::memcpy(out.per_y, &per_y, sizeof per_y);
-}
-
-void set_identity(const Vertices& v, const Corner3& corners, const PatchIdentity& identity, Triangle& out) {
-  out.first_x = v.x[corners.a];
-  out.first_y = v.y[corners.a];
-  out.patch = identity.patch;
-  out.look = identity.look;
-}
-
-// An edge box in two moves: columns are first | last << 16.
-void put(std::uint32_t number, std::uint32_t columns, std::int32_t row, bool moving, Crossing* out) {
-  const std::uint32_t line = static_cast<std::uint32_t>(row) | std::uint32_t{moving} << 16;
-  const std::uint32_t words[] = {number, columns, line};
-  static_assert(offsetof(Crossing, line) == 8 && sizeof words == sizeof *out);
-  std::memcpy(out, words, sizeof words);
-}
-
-// Counts the edge boxes of rows [first, last) and stores them if there is room for the triangle too; whether there
-// were any and they were stored.
+// Counts the edge boxes and stores them if there is room for the triangle too; whether there were any and they were
+// stored.
 bool cross(const Outline& outline, bool moving, SetUps& out) {
   const std::int32_t first = outline.first_row, last = std::max(first, outline.last_row);
-  const bool room =
-      reinterpret_cast<std::byte*>(out.next + 1) <= reinterpret_cast<std::byte*>(out.crossing - (last - first));
+  const bool room = out.room() >= sizeof(Triangle) + static_cast<std::size_t>(last - first) * sizeof(Crossing);
   const auto number = static_cast<std::uint32_t>(out.next - out.first);
   std::uint32_t boxes = 0;
   for (std::int32_t row = first; row < last; ++row) {
     const Outline::Columns columns = outline.columns(row);
-    if (columns.first >= columns.last || out.wanted_lines[static_cast<std::size_t>(row)] == 0) continue;
-    if (room) put(number, static_cast<std::uint32_t>(columns.first | columns.last << 16), row, moving, --out.crossing);
-    ++out.line_counts[static_cast<std::size_t>(row)];
+    if (columns.first >= columns.last || out.wanted_lines[row] == 0) continue;
+    if (room)
+      *--out.crossing = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
+                         static_cast<std::uint16_t>(row),
+                         moving};
+    ++out.line_counts[row];
     ++boxes;
   }
   out.edge_boxes += boxes;
@@ -78,7 +35,7 @@ bool cross(const Outline& outline, bool moving, SetUps& out) {
 }
 
 // Memory that no batch exceeds.
-constexpr std::ptrdiff_t kBatchBytes = kExamined * (sizeof(Triangle) + kMostExtent * sizeof(Crossing));
+constexpr std::size_t kBatchBytes = kExamined * (sizeof(Triangle) + kMostExtent * sizeof(Crossing));
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
 std::int64_t determinant(const Corners& t) {
@@ -133,13 +90,16 @@ struct FewVertices {
 }  // namespace
 
 SetUps::SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts,
-               std::span<const std::uint8_t> wanted_lines)
-    : first(reinterpret_cast<Triangle*>(memory.data())),
-      next(first),
-      crossing(reinterpret_cast<Crossing*>(memory.data() + memory.size())),
-      end(crossing),
-      line_counts(line_counts),
-      wanted_lines(wanted_lines) {}
+               std::span<const std::uint8_t> wanted_lines) {
+  first = next = reinterpret_cast<Triangle*>(memory.data());
+  crossing = end = reinterpret_cast<Crossing*>(memory.data() + memory.size());
+  this->line_counts = line_counts.data();
+  this->wanted_lines = wanted_lines.data();
+}
+
+std::size_t SetUps::room() const {
+  return static_cast<std::size_t>(reinterpret_cast<std::byte*>(crossing) - reinterpret_cast<std::byte*>(next));
+}
 
 SetUp::SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height)
     : kernels_(kernels), projection_(projection), width_(width), height_(height) {}
@@ -150,50 +110,33 @@ void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) 
   const Triangles& triangles = diced.triangles();
   const Examination task{width_, height_, identity.one_sided, identity.mirrored};
   for (const Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
-    const bool room = reinterpret_cast<std::byte*>(out.crossing) - reinterpret_cast<std::byte*>(out.next) >= kBatchBytes;
-    if (room)
-      kernels_.examine(task, v, triangles, batch, examined_);
-    else
-      examined_.decided = 0, examined_.undecided = (1u << (batch.last - batch.first)) - 1;
+    if (out.room() < kBatchBytes) {
+      for (std::uint32_t k = batch.first; k < batch.last; ++k) add_whole(v, triangles[k], std::nullopt, identity, out);
+      continue;
+    }
+    kernels_.examine(task, v, triangles, batch, examined_);
     if ((examined_.decided | examined_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
   }
 }
 
+// In the order of the batch: decided ones up to the next undecided one, and so on.
 void SetUp::add_batch(const Vertices& v, const Triangles& triangles, const Batch& batch,
-                      const PatchIdentity& identity, SetUps& out) {
-  const Examined& e = examined_;
-  Triangle* next = out.next;
-  Crossing* crossing = out.crossing;
-  const auto store = [&] {
-    out.touching += static_cast<std::uint64_t>(next - out.next);
-    out.edge_boxes += static_cast<std::uint64_t>(out.crossing - crossing);
-    out.next = next;
-    out.crossing = crossing;
+                      const PatchIdentity& identity, SetUps& out) const {
+  constexpr std::uint32_t kAll = 0xffffffffu;
+  const auto keep = [&](std::uint32_t lanes) {
+    const SetUpSpace before = out;
+    kernels_.keep(v, triangles, batch, examined_, lanes, identity, out);
+    out.touching += static_cast<std::uint64_t>(out.next - before.next);
+    out.edge_boxes += static_cast<std::uint64_t>(before.crossing - out.crossing);
   };
-  for (std::uint32_t left = e.decided | e.undecided; left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-    const Corner3 corners = triangles[batch.first + lane];
-    if (e.undecided >> lane & 1) {
-      store();
-      add_whole(v, corners, std::nullopt, identity, out);
-      next = out.next;
-      crossing = out.crossing;
-      continue;
-    }
-    const Crossing* const before = crossing;
-    const std::uint32_t* columns = &e.columns[0][lane];
-    for (std::int32_t row = e.first_row[lane]; row < e.last_row[lane]; ++row, columns += kExamined) {
-      const bool kept = (*columns != 0) & (out.wanted_lines[static_cast<std::size_t>(row)] != 0);
-      put(static_cast<std::uint32_t>(next - out.first), *columns, row, identity.moving, crossing - 1);
-      crossing -= kept;
-      out.line_counts[static_cast<std::size_t>(row)] += kept;
-    }
-    if (crossing == before) continue;
-    set_identity(v, corners, identity, *next);
-    set_planes(v, corners, {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane]}, e.inverse[lane], (e.faces >> lane & 1) != 0, *next);
-    ++next;
+  std::uint32_t rest = kAll;
+  for (std::uint32_t left = examined_.undecided; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    keep(rest & ~(kAll << lane));
+    add_whole(v, triangles[batch.first + static_cast<std::uint32_t>(lane)], std::nullopt, identity, out);
+    rest = kAll << lane;
   }
-  store();
+  keep(rest);
 }
 
 void SetUp::add_plainly(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const {
@@ -254,10 +197,10 @@ void SetUp::add_whole(const Vertices& v, const Corner3& corners, std::optional<b
   if (identity.one_sided && faces == identity.mirrored) return;
   const Outline outline(t, width_, height_);
   if (!cross(outline, identity.moving, out)) return;
-  const Edges edges{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
-                    static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0])};
-  set_identity(v, corners, identity, *out.next);
-  set_planes(v, corners, edges, 1.0f / static_cast<float>(area), faces, *out.next++);
+  const ScreenShape shape{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
+                          static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0]),
+                          1.0f / static_cast<float>(area),     faces};
+  kernels_.set(v, corners, shape, identity, *out.next++);
 }
 
 }  // namespace mars::node

@@ -15,36 +15,20 @@
 
 namespace mars::node {
 
-// What a patch's triangles have in common.
-struct PatchIdentity {
-  std::uint32_t patch;
-  std::uint32_t look;
-  bool mirrored;   // its matrix turns shapes inside out
-  bool one_sided;  // triangles seen from inside are dropped
-  bool moving;
-};
-
 // Set-ups and their edge boxes in one piece of memory: triangles from its front (aligned to a cache line), their
 // crossings from its end towards the front. What no longer fits is still counted.
-struct SetUps {
+struct SetUps : SetUpSpace {
   SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts, std::span<const std::uint8_t> wanted_lines);
 
   std::span<const Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
   // The latest first.
   std::span<const Crossing> crossings() const { return {crossing, static_cast<std::size_t>(end - crossing)}; }
-  bool all_stored() const { return stored_boxes() == edge_boxes; }
+  bool all_stored() const { return crossings().size() == edge_boxes; }
+  std::size_t room() const;  // bytes left
 
-  Triangle* first;
-  Triangle* next;      // where the next triangle goes
-  Crossing* crossing;  // the crossing stored last
   Crossing* end;
-  std::span<std::uint32_t> line_counts;        // edge boxes a line, of all that is added
-  std::span<const std::uint8_t> wanted_lines;  // 1: edge boxes there are kept and counted
-  std::uint64_t touching = 0;                  // triangles with an edge box, stored or not
+  std::uint64_t touching = 0;  // triangles with an edge box, stored or not
   std::uint64_t edge_boxes = 0;
-
- private:
-  std::uint64_t stored_boxes() const { return static_cast<std::uint64_t>(end - crossing); }
 };
 
 class SetUp {
@@ -63,7 +47,7 @@ class SetUp {
   void add_whole(const Vertices& vertices, const Corner3& corners, std::optional<bool> faces,
                  const PatchIdentity& identity, SetUps& out) const;
   void add_batch(const Vertices& vertices, const Triangles& triangles, const Batch& batch,
-                 const PatchIdentity& identity, SetUps& out);
+                 const PatchIdentity& identity, SetUps& out) const;
 
   const Kernels& kernels_;
   Projection projection_;

@@ -108,30 +108,29 @@ void examine(const Examination& task, const Vertices& v, const Triangles& triang
   const std::uint32_t count = batch.last - batch.first;
   for (std::uint32_t lane = 0; lane < count; lane += kLanes) {
     const Triangle3 t = load(v, triangles, batch.first + lane, batch.consecutive);
+    const Ints x1 = hn::Sub(t.b.x, t.a.x), y1 = hn::Sub(t.b.y, t.a.y), x2 = hn::Sub(t.c.x, t.a.x),
+               y2 = hn::Sub(t.c.y, t.a.y);
+    const Ints longest = hn::Max(hn::Max(hn::Abs(x1), hn::Abs(x2)), hn::Max(hn::Abs(y1), hn::Abs(y2)));
+    const Mask small = hn::Lt(longest, constant(kMostExtent * kSubpixels / 2));
+    const Ints area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
+    const Ints lengths = hn::Add(hn::Add(hn::Abs(x1), hn::Abs(y1)), hn::Add(hn::Abs(x2), hn::Abs(y2)));
+    const Mask sure = hn::And(small, hn::Gt(hn::Abs(area), hn::Mul(constant(kThin), lengths)));
+    const Mask faces = hn::Lt(area, hn::Zero(kInts));
+    const Mask away = !task.one_sided ? hn::Lt(area, area) : task.mirrored ? faces : hn::Not(faces);
+    const Mask flat = hn::And(small, hn::Eq(area, hn::Zero(kInts)));
+    const Mask left_over = hn::AndNot(hn::Or(flat, hn::And(sure, away)), hn::FirstN(kInts, count - lane));
+    if (hn::AllFalse(kInts, left_over)) continue;
+
     const Ints left = hn::Min(hn::Min(t.a.x, t.b.x), t.c.x), right = hn::Max(hn::Max(t.a.x, t.b.x), t.c.x);
     const Ints top = hn::Min(hn::Min(t.a.y, t.b.y), t.c.y), bottom = hn::Max(hn::Max(t.a.y, t.b.y), t.c.y);
     const Ints first_row = hn::Max(sample_after(top), hn::Zero(kInts));
     const Ints last_row = hn::Min(sample_after(bottom), constant(task.height));
-    const Ints first_column = sample_after(left), last_column = sample_after(right);
+    const Ints first_column = hn::Max(sample_after(left), hn::Zero(kInts));
+    const Ints last_column = hn::Min(sample_after(right), constant(task.width));
     const Mask touches =
-        hn::And(hn::And(hn::Lt(first_row, last_row), hn::FirstN(kInts, count - lane)),
-                hn::And(hn::Lt(first_column, hn::Min(last_column, constant(task.width))),
-                        hn::Gt(last_column, hn::Zero(kInts))));
-    if (hn::AllFalse(kInts, touches)) continue;
-
-    const Ints most = constant(kMostExtent * kSubpixels);
-    const Mask small = hn::And(hn::Lt(hn::Sub(right, left), most), hn::Lt(hn::Sub(bottom, top), most));
-    const Ints x1 = hn::Sub(t.b.x, t.a.x), y1 = hn::Sub(t.b.y, t.a.y), x2 = hn::Sub(t.c.x, t.a.x),
-               y2 = hn::Sub(t.c.y, t.a.y);
-    const Ints area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
-    const Ints lengths = hn::Add(hn::Add(hn::Abs(x1), hn::Abs(y1)), hn::Add(hn::Abs(x2), hn::Abs(y2)));
-    const Mask sure = hn::Gt(hn::Abs(area), hn::Mul(constant(kThin), lengths));
-    const Mask faces = hn::Lt(area, hn::Zero(kInts));
-    const Mask seen = !task.one_sided ? hn::Eq(left, left) : task.mirrored ? hn::Not(faces) : faces;
-    const Mask may = hn::And(hn::And(touches, small), hn::And(sure, seen));
-    const Mask flat = hn::And(small, hn::Eq(area, hn::Zero(kInts)));
-    const Mask undecided = hn::AndNot(hn::Or(flat, hn::And(small, sure)), touches);
-    out.undecided |= bits(undecided) << lane;
+        hn::And(left_over, hn::And(hn::Lt(first_row, last_row), hn::Lt(first_column, last_column)));
+    out.undecided |= bits(hn::AndNot(sure, touches)) << lane;
+    const Mask may = hn::And(touches, sure);
     if (hn::AllFalse(kInts, may)) continue;
 
     const Mask covers = set_columns(t, left, first_row, last_row, may, task.width, lane, out);

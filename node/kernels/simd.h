@@ -26,6 +26,10 @@ bool evaluate(const Row& row, const Basis& basis, int first, int last, const Ver
 bool project(const Projection& projection, const Vertices& vertices, int count);
 void examine(const Examination& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,
              Examined& out);
+void set(const Vertices& vertices, const Corner3& corners, const ScreenShape& shape, const PatchIdentity& identity,
+         Triangle& out);
+void keep(const Vertices& vertices, const Triangles& triangles, const Batch& batch, const Examined& examined,
+          std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line, float* depth,
             std::uint32_t* ids);
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
