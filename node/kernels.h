@@ -100,7 +100,7 @@ struct Examination {
   bool mirrored;   // their outside is the other side
 };
 
-inline constexpr std::int32_t kMostExtent = 64;  // pixels; larger triangles are left undecided
+inline constexpr std::int32_t kMostExtent = 96;  // pixels; larger triangles are left undecided
 
 // A batch's triangles in one of three states: decided, with the columns they cover row by row, at least one;
 // undecided, where they are larger than kMostExtent or may have been turned over; or dropped: turned away or
