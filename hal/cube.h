@@ -14,6 +14,12 @@ struct Cube {
   bool operator==(const Cube&) const = default;
 };
 
+// Number `number` of `cubes` cubes of about equal size that `nodes` nodes form side by side.
+constexpr Cube cube_of(int nodes, int cubes, int number) {
+  const int first = nodes * number / cubes;
+  return {first, nodes * (number + 1) / cubes - first};
+}
+
 // Element-wise sum of every member's `values`, left in `values` on all of them. All members call, in the
 // same order, with equal lengths; `work` is as long as `values`. Every member gets the same bits. Order of
 // the additions, with positions counted from `first` and 2^d the largest power of two within `count`: first

@@ -1,21 +1,15 @@
 #include "node/arena.h"
 
 #include <algorithm>
-#include <string>
 
 #include "hal/failure.h"
 
 namespace mars::node {
 
-Arena::Arena(std::size_t bytes) : size_(bytes / kGrain * kGrain), back_(size_) {
-  block_.reset(new (std::align_val_t{kGrain}, std::nothrow) std::byte[size_]);
-  if (!block_)
-    throw Failure("the machine does not give a node " + std::to_string(bytes >> 20) + " MiB", "memory",
-                  "start fewer nodes a machine, or set MARS_MEMORY to fewer MiB");
-}
+Arena::Arena(std::size_t bytes) : block_(bytes), size_(bytes / kGrain * kGrain), back_(size_) {}
 
 std::byte* Arena::take_bytes(std::size_t bytes) {
-  std::byte* start = block_.get() + front_;
+  std::byte* start = block_.bytes().data() + front_;
   keep(bytes, 0);
   return start;
 }

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <span>
+
+#include "hal/private_memory.h"
 
 namespace mars::node {
 
@@ -22,7 +22,7 @@ class Arena {
   }
   // All that is not taken: whoever does not know how much it needs fills it from both ends and then keeps that
   // many bytes at the front and at the back.
-  std::span<std::byte> rest() const { return {block_.get() + front_, back_ - front_}; }
+  std::span<std::byte> rest() const { return block_.bytes().subspan(front_, back_ - front_); }
   void keep(std::size_t at_front, std::size_t at_back);
 
   void clear() { front_ = 0, back_ = size_; }
@@ -34,14 +34,11 @@ class Arena {
  private:
   // Items begin on multiples of this: a cache line.
   static constexpr std::size_t kGrain = 64;
-  struct Release {
-    void operator()(std::byte* block) const { ::operator delete[](block, std::align_val_t{kGrain}); }
-  };
 
   std::byte* take_bytes(std::size_t bytes);
   std::size_t used() const { return front_ + (size_ - back_); }
 
-  std::unique_ptr<std::byte[], Release> block_;
+  hal::PrivateMemory block_;
   std::size_t size_ = 0;
   std::size_t front_ = 0;
   std::size_t back_ = 0;

@@ -98,23 +98,40 @@ void Exchange::receive_triangles(int node, const Triangle* first, Arena& arena) 
                       crossings.first(moving)});
 }
 
+// A machine's first node of the cube, its head, collects what the others write or send there, then tells all who wait.
 void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
-                           std::span<const std::uint8_t> draws, ZBuffer& buffer) {
-  const int self = static_cast<int>(mynode()) - cube.first;
-  const auto post = [&](int index, const auto& start) {
-    const auto lines = overlap(homes[static_cast<std::size_t>(index)], needed);
-    if (lines.count() == 0) return;
-    const auto depth = buffer.depth(lines);
-    pending_.push_back(start(depth.data(), static_cast<long>(depth.size_bytes())));
+                           std::span<const std::uint8_t> draws, Czb& czb) {
+  const auto self = static_cast<int>(mynode());
+  const int head = czb.head_of(self);
+  const auto drawn_at = [&](int node) { return draws[static_cast<std::size_t>(node - cube.first)] == 1; };
+  const auto drawn_under = [&](int other_head) {
+    for (int node = other_head; node < cube.first + cube.count; ++node)
+      if (drawn_at(node) && czb.head_of(node) == other_head) return true;
+    return false;
   };
-  for (int i = 1; i < cube.count; ++i) {
-    const int other = (self + i) % cube.count;
-    if (draws[static_cast<std::size_t>(self)])
-      post(other, [&](float* data, long bytes) { return irecv(depth_lines_from(cube.first + other), data, bytes); });
-    if (draws[static_cast<std::size_t>(other)])
-      post(self, [&](float* data, long bytes) {
-        return isend(depth_lines_from(mynode()), data, bytes, cube.first + other, 0);
-      });
+  const LineRange own = overlap(homes[static_cast<std::size_t>(self - cube.first)], needed);
+  for (int to = cube.first; to < cube.first + cube.count; ++to) {
+    if (to == self || czb.head_of(to) != to || own.count() == 0 || !drawn_under(to)) continue;
+    const auto lines = czb.lines(to == head ? LineRange{} : own);
+    pending_.push_back(isend(depth_lines_from(self), lines.data(), bytes_of(std::span<const float>(lines)), to, 0));
+  }
+  if (self == head && drawn_under(self)) {
+    collect_depth(cube, homes, needed, czb);
+    for (int node = cube.first; node < cube.first + cube.count; ++node)
+      if (node != self && drawn_at(node) && czb.head_of(node) == self) csend(depth_lines_from(self), nullptr, 0, node, 0);
+  } else if (drawn_at(self)) {
+    crecv(depth_lines_from(head), nullptr, 0);
+  }
+  wait_all();
+}
+
+void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb) {
+  const auto self = static_cast<int>(mynode());
+  for (int from = cube.first; from < cube.first + cube.count; ++from) {
+    const LineRange lines = overlap(homes[static_cast<std::size_t>(from - cube.first)], needed);
+    if (from == self || lines.count() == 0) continue;
+    const auto depth = czb.lines(czb.head_of(from) == self ? LineRange{} : lines);
+    pending_.push_back(irecv(depth_lines_from(from), depth.data(), static_cast<long>(depth.size_bytes())));
   }
   wait_all();
 }

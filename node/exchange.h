@@ -1,5 +1,5 @@
 // What nodes of a cube give each other in a keyframe: triangles, each once to every home of its scanlines, and
-// afterwards CZB lines to those that will draw inbetweens.
+// afterwards CZB to those that will draw inbetweens.
 #pragma once
 
 #include <span>
@@ -21,13 +21,15 @@ class Exchange {
   // for them and for a copy of what is sent.
   Polygons triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes, Arena& arena);
 
-  // Lines `needed` of CZB from their homes to the cube's nodes for which draws[index] is set.
+  // Returns when lines `needed` of `czb` are whole on the caller's machine, if draws[index] is set for it, all nodes of
+  // the cube having written theirs there: lines go once to every other machine where a node draws.
   void depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
-                   std::span<const std::uint8_t> draws, ZBuffer& buffer);
+                   std::span<const std::uint8_t> draws, Czb& czb);
 
  private:
   void send_triangles(int node, const Polygons& own, const LineRange& home, Arena& arena);
   void receive_triangles(int node, const Triangle* first, Arena& arena);
+  void collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
   void wait_all();
 
   std::vector<long> pending_;  // message ids

@@ -16,6 +16,7 @@ struct LineRange {
   std::uint32_t last = 0;
 
   std::uint32_t count() const { return last - first; }
+  bool has(std::uint32_t line) const { return first <= line && line < last; }
   bool operator==(const LineRange&) const = default;
 };
 

@@ -8,11 +8,11 @@ namespace mars::node {
 Outbox::Outbox(std::size_t width, std::size_t height, int credits)
     : slots_{Slot{StripBuffer(width, height)}, Slot{StripBuffer(width, height)}}, credits_(credits) {}
 
-StripBuffer& Outbox::begin() {
+StripBuffer& Outbox::begin(std::size_t constant_lines) {
   current_ = (current_ + 1) % slots_.size();
   Slot& slot = slots_[current_];
   wait(slot);
-  slot.buffer.clear();
+  slot.buffer.clear(constant_lines);
   return slot.buffer;
 }
 

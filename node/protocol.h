@@ -5,7 +5,7 @@
 //   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines (types that say who sends)
+//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or that they are there (types that say who sends)
 #pragma once
 
 #include <array>
@@ -60,6 +60,7 @@ struct Load {
   std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
   std::int32_t credits;   // strips a node may have on the way to the host
   Mapping mapping;
+  std::int32_t cubes;     // that the nodes form side by side (hal::cube_of), for all Render commands
   std::uint32_t traced;   // 1: the node records what it does and sends it as Trace
 };
 
@@ -87,7 +88,7 @@ struct PhaseTimes {
   double exchange;  // triangles to the homes of their lines
   double fill;      // edge boxes into place
   double scanline;  // visibility and shading
-  double depth;     // CZB exchange
+  double depth;     // until all of CZB is there
   double credit;    // waiting for the host: for its credit, or until an earlier strip is gone
 };
 

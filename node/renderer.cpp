@@ -42,7 +42,8 @@ Renderer::Renderer(const FilmView& film, const Load& load, const Kernels& kernel
       mapping_(load.mapping),
       polygon_maker_(kernels),
       arena_(load.memory),
-      z_buffer_(kernels, scene_.width(), scene_.height()),
+      z_buffer_(kernels, scene_.width()),
+      czb_(load.cubes, scene_.width(), scene_.height()),
       exchange_(static_cast<int>(numnodes())),
       outbox_(film.settings().width, film.settings().height, load.credits),
       draws_(static_cast<std::size_t>(numnodes())),
@@ -62,7 +63,7 @@ void Renderer::render(const Render& command, std::span<const std::uint32_t> fram
   const auto artist = [&](std::size_t k) { return (command.first_inbetween + k) % static_cast<std::uint64_t>(cube.count); };
   command_ = command;
   scene_.set_interval(command.interval);
-  if (cube.count > 1) lines_of_movers_ = scene_.lines_of_movers(inbetweens);
+  lines_of_movers_ = scene_.lines_of_movers(inbetweens);
   std::fill(draws_.begin(), draws_.end(), std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[artist(k)] = 1;
 
@@ -222,12 +223,13 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   strip_.work.edge_boxes += boxes;
   clock(Phase::fill);
 
-  StripBuffer& buffer = outbox_.begin();
+  StripBuffer& buffer = outbox_.begin(line_boxes.stationary_lines());
   clock(Phase::credit);
   const Shading look = shading(polygons);
-  if (strip_.kind == FrameKind::keyframe) z_buffer_.draw_stationary(line_boxes, look, buffer);
-  strip_.constant_runs = static_cast<std::uint32_t>(buffer.run_count());
-  z_buffer_.draw_moving(line_boxes, look, buffer);
+  if (strip_.kind == FrameKind::keyframe)
+    z_buffer_.draw_keyframe(line_boxes, look, lines_of_movers_, czb_, buffer);
+  else
+    z_buffer_.draw_inbetween(line_boxes, look, lines_of_movers_, czb_, buffer);
   clock(Phase::scanline);
 
   const bool last = pass + 1 == passes;
@@ -249,7 +251,7 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
 }
 
 void Renderer::share_depth(const hal::Cube& cube) {
-  exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, z_buffer_);
+  exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, czb_);
   clock(Phase::depth);
 }
 

@@ -10,6 +10,7 @@
 
 #include "hal/cube.h"
 #include "node/arena.h"
+#include "node/czb.h"
 #include "node/exchange.h"
 #include "node/outbox.h"
 #include "node/polygons.h"
@@ -60,12 +61,13 @@ class Renderer {
   PolygonMaker polygon_maker_;
   Arena arena_;
   ZBuffer z_buffer_;
+  Czb czb_;
   Exchange exchange_;
   Outbox outbox_;
 
   std::uint32_t frame_ = 0;
   Render command_{};
-  LineRange lines_of_movers_;               // in the interval's inbetweens; of cubes of several nodes only
+  LineRange lines_of_movers_;               // in the interval's inbetweens
   std::vector<std::uint8_t> draws_;         // which of the cube's nodes draw inbetweens of the interval
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<double> sums_, work_;         // EBC as it is summed, then each node's memory for its own triangles

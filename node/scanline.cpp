@@ -74,6 +74,12 @@ std::span<const EdgeBox> LineBoxes::moving(std::uint32_t line) const {
   return boxes.subspan(stationary_end[i], end[i] - stationary_end[i]);
 }
 
+std::size_t LineBoxes::stationary_lines() const {
+  std::size_t count = 0;
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) count += !stationary(line).empty();
+  return count;
+}
+
 LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span<const std::uint64_t> ebc,
                      Arena& arena) {
   const std::uint64_t before = ebc[lines.first];
@@ -104,47 +110,47 @@ LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span
   return {lines, boxes, cursor, stationary_end};
 }
 
-ZBuffer::ZBuffer(const Kernels& kernels, std::int32_t width, std::int32_t height)
+ZBuffer::ZBuffer(const Kernels& kernels, std::int32_t width)
     : kernels_(kernels),
       width_(static_cast<std::size_t>(width)),
-      constant_(width_ * static_cast<std::size_t>(height)),
-      moving_(width_),
-      ids_(width_, kNoTriangle) {}
-
-void ZBuffer::draw_stationary(const LineBoxes& boxes, const Shading& shading, StripBuffer& out) {
-  for (std::uint32_t line = boxes.lines.first; line < boxes.lines.last; ++line) {
-    const auto depth = this->depth({line, line + 1});
-    std::fill(depth.begin(), depth.end(), 0.0f);
-    const auto list = boxes.stationary(line);
-    if (list.empty()) continue;
-    const Extent extent = kernels_.draw(shading.triangles, list.data(), static_cast<std::uint32_t>(list.size()), line,
-                                        depth.data(), ids_.data());
-    shade_line(shading, line, extent, out);
-  }
+      depths_((width_ - 1) / kVectorSlack + 2),
+      ids_(depths_.size()) {
+  std::fill_n(ids(), ids_.size() * kVectorSlack, kNoTriangle);
 }
 
-void ZBuffer::draw_moving(const LineBoxes& boxes, const Shading& shading, StripBuffer& out) {
+void ZBuffer::draw_keyframe(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb,
+                            StripBuffer& out) {
   for (std::uint32_t line = boxes.lines.first; line < boxes.lines.last; ++line) {
-    const auto list = boxes.moving(line);
-    if (list.empty()) continue;
+    const auto stationary = boxes.stationary(line), moving = boxes.moving(line);
+    if (stationary.empty() && moving.empty() && !kept.has(line)) continue;
+    std::fill_n(depth(), width_, 0.0f);
+    draw(stationary, shading, line, out.constant());
+    if (kept.has(line)) std::copy_n(depth(), width_, czb.lines({line, line + 1}).data());
     // MZB starts as CZB: nearer than it is nearer than both, and of equals what stands still was there first.
-    const auto depth = this->depth({line, line + 1});
-    std::copy(depth.begin(), depth.end(), moving_.begin());
-    const Extent extent =
-        kernels_.draw(shading.triangles, list.data(), static_cast<std::uint32_t>(list.size()), line, moving_.data(),
-                      ids_.data());
-    shade_line(shading, line, extent, out);
+    draw(moving, shading, line, out.moving());
   }
 }
 
-std::span<float> ZBuffer::depth(const LineRange& lines) {
-  return std::span(constant_).subspan(lines.first * width_, lines.count() * width_);
+void ZBuffer::draw_inbetween(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb,
+                             StripBuffer& out) {
+  for (std::uint32_t line = boxes.lines.first; line < boxes.lines.last; ++line) {
+    const auto moving = boxes.moving(line);
+    if (moving.empty()) continue;
+    check(kept.has(line), "moving parts stay on the lines that were foreseen");
+    std::uint32_t first = moving[0].first, last = moving[0].last;
+    for (const EdgeBox& box : moving) first = std::min<std::uint32_t>(first, box.first), last = std::max<std::uint32_t>(last, box.last);
+    std::copy_n(czb.lines({line, line + 1}).data() + first, last - first, depth() + first);
+    draw(moving, shading, line, out.moving());
+  }
 }
 
-// Shades what the line's ids show and forgets them.
-void ZBuffer::shade_line(const Shading& shading, std::uint32_t line, Extent extent, StripBuffer& out) {
-  out.added(kernels_.shade(shading, ids_.data(), line, extent, out.next_run(), out.next_pixel()));
-  std::fill(ids_.begin() + extent.first, ids_.begin() + extent.last, kNoTriangle);
+// Draws the line's boxes, shades what their ids show and forgets these.
+void ZBuffer::draw(std::span<const EdgeBox> boxes, const Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {
+  if (boxes.empty()) return;
+  const Extent extent = kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
+                                      depth(), ids());
+  out.added(kernels_.shade(shading, ids(), line, extent, out.next_run(), out.next_pixel()));
+  std::fill(ids() + extent.first, ids() + extent.last, kNoTriangle);
 }
 
 }  // namespace mars::node

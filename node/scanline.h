@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "node/arena.h"
+#include "node/czb.h"
 #include "node/kernels.h"
 #include "node/mapping.h"
 #include "node/strip_buffer.h"
@@ -35,6 +36,8 @@ struct LineBoxes {
 
   std::span<const EdgeBox> stationary(std::uint32_t line) const;
   std::span<const EdgeBox> moving(std::uint32_t line) const;
+  // How many lines have stationary boxes.
+  std::size_t stationary_lines() const;
 };
 
 // `ebc`: running totals by line, as in mapping.h; they are the sort's offsets. Crossings of other lines are left
@@ -42,27 +45,34 @@ struct LineBoxes {
 LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span<const std::uint64_t> ebc,
                      Arena& arena);
 
-// The z-buffer: CZB for the whole picture, kept through an interval, and one line of MZB.
+// The z-buffer of the line that is being drawn, small enough for a core's first cache.
 class ZBuffer {
  public:
-  ZBuffer(const Kernels& kernels, std::int32_t width, std::int32_t height);
+  ZBuffer(const Kernels& kernels, std::int32_t width);
 
-  // Draws stationary parts to CZB and their pixels (CFB) to `out`. Lines without any are cleared.
-  void draw_stationary(const LineBoxes& boxes, const Shading& shading, StripBuffer& out);
-  // Draws moving parts against CZB and MZB; their visible pixels (MFB) to `out`. CZB stays as it is.
-  void draw_moving(const LineBoxes& boxes, const Shading& shading, StripBuffer& out);
-
-  // CZB: 1 / w a sample, 0 where nothing stands; line after line.
-  std::span<float> depth(const LineRange& lines);
+  // Draws stationary parts (CFB), and against them the moving ones (MFB). CZB of `kept` lines goes to `czb`.
+  void draw_keyframe(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb, StripBuffer& out);
+  // Draws moving parts against `czb`, whose `kept` lines have all of them, and each other.
+  void draw_inbetween(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb, StripBuffer& out);
 
  private:
-  void shade_line(const Shading& shading, std::uint32_t line, Extent extent, StripBuffer& out);
+  // Samples, as many as kernels take at a time.
+  struct alignas(64) Depths {
+    float samples[kVectorSlack];
+  };
+  struct alignas(64) Ids {
+    std::uint32_t samples[kVectorSlack];
+  };
+
+  void draw(std::span<const EdgeBox> boxes, const Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
+
+  float* depth() { return depths_.front().samples; }
+  std::uint32_t* ids() { return ids_.front().samples; }
 
   const Kernels& kernels_;
   std::size_t width_;
-  std::vector<float> constant_;
-  std::vector<float> moving_;
-  std::vector<std::uint32_t> ids_;
+  std::vector<Depths> depths_;  // kVectorSlack samples more than a line
+  std::vector<Ids> ids_;        // likewise; kNoTriangle between lines
 };
 
 }  // namespace mars::node

@@ -1,53 +1,54 @@
 #include "node/strip_buffer.h"
 
 #include <cstring>
-#include <new>
-
-#include "hal/failure.h"
 
 namespace mars::node {
 namespace {
 
-template <typename T>
-std::unique_ptr<T[]> untouched(std::size_t count) {
-  std::unique_ptr<T[]> block(new (std::nothrow) T[count]);
-  if (!block)
-    throw Failure("the machine does not give a node " + std::to_string(count * sizeof(T) >> 20) +
-                      " MiB for pixels on their way",
-                  "memory", "start fewer nodes a machine or render a smaller picture");
-  return block;
-}
-
 // A line's runs are apart from each other, so at most every second column begins one.
-std::size_t most_runs(std::size_t width, std::size_t height) { return 2 * height * (width / 2 + 1); }
+std::size_t most_runs(std::size_t width, std::size_t lines) { return lines * (width / 2 + 1) + kVectorSlack; }
+std::size_t most_pixels(std::size_t width, std::size_t lines) { return lines * width + kVectorSlack; }
+
+// `items` to `at`, which they may overlap; returns what comes behind them.
+template <typename T>
+std::byte* put(std::span<const T> items, std::byte* at) {
+  if (!items.empty() && static_cast<const void*>(items.data()) != at) std::memmove(at, items.data(), items.size_bytes());
+  return at + items.size_bytes();
+}
 
 }  // namespace
 
-StripBuffer::StripBuffer(std::size_t width, std::size_t height)
-    : message_(untouched<std::byte>(sizeof(Strip) + 2 * width * height * sizeof(std::uint32_t) +
-                                    most_runs(width, height) * sizeof(Run))),
-      runs_(untouched<Run>(most_runs(width, height))) {}
-
-void StripBuffer::clear() {
-  pixel_count_ = 0;
-  run_count_ = 0;
-}
-
-void StripBuffer::added(const Shaded& shaded) {
+void StripBuffer::Layer::added(const Shaded& shaded) {
   pixel_count_ += shaded.pixels;
   run_count_ += shaded.runs;
 }
 
+StripBuffer::StripBuffer(std::size_t width, std::size_t height)
+    : width_(width),
+      message_(sizeof(Strip) + 2 * (most_pixels(width, height) * sizeof(std::uint32_t) + most_runs(width, height) * sizeof(Run))),
+      runs_(2 * most_runs(width, height) * sizeof(Run)) {}
+
+void StripBuffer::clear(std::size_t constant_lines) {
+  auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(Strip));
+  auto* runs = reinterpret_cast<Run*>(runs_.bytes().data());
+  constant_ = {pixels, runs};
+  moving_ = constant_lines == 0 ? Layer(pixels, runs)
+                                : Layer(pixels + most_pixels(width_, constant_lines), runs + most_runs(width_, constant_lines));
+}
+
 std::span<const std::byte> StripBuffer::finish(Strip& header) {
-  header.pixels = pixel_count_;
-  header.moving_runs = static_cast<std::uint32_t>(run_count_) - header.constant_runs;
-  const std::size_t runs_at = sizeof header + pixel_count_ * sizeof(std::uint32_t);
-  const std::size_t size = runs_at + run_count_ * sizeof(Run);
-  header.work.pixels += pixel_count_;
+  header.constant_runs = static_cast<std::uint32_t>(constant_.runs().size());
+  header.moving_runs = static_cast<std::uint32_t>(moving_.runs().size());
+  header.pixels = constant_.pixels().size() + moving_.pixels().size();
+  std::byte* const start = message_.bytes().data();
+  std::byte* end = start + sizeof header;
+  end = put(moving_.pixels(), put(constant_.pixels(), end));
+  end = put(moving_.runs(), put(constant_.runs(), end));
+  const auto size = static_cast<std::size_t>(end - start);
+  header.work.pixels += header.pixels;
   header.work.bytes_to_host += size;
-  std::memcpy(message_.get(), &header, sizeof header);
-  if (run_count_ > 0) std::memcpy(message_.get() + runs_at, runs_.get(), run_count_ * sizeof(Run));
-  return {message_.get(), size};
+  std::memcpy(start, &header, sizeof header);
+  return {start, size};
 }
 
 }  // namespace mars::node

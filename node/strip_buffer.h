@@ -1,10 +1,11 @@
-// One strip on its way to the host: header, pixels, runs, as protocol.h lays them out, built in place.
+// One strip on its way to the host: header, pixels, runs, as protocol.h lays them out. Stationary and moving parts
+// come line by line in turn; the message has all pixels of the first before those of the second.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 
+#include "hal/private_memory.h"
 #include "node/kernels.h"
 #include "node/protocol.h"
 
@@ -12,31 +13,47 @@ namespace mars::node {
 
 class StripBuffer {
  public:
+  // Pixels and runs of one kind of parts.
+  class Layer {
+   public:
+    Layer() = default;
+    Layer(std::uint32_t* pixels, Run* runs) : pixels_(pixels), runs_(runs) {}
+
+    // Where kernels write, with kVectorSlack to spare; added() then moves on.
+    std::uint32_t* next_pixel() { return pixels_ + pixel_count_; }
+    Run* next_run() { return runs_ + run_count_; }
+    void added(const Shaded& shaded);
+
+    std::span<const std::uint32_t> pixels() const { return {pixels_, pixel_count_}; }
+    std::span<const Run> runs() const { return {runs_, run_count_}; }
+
+   private:
+    std::uint32_t* pixels_ = nullptr;
+    Run* runs_ = nullptr;
+    std::size_t pixel_count_ = 0;
+    std::size_t run_count_ = 0;
+  };
+
   // Room for every pixel of a picture twice (stationary and moving). Pages are used as they are touched.
   // Throws Failure where the machine does not give it.
   StripBuffer(std::size_t width, std::size_t height);
 
-  void clear();
+  // Empty, with room for `constant_lines` lines of stationary parts.
+  void clear(std::size_t constant_lines);
 
-  // Where kernels write; added() then moves on.
-  std::uint32_t* next_pixel() { return pixels() + pixel_count_; }
-  Run* next_run() { return runs_.get() + run_count_; }
-  void added(const Shaded& shaded);
+  Layer& constant() { return constant_; }
+  Layer& moving() { return moving_; }
 
-  std::uint64_t pixel_count() const { return pixel_count_; }
-  std::uint64_t run_count() const { return run_count_; }
-
-  // The message, valid until clear(): `header` (the first constant_runs runs belong to CFB) with the counts of
-  // pixels and runs set, and its work's pixels and bytes to the host grown by what is sent.
+  // The message, valid until clear(): `header` with the counts of pixels and runs set, and its work's pixels and
+  // bytes to the host grown by what is sent.
   std::span<const std::byte> finish(Strip& header);
 
  private:
-  std::uint32_t* pixels() { return reinterpret_cast<std::uint32_t*>(message_.get() + sizeof(Strip)); }
-
-  std::unique_ptr<std::byte[]> message_;
-  std::unique_ptr<Run[]> runs_;
-  std::uint64_t pixel_count_ = 0;
-  std::uint64_t run_count_ = 0;
+  std::size_t width_;
+  hal::PrivateMemory message_;
+  hal::PrivateMemory runs_;
+  Layer constant_;
+  Layer moving_;
 };
 
 }  // namespace mars::node

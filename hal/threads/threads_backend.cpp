@@ -12,9 +12,8 @@ namespace {
 
 constexpr std::size_t kAlignment = 64;
 
-std::shared_ptr<std::byte> zeroed_block(std::size_t bytes) try {
+std::shared_ptr<std::byte> new_block(std::size_t bytes) try {
   auto* block = static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)));
-  if (bytes > 0) std::memset(block, 0, bytes);
   return {block, [](std::byte* old) { ::operator delete(old, std::align_val_t(kAlignment)); }};
 } catch (const std::bad_alloc&) {
   throw Failure("there is no memory for " + std::to_string(bytes) + " bytes that the nodes share", "",
@@ -142,7 +141,7 @@ void ThreadsWorld::wake_all() {
 
 std::shared_ptr<std::byte> ThreadsWorld::share(int index, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (index == static_cast<int>(blocks_.size())) blocks_.push_back({zeroed_block(bytes), bytes, 0});
+  if (index == static_cast<int>(blocks_.size())) blocks_.push_back({new_block(bytes), bytes, 0});
   Block& block = blocks_[index];
   check(block.size == bytes, "all nodes of a machine share the same number of bytes");
   std::shared_ptr<std::byte> mine = block.bytes;

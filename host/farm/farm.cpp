@@ -49,12 +49,13 @@ std::vector<node::Hello> receive_hellos() {
   return hellos;
 }
 
-void load_film(std::span<const std::byte> block, const FarmOptions& options, std::span<const node::Hello> hellos) {
+void load_film(std::span<const std::byte> block, const FarmOptions& options, std::span<const node::Hello> hellos,
+               std::size_t cubes) {
   const auto least = std::min_element(hellos.begin(), hellos.end(),
                                       [](const auto& a, const auto& b) { return a.memory < b.memory; });
   const SpanOf span(HostSpan::load, block.size());
   const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping,
-                        options.trace != nullptr ? 1u : 0u};
+                        static_cast<std::int32_t>(cubes), options.trace != nullptr ? 1u : 0u};
   send_to_all(node::kLoad, &load, sizeof load);
   std::vector<long> sends;
   for (const node::Hello& hello : hellos)
@@ -264,7 +265,8 @@ FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions&
   const auto units = static_cast<std::uint32_t>(make_units(film, options.frames, options.coherence).size());
   if (listener.booted) listener.booted(report.nodes, units, static_cast<std::uint32_t>(options.frames.size()) - units);
   Tracing tracing(options.trace, report.nodes, kCredits);
-  load_film(film_block, options, report.nodes);
+  load_film(film_block, options, report.nodes,
+            make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units).size());
   report.load_seconds = dclock() - booted;
   const double start = dclock();
   Farm(film, options, sinks, listener, report, tracing).run();

@@ -30,10 +30,7 @@ std::vector<hal::Cube> make_cubes(int nodes, int cubes, std::size_t units) {
   const int that_pay = static_cast<int>(std::min<std::size_t>(units / kUnitsPerCube, static_cast<std::size_t>(nodes)));
   const int count = std::clamp(cubes == 0 ? that_pay : cubes, 1, nodes);
   std::vector<hal::Cube> out;
-  for (int i = 0; i < count; ++i) {
-    const int first = nodes * i / count, last = nodes * (i + 1) / count;
-    out.push_back({first, last - first});
-  }
+  for (int i = 0; i < count; ++i) out.push_back(hal::cube_of(nodes, count, i));
   return out;
 }
 

@@ -1,0 +1,22 @@
+#include "hal/private_memory.h"
+
+#include <sys/mman.h>
+
+#include <string>
+
+#include "hal/failure.h"
+
+namespace mars::hal {
+
+PrivateMemory::PrivateMemory(std::size_t bytes) {
+  if (bytes == 0) return;
+  void* block = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (block == MAP_FAILED)
+    throw Failure("the machine does not give a node " + std::to_string(bytes >> 20) + " MiB", "memory",
+                  "start fewer nodes a machine, render a smaller picture, or set MARS_MEMORY to fewer MiB");
+  block_ = {static_cast<std::byte*>(block), Release{bytes}};
+}
+
+void PrivateMemory::Release::operator()(std::byte* block) const { munmap(block, size); }
+
+}  // namespace mars::hal

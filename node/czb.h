@@ -1,0 +1,40 @@
+// CZB: the z that an interval's stationary parts left, on the lines that its inbetweens may touch. Each machine has
+// one for each cube: the cube's nodes there write their home lines to it, and all of them read it.
+//
+// Who writes when: home lines in a keyframe, after the cube's sum of EBC, which no node leaves before all have come to
+// it and so have finished the inbetweens of the interval before. Who reads: inbetweens, after Exchange::depth_lines.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/private_memory.h"
+#include "hal/shared_memory.h"
+#include "node/mapping.h"
+
+namespace mars::node {
+
+class Czb {
+ public:
+  // Of a picture's size, of the caller's cube, one of `cubes` side by side; pages are used as lines are written.
+  // Collective over all nodes. Throws Failure where the machine does not give it.
+  Czb(int cubes, std::int32_t width, std::int32_t height);
+
+  // 1 / w a sample, 0 where nothing stands; line after line.
+  std::span<float> lines(const LineRange& lines);
+
+  // The first node of `node`'s cube on its machine, which collects there what comes from other machines.
+  int head_of(int node) const { return heads_[static_cast<std::size_t>(node)]; }
+
+ private:
+  std::size_t width_;
+  std::vector<std::int32_t> heads_;
+  std::optional<hal::SharedMemory> shared_;  // all that nodes of this machine share
+  hal::PrivateMemory own_;                   // where the cube has no other node here
+  float* depth_;
+};
+
+}  // namespace mars::node
