@@ -48,8 +48,9 @@ struct Fineness {
   float v;
 };
 
-// Kernels work on whole vectors: every array of vertices and of triangles' corners has room for this many items
-// more than are asked for, which may be written (with anything) or read.
+// Kernels work on whole vectors: every array of vertices, of triangles' corners and of pixels has room for this many
+// items more than are asked for, which may be written (with anything) or read. So has a line's depth and ids; there
+// what lies behind the line is read, and written back as it was.
 inline constexpr int kVectorSlack = 16;
 
 // Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then

@@ -1,175 +1,273 @@
-// Phong's model at the samples that are seen.
-#include <cmath>
+// Phong's model at the samples that are seen: a block of samples is interpolated, and then for each light come its
+// directions and its colours, a whole vector at a time.
+//
+// Directions are not normalised before they are used. With n the normal / w, e the direction to the eye and t that to
+// the light, R.V = (2 (n.t)(n.e) - (t.e)(n.n)) / ((n.n) |t| |e|). Its square is what is raised to half the exponent,
+// so |e| is never taken, and one root and one division do for n and e.
+#include <cstring>
 
 #include "node/kernels/simd.h"
 
 namespace mars::node::MARS_SET {
 namespace {
 
-// Samples of one look that are shaded together: what is interpolated for each.
-constexpr int kBatch = 256;
-struct Batch {
-  alignas(64) float normal[3][kBatch];
-  alignas(64) float inverse_w[kBatch];
-  alignas(64) float column[kBatch];
-  int count = 0;
+Floats constant(float number) { return hn::Set(kFloats, number); }
+Floats zero() { return hn::Zero(kFloats); }
+
+Floats dot(const Floats* a, const Floats* b) {
+  return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
+}
+
+// All values of one sample and what they are computed from: four lanes that the compiler keeps in one register, for
+// whatever instruction set; arithmetic is lane by lane.
+typedef float Sample __attribute__((vector_size(sizeof(float) * kValues)));
+typedef std::int32_t Places __attribute__((vector_size(sizeof(std::int32_t) * kValues)));
+
+Sample load(const float* values) {
+  Sample out;
+  std::memcpy(&out, values, sizeof out);
+  return out;
+}
+
+// From sample `first` of a block on.
+struct Stretch {
+  std::uint32_t first;
+  std::uint32_t look;
 };
 
-// power[k] = base[k] ^ exponent for bases 0..1, by squarings and square roots; the exponent counts to 1/256.
-void raise(float* __restrict base, float* __restrict power, int count, float exponent) {
+// Samples of one line that show something, close together, and what becomes of them.
+constexpr std::uint32_t kBlock = 256;
+constexpr std::uint32_t kRoom = kBlock + kVectorSlack;
+struct Block {
+  alignas(64) float values[kRoom][kValues];
+  alignas(64) std::int32_t column[kRoom];
+  alignas(64) float facing[kRoom];  // of one light: N.L
+  alignas(64) float square[kRoom];  // and (R.V)^2; 0 where it is not to be seen
+  alignas(64) float color[3][kRoom];
+  Stretch looks[kBlock];
+  std::uint32_t look_count = 0;
+  std::uint32_t count = 0;
+};
+
+// First of columns [column, last) that shows something, or `last`.
+std::uint32_t next_shown(const std::uint32_t* ids, std::uint32_t column, std::uint32_t last) {
+  const auto* shown = reinterpret_cast<const std::int32_t*>(ids);
+  const Ints none = hn::Set(kInts, static_cast<std::int32_t>(kNoTriangle));
+  while (column < last && hn::AllTrue(kInts, hn::Eq(hn::LoadU(kInts, shown + column), none))) column += kLanes;
+  while (column < last && ids[column] == kNoTriangle) ++column;
+  return column < last ? column : last;
+}
+
+// Adds columns from `column` up to `last`, a gap or the block's end; says where it stopped. Whether neighbours show
+// the same triangle is not asked: the answer costs more than the planes of a sample.
+std::uint32_t interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint32_t line,
+                          std::uint32_t column, std::uint32_t last, Block& block) {
+  const auto y = static_cast<std::int32_t>(line) * kSubpixels + kSampleOffset;
+  const Places down = {y, y, y, y};
+  const auto x = static_cast<std::int32_t>(column) * kSubpixels + kSampleOffset;
+  Places along = {x, x, x, x};
+  std::uint32_t count = block.count;
+  std::uint32_t look = count > 0 ? block.looks[block.look_count - 1].look : ~triangles[ids[column]].look;
+  if (last - column > kBlock - count) last = column + (kBlock - count);
+  for (; column < last && ids[column] != kNoTriangle; ++column, ++count) {
+    const Triangle& t = triangles[ids[column]];
+    if (t.look != look) {
+      look = t.look;
+      block.looks[block.look_count++] = {count, look};
+    }
+    const Sample dx = __builtin_convertvector(along - t.first_x, Sample);
+    const Sample dy = __builtin_convertvector(down - t.first_y, Sample);
+    const Sample here = (load(t.at_first) + dy * load(t.per_y)) + dx * load(t.per_x);
+    std::memcpy(block.values[count], &here, sizeof here);
+    block.column[count] = static_cast<std::int32_t>(column);
+    along += kSubpixels;
+  }
+  block.count = count;
+  return column;
+}
+
+// Fills facing and square for one light.
+void face(const Projection& p, std::uint32_t line, const EyeLight& light, Block& block) {
+  const Floats per_pixel = constant(1.0f / p.scale), center = constant(p.center[0] - 0.5f), one = constant(1.0f);
+  const Floats up = constant((static_cast<float>(line) + 0.5f - p.center[1]) * (1.0f / p.scale));
+  const Floats vector[3] = {constant(light.vector[0]), constant(light.vector[1]), constant(light.vector[2])};
+  for (std::uint32_t k = 0; k < block.count; k += kLanes) {
+    Floats n[3], inverse_w;
+    hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, n[0], n[1], n[2]);
+    const Floats column = hn::ConvertTo(kFloats, hn::Load(kInts, block.column + k));
+    const Floats eye[3] = {hn::Mul(hn::Sub(center, column), per_pixel), up, one};
+    const Floats nn = dot(n, n), ee = dot(eye, eye), ne = dot(n, eye);
+    const Floats length = hn::Sqrt(nn);
+    const Floats inverse = hn::Div(one, hn::Mul(length, ee));
+    const Floats unit = hn::IfThenElseZero(hn::Gt(nn, zero()), hn::Mul(inverse, ee));  // 1 / |n|
+    const Floats inverse_ee = hn::Mul(inverse, length);
+
+    Floats to[3] = {vector[0], vector[1], vector[2]};
+    Floats both = unit;  // 1 / (|n| |to|)
+    if (light.point) {
+      // The place is -eye * w; the length of `to` does not matter.
+      for (int axis = 0; axis < 3; ++axis) to[axis] = hn::Add(hn::Mul(vector[axis], inverse_w), eye[axis]);
+      const Floats square = dot(to, to);
+      both = hn::IfThenElseZero(hn::Gt(square, zero()), hn::Div(unit, hn::Sqrt(square)));
+    }
+    const Floats nt = dot(n, to), te = dot(to, eye);
+    const Floats reflected = hn::Sub(hn::Mul(hn::Add(nt, nt), ne), hn::Mul(te, nn));
+    const Floats mirrored = hn::Mul(hn::Mul(reflected, both), unit);
+    const Floats square = hn::Min(hn::Mul(hn::Mul(mirrored, mirrored), inverse_ee), one);
+    const auto front = hn::Gt(nt, zero());
+    hn::Store(hn::IfThenElseZero(front, hn::Mul(nt, both)), kFloats, block.facing + k);
+    hn::Store(hn::IfThenElseZero(hn::And(front, hn::Gt(mirrored, zero())), square), kFloats, block.square + k);
+  }
+}
+
+// square ^ (exponent / 2), square in 0..1, by squarings and square roots; the exponent counts to 1/256.
+Floats raise(Floats square, float exponent) {
   const auto fixed = static_cast<std::uint32_t>(exponent * 256.0f + 0.5f);
-  alignas(64) float root[kBatch];
-  for (int k = 0; k < count; ++k) {
-    power[k] = base[k] > 0.0f ? 1.0f : 0.0f;  // no light is none at exponent 0 too
-    root[k] = base[k];
+  Floats power = hn::IfThenElseZero(hn::Gt(square, zero()), constant(1.0f));  // no light is none at exponent 0 too
+  Floats root = square;
+  std::uint32_t rest = fixed & 511;
+  for (std::uint32_t bit = 256; rest != 0; bit >>= 1) {
+    root = hn::Sqrt(root);
+    if (rest & bit) power = hn::Mul(power, root);
+    rest &= ~bit;
   }
-  for (std::uint32_t bit = 128; bit != 0 && (fixed & 255) != 0; bit >>= 1) {
-    for (int k = 0; k < count; ++k) root[k] = std::sqrt(root[k]);
-    if (fixed & bit)
-      for (int k = 0; k < count; ++k) power[k] *= root[k];
+  for (std::uint32_t whole = fixed >> 9; whole != 0; whole >>= 1) {
+    if (whole & 1) power = hn::Mul(power, square);
+    square = hn::Mul(square, square);
   }
-  for (std::uint32_t whole = fixed >> 8; whole != 0; whole >>= 1) {
-    if (whole & 1)
-      for (int k = 0; k < count; ++k) power[k] *= base[k];
-    if (whole > 1)
-      for (int k = 0; k < count; ++k) base[k] *= base[k];
-  }
+  return power;
 }
 
-// The eye's side of Phong's model for a batch: unit normals, unit directions to the eye.
-struct Directions {
-  alignas(64) float normal[3][kBatch];
-  alignas(64) float eye[3][kBatch];
+// Materials of a vector's samples, colours in levels.
+struct Looks {
+  Floats ambient[3], diffuse[3], specular;
+
+  explicit Looks(const Material& m) : specular(constant(255.0f * m.specular)) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float own = 255.0f * m.color[c];
+      ambient[c] = constant(m.ambient * own);
+      diffuse[c] = constant(m.diffuse * own);
+    }
+  }
+  // Where `mask` says, those of `other`.
+  void change(hn::Mask<FloatTag> mask, const Looks& other) {
+    for (int c = 0; c < 3; ++c) {
+      ambient[c] = hn::IfThenElse(mask, other.ambient[c], ambient[c]);
+      diffuse[c] = hn::IfThenElse(mask, other.diffuse[c], diffuse[c]);
+    }
+    specular = hn::IfThenElse(mask, other.specular, specular);
+  }
 };
 
-void directions(const Batch& batch, const Projection& p, float line, Directions& out) {
-  const float per_pixel = 1.0f / p.scale;
-  const float dy = (line + 0.5f - p.center[1]) * per_pixel;
-  for (int k = 0; k < batch.count; ++k) {
-    const float x = batch.normal[0][k], y = batch.normal[1][k], z = batch.normal[2][k];
-    const float square = x * x + y * y + z * z;
-    const float scale = square > 0.0f ? 1.0f / std::sqrt(square) : 0.0f;
-    out.normal[0][k] = x * scale;
-    out.normal[1][k] = y * scale;
-    out.normal[2][k] = z * scale;
-    const float dx = (batch.column[k] + 0.5f - p.center[0]) * per_pixel;
-    const float toward = 1.0f / std::sqrt(dx * dx + dy * dy + 1.0f);
-    out.eye[0][k] = -dx * toward;
-    out.eye[1][k] = dy * toward;
-    out.eye[2][k] = toward;
+// What a vector of samples shows, for vectors in the order of a block.
+class Materials {
+ public:
+  Materials(const Material* materials, const Block& block)
+      : materials_(materials), block_(block), looks_(material(0)) {}
+
+  const Looks& looks() const { return looks_; }
+
+  // Goes on to the vector at sample k.
+  void move_to(std::uint32_t k) {
+    if (first_ == last_ && next_first() >= k + kLanes) return;
+    at_ = k;
+    if (next_first() == k) ++last_;
+    first_ = last_;
+    looks_ = Looks(material(first_));
+    for (; next_first() < k + kLanes; ++last_) looks_.change(since(last_ + 1), Looks(material(last_ + 1)));
   }
-}
 
-// Unit directions from the batch's places to a point light. The place is (dx, -dy, -1) * w.
-void to_point_light(const Batch& batch, const Projection& p, float line, const EyeLight& light, float (*to)[kBatch]) {
-  const float per_pixel = 1.0f / p.scale;
-  const float dy = (line + 0.5f - p.center[1]) * per_pixel;
-  for (int k = 0; k < batch.count; ++k) {
-    const float w = 1.0f / batch.inverse_w[k];
-    const float dx = (batch.column[k] + 0.5f - p.center[0]) * per_pixel;
-    const float x = light.vector[0] - dx * w;
-    const float y = light.vector[1] + dy * w;
-    const float z = light.vector[2] + w;
-    const float square = x * x + y * y + z * z;
-    const float scale = square > 0.0f ? 1.0f / std::sqrt(square) : 0.0f;
-    to[0][k] = x * scale;
-    to[1][k] = y * scale;
-    to[2][k] = z * scale;
+  // The light mirrored to the eye, from (R.V)^2.
+  Floats highlight(Floats square) const {
+    const float exponent = material(first_).exponent;
+    Floats out = raise(square, exponent);
+    for (std::uint32_t s = first_ + 1; s <= last_; ++s)
+      if (material(s).exponent != material(s - 1).exponent)
+        out = hn::IfThenElse(since(s), raise(square, material(s).exponent), out);
+    return out;
   }
-}
 
-// N.L where the light is in front, and R.V = 2 (N.L)(N.V) - L.V where that is seen, else 0.
-void reflect(const Directions& d, const float (*to)[kBatch], int count, float* __restrict facing,
-             float* __restrict mirrored) {
-  for (int k = 0; k < count; ++k) {
-    const float nl = d.normal[0][k] * to[0][k] + d.normal[1][k] * to[1][k] + d.normal[2][k] * to[2][k];
-    const float nv = d.normal[0][k] * d.eye[0][k] + d.normal[1][k] * d.eye[1][k] + d.normal[2][k] * d.eye[2][k];
-    const float lv = to[0][k] * d.eye[0][k] + to[1][k] * d.eye[1][k] + to[2][k] * d.eye[2][k];
-    const float rv = 2.0f * nl * nv - lv;
-    facing[k] = nl > 0.0f ? nl : 0.0f;
-    mirrored[k] = (nl > 0.0f) & (rv > 0.0f) ? (rv < 1.0f ? rv : 1.0f) : 0.0f;
+ private:
+  const Material& material(std::uint32_t stretch) const { return materials_[block_.looks[stretch].look]; }
+  std::uint32_t next_first() const { return last_ + 1 < block_.look_count ? block_.looks[last_ + 1].first : ~0u; }
+  // The vector's samples from a stretch's first on.
+  hn::Mask<FloatTag> since(std::uint32_t stretch) const {
+    return hn::Not(hn::FirstN(kFloats, block_.looks[stretch].first - at_));
   }
+
+  const Material* materials_;
+  const Block& block_;
+  Looks looks_;
+  std::uint32_t at_ = 0;
+  std::uint32_t first_ = 0;  // stretches of the vector
+  std::uint32_t last_ = 0;
+};
+
+// The nearest whole number of 0..255 in the lowest bits, others above them: sums of 2^23 and less have no fraction.
+Ints level(Floats color) {
+  const Floats clamped = hn::Min(hn::Max(color, zero()), constant(255.0f));
+  return hn::BitCast(kInts, hn::Add(clamped, constant(8388608.0f)));
 }
 
-std::uint32_t level(float intensity) {
-  const float clamped = intensity > 0.0f ? (intensity < 1.0f ? intensity : 1.0f) : 0.0f;
-  return static_cast<std::uint32_t>(static_cast<std::int32_t>(clamped * 255.0f + 0.5f));
+Ints pack(const Floats* color) {
+  const Ints red = hn::And(level(color[0]), hn::Set(kInts, 255));
+  const Ints green = hn::And(hn::ShiftLeft<8>(level(color[1])), hn::Set(kInts, 255 << 8));
+  return hn::Or(hn::Or(red, green), hn::ShiftLeft<16>(level(color[2])));
 }
 
-void shade_batch(const Shading& shading, const Batch& batch, float line, const Material& material,
-                 std::uint32_t* __restrict pixels) {
-  Directions d;
-  alignas(64) float to[3][kBatch], facing[kBatch], mirrored[kBatch], highlight[kBatch], color[3][kBatch];
-  directions(batch, shading.projection, line, d);
-  const float own[3] = {material.color[0], material.color[1], material.color[2]};
-  for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < batch.count; ++k) color[c][k] = material.ambient * own[c];
-  for (std::uint32_t l = 0; l < shading.light_count; ++l) {
-    const EyeLight& light = shading.lights[l];
-    if (light.point)
-      to_point_light(batch, shading.projection, line, light, to);
+// Adds one light to the block's colours; the first begins with the ambient ones, the last makes pixels of them.
+void add_light(const Material* all, const EyeLight& light, bool first, bool last, Block& block,
+               std::uint32_t* pixels) {
+  const Floats shines[3] = {constant(light.color[0]), constant(light.color[1]), constant(light.color[2])};
+  Materials materials(all, block);
+  for (std::uint32_t k = 0; k < block.count; k += kLanes) {
+    materials.move_to(k);
+    const Looks& looks = materials.looks();
+    const Floats facing = hn::Load(kFloats, block.facing + k);
+    const Floats mirrored = hn::Mul(looks.specular, materials.highlight(hn::Load(kFloats, block.square + k)));
+    Floats color[3];
+    for (int c = 0; c < 3; ++c) {
+      const Floats before = first ? looks.ambient[c] : hn::Load(kFloats, block.color[c] + k);
+      color[c] = hn::Add(before, hn::Mul(hn::Add(hn::Mul(looks.diffuse[c], facing), mirrored), shines[c]));
+    }
+    if (last)
+      hn::StoreU(pack(color), kInts, reinterpret_cast<std::int32_t*>(pixels + k));
     else
-      for (int axis = 0; axis < 3; ++axis)
-        for (int k = 0; k < batch.count; ++k) to[axis][k] = light.vector[axis];
-    reflect(d, to, batch.count, facing, mirrored);
-    raise(mirrored, highlight, batch.count, material.exponent);
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < batch.count; ++k)
-        color[c][k] += (material.diffuse * own[c] * facing[k] + material.specular * highlight[k]) * light.color[c];
+      for (int c = 0; c < 3; ++c) hn::Store(color[c], kFloats, block.color[c] + k);
   }
-  for (int k = 0; k < batch.count; ++k)
-    pixels[k] = level(color[0][k]) | level(color[1][k]) << 8 | level(color[2][k]) << 16;
 }
 
-// Adds columns [first, last), all of one triangle, to the batch.
-void interpolate(const Triangle& triangle, std::int32_t line, std::int32_t first, std::int32_t last, Batch& batch) {
-  const auto dy = static_cast<float>(line * kSubpixels + kSampleOffset - triangle.first_y);
-  float on_line[kValues];
-  for (int v = 0; v < kValues; ++v) on_line[v] = triangle.at_first[v] + dy * triangle.per_y[v];
-  const std::int32_t from_first = kSampleOffset - triangle.first_x;
-  const int at = batch.count - first;
-  for (std::int32_t column = first; column < last; ++column) {
-    const auto dx = static_cast<float>(column * kSubpixels + from_first);
-    for (int axis = 0; axis < 3; ++axis)
-      batch.normal[axis][at + column] = on_line[kNormalX + axis] + dx * triangle.per_x[kNormalX + axis];
-    batch.inverse_w[at + column] = on_line[kDepth] + dx * triangle.per_x[kDepth];
-    batch.column[at + column] = static_cast<float>(column);
+void shade_block(const Shading& shading, std::uint32_t line, Block& block, std::uint32_t* pixels) {
+  const EyeLight dark{};
+  const EyeLight* lights = shading.light_count > 0 ? shading.lights : &dark;
+  const std::uint32_t count = shading.light_count > 0 ? shading.light_count : 1;
+  for (std::uint32_t l = 0; l < count; ++l) {
+    face(shading.projection, line, lights[l], block);
+    add_light(shading.materials, lights[l], l == 0, l + 1 == count, block, pixels);
   }
-  batch.count += last - first;
 }
 
 }  // namespace
 
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
              std::uint32_t* pixels) {
-  const std::uint32_t last = extent.last;
   Shaded done{0, 0};
-  Batch batch;
-  std::uint32_t look = 0;
+  Block block;
   const auto flush = [&] {
-    if (batch.count == 0) return;
-    shade_batch(shading, batch, static_cast<float>(line), shading.materials[look], pixels + done.pixels);
-    done.pixels += static_cast<std::uint32_t>(batch.count);
-    batch.count = 0;
+    if (block.count == 0) return;
+    shade_block(shading, line, block, pixels + done.pixels);
+    done.pixels += block.count;
+    block.count = block.look_count = 0;
   };
-  for (std::uint32_t column = extent.first; column < last;) {
-    if (ids[column] == kNoTriangle) {
-      ++column;
-      continue;
-    }
-    const std::uint32_t run_first = column;
+  const std::uint32_t last = extent.last;
+  for (std::uint32_t first = next_shown(ids, extent.first, last); first < last;) {
+    std::uint32_t column = first;
     while (column < last && ids[column] != kNoTriangle) {
-      const Triangle& triangle = shading.triangles[ids[column]];
-      if (triangle.look != look || batch.count == kBatch) flush();
-      look = triangle.look;
-      const std::uint32_t room = column + static_cast<std::uint32_t>(kBatch - batch.count);
-      const std::uint32_t end = room < last ? room : last;
-      const std::uint32_t piece = column;
-      while (column < end && ids[column] == ids[piece]) ++column;
-      interpolate(triangle, static_cast<std::int32_t>(line), static_cast<std::int32_t>(piece),
-                  static_cast<std::int32_t>(column), batch);
+      if (block.count == kBlock) flush();
+      column = interpolate(shading.triangles, ids, line, column, last, block);
     }
-    runs[done.runs++] = {line, static_cast<std::uint16_t>(run_first), static_cast<std::uint16_t>(column - run_first)};
+    runs[done.runs++] = {line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(column - first)};
+    first = next_shown(ids, column, last);
   }
   flush();
   return done;

@@ -22,7 +22,7 @@ struct Scenery {
   std::vector<Triangle> triangles;
   std::vector<node::Material> materials;
   std::vector<node::EyeLight> lights;
-  std::vector<std::uint32_t> ids;
+  std::vector<std::uint32_t> ids;  // one a column
   std::uint32_t line = 100;
   node::Projection view = projection(640, 480, 2);
 
@@ -37,13 +37,21 @@ struct Result {
   std::vector<std::uint32_t> pixels;
 };
 
+// Behind the line and behind the pixels there is the room that kernels may use, and no more.
 Result shade(const Scenery& scenery, const node::Kernels& kernels, Extent extent) {
   constexpr std::uint32_t kUntouched = 0xabcdef01;
-  Result result{std::vector<node::Run>(scenery.ids.size() + 1),
-                std::vector<std::uint32_t>(scenery.ids.size() + 1, kUntouched)};
-  const node::Shaded done = kernels.shade(scenery.shading(), scenery.ids.data(), scenery.line, extent,
-                                          result.runs.data(), result.pixels.data());
-  EXPECT_EQ(result.pixels[done.pixels], kUntouched);
+  std::vector<std::uint32_t> ids = scenery.ids;
+  ids.resize(ids.size() + node::kVectorSlack, 0);
+  const auto shown = static_cast<std::size_t>(
+      extent.first < extent.last
+          ? std::count_if(ids.begin() + extent.first, ids.begin() + extent.last, [](auto id) { return id != kGap; })
+          : 0);
+  Result result{std::vector<node::Run>(ids.size()),
+                std::vector<std::uint32_t>(shown + node::kVectorSlack + 1, kUntouched)};
+  const node::Shaded done =
+      kernels.shade(scenery.shading(), ids.data(), scenery.line, extent, result.runs.data(), result.pixels.data());
+  EXPECT_EQ(done.pixels, shown);
+  EXPECT_EQ(result.pixels.back(), kUntouched);
   result.runs.resize(done.runs);
   result.pixels.resize(done.pixels);
   return result;
@@ -85,19 +93,24 @@ node::EyeLight random_light(Random& random) {
   return light;
 }
 
+// Pieces of a triangle or of a gap have up to 400 samples, in some sceneries only one or two; looks change within
+// vectors, and with them exponents or not.
 Scenery random_scenery(Random& random, int width) {
   Scenery scenery;
   for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 0.0f}) {
     const auto part = [&] { return static_cast<float>(random.real(0, 1)); };
     scenery.materials.push_back({{part(), part(), part()}, 0.2f * part(), part(), part(), exponent, 2});
   }
+  if (random.whole(0, 2) == 0)
+    for (node::Material& material : scenery.materials) material.exponent = 32;
+  constexpr int kLongest[] = {2, 20, 400};
+  const int longest = kLongest[random.whole(0, 2)];
   for (int k = 0; k < 20; ++k) scenery.triangles.push_back(random_triangle(random, scenery.materials.size()));
   for (int k = random.whole(0, 4); k > 0; --k) scenery.lights.push_back(random_light(random));
   scenery.line = static_cast<std::uint32_t>(random.whole(0, 479));
   while (scenery.ids.size() < static_cast<std::size_t>(width)) {
     const std::uint32_t id = random.whole(0, 4) ? static_cast<std::uint32_t>(random.whole(0, 19)) : kGap;
-    scenery.ids.insert(scenery.ids.end(), static_cast<std::size_t>(random.whole(1, random.whole(1, 400))),
-                       id);
+    scenery.ids.insert(scenery.ids.end(), static_cast<std::size_t>(random.whole(1, random.whole(1, longest))), id);
   }
   scenery.ids.resize(static_cast<std::size_t>(width));
   return scenery;
