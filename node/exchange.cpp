@@ -14,8 +14,8 @@ LineRange overlap(const LineRange& a, const LineRange& b) {
   return {first, std::max(first, last)};
 }
 
-// Copies crossings (from the last to the first) on `home` to the end of a piece of memory and their triangles to
-// its front, numbered anew.
+// Copies crossings on `home`, from the last to the first, to the end of a piece of memory and their triangles to its
+// front, numbered anew: in memory as a node has its own.
 class Selection {
  public:
   Selection(std::span<std::byte> room)
@@ -55,28 +55,21 @@ long bytes_of(std::span<const T> items) {
 
 Exchange::Exchange(int nodes) {
   pending_.reserve(4 * static_cast<std::size_t>(nodes));
-  sources_.reserve(static_cast<std::size_t>(nodes));
 }
 
-Polygons Exchange::triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
-                             Arena& arena) {
+void Exchange::send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
+                              Arena& arena) {
   const int self = static_cast<int>(mynode()) - cube.first;
   for (int i = 1; i < cube.count; ++i) {
     const int index = (self + i) % cube.count;  // so that not all send to the same node first
-    send_triangles(cube.first + index, own, homes[static_cast<std::size_t>(index)], arena);
+    send_triangles_to(cube.first + index, own, homes[static_cast<std::size_t>(index)], arena);
   }
-  sources_.assign(own.sources.begin(), own.sources.end());
-  for (int i = 1; i < cube.count; ++i)
-    receive_triangles(cube.first + (self + cube.count - i) % cube.count, own.triangles, arena);
-  wait_all();
-  return {own.triangles, sources_};
 }
 
-void Exchange::send_triangles(int node, const Polygons& own, const LineRange& home, Arena& arena) {
+void Exchange::send_triangles_to(int node, const Polygons& own, const LineRange& home, Arena& arena) {
   Selection selection(arena.rest());
-  const Polygons::Source& source = own.sources.front();
-  selection.add(own.triangles, source.stationary, home);
-  selection.add(own.triangles, source.moving, home);
+  selection.add(own.triangles, own.stationary, home);
+  selection.add(own.triangles, own.moving, home);
   const auto triangles = selection.triangles();
   const auto crossings = selection.crossings();
   arena.keep(triangles.size_bytes(), crossings.size_bytes());
@@ -84,18 +77,19 @@ void Exchange::send_triangles(int node, const Polygons& own, const LineRange& ho
   pending_.push_back(isend(crossings_from(mynode()), crossings.data(), bytes_of(crossings), node, 0));
 }
 
-void Exchange::receive_triangles(int node, const Triangle* first, Arena& arena) {
+Polygons Exchange::receive_triangles(const hal::Cube& cube, int number, Arena& arena) {
+  const int self = static_cast<int>(mynode()) - cube.first;
+  const int node = cube.first + (self + cube.count - number) % cube.count;
   cprobe(triangles_from(node));
   const auto triangles = arena.take<Triangle>(static_cast<std::size_t>(infocount()) / sizeof(Triangle));
   crecv(triangles_from(node), triangles.data(), bytes_of(std::span<const Triangle>(triangles)));
   cprobe(crossings_from(node));
   const auto crossings = arena.take<Crossing>(static_cast<std::size_t>(infocount()) / sizeof(Crossing));
   crecv(crossings_from(node), crossings.data(), bytes_of(std::span<const Crossing>(crossings)));
-  const auto moving_end =
+  const auto stationary =
       std::partition_point(crossings.begin(), crossings.end(), [](const Crossing& c) { return c.moving == 1; });
-  const auto moving = static_cast<std::size_t>(moving_end - crossings.begin());
-  sources_.push_back({static_cast<std::uint32_t>(triangles.data() - first), crossings.subspan(moving),
-                      crossings.first(moving)});
+  const auto moving = static_cast<std::size_t>(stationary - crossings.begin());
+  return {triangles.data(), crossings.subspan(moving), crossings.first(moving)};
 }
 
 // A machine's first node of the cube, its head, collects what the others write or send there, then tells all who wait.
@@ -122,7 +116,7 @@ void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> hom
   } else if (drawn_at(self)) {
     crecv(depth_lines_from(head), nullptr, 0);
   }
-  wait_all();
+  finish();
 }
 
 void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb) {
@@ -133,10 +127,10 @@ void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> h
     const auto depth = czb.lines(czb.head_of(from) == self ? LineRange{} : lines);
     pending_.push_back(irecv(depth_lines_from(from), depth.data(), static_cast<long>(depth.size_bytes())));
   }
-  wait_all();
+  finish();
 }
 
-void Exchange::wait_all() {
+void Exchange::finish() {
   for (const long mid : pending_) msgwait(mid);
   pending_.clear();
 }

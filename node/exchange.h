@@ -16,10 +16,12 @@ class Exchange {
  public:
   explicit Exchange(int nodes);
 
-  // `own`: the calling node's triangles, one source. `homes`: lines of each of the cube's nodes. Returns with them
-  // the triangles that others have on the caller's lines, in `arena` behind the own ones, where there must be room
-  // for them and for a copy of what is sent.
-  Polygons triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes, Arena& arena);
+  // Begins to send to every other node of the cube those of `own` triangles that have edge boxes on its lines,
+  // `homes`, from copies in `arena`. They are gone after finish().
+  void send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes, Arena& arena);
+  // What another node, the `number`th of count - 1, sends; it lies in `arena`.
+  Polygons receive_triangles(const hal::Cube& cube, int number, Arena& arena);
+  void finish();
 
   // Returns when lines `needed` of `czb` are whole on the caller's machine, if draws[index] is set for it, all nodes of
   // the cube having written theirs there: lines go once to every other machine where a node draws.
@@ -27,13 +29,10 @@ class Exchange {
                    std::span<const std::uint8_t> draws, Czb& czb);
 
  private:
-  void send_triangles(int node, const Polygons& own, const LineRange& home, Arena& arena);
-  void receive_triangles(int node, const Triangle* first, Arena& arena);
+  void send_triangles_to(int node, const Polygons& own, const LineRange& home, Arena& arena);
   void collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
-  void wait_all();
 
   std::vector<long> pending_;  // message ids
-  std::vector<Polygons::Source> sources_;
 };
 
 }  // namespace mars::node

@@ -208,7 +208,8 @@ struct Kernels {
   void (*keep)(const Vertices& vertices, const Triangles& triangles, const Batch& batch, const Examined& examined,
                std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 
-  // Draws `count` edge boxes of line `line`, in order: a sample nearer than depth[x] takes over depth and id.
+  // Draws `count` edge boxes of line `line`, in any order: a sample nearer than depth[x] takes over depth and id; of two
+  // triangles as near the lower patch's is seen, within a patch the first.
   // Says which columns the boxes span.
   Extent (*draw)(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
                  float* depth, std::uint32_t* ids);

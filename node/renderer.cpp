@@ -136,9 +136,8 @@ Polygons Renderer::make_polygons(const hal::Cube& cube) {
   polygon_maker_.make(scene_, Part::moving, scatter, out, strip_.work);
   made_ = {out.touching, out.edge_boxes, out.all_stored()};
   const auto crossings = out.crossings();
-  own_source_ = {0, crossings.last(stationary), crossings.first(crossings.size() - stationary)};
   arena_.keep(out.triangles().size_bytes(), crossings.size_bytes());
-  return {out.first, {&own_source_, 1}};
+  return {out.first, crossings.last(stationary), crossings.first(crossings.size() - stationary)};
 }
 
 // Prefix sum, then global sum of EBC; with it travels each node's memory for its own triangles.
@@ -217,15 +216,12 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   const LineRange lines = pass_homes[static_cast<std::size_t>(mynode() - cube.first)];
   const std::uint64_t boxes = ebc_[lines.last] - ebc_[lines.first];
 
-  const Polygons polygons = nodes > 1 ? exchange_.triangles(cube, own, pass_homes, arena_) : own;
-  clock(Phase::exchange);
-  const LineBoxes line_boxes = fill_lines(polygons, lines, ebc_, arena_);
+  const LineBoxes line_boxes = gather_boxes(cube, own, lines, pass_homes);
   strip_.work.edge_boxes += boxes;
-  clock(Phase::fill);
 
   StripBuffer& buffer = outbox_.begin(line_boxes.stationary_lines());
   clock(Phase::credit);
-  const Shading look = shading(polygons);
+  const Shading look = shading(own.triangles);
   if (strip_.kind == FrameKind::keyframe)
     z_buffer_.draw_keyframe(line_boxes, look, lines_of_movers_, czb_, buffer);
   else
@@ -233,6 +229,8 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   clock(Phase::scanline);
 
   const bool last = pass + 1 == passes;
+  exchange_.finish();
+  clock(Phase::exchange);
   if (last && strip_.kind == FrameKind::keyframe && nodes > 1) share_depth(cube);
   strip_.frame = frame_;
   strip_.interval = command_.interval;
@@ -250,13 +248,30 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   clock_ = dclock();  // send() told its wait itself: it is no step of the next pass
 }
 
+// Edge boxes of all nodes on `lines`. While others' are on their way, the own ones are put into their lines.
+LineBoxes Renderer::gather_boxes(const hal::Cube& cube, const Polygons& own, const LineRange& lines,
+                                 std::span<const LineRange> homes) {
+  exchange_.send_triangles(cube, own, homes, arena_);
+  clock(Phase::exchange);
+  LineFiller filler(lines, ebc_, own.triangles, arena_);
+  filler.add(own);
+  clock(Phase::fill);
+  for (int number = 1; number < cube.count; ++number) {
+    const Polygons others = exchange_.receive_triangles(cube, number, arena_);
+    clock(Phase::exchange);
+    filler.add(others);
+    clock(Phase::fill);
+  }
+  return filler.finish();
+}
+
 void Renderer::share_depth(const hal::Cube& cube) {
   exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, czb_);
   clock(Phase::depth);
 }
 
-Shading Renderer::shading(const Polygons& polygons) const {
-  return {polygons.triangles, scene_.film().materials().data(), scene_.lights().data(),
+Shading Renderer::shading(const Triangle* triangles) const {
+  return {triangles, scene_.film().materials().data(), scene_.lights().data(),
           static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }
 

@@ -50,7 +50,9 @@ class Renderer {
   void draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
   void share_depth(const hal::Cube& cube);
   void mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes);
-  Shading shading(const Polygons& polygons) const;
+  LineBoxes gather_boxes(const hal::Cube& cube, const Polygons& own, const LineRange& lines,
+                         std::span<const LineRange> homes);
+  Shading shading(const Triangle* triangles) const;
   // Adds the time since the last call to `phase`.
   void clock(Phase phase);
 
@@ -75,7 +77,6 @@ class Renderer {
   std::vector<LineRange> homes_;
   std::vector<LineRange> pass_homes_;
   std::vector<std::uint8_t> wanted_lines_;
-  Polygons::Source own_source_{};
   struct {
     std::uint64_t triangles;
     std::uint64_t edge_boxes;

@@ -14,24 +14,18 @@
 
 namespace mars::node {
 
-// The triangles of one frame on one node, and from each sender their crossings: first those that stand still,
-// then those that move, each in the order of polygon numbers.
+// One sender's part of a frame's triangles.
 struct Polygons {
-  struct Source {
-    std::uint32_t first;  // where this sender's triangles begin; its crossings count from there
-    std::span<const Crossing> stationary;  // the last comes first
-    std::span<const Crossing> moving;
-  };
   const Triangle* triangles;
-  std::span<const Source> sources;
+  std::span<const Crossing> stationary;
+  std::span<const Crossing> moving;
 };
 
-// Edge boxes of lines [lines.first, lines.last): line by line the stationary ones, then the moving ones, each
-// in the order of polygon numbers, so that drawing in order settles depth ties.
+// Edge boxes of lines [lines.first, lines.last): line by line the stationary ones, then the moving ones.
 struct LineBoxes {
   LineRange lines;
   std::span<const EdgeBox> boxes;
-  std::span<const std::uint64_t> end;         // of each line's boxes
+  std::span<const std::uint64_t> end;             // of each line's boxes
   std::span<const std::uint64_t> stationary_end;  // of each line's stationary boxes
 
   std::span<const EdgeBox> stationary(std::uint32_t line) const;
@@ -40,10 +34,25 @@ struct LineBoxes {
   std::size_t stationary_lines() const;
 };
 
-// `ebc`: running totals by line, as in mapping.h; they are the sort's offsets. Crossings of other lines are left
-// out. Takes its arrays from `arena`. check()s that the boxes are exactly those that EBC counted.
-LineBoxes fill_lines(const Polygons& polygons, const LineRange& lines, std::span<const std::uint64_t> ebc,
-                     Arena& arena);
+// Puts edge boxes into their lines: a counting sort whose offsets are EBC's running totals (mapping.h). Senders may be
+// added in any order; crossings of other lines are left out.
+class LineFiller {
+ public:
+  // Boxes will name triangles by their distance from `first`. Takes its arrays from `arena`.
+  LineFiller(const LineRange& lines, std::span<const std::uint64_t> ebc, const Triangle* first, Arena& arena);
+
+  void add(const Polygons& polygons);
+  // check()s that the boxes are exactly those that EBC counted.
+  LineBoxes finish() const;
+
+ private:
+  LineRange lines_;
+  const Triangle* first_;
+  std::span<EdgeBox> boxes_;
+  std::span<std::uint64_t> end_;
+  std::span<std::uint64_t> stationary_;  // each line's from its begin, growing
+  std::span<std::uint64_t> moving_;      // and from its end, falling
+};
 
 // The z-buffer of the line that is being drawn, small enough for a core's first cache.
 class ZBuffer {

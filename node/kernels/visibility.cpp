@@ -2,6 +2,17 @@
 #include "node/kernels/simd.h"
 
 namespace mars::node::MARS_SET {
+namespace {
+
+// Whether triangle a is the one seen where both are as near: the lower patch's, then the first within it. None is what
+// was there before.
+bool precedes(const Triangle* triangles, std::uint32_t a, std::uint32_t b) {
+  if (b == kNoTriangle) return false;
+  const std::uint32_t patch_a = triangles[a].patch, patch_b = triangles[b].patch;
+  return patch_a != patch_b ? patch_a < patch_b : a < b;
+}
+
+}  // namespace
 
 Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
             float* __restrict depth, std::uint32_t* __restrict ids) {
@@ -18,7 +29,8 @@ Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count
     for (std::int32_t column = box.first; column < box.last; ++column) {
       const auto dx = static_cast<float>(column * kSubpixels + from_first);
       const float here = on_line + dx * triangle.per_x[kDepth];
-      const bool nearer = here > depth[column];
+      const bool nearer = here > depth[column] ||
+                          (here == depth[column] && precedes(triangles, box.triangle, ids[column]));
       depth[column] = nearer ? here : depth[column];
       ids[column] = nearer ? box.triangle : ids[column];
     }
