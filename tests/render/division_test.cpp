@@ -8,6 +8,7 @@
 #include "tests/hal/counting_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/reference.h"
 
 namespace mars::test {
 namespace {
@@ -114,6 +115,42 @@ TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
   EXPECT_EQ(after, any.edge_box_total);
   EXPECT_NEAR(any.load_ratio, static_cast<double>(most) * GetParam() / static_cast<double>(after), 1e-9);
   EXPECT_LT(any.load_ratio, 1.5) << "the load is about even";
+}
+
+// What nodes give each other, by the plain twin: a triangle goes once to each other node that is a home of its lines,
+// with its boxes there and no others.
+TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
+  const int nodes = GetParam();
+  Counted counted;
+  run_counted(film_, nodes, counted, {0});
+  std::vector<Strip> homes(static_cast<std::size_t>(nodes));
+  for (const Strip& strip : counted.run.report.strips) homes.at(static_cast<std::size_t>(strip.node)) = strip;
+  const Reference reference = draw_reference(FilmBlock(film_).view(), 0);
+  std::map<std::pair<int, int>, std::uint64_t> triangles, boxes;
+  for (const PlainTriangle& t : reference.triangles) {
+    const auto crossings = plain_crossings(t.corners, static_cast<std::int32_t>(film_.settings.width),
+                                           static_cast<std::int32_t>(film_.settings.height));
+    const int from = static_cast<int>(t.record.patch) % nodes;
+    for (int to = 0; to < nodes; ++to) {
+      const Strip& home = homes[static_cast<std::size_t>(to)];
+      const auto there = std::count_if(crossings.begin(), crossings.end(), [&](const node::Crossing& c) {
+        return c.line >= home.first_line && c.line < home.last_line;
+      });
+      boxes[{from, to}] += static_cast<std::uint64_t>(there);
+      triangles[{from, to}] += there > 0;
+    }
+  }
+  std::uint64_t most = 0;
+  for (int from = 0; from < nodes; ++from)
+    for (int to = 0; to < nodes; ++to) {
+      if (from == to) continue;
+      const auto bytes = [&](long type) { return counted.counts.sent({.from = from, .to = to, .type = type}).bytes; };
+      const auto expected = triangles[{from, to}], expected_boxes = boxes[{from, to}];
+      EXPECT_EQ(bytes(node::triangles_from(from)), expected * sizeof(node::Triangle)) << from << " to " << to;
+      EXPECT_EQ(bytes(node::crossings_from(from)), expected_boxes * sizeof(node::Crossing)) << from << " to " << to;
+      most = std::max(most, expected);
+    }
+  EXPECT_TRUE(nodes == 1 || most > 100);
 }
 
 TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
