@@ -68,10 +68,11 @@ State state_of(const Examined& e, std::uint32_t lane) {
   return e.decided >> lane & 1 ? kDecided : e.undecided >> lane & 1 ? kUndecided : kDropped;
 }
 
+// Of two sides' extents.
+constexpr std::int32_t kSmall = node::kMostExtent * 256 / 2;
 bool small(const Corners& t) {
-  const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
-  const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  return right - left < 64 * 256 && bottom - top < 64 * 256;
+  return std::max({std::abs(t.x[1] - t.x[0]), std::abs(t.y[1] - t.y[0]), std::abs(t.x[2] - t.x[0]),
+                   std::abs(t.y[2] - t.y[0])}) < kSmall;
 }
 
 // |twice the area| less four 1/256 pixel times the lengths of two sides: what is thin is not above 0.
@@ -201,8 +202,8 @@ TEST(Examine, TheBordersOfWhatIsDecided) {
     for (Corners& t : triangles) {
       const std::int32_t x = random.whole(-9000, 17000), y = random.whole(-9000, 12000);
       if (random.whole(0, 1)) {
-        const std::int32_t width = 16384 + random.whole(-1, 1), height = random.whole(0, 1) ? 16384 + random.whole(-1, 1) : 3000;
-        t = {{x, x + width, x + random.whole(0, width)}, {y, y + random.whole(0, height), y + height}};
+        const std::int32_t width = kSmall + random.whole(-1, 1), height = random.whole(0, 1) ? kSmall + random.whole(-1, 1) : 3000;
+        t = {{x, x + width, x + random.whole(-width, width)}, {y, y + random.whole(-height, height), y + height}};
         (small(t) ? just_small : just_large) += 1;
       } else {  // the side 5 high is thin where long is 4 far + 20 or less
         const std::int32_t far = random.whole(0, 2000), length = 4 * far + 20 + random.whole(-1, 1);

@@ -222,15 +222,15 @@ EyePatch planted(Random& random, const std::int32_t (&x)[4], const std::int32_t 
   return bilinear({corner[0], corner[1], corner[2], corner[3]});
 }
 
-// Triangles 64 pixels wide or high, and as thin as what snapping may turn over, but for 1/256 pixel.
+// Triangles as wide or high as those that are decided, and as thin as what snapping may turn over, but for 1/256 pixel.
 TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
   Random random(81);
   for (int trial = 0; trial < 3000; ++trial) {
     const std::int32_t left = random.whole(-6000, 200 * 256), top = random.whole(-6000, 150 * 256);
     const bool large = random.whole(0, 1) == 1;
     const std::int32_t far = random.whole(0, 1500);
-    const std::int32_t width = large ? 16384 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
-    const std::int32_t height = large ? 16384 + random.whole(-1, 1) : 5;
+    const std::int32_t width = large ? node::kMostExtent * 128 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
+    const std::int32_t height = large ? node::kMostExtent * 128 + random.whole(-1, 1) : 5;
     const std::int32_t a = large ? 0 : random.whole(0, far), b = large ? random.whole(0, 300) : 0;
     const std::int32_t x[4] = {left, left + width, left + width - a, left + a}, y[4] = {top + height, top + height - b, top, top + b};
     const bool turned = random.whole(0, 1) == 1;
