@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -225,7 +226,7 @@ bool same_but_for_number(const node::Crossing& a, const node::Crossing& b) {
   return a.box.first == b.box.first && a.box.last == b.box.last && a.line == b.line && a.moving == b.moving;
 }
 
-// Of a patch: what memory that is short does to it, whatever there is of it.
+// How often memory was short, and how often something was stored nevertheless.
 struct Shortage {
   int short_of_memory = 0;
   int partly_stored = 0;
@@ -255,6 +256,17 @@ void expect_counted(const node::Kernels& kernels, const Dicer& dicer, const Made
   out.partly_stored += !some.all_stored && !some.triangles.empty();
 }
 
+// Batches in which decided triangles follow undecided ones.
+int mixed_batches(const node::Kernels& kernels, const Dicer& dicer) {
+  int mixed = 0;
+  node::Examined e;
+  for (std::uint32_t b = 0; b < dicer.triangles().batch_count; ++b) {
+    kernels.examine({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(), dicer.triangles().batches[b], e);
+    mixed += e.undecided != 0 && std::bit_width(e.decided) > std::countr_zero(e.undecided);
+  }
+  return mixed;
+}
+
 TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
   // A ground: large triangles near by, small ones far away, next to each other in their order too.
   const EyePatch ground = make_patch([&](int i, int j) { return Vec3{0.7 * (i - 1.5), -0.1 - 0.05 * j, -0.3 - 1.2 * j}; });
@@ -262,6 +274,8 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
   const EyePatch wedge = make_patch([](int i, int j) {
     return Vec3{0.8 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.13 * (i == 1 || i == 2)};
   });
+  dicer.dice(wedge, kView, 0);
+  EXPECT_GT(mixed_batches(kernels, dicer), 0);
   for (const EyePatch& patch : {sphere_octant({0, 0, -4}, 1), ground, swapped(ground), wedge, turned(wedge)})
     for (const int rate : {0, 2, 9}) {
       const Kept all = set_up(patch, rate);
