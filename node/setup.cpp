@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "node/clip.h"
 
@@ -34,8 +35,11 @@ bool cross(const Outline& outline, bool moving, SetUps& out) {
   return room && boxes > 0;
 }
 
-// Memory that no batch exceeds.
-constexpr std::size_t kBatchBytes = kExamined * (sizeof(Triangle) + kMostExtent * sizeof(Crossing));
+// Memory that a batch does not exceed in a picture of so many lines.
+std::size_t most_bytes(const Examined& e, std::int32_t height) {
+  const std::int32_t rows = e.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
+  return kExamined * (sizeof(Triangle) + static_cast<std::size_t>(rows) * sizeof(Crossing));
+}
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
 std::int64_t determinant(const Corners& t) {
@@ -110,11 +114,8 @@ void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) 
   const Triangles& triangles = diced.triangles();
   const Examination task{width_, height_, identity.one_sided, identity.mirrored};
   for (const Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
-    if (out.room() < kBatchBytes) {
-      for (std::uint32_t k = batch.first; k < batch.last; ++k) add_whole(v, triangles[k], std::nullopt, identity, out);
-      continue;
-    }
     kernels_.examine(task, v, triangles, batch, examined_);
+    if (out.room() < most_bytes(examined_, height_)) examined_.undecided |= std::exchange(examined_.decided, 0u);
     if ((examined_.decided | examined_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
   }
 }

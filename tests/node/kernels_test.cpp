@@ -21,6 +21,9 @@ namespace {
 
 using node::Kernels;
 
+// Bits of all kinds: NaNs, infinities, numbers.
+float garbage(Random& random) { return std::bit_cast<float>(random.bits()); }
+
 // Vertices in memory of their own, with the slack that kernels may write and guards that they may not.
 struct VertexMemory {
   explicit VertexMemory(int count)
@@ -39,7 +42,6 @@ struct VertexMemory {
             places.data() + stride,
             flags.data()};
   }
-  // Fills the slack with bits of all kinds: NaNs, infinities, numbers.
   void litter(Random& random) {
     for (int k = count; k < count + node::kVectorSlack; ++k) {
       const auto at = static_cast<std::size_t>(k);
@@ -76,12 +78,19 @@ struct VertexMemory {
   std::vector<std::uint8_t> flags;
 
  private:
-  static float garbage(Random& random) { return std::bit_cast<float>(random.bits()); }
   template <typename T>
   static bool same_bits(const std::vector<T>& a, const std::vector<T>& b, std::size_t first, std::size_t count) {
     return std::memcmp(a.data() + first, b.data() + first, count * sizeof(T)) == 0;
   }
 };
+
+// Whether any of vertices [first, last) has the normal 0.
+bool lacks_normals(VertexMemory& memory, int first, int last) {
+  const node::Vertices v = memory.view();
+  for (int k = first; k < last; ++k)
+    if (v.normal[0][k] == 0 && v.normal[1][k] == 0 && v.normal[2][k] == 0) return true;
+  return false;
+}
 
 node::Row random_row(Random& random) {
   node::Row row{};
@@ -102,23 +111,48 @@ TEST(Kernels, AreChosenByName) {
   if (all_kernels().size() < 2) GTEST_SKIP() << "this CPU has nothing wider than SSE2 to compare";
 }
 
+// Tables of a basis of their own, with garbage in their slack.
+struct LitteredBasis {
+  LitteredBasis(int rate, Random& random) {
+    basis.rate = rate;
+    const auto copy = [&](const float* table, std::vector<float>& own) {
+      own.assign(table, table + rate + 1);
+      while (own.size() < static_cast<std::size_t>(rate + 1 + node::kVectorSlack)) own.push_back(garbage(random));
+      return own.data();
+    };
+    for (int k = 0; k < 4; ++k) basis.cubic[k] = copy(node::basis(rate).cubic[k], numbers[k]);
+    for (int k = 0; k < 3; ++k) basis.quadratic[k] = copy(node::basis(rate).quadratic[k], numbers[4 + k]);
+  }
+  std::vector<float> numbers[7];
+  node::Basis basis;
+};
+
+// With normals, without any, and without those at the ends only.
 TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
   Random random(50);
-  for (int trial = 0; trial < 400; ++trial) {
+  int complete = 0, incomplete = 0;
+  for (int trial = 0; trial < 600; ++trial) {
     const int rate = random.whole(1, 70), first = random.whole(0, rate), last = random.whole(first, rate + 1);
     const int offset = random.whole(0, 5);
     node::Row row = random_row(random);
     if (trial % 7 == 0) std::memset(row.slope, 0, sizeof row.slope);
+    if (trial % 7 == 1) std::memset(row.slope[2 * random.whole(0, 1)], 0, sizeof row.slope[0]);
+    const LitteredBasis littered(rate, random);
     std::vector<VertexMemory> results;
-    for (const Kernels* kernels : all_kernels()) {
-      VertexMemory memory(offset + last - first);
-      kernels->evaluate(row, node::basis(rate), first, last, memory.view(), offset);
-      results.push_back(memory);
-      EXPECT_TRUE(memory.guards_intact()) << kernels->name << ", trial " << trial;
-      EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
-      for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
-    }
+    for (const Kernels* kernels : all_kernels())
+      for (const node::Basis& basis : {node::basis(rate), littered.basis}) {
+        VertexMemory memory(offset + last - first);
+        const bool all = kernels->evaluate(row, basis, first, last, memory.view(), offset);
+        results.push_back(memory);
+        EXPECT_TRUE(memory.guards_intact()) << kernels->name << ", trial " << trial;
+        EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
+        for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
+        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << kernels->name << ", trial " << trial;
+        (all ? complete : incomplete) += last > first;
+      }
   }
+  EXPECT_GT(complete, 500);
+  EXPECT_GT(incomplete, 500);
 }
 
 TEST(Kernels, EvaluateGivesPointsAndUnitNormals) {

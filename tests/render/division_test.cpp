@@ -5,9 +5,10 @@
 #include <mutex>
 #include <set>
 
-#include "tests/hal/counting_backend.h"
+#include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/reference.h"
 
 namespace mars::test {
 namespace {
@@ -16,9 +17,9 @@ using node::FrameKind;
 using node::Strip;
 
 // Reads every strip that is sent: whether its runs lie on the lines it speaks for.
-class StripReader : public hal::CountingBackend {
+class StripReader : public hal::MachinesBackend {
  public:
-  StripReader(hal::Backend& inner, hal::Counts& counts) : hal::CountingBackend(inner, counts) {}
+  using MachinesBackend::MachinesBackend;
 
   hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
     if (type == node::kStrip) read(static_cast<const std::byte*>(data), length);
@@ -44,12 +45,19 @@ struct Counted {
   hal::Counts counts;
 };
 
-void run_counted(const node::FilmData& film, int nodes, Counted& out, std::vector<std::uint32_t> frames = {}) {
+struct Cluster {
+  int nodes;
+  int nodes_each = 1;  // of its machines
+  std::uint32_t cubes = 1;
+};
+
+void run_counted(const node::FilmData& film, const Cluster& cluster, Counted& out, std::vector<std::uint32_t> frames = {}) {
+  hal::Machines machines(cluster.nodes_each);
   RunOptions options;
-  options.nodes = nodes;
-  options.farm.cubes = 1;
+  options.nodes = cluster.nodes;
+  options.farm.cubes = cluster.cubes;
   options.farm.frames = std::move(frames);
-  options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts); };
+  options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
   out.run = run_film(FilmBlock(film).bytes(), options);
 }
 
@@ -69,8 +77,8 @@ class Division : public testing::TestWithParam<int> {
 TEST_P(Division, EachNodeDicesItsOwnPatchesInAKeyframe) {
   const int nodes = GetParam();
   Counted alone, divided;
-  run_counted(film_, 1, alone, {0});
-  run_counted(film_, nodes, divided, {0});
+  run_counted(film_, {1}, alone, {0});
+  run_counted(film_, {nodes}, divided, {0});
   const Strip whole = alone.run.report.strips.front();
   const std::uint64_t share = (FilmBlock(film_).view().patch_instances() + nodes - 1) / nodes;
   std::uint64_t patches = 0, triangles = 0, vertices = 0;
@@ -87,7 +95,7 @@ TEST_P(Division, EachNodeDicesItsOwnPatchesInAKeyframe) {
 
 TEST_P(Division, EachNodeTouchesItsOwnLines) {
   Counted counted;
-  run_counted(film_, GetParam(), counted);
+  run_counted(film_, {GetParam()}, counted);
   std::map<std::int32_t, Strip> by_node;
   for (const Strip& strip : of_kind(counted, FrameKind::keyframe)) by_node[strip.node] = strip;
   ASSERT_EQ(by_node.size(), static_cast<std::size_t>(GetParam()));
@@ -101,7 +109,7 @@ TEST_P(Division, EachNodeTouchesItsOwnLines) {
 
 TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
   Counted counted;
-  run_counted(film_, GetParam(), counted, {0});
+  run_counted(film_, {GetParam()}, counted, {0});
   std::uint64_t before = 0, after = 0, most = 0;
   for (const Strip& strip : counted.run.report.strips) {
     before += strip.work.edge_boxes_diced;
@@ -116,10 +124,46 @@ TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
   EXPECT_LT(any.load_ratio, 1.5) << "the load is about even";
 }
 
+// What nodes give each other, by the plain twin: a triangle goes once to each other node that is a home of its lines,
+// with its boxes there and no others.
+TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
+  const int nodes = GetParam();
+  Counted counted;
+  run_counted(film_, {nodes}, counted, {0});
+  std::vector<Strip> homes(static_cast<std::size_t>(nodes));
+  for (const Strip& strip : counted.run.report.strips) homes.at(static_cast<std::size_t>(strip.node)) = strip;
+  const Reference reference = draw_reference(FilmBlock(film_).view(), 0);
+  std::map<std::pair<int, int>, std::uint64_t> triangles, boxes;
+  for (const PlainTriangle& t : reference.triangles) {
+    const auto crossings = plain_crossings(t.corners, static_cast<std::int32_t>(film_.settings.width),
+                                           static_cast<std::int32_t>(film_.settings.height));
+    const int from = static_cast<int>(t.record.patch) % nodes;
+    for (int to = 0; to < nodes; ++to) {
+      const Strip& home = homes[static_cast<std::size_t>(to)];
+      const auto there = std::count_if(crossings.begin(), crossings.end(), [&](const node::Crossing& c) {
+        return c.line >= home.first_line && c.line < home.last_line;
+      });
+      boxes[{from, to}] += static_cast<std::uint64_t>(there);
+      triangles[{from, to}] += there > 0;
+    }
+  }
+  std::uint64_t most = 0;
+  for (int from = 0; from < nodes; ++from)
+    for (int to = 0; to < nodes; ++to) {
+      if (from == to) continue;
+      const auto bytes = [&](long type) { return counted.counts.sent({.from = from, .to = to, .type = type}).bytes; };
+      const auto expected = triangles[{from, to}], expected_boxes = boxes[{from, to}];
+      EXPECT_EQ(bytes(node::triangles_from(from)), expected * sizeof(node::Triangle)) << from << " to " << to;
+      EXPECT_EQ(bytes(node::crossings_from(from)), expected_boxes * sizeof(node::Crossing)) << from << " to " << to;
+      most = std::max(most, expected);
+    }
+  EXPECT_TRUE(nodes == 1 || most > 100);
+}
+
 TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   const int nodes = GetParam();
   Counted counted, keyframe;
-  run_counted(film_, nodes, counted);
+  run_counted(film_, {nodes}, counted);
   std::uint64_t moving_patches = 0;
   for (const std::uint32_t s : film_.moving) moving_patches += film_.shapes[film_.segments[s].shape].patch_count;
   std::set<std::int32_t> artists;
@@ -140,18 +184,25 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
 
 TEST_P(Division, BytesReportedAreBytesSent) {
   const int nodes = GetParam();
-  Counted counted;
-  run_counted(film_, nodes, counted);
-  for (int from = 0; from < nodes; ++from) {
-    std::uint64_t to_nodes = 0, to_host = 0, sent = 0;
-    for (const Strip& strip : counted.run.report.strips)
-      if (strip.node == from) {
-        to_nodes += strip.work.bytes_to_nodes;
-        to_host += strip.work.bytes_to_host;
+  Counted loading;  // cubes of one node give each other nothing but what loading the film takes
+  run_counted(film_, {nodes, 1, static_cast<std::uint32_t>(nodes)}, loading, {0});
+  for (const int nodes_each : {1, 2, nodes}) {
+    Counted counted;
+    run_counted(film_, {nodes, nodes_each}, counted);
+    for (int from = 0; from < nodes; ++from) {
+      std::uint64_t to_nodes = 0, to_host = 0, sent = 0;
+      for (const Strip& strip : counted.run.report.strips)
+        if (strip.node == from) {
+          to_nodes += strip.work.bytes_to_nodes;
+          to_host += strip.work.bytes_to_host;
+        }
+      for (int to = 0; to < nodes; ++to) {
+        sent += counted.counts.sent({.from = from, .to = to, .type = {}}).bytes;
+        sent -= loading.counts.sent({.from = from, .to = to, .type = {}}).bytes;
       }
-    for (int to = 0; to < nodes; ++to) sent += counted.counts.sent({.from = from, .to = to, .type = {}}).bytes;
-    EXPECT_EQ(to_nodes, sent) << "node " << from;
-    EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = node::kStrip}).bytes) << "node " << from;
+      EXPECT_EQ(to_nodes, sent) << "node " << from << ", " << nodes_each << " a machine";
+      EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = node::kStrip}).bytes) << "node " << from;
+    }
   }
 }
 
@@ -168,7 +219,8 @@ TEST(Division, EveryCubeGetsAUnit) {
   EXPECT_EQ(artists.size(), 4u);
 }
 
-// CZB lines travel only where moving parts can be seen, and only to nodes that draw inbetweens.
+// CZB lines travel only where moving parts can be seen, once to each machine with nodes that draw inbetweens; on one
+// machine not at all.
 TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   FilmMaker maker(200, 200, 2);
   const std::uint32_t look = maker.add_material(kClay);
@@ -176,16 +228,21 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   maker.add_segment(box, look, {placed({-2, -2, -2}, 4)});
   maker.add_segment(box, look, {placed({-0.2, -4, -1.4}, 0.4), placed({0, -4, -1.4}, 0.4)});
   maker.set_cameras({looking({0, -9, 0}, {0, 0, 0}, 40)});
-  Counted counted;
-  run_counted(maker.make(), 4, counted);
-  std::uint64_t bytes = 0;
-  for (int from = 0; from < 4; ++from) {
-    const auto sent = counted.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)});
-    bytes += sent.bytes;
-    EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
+  const node::FilmData film = maker.make();
+  std::map<int, std::uint64_t> bytes;  // by nodes a machine
+  for (const int nodes_each : {1, 2, 4}) {
+    Counted counted;
+    run_counted(film, {4, nodes_each}, counted);
+    for (int from = 0; from < 4; ++from) {
+      const auto sent = counted.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)});
+      bytes[nodes_each] += sent.bytes;
+      EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
+    }
   }
-  EXPECT_GT(bytes, 0u);
-  EXPECT_LT(bytes, 200u * 200 * sizeof(float) / 3) << "the mover passes over less than a third of the lines";
+  EXPECT_GT(bytes[1], 0u);
+  EXPECT_LT(bytes[1], 200u * 200 * sizeof(float) / 3) << "the mover passes over less than a third of the lines";
+  EXPECT_LE(bytes[2], bytes[1]);
+  EXPECT_EQ(bytes[4], 0u);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 // from scratch by one node.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
+#include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 
@@ -60,6 +63,18 @@ TEST_P(Identity, AnyMappingAndCubes) {
     options.farm.cubes = cubes;
     options.farm.mapping = cubes == 2 ? node::Mapping::greedy : node::Mapping::optimal;
     expect_as_from_scratch(options, std::to_string(cubes) + "-cubes");
+  }
+}
+
+TEST_P(Identity, AnyMachines) {
+  for (const auto& [nodes, nodes_each, cubes] : {std::tuple{4, 1, 1u}, {5, 2, 1u}, {7, 3, 2u}}) {
+    hal::Machines machines(nodes_each);
+    hal::Counts counts;
+    RunOptions options;
+    options.nodes = nodes;
+    options.farm.cubes = cubes;
+    options.wrap = [&](hal::Backend& inner) { return std::make_unique<hal::MachinesBackend>(inner, counts, machines); };
+    expect_as_from_scratch(options, std::to_string(nodes_each) + "-a-machine");
   }
 }
 

@@ -1,0 +1,250 @@
+// Set-up sixteen at a time, set-up one by one and the tests' plain set-up make the same of a patch: triangles and
+// crossings in the same order with the same bits, from every instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/node/kernel_sets.h"
+#include "tests/node/patches.h"
+#include "tests/node/plain_set_up.h"
+#include "tests/node/set_ups.h"
+
+namespace mars::test {
+namespace {
+
+using node::Dicer;
+using node::EyePatch;
+using node::PatchIdentity;
+
+constexpr std::int32_t kWidth = 200, kHeight = 150;
+const Picture kPicture{projection(kWidth, kHeight, 2, 0.1, 1000), kWidth, kHeight};
+const double kScale = kPicture.projection.scale;
+
+Made expected_of(const std::vector<PlainTriangle>& plain, bool moving) {
+  Made out;
+  out.line_counts.resize(kHeight);
+  for (const PlainTriangle& t : plain) {
+    auto crossings = plain_crossings(t.corners, kWidth, kHeight);
+    if (crossings.empty()) continue;
+    for (node::Crossing& crossing : crossings) {
+      crossing.box.triangle = static_cast<std::uint32_t>(out.triangles.size());
+      crossing.moving = moving;
+      ++out.line_counts[crossing.line];
+      out.crossings.push_back(crossing);
+    }
+    out.triangles.push_back(t.record);
+  }
+  out.touching = out.triangles.size();
+  out.edge_boxes = out.crossings.size();
+  return out;
+}
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+// Which ways triangles went, so that a test can tell that it tested them.
+struct Paths {
+  int decided = 0;
+  int undecided = 0;
+  int clipped = 0;
+  int dropped = 0;
+  int edge_boxes = 0;
+
+  void count(const node::Kernels& kernels, const Dicer& diced, const PatchIdentity& identity) {
+    if (diced.reaches_outside()) {
+      clipped += static_cast<int>(diced.triangles().count);
+      return;
+    }
+    node::Examined e;
+    for (std::uint32_t b = 0; b < diced.triangles().batch_count; ++b) {
+      const node::Batch& batch = diced.triangles().batches[b];
+      kernels.examine({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(), diced.triangles(), batch, e);
+      decided += std::popcount(e.decided);
+      undecided += std::popcount(e.undecided);
+      dropped += static_cast<int>(batch.last - batch.first) - std::popcount(e.decided | e.undecided);
+    }
+  }
+};
+
+class SetUpTwins : public testing::Test {
+ protected:
+  SetUpTwins() {
+    for (const node::Kernels* kernels : all_kernels()) dicers.push_back({kernels, Dicer(*kernels)});
+  }
+
+  void expect_same(const EyePatch& patch, int rate, const PatchIdentity& identity) {
+    Made expected;
+    for (auto& [kernels, dicer] : dicers) {
+      dicer.dice(patch, kPicture.projection, rate);
+      if (kernels == dicers[0].first) {
+        expected = expected_of(plain_set_up(dicer, kPicture.projection, identity), identity.moving);
+        paths.count(*kernels, dicer, identity);
+        paths.edge_boxes += static_cast<int>(expected.edge_boxes);
+      }
+      for (const Way way : {Way::at_a_time, Way::plainly}) {
+        SCOPED_TRACE(std::string(kernels->name) + (way == Way::plainly ? ", plainly" : ", at a time"));
+        const Made made = set_up(*kernels, kPicture, dicer, identity, way);
+        ASSERT_TRUE(same_bits(made.triangles, expected.triangles));
+        ASSERT_TRUE(same_bits(made.crossings, expected.crossings));
+        ASSERT_EQ(made.line_counts, expected.line_counts);
+        ASSERT_EQ(made.touching, expected.touching);
+        ASSERT_EQ(made.edge_boxes, expected.edge_boxes);
+        ASSERT_TRUE(made.all_stored);
+      }
+    }
+  }
+
+  std::vector<std::pair<const node::Kernels*, Dicer>> dicers;
+  Paths paths;
+};
+
+PatchIdentity random_identity(Random& random) {
+  return {random.bits(), random.bits() % 9, random.whole(0, 1) == 1, random.whole(0, 2) == 0, random.whole(0, 1) == 1};
+}
+
+// The place seen at (x, y) pixels from the picture's left and top.
+Vec3 seen_at(double x, double y, double away) {
+  return {(x - kPicture.projection.center[0]) / kScale * away, -(y - kPicture.projection.center[1]) / kScale * away, -away};
+}
+
+EyePatch bilinear(const Vec3 (&corner)[4]) {
+  return make_patch([&](int i, int j) {
+    Vec3 out{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double below = corner[0][axis] + (corner[1][axis] - corner[0][axis]) * i / 3;
+      const double above = corner[3][axis] + (corner[2][axis] - corner[3][axis]) * i / 3;
+      out[axis] = below + (above - below) * j / 3;
+    }
+    return out;
+  });
+}
+
+using MakePatch = std::function<EyePatch(Random&)>;
+
+EyePatch crumpled(Random& random) {
+  return random_patch(random, seen_at(random.real(0, kWidth), random.real(0, kHeight), random.real(3, 8)),
+                      std::pow(10, random.real(-3, 0.5)));
+}
+
+EyePatch needle(Random& random) {
+  EyePatch patch = crumpled(random);
+  const int axis = random.whole(0, 2);
+  const auto thin = static_cast<float>(std::pow(10, random.real(-6, -1)));
+  for (auto& point : patch.point) point[axis] = patch.point[0][axis] + thin * (point[axis] - patch.point[0][axis]);
+  return patch;
+}
+
+// A sheet whose plane runs through the eye, or nearly, by turns as thin as a line and as a ground one walks on.
+EyePatch edge_on(Random& random) {
+  const double tilt = random.whole(0, 3) ? std::pow(10, random.real(-4, -0.5)) : 0, bend = random.whole(0, 1) * 1e-3;
+  const double near = random.real(0.3, 2), deep = random.real(0.1, 9), wide = random.real(0.1, 2), y = random.real(-0.2, 0.2);
+  return make_patch([&](int i, int j) {
+    const double away = near + deep * j / 3;
+    return Vec3{wide * (i - 1.5), y * away - tilt + bend * ((i ^ j) & 1) * away, -away};
+  });
+}
+
+EyePatch beyond_the_picture(Random& random) {
+  const double away = random.real(1, 5), size = away * random.real(0.5, 20);
+  return make_patch([&](int i, int j) {
+    return Vec3{size * (i - 1.5) + random.real(-0.1, 0.1), size * (j - 1.4), -away - 0.1 * random.real(0, 1)};
+  });
+}
+
+EyePatch over_the_border(Random& random) {
+  const double x = random.whole(0, 1) * kWidth, y = random.whole(0, 1) * kHeight;
+  return random_patch(random, random.whole(0, 1) ? seen_at(x, random.real(0, kHeight), 4) : seen_at(random.real(0, kWidth), y, 4),
+                      std::pow(10, random.real(-2, 0)));
+}
+
+EyePatch through_the_eye(Random& random) { return random_patch(random, {0, 0, random.real(-2, 1)}, random.real(0.3, 3)); }
+
+EyePatch ball(Random& random) {
+  return sphere_octant(seen_at(random.real(0, kWidth), random.real(0, kHeight), 5), std::pow(10, random.real(-2, 0.2)));
+}
+
+// Vertices on samples, or on pixels' borders, for the rates that divide 60.
+EyePatch lattice(Random& random) {
+  const int cell = random.whole(1, 3), shift = random.whole(-70, 170);
+  const double half = random.whole(0, 2) ? 0.5 : 0;
+  const double left = shift + half, top = random.whole(-70, 120) + half, size = 60.0 * cell;
+  const bool turned = random.whole(0, 1) == 1;
+  const Vec3 a = seen_at(left, top + size, kScale), b = seen_at(left + size, top + size, kScale),
+             c = seen_at(left + size, top, kScale), d = seen_at(left, top, kScale);
+  return turned ? bilinear({a, d, c, b}) : bilinear({a, b, c, d});
+}
+
+struct Kind {
+  const char* name;
+  MakePatch make;
+  int least_decided, least_undecided, least_clipped;  // in 300 trials
+};
+
+TEST_F(SetUpTwins, MakeTheSameOfAllKindsOfPatches) {
+  Random random(80);
+  const Kind kinds[] = {{"crumpled", crumpled, 15000, 1000, 0},
+                        {"needle", needle, 5000, 500, 0},
+                        {"edge-on", edge_on, 5000, 500, 0},
+                        {"beyond the picture", beyond_the_picture, 2000, 1000, 0},
+                        {"over the border", over_the_border, 5000, 500, 0},
+                        {"through the eye", through_the_eye, 20000, 500, 500000},
+                        {"ball", ball, 5000, 300, 0},
+                        {"lattice", lattice, 40000, 100, 0}};
+  for (const Kind& kind : kinds) {
+    paths = {};
+    for (int trial = 0; trial < 300; ++trial) {
+      SCOPED_TRACE(std::string(kind.name) + ", trial " + std::to_string(trial));
+      const int rates[] = {0, 1, 2, 3, 5, 10, 15, 20, 30};
+      expect_same(kind.make(random), rates[trial % 9], random_identity(random));
+      if (HasFatalFailure()) return;
+    }
+    SCOPED_TRACE(kind.name);
+    EXPECT_GE(paths.decided, kind.least_decided);
+    EXPECT_GE(paths.undecided, kind.least_undecided);
+    EXPECT_GE(paths.clipped, kind.least_clipped);
+    EXPECT_GT(paths.edge_boxes, 1000);
+  }
+}
+
+// A quad with corners at these 1/256 pixels, each as far away as it likes.
+EyePatch planted(Random& random, const std::int32_t (&x)[4], const std::int32_t (&y)[4]) {
+  Vec3 corner[4];
+  for (std::size_t k = 0; k < 4; ++k) corner[k] = seen_at(x[k] / 256.0, y[k] / 256.0, kScale * random.whole(1, 4));
+  return bilinear({corner[0], corner[1], corner[2], corner[3]});
+}
+
+// Triangles as wide or high as those that are decided, and as thin as what snapping may turn over, but for 1/256 pixel.
+TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
+  Random random(81);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const std::int32_t left = random.whole(-6000, 200 * 256), top = random.whole(-6000, 150 * 256);
+    const bool large = random.whole(0, 1) == 1;
+    const std::int32_t far = random.whole(0, 1500);
+    const std::int32_t width = large ? node::kMostExtent * 128 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
+    const std::int32_t height = large ? node::kMostExtent * 128 + random.whole(-1, 1) : 5;
+    const std::int32_t a = large ? 0 : random.whole(0, far), b = large ? random.whole(0, 300) : 0;
+    const std::int32_t x[4] = {left, left + width, left + width - a, left + a}, y[4] = {top + height, top + height - b, top, top + b};
+    const bool turned = random.whole(0, 1) == 1;
+    const EyePatch patch = turned ? planted(random, y, x) : planted(random, x, y);
+    dicers[0].second.dice(patch, kPicture.projection, 1);
+    const std::int32_t* snapped = dicers[0].second.vertices().x;
+    ASSERT_EQ(std::set(snapped, snapped + dicers[0].second.vertex_count()),
+              turned ? std::set(y, y + 4) : std::set(x, x + 4));
+    expect_same(patch, 1, random_identity(random));
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(paths.decided, 500);
+  EXPECT_GT(paths.undecided, 500);
+}
+
+}  // namespace
+}  // namespace mars::test
