@@ -1,0 +1,418 @@
+// Embree as a competitor: peer-embree MESH THREADS whole|inbetween. How it was made fast: README.md.
+//
+// Rays start in packets of 16 from one eye. What moves is a scene of its own in its place at frame 0: rays are turned
+// instead of its tree. Every view's z is its rays' parameter, so views can be compared.
+#include <embree3/rtcore.h>
+#include <immintrin.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+
+#include "tests/bench/peers/mesh.h"
+#include "tests/bench/peers/peer.h"
+
+namespace mars::bench {
+namespace {
+
+constexpr int kPacket = 16;
+constexpr int kPacketWidth = 4, kPacketHeight = 4;
+constexpr int kTile = 16;  // pixels; a multiple of a packet's sides
+
+// A triangle's normals: the first corner's, and the differences of the others to it.
+struct alignas(16) Normals {
+  float first[3], to_second[3], to_third[3];
+  std::uint32_t look;
+};
+
+struct Box {
+  int left, top, right, bottom;  // pixels, half open
+  bool meets(const Box& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+};
+
+// A scene of Embree's with its triangles' normals, and the eye and light as that scene has them.
+struct View {
+  RTCScene scene;
+  std::vector<Normals> normals;
+  float origin[3];
+  float ahead[3], right[3], up[3];  // a ray's direction: ahead + x * right + y * up, of length 1 along the eye's axis
+  float to_light[3];
+};
+
+// Threads that stay, each on a processor of its own, and share the tiles of one frame after another.
+class Crew {
+ public:
+  Crew(int threads, std::function<void()> work) : work_(std::move(work)) {
+    pin(0);
+    for (int k = 1; k < threads; ++k) helpers_.emplace_back([this, k] { help(k); });
+  }
+  ~Crew() {
+    stop_ = true;
+    begin();
+    for (std::thread& helper : helpers_) helper.join();
+  }
+
+  void run() {
+    busy_.store(static_cast<int>(helpers_.size()), std::memory_order_relaxed);
+    begin();
+    work_();
+    for (int busy = busy_.load(std::memory_order_acquire); busy != 0; busy = busy_.load(std::memory_order_acquire))
+      busy_.wait(busy, std::memory_order_acquire);
+  }
+
+ private:
+  void begin() {
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+  }
+
+  void help(int number) {
+    pin(number);
+    for (unsigned round = 0;; ++round) {
+      round_.wait(round, std::memory_order_acquire);
+      if (stop_) return;
+      work_();
+      if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_one();
+    }
+  }
+
+  // To the processor of that number among those this process may use.
+  static void pin(int number) {
+    static const cpu_set_t allowed = [] {
+      cpu_set_t set;
+      sched_getaffinity(0, sizeof set, &set);
+      return set;
+    }();
+    int left = number % CPU_COUNT(&allowed);
+    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+      if (!CPU_ISSET(cpu, &allowed) || left-- > 0) continue;
+      cpu_set_t one;
+      CPU_ZERO(&one);
+      CPU_SET(cpu, &one);
+      pthread_setaffinity_np(pthread_self(), sizeof one, &one);
+      return;
+    }
+  }
+
+  std::function<void()> work_;
+  std::atomic<unsigned> round_{0};
+  std::atomic<int> busy_{0};
+  std::atomic<bool> stop_{false};
+  std::vector<std::thread> helpers_;
+};
+
+RTCScene build(RTCDevice device, const Mesh& mesh, std::uint32_t first, std::uint32_t last) {
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  void* places = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                         mesh.vertices.size());
+  for (std::size_t k = 0; k < mesh.vertices.size(); ++k)
+    std::copy_n(mesh.vertices[k].place.data(), 3, static_cast<float*>(places) + 3 * k);
+  void* corners =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Corners), last - first);
+  std::copy_n(&mesh.triangles[first], last - first, static_cast<Corners*>(corners));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return scene;
+}
+
+std::vector<Normals> normals_of(const Mesh& mesh, std::uint32_t first, std::uint32_t last) {
+  std::vector<Normals> normals(last - first);
+  for (const MeshPatch& patch : mesh.patches) {
+    if (patch.first_triangle < first || patch.first_triangle >= last) continue;
+    for (std::uint32_t t = patch.first_triangle; t < patch.first_triangle + patch.triangles; ++t) {
+      Normals& out = normals[t - first];
+      out.look = patch.look;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = [&](std::size_t corner) { return mesh.vertices[mesh.triangles[t][corner]].normal[axis]; };
+        out.first[axis] = at(0);
+        out.to_second[axis] = at(1) - at(0);
+        out.to_third[axis] = at(2) - at(0);
+      }
+    }
+  }
+  return normals;
+}
+
+// Turns the eye and the light against `motion`, so that the scene need not be.
+void set_motion(View& view, const MeshHead& head, const Motion& motion) {
+  const float eye[4][3] = {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {head.to_light[0], head.to_light[1], head.to_light[2]}};
+  float* turned[4] = {view.ahead, view.right, view.up, view.to_light};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (int k = 0; k < 4; ++k)
+      turned[k][c] = motion[0][c] * eye[k][0] + motion[1][c] * eye[k][1] + motion[2][c] * eye[k][2];
+    view.origin[c] = -(motion[0][c] * motion[0][3] + motion[1][c] * motion[1][3] + motion[2][c] * motion[2][3]);
+  }
+}
+
+class Renderer {
+ public:
+  Renderer(const Mesh& mesh, int threads, bool inbetweens);
+
+  void render();
+  Picture picture() const { return {mesh_.head.width, mesh_.head.height, frame_}; }
+  std::string note() const { return note_; }
+
+ private:
+  void work();
+  void draw(const Box& tile);
+  void draw_packet(const View& view, int left, int top, bool over);
+  void shade(const View& view, const RTCRayHit16& rays, const int* hit, int left, int top);
+  Box mover_box(const Motion& motion) const;
+  bool moving() const { return !mover_.normals.empty(); }
+
+  const Mesh& mesh_;
+  bool inbetweens_;
+  View standing_{}, mover_{};
+  std::string note_;
+  std::vector<std::uint32_t> frame_;
+  std::vector<float> depth_;  // of the standing part
+  std::vector<std::uint32_t> kept_;  // the standing part's colours
+  std::uint32_t background_ = 0;
+  std::uint32_t number_ = 0;
+  Box standing_box_{}, mover_now_{}, mover_before_{};
+  std::vector<Box> tiles_;
+  std::atomic<std::size_t> next_tile_{0};
+  std::unique_ptr<Crew> crew_;
+};
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t last, const Motion& m) {
+  float low[2] = {kFar, kFar}, high[2] = {-kFar, -kFar};
+  for (std::uint32_t k = first; k < last; ++k) {
+    const auto& p = mesh.vertices[k].place;
+    float q[3];
+    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r][0] * p[0] + m[r][1] * p[1] + m[r][2] * p[2] + m[r][3];
+    const float x = mesh.head.center[0] - mesh.head.scale * q[0] / q[2];
+    const float y = mesh.head.center[1] + mesh.head.scale * q[1] / q[2];
+    low[0] = std::min(low[0], x), high[0] = std::max(high[0], x);
+    low[1] = std::min(low[1], y), high[1] = std::max(high[1], y);
+  }
+  const auto clamped = [](float v, std::uint32_t most) { return static_cast<int>(std::clamp(v, 0.0f, float(most))); };
+  const auto w = mesh.head.width, h = mesh.head.height;
+  return {clamped(low[0], w), clamped(low[1], h), clamped(high[0] + 1, w), clamped(high[1] + 1, h)};
+}
+
+std::uint32_t pixel_of(const std::array<float, 3>& color) {
+  std::uint32_t pixel = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    pixel |= static_cast<std::uint32_t>(std::clamp(color[c], 0.0f, 1.0f) * 255 + 0.5f) << (8 * c);
+  return pixel;
+}
+
+constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh), inbetweens_(inbetweens) {
+  const std::size_t pixels = std::size_t{mesh.head.width} * mesh.head.height;
+  background_ = pixel_of(mesh.head.background);
+  frame_.assign(pixels, background_);
+  depth_.assign(pixels, kFar);
+  const std::string config = "threads=" + std::to_string(threads);
+  RTCDevice device = rtcNewDevice(config.c_str());
+  const std::uint32_t moving = mesh.first_moving_triangle();
+  const auto start = std::chrono::steady_clock::now();
+  standing_.scene = build(device, mesh, 0, moving);
+  if (moving < mesh.head.triangles) mover_.scene = build(device, mesh, moving, mesh.head.triangles);
+  std::ostringstream note;
+  note << "Embree " << rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION) << ", tree built in "
+       << milliseconds_since(start) << " ms";
+  note_ = note.str();
+  standing_.normals = normals_of(mesh, 0, moving);
+  mover_.normals = normals_of(mesh, moving, mesh.head.triangles);
+  set_motion(standing_, mesh.head, kStill);
+  standing_box_ = box_of(mesh, 0, mesh.first_moving_vertex(), kStill);
+  const int width = static_cast<int>(mesh.head.width), height = static_cast<int>(mesh.head.height);
+  for (int top = 0; top < height; top += kTile)
+    for (int left = 0; left < width; left += kTile)
+      tiles_.push_back({left, top, std::min(left + kTile, width), std::min(top + kTile, height)});
+  crew_ = std::make_unique<Crew>(threads, [this] { work(); });
+  if (!inbetweens_) return;
+  inbetweens_ = false;
+  mover_now_ = {};
+  const std::vector<Normals> mover = std::move(mover_.normals);
+  mover_.normals.clear();
+  render();
+  kept_ = frame_;
+  number_ = 0;
+  mover_.normals = mover;
+  inbetweens_ = true;
+}
+
+Box Renderer::mover_box(const Motion& motion) const {
+  return box_of(mesh_, mesh_.first_moving_vertex(), mesh_.head.vertices, motion);
+}
+
+void Renderer::render() {
+  // Inbetweens are all frames but the first.
+  const std::uint32_t frames = mesh_.head.frames;
+  number_ = frames == 1 ? 0 : inbetweens_ ? number_ % (frames - 1) + 1 : (number_ + 1) % frames;
+  if (moving()) {
+    const Motion& motion = mesh_.motion[number_];
+    set_motion(mover_, mesh_.head, motion);
+    mover_before_ = mover_now_;
+    mover_now_ = mover_box(motion);
+  }
+  next_tile_ = 0;
+  crew_->run();
+}
+
+void Renderer::work() {
+  for (std::size_t k; (k = next_tile_.fetch_add(1, std::memory_order_relaxed)) < tiles_.size();) draw(tiles_[k]);
+}
+
+void Renderer::draw(const Box& tile) {
+  const bool mover_here = moving() && tile.meets(mover_now_);
+  if (inbetweens_ && !mover_here && !tile.meets(mover_before_)) return;
+  const bool standing_here = !inbetweens_ && tile.meets(standing_box_);
+  if (!standing_here)
+    for (int line = tile.top; line < tile.bottom; ++line) {
+      const std::size_t row = std::size_t(line) * mesh_.head.width;
+      if (inbetweens_)
+        std::copy(&kept_[row + tile.left], &kept_[row] + tile.right, &frame_[row + tile.left]);
+      else
+        std::fill(&frame_[row + tile.left], &frame_[row] + tile.right, background_);
+    }
+  for (int top = tile.top; top < tile.bottom; top += kPacketHeight)
+    for (int left = tile.left; left < tile.right; left += kPacketWidth) {
+      if (standing_here) draw_packet(standing_, left, top, false);
+      if (mover_here) draw_packet(mover_, left, top, true);
+    }
+}
+
+// Draws what `view` has nearer than depth_, over what the frame shows or over the background.
+void Renderer::draw_packet(const View& view, int left, int top, bool over) {
+  alignas(64) RTCRayHit16 rays;
+  alignas(64) int valid[kPacket], hit[kPacket];
+  const float per_pixel = 1 / mesh_.head.scale;
+  const int width = static_cast<int>(mesh_.head.width), height = static_cast<int>(mesh_.head.height);
+  for (int k = 0; k < kPacket; ++k) {
+    const int column = left + k % kPacketWidth, line = top + k / kPacketWidth;
+    const float x = (static_cast<float>(column) + 0.5f - mesh_.head.center[0]) * per_pixel;
+    const float y = (mesh_.head.center[1] - static_cast<float>(line) - 0.5f) * per_pixel;
+    valid[k] = column < width && line < height ? -1 : 0;
+    rays.ray.org_x[k] = view.origin[0];
+    rays.ray.org_y[k] = view.origin[1];
+    rays.ray.org_z[k] = view.origin[2];
+    rays.ray.dir_x[k] = view.ahead[0] + x * view.right[0] + y * view.up[0];
+    rays.ray.dir_y[k] = view.ahead[1] + x * view.right[1] + y * view.up[1];
+    rays.ray.dir_z[k] = view.ahead[2] + x * view.right[2] + y * view.up[2];
+    rays.ray.tnear[k] = 0;
+    rays.ray.time[k] = 0;
+    rays.ray.mask[k] = 0xffffffffu;
+    rays.ray.flags[k] = 0;
+    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  for (int k = 0; k < kPacket; ++k) rays.ray.tfar[k] = kFar;
+  if (over)
+    for (int k = 0; k < kPacket; ++k)
+      if (valid[k])
+        rays.ray.tfar[k] = depth_[std::size_t(top + k / kPacketWidth) * mesh_.head.width + left + k % kPacketWidth];
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, view.scene, &context, &rays);
+  // Back faces are seldom seen: their few rays go on behind them, which costs less than a filter for all.
+  for (;;) {
+    int again = 0;
+    alignas(64) int behind[kPacket];
+    for (int k = 0; k < kPacket; ++k) {
+      const bool met = valid[k] && rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+      const float facing = rays.hit.Ng_x[k] * rays.ray.dir_x[k] + rays.hit.Ng_y[k] * rays.ray.dir_y[k] +
+                           rays.hit.Ng_z[k] * rays.ray.dir_z[k];
+      behind[k] = met && facing > 0 ? -1 : 0;
+      hit[k] = met ? -1 : 0;
+      again |= behind[k];
+    }
+    if (!again) break;
+    for (int k = 0; k < kPacket; ++k) {
+      if (!behind[k]) continue;
+      rays.ray.tnear[k] = rays.ray.tfar[k] * 1.000001f;
+      const float beyond = over ? depth_[std::size_t(top + k / kPacketWidth) * mesh_.head.width + left + k % kPacketWidth] : kFar;
+      rays.ray.tfar[k] = beyond;
+      rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(behind, view.scene, &context, &rays);
+  }
+  int any = 0;
+  for (int k = 0; k < kPacket; ++k) any |= hit[k];
+  if (!over)
+    for (int k = 0; k < kPacket; ++k)
+      if (valid[k]) {
+        const std::size_t at = std::size_t(top + k / kPacketWidth) * mesh_.head.width + left + k % kPacketWidth;
+        depth_[at] = hit[k] ? rays.ray.tfar[k] : kFar;
+        if (!hit[k]) frame_[at] = background_;
+      }
+  if (any) shade(view, rays, hit, left, top);
+}
+
+void Renderer::shade(const View& view, const RTCRayHit16& rays, const int* hit, int left, int top) {
+  alignas(64) float n[3][kPacket], color[3][kPacket];
+  alignas(64) std::uint32_t pixels[kPacket];
+  const MeshHead& head = mesh_.head;
+  for (int k = 0; k < kPacket; ++k) {
+    const Normals& at = view.normals[hit[k] ? rays.hit.primID[k] : 0];
+    const float u = rays.hit.u[k], v = rays.hit.v[k];
+    for (int axis = 0; axis < 3; ++axis) n[axis][k] = at.first[axis] + u * at.to_second[axis] + v * at.to_third[axis];
+    for (std::size_t c = 0; c < 3; ++c) color[c][k] = mesh_.looks[at.look][c];
+  }
+  const float l[3] = {view.to_light[0], view.to_light[1], view.to_light[2]};
+  for (int k = 0; k < kPacket; ++k) {
+    const float dx = rays.ray.dir_x[k], dy = rays.ray.dir_y[k], dz = rays.ray.dir_z[k];
+    const float x = n[0][k], y = n[1][k], z = n[2][k];
+    const float shrink = 1 / std::sqrt(x * x + y * y + z * z), toward = -1 / std::sqrt(dx * dx + dy * dy + dz * dz);
+    const float nl = (x * l[0] + y * l[1] + z * l[2]) * shrink;
+    const float nv = (x * dx + y * dy + z * dz) * shrink * toward;
+    const float lv = (dx * l[0] + dy * l[1] + dz * l[2]) * toward;
+    const float facing = std::max(nl, 0.0f);
+    float shine = std::clamp(2 * nl * nv - lv, 0.0f, 1.0f);
+    shine = nl > 0 ? shine : 0;
+    for (std::uint32_t s = 0; s < head.squarings; ++s) shine *= shine;
+    std::uint32_t pixel = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float level = color[c][k] * (head.ambient + head.diffuse * facing * head.light[c]) +
+                          head.specular * shine * head.light[c];
+      pixel |= static_cast<std::uint32_t>(static_cast<int>(std::clamp(level, 0.0f, 1.0f) * 255 + 0.5f)) << (8 * c);
+    }
+    pixels[k] = pixel;
+  }
+  for (int k = 0; k < kPacket; ++k)
+    if (hit[k]) frame_[std::size_t(top + k / kPacketWidth) * head.width + left + k % kPacketWidth] = pixels[k];
+}
+
+void run(int argc, char** argv) {
+  if (argc != 4) throw std::runtime_error("usage: peer-embree MESH THREADS whole|inbetween");
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _mm_setcsr(_mm_getcsr() | 0x40);  // denormals are zero, as Embree advises
+  const Mesh mesh = read_mesh(argv[1]);
+  Renderer renderer(mesh, std::stoi(argv[2]), std::string_view(argv[3]) == "inbetween");
+  obey({renderer.note(), [&] { renderer.render(); }, [&] { return renderer.picture(); }});
+}
+
+}  // namespace
+}  // namespace mars::bench
+
+int main(int argc, char** argv) {
+  try {
+    mars::bench::run(argc, argv);
+    return 0;
+  } catch (const std::exception& failure) {
+    std::cerr << "peer-embree: " << failure.what() << '\n';
+    return 1;
+  }
+}
