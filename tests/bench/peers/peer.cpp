@@ -32,21 +32,27 @@ void write_ppm(const Picture& picture, const std::string& path) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-void obey(const Competitor& competitor) {
-  std::cout << "ready " << competitor.ready << std::endl;
+void Orders::tell_ready(const std::string& text) const { std::cout << "ready " << text << std::endl; }
+
+void Orders::tell_milliseconds(double a_frame) const { std::cout << "ms " << a_frame << std::endl; }
+
+std::optional<int> Orders::next_go() const {
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream words(line);
     std::string order, argument;
     words >> order >> argument;
-    if (order == "go") {
-      std::cout << "ms " << render(competitor, std::stoi(argument)) << std::endl;
-    } else if (order == "picture") {
-      write_ppm(competitor.last_picture(), argument);
-      std::cout << "done" << std::endl;
-    } else {
-      throw std::runtime_error("unknown order: " + line);
-    }
+    if (order == "go") return std::stoi(argument);
+    if (order != "picture") throw std::runtime_error("unknown order: " + line);
+    write_ppm(last_picture_(), argument);
+    std::cout << "done" << std::endl;
   }
+  return {};
+}
+
+void obey(const Competitor& competitor) {
+  const Orders orders(competitor.last_picture);
+  orders.tell_ready(competitor.ready);
+  while (const auto frames = orders.next_go()) orders.tell_milliseconds(render(competitor, *frames));
 }
 
 }  // namespace mars::bench

@@ -9,8 +9,10 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace mars::bench {
 
@@ -23,13 +25,28 @@ struct Picture {
 
 void write_ppm(const Picture& picture, const std::string& path);
 
+// The orders as they come, for a competitor that is asked what to do next.
+class Orders {
+ public:
+  explicit Orders(std::function<Picture()> last_picture) : last_picture_(std::move(last_picture)) {}
+
+  void tell_ready(const std::string& text) const;
+  // Draws pictures where they are wanted; frames of the next "go", none at the end of input. Throws
+  // std::runtime_error for an order it does not know.
+  std::optional<int> next_go() const;
+  void tell_milliseconds(double a_frame) const;
+
+ private:
+  std::function<Picture()> last_picture_;
+};
+
 struct Competitor {
   std::string ready;                      // one line
   std::function<void()> render;           // the next frame
   std::function<Picture()> last_picture;
 };
 
-// Obeys until the input ends. Throws std::runtime_error for an order it does not know.
+// Obeys until the input ends.
 void obey(const Competitor& competitor);
 
 inline double milliseconds_since(std::chrono::steady_clock::time_point start) {

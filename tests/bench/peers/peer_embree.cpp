@@ -177,13 +177,13 @@ class Renderer {
 
   const Mesh& mesh_;
   bool inbetweens_;
+  std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   View standing_{}, mover_{};
   std::string note_;
   std::vector<std::uint32_t> frame_;
   std::vector<float> depth_;  // of the standing part
   std::vector<std::uint32_t> kept_;  // the standing part's colours
   std::uint32_t background_ = 0;
-  std::uint32_t number_ = 0;
   Box standing_box_{}, mover_now_{}, mover_before_{};
   std::vector<Box> tiles_;
   std::atomic<std::size_t> next_tile_{0};
@@ -217,7 +217,7 @@ std::uint32_t pixel_of(const std::array<float, 3>& color) {
 
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh), inbetweens_(inbetweens) {
+Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh), inbetweens_(inbetweens), number_(mesh.head.frames - 1) {
   const std::size_t pixels = std::size_t{mesh.head.width} * mesh.head.height;
   background_ = pixel_of(mesh.head.background);
   frame_.assign(pixels, background_);
@@ -248,7 +248,6 @@ Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh)
   mover_.normals.clear();
   render();
   kept_ = frame_;
-  number_ = 0;
   mover_.normals = mover;
   inbetweens_ = true;
 }
@@ -258,9 +257,8 @@ Box Renderer::mover_box(const Motion& motion) const {
 }
 
 void Renderer::render() {
-  // Inbetweens are all frames but the first.
-  const std::uint32_t frames = mesh_.head.frames;
-  number_ = frames == 1 ? 0 : inbetweens_ ? number_ % (frames - 1) + 1 : (number_ + 1) % frames;
+  number_ = (number_ + 1) % mesh_.head.frames;
+  if (inbetweens_ && number_ == 0) number_ = 1;
   if (moving()) {
     const Motion& motion = mesh_.motion[number_];
     set_motion(mover_, mesh_.head, motion);

@@ -170,7 +170,7 @@ class Renderer {
   GLuint program_ = 0, drawn_ = 0, kept_ = 0;
   GLint motion_at_ = -1;
   std::size_t standing_ = 0, all_ = 0;  // corners in the index buffer
-  std::uint32_t number_ = 0;
+  std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   Box before_{};
   std::vector<std::uint32_t> pixels_;
 };
@@ -179,7 +179,7 @@ constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 Renderer::Renderer(const Mesh& mesh, bool inbetweens)
     : mesh_(mesh), inbetweens_(inbetweens), width_(static_cast<GLsizei>(mesh.head.width)),
-      height_(static_cast<GLsizei>(mesh.head.height)), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
+      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
   const MeshHead& head = mesh.head;
   program_ = link(head.squarings);
   glUseProgram(program_);
@@ -254,8 +254,8 @@ void Renderer::draw(std::size_t first, std::size_t last) {
 }
 
 void Renderer::render() {
-  const std::uint32_t frames = mesh_.head.frames;
-  number_ = frames == 1 ? 0 : inbetweens_ ? number_ % (frames - 1) + 1 : (number_ + 1) % frames;
+  number_ = (number_ + 1) % mesh_.head.frames;
+  if (inbetweens_ && number_ == 0) number_ = 1;
   if (inbetweens_)
     render_inbetween();
   else
