@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -25,6 +26,10 @@ namespace {
 
 constexpr int kPacket = 16;
 constexpr int kPacketWidth = 4, kPacketHeight = 4;
+using Floats [[gnu::vector_size(4 * kPacket)]] = float;
+using Ints [[gnu::vector_size(4 * kPacket)]] = int;
+constexpr Ints kColumn{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+constexpr Ints kLine{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 constexpr int kTile = 16;  // pixels; a multiple of a packet's sides
 
 // A triangle's normals: the first corner's, and the differences of the others to it.
@@ -48,6 +53,29 @@ struct View {
   float ahead[3], right[3], up[3];  // a ray's direction: ahead + x * right + y * up, of length 1 along the eye's axis
   float to_light[3];
 };
+
+template <typename Vector, typename Number>
+Vector got(const Number (&from)[kPacket]) {
+  return *reinterpret_cast<const Vector*>(from);  // Embree aligns them
+}
+
+template <typename Vector, typename Number>
+void put(Number (&to)[kPacket], Vector value) {
+  *reinterpret_cast<Vector*>(to) = value;
+}
+
+unsigned mask_of(Ints truths) {
+  unsigned mask = 0;
+  for (int k = 0; k < kPacket; ++k) mask |= truths[k] < 0 ? 1u << k : 0u;
+  return mask;
+}
+
+bool any(Ints truths) { return mask_of(truths) != 0; }
+
+Floats inverse_root(Floats square) {
+  for (int k = 0; k < kPacket; ++k) square[k] = 1 / std::sqrt(square[k]);
+  return square;
+}
 
 // Threads that stay, each on a processor of its own, and share the tiles of one frame after another.
 class Crew {
@@ -171,12 +199,17 @@ class Renderer {
   void work();
   void draw(const Box& tile);
   void draw_packet(const View& view, int left, int top, bool over);
-  void shade(const View& view, const RTCRayHit16& rays, const int* hit, int left, int top);
+  template <typename Vector, typename Number>
+  void store(int left, int top, Ints where, Vector values, std::vector<Number>& picture);
+  void interpolate(const View& view, const RTCRayHit16& rays, Ints met, Floats* normal, Floats* color) const;
+  Ints shade(const View& view, const RTCRayHit16& rays, Ints met, const Floats* direction) const;
+  std::size_t place(int left, int top, int row) const;
   Box mover_box(const Motion& motion) const;
   bool moving() const { return !mover_.normals.empty(); }
 
   const Mesh& mesh_;
   bool inbetweens_;
+  bool keeping_depth_;  // where something moves
   std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   View standing_{}, mover_{};
   std::string note_;
@@ -217,7 +250,8 @@ std::uint32_t pixel_of(const std::array<float, 3>& color) {
 
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh), inbetweens_(inbetweens), number_(mesh.head.frames - 1) {
+Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh), inbetweens_(inbetweens),
+      keeping_depth_(mesh.first_moving_triangle() < mesh.head.triangles), number_(mesh.head.frames - 1) {
   const std::size_t pixels = std::size_t{mesh.head.width} * mesh.head.height;
   background_ = pixel_of(mesh.head.background);
   frame_.assign(pixels, background_);
@@ -292,105 +326,104 @@ void Renderer::draw(const Box& tile) {
     }
 }
 
-// Draws what `view` has nearer than depth_, over what the frame shows or over the background.
+// Where packet row r begins in pictures.
+std::size_t Renderer::place(int left, int top, int row) const {
+  return static_cast<std::size_t>(top + row) * mesh_.head.width + static_cast<std::size_t>(left);
+}
+
+// Draws what `view` has nearer than depth_, over what the frame shows; or, where it is the first, over nothing.
 void Renderer::draw_packet(const View& view, int left, int top, bool over) {
-  alignas(64) RTCRayHit16 rays;
-  alignas(64) int valid[kPacket], hit[kPacket];
-  const float per_pixel = 1 / mesh_.head.scale;
-  const int width = static_cast<int>(mesh_.head.width), height = static_cast<int>(mesh_.head.height);
-  for (int k = 0; k < kPacket; ++k) {
-    const int column = left + k % kPacketWidth, line = top + k / kPacketWidth;
-    const float x = (static_cast<float>(column) + 0.5f - mesh_.head.center[0]) * per_pixel;
-    const float y = (mesh_.head.center[1] - static_cast<float>(line) - 0.5f) * per_pixel;
-    valid[k] = column < width && line < height ? -1 : 0;
-    rays.ray.org_x[k] = view.origin[0];
-    rays.ray.org_y[k] = view.origin[1];
-    rays.ray.org_z[k] = view.origin[2];
-    rays.ray.dir_x[k] = view.ahead[0] + x * view.right[0] + y * view.up[0];
-    rays.ray.dir_y[k] = view.ahead[1] + x * view.right[1] + y * view.up[1];
-    rays.ray.dir_z[k] = view.ahead[2] + x * view.right[2] + y * view.up[2];
-    rays.ray.tnear[k] = 0;
-    rays.ray.time[k] = 0;
-    rays.ray.mask[k] = 0xffffffffu;
-    rays.ray.flags[k] = 0;
-    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-  }
-  for (int k = 0; k < kPacket; ++k) rays.ray.tfar[k] = kFar;
+  RTCRayHit16 rays;
+  const Ints inside = (left + kColumn < static_cast<int>(mesh_.head.width)) &
+                      (top + kLine < static_cast<int>(mesh_.head.height));
+  Floats limit = Floats{} + kFar;
   if (over)
     for (int k = 0; k < kPacket; ++k)
-      if (valid[k])
-        rays.ray.tfar[k] = depth_[std::size_t(top + k / kPacketWidth) * mesh_.head.width + left + k % kPacketWidth];
+      if (inside[k]) limit[k] = depth_[place(left, top, k / kPacketWidth) + static_cast<std::size_t>(k % kPacketWidth)];
+  const Floats x = (__builtin_convertvector(left + kColumn, Floats) + (0.5f - mesh_.head.center[0])) / mesh_.head.scale;
+  const Floats y = (mesh_.head.center[1] - 0.5f - __builtin_convertvector(top + kLine, Floats)) / mesh_.head.scale;
+  Floats direction[3];
+  for (int axis = 0; axis < 3; ++axis) direction[axis] = view.ahead[axis] + x * view.right[axis] + y * view.up[axis];
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, view.scene, &context, &rays);
+  put(rays.ray.org_x, Floats{} + view.origin[0]);
+  put(rays.ray.org_y, Floats{} + view.origin[1]);
+  put(rays.ray.org_z, Floats{} + view.origin[2]);
+  put(rays.ray.dir_x, direction[0]);
+  put(rays.ray.dir_y, direction[1]);
+  put(rays.ray.dir_z, direction[2]);
+  put(rays.ray.tnear, Floats{});
+  put(rays.ray.tfar, limit);
+  put(rays.ray.time, Floats{});
+  put(rays.ray.mask, Ints{} - 1);
+  put(rays.hit.geomID, Ints{} - 1);
   // Back faces are seldom seen: their few rays go on behind them, which costs less than a filter for all.
-  for (;;) {
-    int again = 0;
-    alignas(64) int behind[kPacket];
-    for (int k = 0; k < kPacket; ++k) {
-      const bool met = valid[k] && rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
-      const float facing = rays.hit.Ng_x[k] * rays.ray.dir_x[k] + rays.hit.Ng_y[k] * rays.ray.dir_y[k] +
-                           rays.hit.Ng_z[k] * rays.ray.dir_z[k];
-      behind[k] = met && facing > 0 ? -1 : 0;
-      hit[k] = met ? -1 : 0;
-      again |= behind[k];
-    }
-    if (!again) break;
-    for (int k = 0; k < kPacket; ++k) {
-      if (!behind[k]) continue;
-      rays.ray.tnear[k] = rays.ray.tfar[k] * 1.000001f;
-      const float beyond = over ? depth_[std::size_t(top + k / kPacketWidth) * mesh_.head.width + left + k % kPacketWidth] : kFar;
-      rays.ray.tfar[k] = beyond;
-      rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    }
-    rtcIntersect16(behind, view.scene, &context, &rays);
+  Ints met = inside;
+  for (Ints tracing = inside; any(tracing);) {
+    rtcIntersect16(reinterpret_cast<const int*>(&tracing), view.scene, &context, &rays);
+    met = inside & (got<Ints>(rays.hit.geomID) == 0);
+    const Floats facing = got<Floats>(rays.hit.Ng_x) * direction[0] + got<Floats>(rays.hit.Ng_y) * direction[1] +
+                          got<Floats>(rays.hit.Ng_z) * direction[2];
+    tracing = met & (facing > 0);
+    if (!any(tracing)) break;
+    const Floats far = got<Floats>(rays.ray.tfar);
+    put(rays.ray.tnear, tracing ? far * 1.000001f : got<Floats>(rays.ray.tnear));
+    put(rays.ray.tfar, tracing ? limit : far);
+    put(rays.hit.geomID, tracing ? Ints{} - 1 : got<Ints>(rays.hit.geomID));
   }
-  int any = 0;
-  for (int k = 0; k < kPacket; ++k) any |= hit[k];
-  if (!over)
-    for (int k = 0; k < kPacket; ++k)
-      if (valid[k]) {
-        const std::size_t at = std::size_t(top + k / kPacketWidth) * mesh_.head.width + left + k % kPacketWidth;
-        depth_[at] = hit[k] ? rays.ray.tfar[k] : kFar;
-        if (!hit[k]) frame_[at] = background_;
-      }
-  if (any) shade(view, rays, hit, left, top);
+  Ints pixels = Ints{} + static_cast<int>(background_);
+  if (any(met))
+    pixels = met ? shade(view, rays, met, direction) : pixels;
+  else if (over)
+    return;
+  store(left, top, over ? met : inside, pixels, frame_);
+  if (keeping_depth_ && !over) store(left, top, inside, met ? got<Floats>(rays.ray.tfar) : Floats{} + kFar, depth_);
 }
 
-void Renderer::shade(const View& view, const RTCRayHit16& rays, const int* hit, int left, int top) {
-  alignas(64) float n[3][kPacket], color[3][kPacket];
-  alignas(64) std::uint32_t pixels[kPacket];
-  const MeshHead& head = mesh_.head;
-  for (int k = 0; k < kPacket; ++k) {
-    const Normals& at = view.normals[hit[k] ? rays.hit.primID[k] : 0];
-    const float u = rays.hit.u[k], v = rays.hit.v[k];
-    for (int axis = 0; axis < 3; ++axis) n[axis][k] = at.first[axis] + u * at.to_second[axis] + v * at.to_third[axis];
-    for (std::size_t c = 0; c < 3; ++c) color[c][k] = mesh_.looks[at.look][c];
-  }
-  const float l[3] = {view.to_light[0], view.to_light[1], view.to_light[2]};
-  for (int k = 0; k < kPacket; ++k) {
-    const float dx = rays.ray.dir_x[k], dy = rays.ray.dir_y[k], dz = rays.ray.dir_z[k];
-    const float x = n[0][k], y = n[1][k], z = n[2][k];
-    const float shrink = 1 / std::sqrt(x * x + y * y + z * z), toward = -1 / std::sqrt(dx * dx + dy * dy + dz * dz);
-    const float nl = (x * l[0] + y * l[1] + z * l[2]) * shrink;
-    const float nv = (x * dx + y * dy + z * dz) * shrink * toward;
-    const float lv = (dx * l[0] + dy * l[1] + dz * l[2]) * toward;
-    const float facing = std::max(nl, 0.0f);
-    float shine = std::clamp(2 * nl * nv - lv, 0.0f, 1.0f);
-    shine = nl > 0 ? shine : 0;
-    for (std::uint32_t s = 0; s < head.squarings; ++s) shine *= shine;
-    std::uint32_t pixel = 0;
-    for (int c = 0; c < 3; ++c) {
-      const float level = color[c][k] * (head.ambient + head.diffuse * facing * head.light[c]) +
-                          head.specular * shine * head.light[c];
-      pixel |= static_cast<std::uint32_t>(static_cast<int>(std::clamp(level, 0.0f, 1.0f) * 255 + 0.5f)) << (8 * c);
+template <typename Vector, typename Number>
+void Renderer::store(int left, int top, Ints where, Vector values, std::vector<Number>& picture) {
+  for (int row = 0; row < kPacketHeight; ++row)
+    for (int column = 0; column < kPacketWidth; ++column) {
+      const int k = row * kPacketWidth + column;
+      if (where[k]) picture[place(left, top, row) + static_cast<std::size_t>(column)] = static_cast<Number>(values[k]);
     }
-    pixels[k] = pixel;
+}
+
+// Phong's interpolation, a triangle after the other: most packets meet few, and gathering is slow.
+void Renderer::interpolate(const View& view, const RTCRayHit16& rays, Ints met, Floats* normal, Floats* color) const {
+  const Ints triangles = got<Ints>(rays.hit.primID);
+  const Floats u = got<Floats>(rays.hit.u), v = got<Floats>(rays.hit.v);
+  for (unsigned left = mask_of(met); left != 0;) {
+    const int triangle = triangles[std::countr_zero(left)];
+    const Ints own = met & (triangles == triangle);
+    left &= ~mask_of(own);
+    const Normals& at = view.normals[static_cast<std::size_t>(triangle)];
+    for (int axis = 0; axis < 3; ++axis)
+      normal[axis] = own ? at.first[axis] + u * at.to_second[axis] + v * at.to_third[axis] : normal[axis];
+    for (std::size_t c = 0; c < 3; ++c) color[c] = own ? Floats{} + mesh_.looks[at.look][c] : color[c];
   }
-  for (int k = 0; k < kPacket; ++k)
-    if (hit[k]) frame_[std::size_t(top + k / kPacketWidth) * head.width + left + k % kPacketWidth] = pixels[k];
+}
+
+Ints Renderer::shade(const View& view, const RTCRayHit16& rays, Ints met, const Floats* direction) const {
+  Floats normal[3] = {}, color[3] = {};
+  interpolate(view, rays, met, normal, color);
+  const MeshHead& head = mesh_.head;
+  const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const Floats shrink = inverse_root(dot(normal, normal)), toward = -inverse_root(dot(direction, direction));
+  const Floats nl = dot(normal, view.to_light) * shrink;
+  const Floats nv = dot(normal, direction) * shrink * toward;
+  const Floats facing = nl > 0 ? nl : Floats{};
+  const Floats rv = 2 * nl * nv - dot(direction, view.to_light) * toward;
+  Floats shine = (nl > 0) & (rv > 0) ? rv : Floats{};
+  for (std::uint32_t s = 0; s < head.squarings; ++s) shine *= shine;
+  Ints pixels{};
+  for (int c = 0; c < 3; ++c) {
+    const Floats level = color[c] * (head.ambient + head.diffuse * head.light[static_cast<std::size_t>(c)] * facing) +
+                         head.specular * head.light[static_cast<std::size_t>(c)] * shine;
+    pixels |= __builtin_convertvector((level < 1 ? level : Floats{} + 1) * 255 + 0.5f, Ints) << (8 * c);
+  }
+  return pixels;
 }
 
 void run(int argc, char** argv) {

@@ -7,6 +7,7 @@
 #include <EGL/eglext.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -305,7 +306,10 @@ Box Renderer::mover_box(const Motion& m) const {
 
 void run(int argc, char** argv) {
   check(argc == 4, "usage: peer-llvmpipe MESH THREADS whole|inbetween");
-  setenv("LP_NUM_THREADS", argv[2], 0);
+  // Mesa takes its memory anew for every frame: it shall not go back to the system in between.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  setenv("LP_NUM_THREADS", argv[2], 1);
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   begin_gl();
