@@ -60,13 +60,16 @@ void add_patch(const node::Dicer& diced, MeshPatch part, Mesh& mesh) {
   part.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
   part.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size());
   part.vertices = static_cast<std::uint32_t>(diced.vertex_count());
-  part.triangles = static_cast<std::uint32_t>(diced.triangles().size());
+  part.triangles = diced.triangles().count;
   const node::Vertices& v = diced.vertices();
   for (std::uint32_t k = 0; k < part.vertices; ++k)
     mesh.vertices.push_back({{v.place[0][k], v.place[1][k], v.place[2][k]},
                              {v.normal[0][k], v.normal[1][k], v.normal[2][k]}});
   const std::uint32_t first = part.first_vertex;
-  for (const node::Corner3& t : diced.triangles()) mesh.triangles.push_back({first + t.a, first + t.b, first + t.c});
+  for (std::uint32_t k = 0; k < part.triangles; ++k) {
+    const node::Corner3 t = diced.triangles()[k];
+    mesh.triangles.push_back({first + t.a, first + t.b, first + t.c});
+  }
   mesh.patches.push_back(part);
 }
 

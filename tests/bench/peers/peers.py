@@ -50,7 +50,7 @@ class Field:
         self.course, self.column, self.folder = course, column, folder
         self.processors = sorted(os.sched_getaffinity(0))[:column]
         self.turns = wanted.rounds + WARMING  # the film has one more: after its last frame no order is read
-        film = films.load(course.scene, wanted.size)
+        film = films.load(course.scene, wanted.size, wanted.dice)
         self.film = self.save(films.lengthened(film, course.frames(self.turns + 1)), "film.json")
         self.mesh = os.path.join(folder, "mesh")
         self.make_mesh(films.lengthened(film, films.INTERVAL if films.turning(film) else 1))
@@ -188,6 +188,7 @@ def read_command_line():
     parser.add_argument("--rounds", default=15, type=int)
     parser.add_argument("--columns", default="1,2", type=numbers, help="numbers of processors")
     parser.add_argument("--size", type=size, help="of the pictures, as 1920x1080")
+    parser.add_argument("--dice", type=int, help="quads along a patch's side, in place of the scene's own")
     parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well")
     parser.add_argument("-o", dest="output", metavar="FILE", help="all that was measured, as JSON")
     return parser.parse_args()
