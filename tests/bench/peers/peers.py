@@ -10,6 +10,7 @@ import json
 import os
 import platform
 import statistics
+import subprocess
 import sys
 import tempfile
 import time
@@ -20,6 +21,7 @@ from competitor import Competitor, Trouble
 
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
 WARMING = 5          # frames before those that count
+FINE = 64            # quads along a patch's side that adaptive dicing is compared with
 MOST_IDLE = 0.05     # processor seconds a competitor may use in a second that is not its turn
 
 
@@ -51,73 +53,84 @@ class Field:
         self.processors = sorted(os.sched_getaffinity(0))[:column]
         self.turns = wanted.rounds + WARMING  # the film has one more: after its last frame no order is read
         film = films.load(course.scene, wanted.size, wanted.dice)
-        self.film = self.save(films.lengthened(film, course.frames(self.turns + 1)), "film.json")
+        self.film = films.lengthened(film, course.frames(self.turns + 1))
         self.mesh = os.path.join(folder, "mesh")
         self.make_mesh(films.lengthened(film, films.INTERVAL if films.turning(film) else 1))
         self.competitors = []
-        self.adaptive = []
         self.begin_peers()
-        self.begin_ours("ours", self.film, self.competitors)
-        if wanted.adaptive and course.what == "whole":
-            own = films.lengthened(film, course.frames(self.turns + 1))
-            self.begin_ours("ours, adaptive", self.save({**own, "dice": "adaptive"}, "adaptive.json"), self.adaptive)
+        self.begin_ours("ours", self.film)
+        self.adaptive = wanted.adaptive and not films.turning(film)
+        if self.adaptive:
+            self.begin_ours("ours, adaptive", self.diced("adaptive"))
 
     def save(self, film, name):
         return films.save(film, os.path.join(self.folder, name))
+
+    def diced(self, dice):
+        return {**self.film, "dice": dice}
 
     def program(self, name):
         path = os.path.join(self.programs, name)
         return path if os.path.exists(path) else None
 
     def make_mesh(self, film):
-        film = self.save(film, "mesh.json")
-        if os.spawnl(os.P_WAIT, self.program("bench-mesh"), "bench-mesh", film, self.mesh) != 0:
-            raise Trouble(f"{self.course.scene} cannot be made a mesh")
+        made = subprocess.run([self.program("bench-mesh"), self.save(film, "mesh.json"), self.mesh],
+                              stderr=subprocess.PIPE, text=True)
+        if made.returncode != 0:
+            raise Trouble(made.stderr.strip())
 
-    def begin(self, name, command, into, environment=None):
+    def begin(self, name, command, environment=None):
         log = os.path.join(self.folder, f"{name}.log".replace(" ", "-"))
-        into.append(Competitor(name, command, self.processors, log, environment))
+        self.competitors.append(Competitor(name, command, self.processors, log, environment))
+        return self.competitors[-1]
 
     def begin_peers(self):
         embree, llvmpipe = self.program("peer-embree"), self.program("peer-llvmpipe")
         if embree:
-            self.begin("Embree", [embree, self.mesh, str(self.column), self.course.what], self.competitors)
+            self.begin("Embree", [embree, self.mesh, str(self.column), self.course.what])
         # Mesa's main thread prepares what its others draw: which number is best differs from scene to scene.
         for threads in (self.column - 1, self.column) if llvmpipe else ():
-            self.begin(f"llvmpipe {threads}", [llvmpipe, self.mesh, str(threads), self.course.what], self.competitors)
+            self.begin(f"llvmpipe {threads}", [llvmpipe, self.mesh, str(threads), self.course.what])
 
-    def begin_ours(self, name, film, into):
-        threads, mpi = self.program("bench-ours-threads"), self.program("bench-ours-mpi")
-        self.begin(f"{name}, threads", [threads, film, self.course.what, str(self.column)], into)
+    def begin_ours(self, name, film):
+        self.begin_threads(f"{name}, threads", film)
+        mpi = self.program("bench-ours-mpi")
         if mpi:
-            self.begin(f"{name}, MPI", ["mpirun", "-n", str(self.column + 1), mpi, film, self.course.what], into,
-                       MPI_ENVIRONMENT)
+            self.begin(f"{name}, MPI", ["mpirun", "-n", str(self.column + 1), mpi, self.save(film, f"{name}.json"),
+                                        self.course.what], MPI_ENVIRONMENT)
 
-    def all(self):
-        return self.competitors + self.adaptive
+    def begin_threads(self, name, film):
+        return self.begin(name, [self.program("bench-ours-threads"), self.save(film, f"{name}.json"),
+                                 self.course.what, str(self.column)])
 
     def compete(self, rounds):
-        for competitor in self.all():
+        for competitor in self.competitors:
             competitor.wait_ready()
         for turn in range(self.turns):
-            for competitor in self.all():
+            for competitor in self.competitors:
                 competitor.go(self.course.frames_a_turn, counted=turn >= WARMING)
 
     def check_idle(self):
-        before = [competitor.processor_seconds() for competitor in self.all()]
+        before = [competitor.processor_seconds() for competitor in self.competitors]
         time.sleep(1)
-        for competitor, used in zip(self.all(), before):
+        for competitor, used in zip(self.competitors, before):
             if competitor.processor_seconds() - used > MOST_IDLE:
                 raise Trouble(f"{competitor.name} does not rest while others render")
 
-    def take_pictures(self):
-        for competitor in self.all():
-            competitor.file = os.path.join(self.folder, competitor.name.replace(" ", "-") + ".ppm")
-            competitor.picture(competitor.file)
-        return {competitor.name: competitor.file for competitor in self.all()}
+    def take_picture(self, competitor):
+        file = os.path.join(self.folder, competitor.name.replace(" ", "-") + ".ppm")
+        competitor.picture(file)
+        return file
+
+    def fine_picture(self):
+        """What finer triangles than anybody competes with show: ours, for ours are as the peers' by then."""
+        fine = self.begin_threads("fine", self.diced(FINE))
+        fine.wait_ready()
+        fine.go(1)
+        return self.take_picture(fine)
 
     def end(self):
-        for competitor in self.all():
+        for competitor in self.competitors:
             competitor.end()
 
 
@@ -132,13 +145,22 @@ def is_ours(name):
     return name.startswith("ours")
 
 
+def is_alike(row):
+    """Whether it draws the triangles that the peers draw."""
+    return "adaptive" not in row["name"]
+
+
 def result_of(field):
     """One course's and column's part of the JSON."""
-    files = field.take_pictures()
+    files = {competitor.name: field.take_picture(competitor) for competitor in field.competitors}
     reference = files.get("Embree") or files["ours, threads"]
     rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
              "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
-            for c in field.all()]
+            for c in field.competitors]
+    if field.adaptive:
+        fine = field.fine_picture()
+        for row in rows:
+            row["rms_fine"] = pictures.rms(fine, files[row["name"]])
     peers = [row for row in rows if not is_ours(row["name"])]
     result = {"course": field.course.title, "column": field.column, "competitors": rows}
     if peers:
@@ -152,7 +174,7 @@ def result_of(field):
 
 def check_alike(result):
     for row in result["competitors"]:
-        if is_ours(row["name"]) and "adaptive" not in row["name"] and row["rms"] > MOST_RMS:
+        if is_ours(row["name"]) and is_alike(row) and row["rms"] > MOST_RMS:
             raise Trouble(f"{result['course']}: the picture of {row['name']} differs from Embree's by {row['rms']:.2f} "
                           f"of 255, more than {MOST_RMS}")
 
@@ -166,12 +188,22 @@ def run_course(wanted, course, column):
         return result_of(field)
 
 
+def line_of(row, rms, best_peer):
+    ratio = f"   {row['ratio']:.2f} of {best_peer}'s" if "ratio" in row else ""
+    return f"  {row['name']:24} {row['best']:8.2f} ({row['middle']:.2f})".ljust(48) + f"RMS {row[rms]:.2f}{ratio}"
+
+
 def tell(result):
-    print(f"\n{result['course']}, {result['column']} processor{'s' if result['column'] > 1 else ''}")
-    for row in result["competitors"]:
-        ratio = f"   {row['ratio']:.2f} of {result['best_peer']}'s" if "ratio" in row else ""
-        print(f"  {row['name']:24} {row['best']:8.2f} ({row['middle']:.2f})".ljust(48) +
-              f"RMS {row['rms']:.2f}{ratio}", flush=True)
+    where = f"{result['course']}, {result['column']} processor{'s' if result['column'] > 1 else ''}"
+    print(f"\n{where}")
+    for row in filter(is_alike, result["competitors"]):
+        print(line_of(row, "rms", result.get("best_peer")))
+    if "rms_fine" in result["competitors"][0]:
+        print(f"\n{where}: other triangles, RMS against {FINE} x {FINE} quads a patch")
+        for row in result["competitors"]:
+            if row["name"] == "Embree" or not is_alike(row):
+                print(line_of(row, "rms_fine", result.get("best_peer")))
+    sys.stdout.flush()
 
 
 def read_command_line():
@@ -189,7 +221,7 @@ def read_command_line():
     parser.add_argument("--columns", default="1,2", type=numbers, help="numbers of processors")
     parser.add_argument("--size", type=size, help="of the pictures, as 1920x1080")
     parser.add_argument("--dice", type=int, help="quads along a patch's side, in place of the scene's own")
-    parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well")
+    parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well, where nothing moves")
     parser.add_argument("-o", dest="output", metavar="FILE", help="all that was measured, as JSON")
     return parser.parse_args()
 
