@@ -1,4 +1,4 @@
-"""A competitor: a child process that renders a frame when told to (peer.h)."""
+"""A competitor: a child process that renders a frame when told to (peer.h); or several, each with frames of its own."""
 import os
 import signal
 import subprocess
@@ -33,20 +33,20 @@ class Competitor:
             words = file.read().strip()
         raise Trouble(f"{self.name} does not answer: {words or line.strip() or 'it ended'}")
 
-    def order(self, line, kind):
+    def say(self, line):
         try:
             print(line, file=self.process.stdin, flush=True)
         except BrokenPipeError:
             pass  # answer() tells why
-        return self.answer(kind)
 
-    def go(self, frames, counted=True):
-        milliseconds = float(self.order(f"go {frames}", "ms"))
-        if counted:
-            self.milliseconds.append(milliseconds)
+    def go(self, frames):
+        """Milliseconds a frame."""
+        self.say(f"go {frames}")
+        return float(self.answer("ms"))
 
     def picture(self, path):
-        self.order(f"picture {path}", "done")
+        self.say(f"picture {path}")
+        self.answer("done")
 
     def processor_seconds(self):
         """What it and its children have used so far."""
@@ -71,3 +71,40 @@ class Competitor:
         if self.process.poll() is None:
             os.killpg(self.process.pid, signal.SIGKILL)
             self.process.wait()
+
+
+class Team:
+    """Competitors that share a turn's frames, each with whole frames on a processor of its own."""
+
+    def __init__(self, name, members):
+        self.name, self.members = name, members
+        self.milliseconds = []
+        self.rendered = [0] * len(members)
+
+    def wait_ready(self):
+        for member in self.members:
+            member.wait_ready()
+        self.note = self.members[0].note
+
+    def go(self, frames):
+        shares = [frames // len(self.members) + (k < frames % len(self.members)) for k in range(len(self.members))]
+        for member, share in zip(self.members, shares):
+            member.say(f"go {share}")
+        times = [share * float(member.answer("ms")) for member, share in zip(self.members, shares)]
+        self.rendered = [before + share for before, share in zip(self.rendered, shares)]
+        self.cycle = frames
+        return max(times) / frames
+
+    def picture(self, path):
+        """The frame that a turn of all frames ends with."""
+        left = -self.rendered[0] % self.cycle
+        if left:
+            self.members[0].go(left)
+        self.members[0].picture(path)
+
+    def processor_seconds(self):
+        return sum(member.processor_seconds() for member in self.members)
+
+    def end(self):
+        for member in self.members:
+            member.end()

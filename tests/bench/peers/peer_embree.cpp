@@ -3,9 +3,6 @@
 // Rays start in packets of 16 from one eye. What moves is a scene of its own in its place at frame 0: rays are turned
 // instead of its tree. Every view's z is its rays' parameter, so views can be compared.
 #include <embree3/rtcore.h>
-#include <immintrin.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,11 +10,13 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
-#include <thread>
+#include <vector>
 
+#include "tests/bench/peers/crew.h"
 #include "tests/bench/peers/mesh.h"
 #include "tests/bench/peers/peer.h"
 
@@ -76,68 +75,6 @@ Floats inverse_root(Floats square) {
   for (int k = 0; k < kPacket; ++k) square[k] = 1 / std::sqrt(square[k]);
   return square;
 }
-
-// Threads that stay, each on a processor of its own, and share the tiles of one frame after another.
-class Crew {
- public:
-  Crew(int threads, std::function<void()> work) : work_(std::move(work)) {
-    pin(0);
-    for (int k = 1; k < threads; ++k) helpers_.emplace_back([this, k] { help(k); });
-  }
-  ~Crew() {
-    stop_ = true;
-    begin();
-    for (std::thread& helper : helpers_) helper.join();
-  }
-
-  void run() {
-    busy_.store(static_cast<int>(helpers_.size()), std::memory_order_relaxed);
-    begin();
-    work_();
-    for (int busy = busy_.load(std::memory_order_acquire); busy != 0; busy = busy_.load(std::memory_order_acquire))
-      busy_.wait(busy, std::memory_order_acquire);
-  }
-
- private:
-  void begin() {
-    round_.fetch_add(1, std::memory_order_release);
-    round_.notify_all();
-  }
-
-  void help(int number) {
-    pin(number);
-    for (unsigned round = 0;; ++round) {
-      round_.wait(round, std::memory_order_acquire);
-      if (stop_) return;
-      work_();
-      if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_one();
-    }
-  }
-
-  // To the processor of that number among those this process may use.
-  static void pin(int number) {
-    static const cpu_set_t allowed = [] {
-      cpu_set_t set;
-      sched_getaffinity(0, sizeof set, &set);
-      return set;
-    }();
-    int left = number % CPU_COUNT(&allowed);
-    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
-      if (!CPU_ISSET(cpu, &allowed) || left-- > 0) continue;
-      cpu_set_t one;
-      CPU_ZERO(&one);
-      CPU_SET(cpu, &one);
-      pthread_setaffinity_np(pthread_self(), sizeof one, &one);
-      return;
-    }
-  }
-
-  std::function<void()> work_;
-  std::atomic<unsigned> round_{0};
-  std::atomic<int> busy_{0};
-  std::atomic<bool> stop_{false};
-  std::vector<std::thread> helpers_;
-};
 
 RTCScene build(RTCDevice device, const Mesh& mesh, std::uint32_t first, std::uint32_t last) {
   RTCScene scene = rtcNewScene(device);
@@ -428,8 +365,6 @@ Ints Renderer::shade(const View& view, const RTCRayHit16& rays, Ints met, const 
 
 void run(int argc, char** argv) {
   if (argc != 4) throw std::runtime_error("usage: peer-embree MESH THREADS whole|inbetween");
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _mm_setcsr(_mm_getcsr() | 0x40);  // denormals are zero, as Embree advises
   const Mesh mesh = read_mesh(argv[1]);
   Renderer renderer(mesh, std::stoi(argv[2]), std::string_view(argv[3]) == "inbetween");
   obey({renderer.note(), [&] { renderer.render(); }, [&] { return renderer.picture(); }});

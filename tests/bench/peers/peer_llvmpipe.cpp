@@ -14,9 +14,11 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
-#include <numeric>
+#include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
 #include "tests/bench/peers/mesh.h"
 #include "tests/bench/peers/peer.h"
@@ -24,38 +26,59 @@
 namespace mars::bench {
 namespace {
 
-constexpr const char* kVertexShader = R"(#version 330 core
+// What stays the same for a scene is written into the shaders as numbers.
+constexpr const char* kVertexShader = R"(
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 color;
 uniform mat4x3 motion;
-uniform vec4 lens;  // scale over half the picture's width and height, depth a + b / w
 out vec3 n;
-flat out vec3 own;
 void main() {
   vec3 p = motion * vec4(place, 1.0);
-  gl_Position = vec4(lens.x * p.x, lens.y * p.y, -lens.z * p.z + lens.w, -p.z);
+  gl_Position = vec4(LENS.x * p.x, LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
   n = mat3(motion) * normal;
-  own = color;
 }
 )";
 
-constexpr const char* kFragmentShader = R"(#version 330 core
+constexpr const char* kFragmentShader = R"(
 in vec3 n;
-flat in vec3 own;
-uniform vec3 to_light, light, reach;  // reach: of a pixel, and of the first pixel's corner
-uniform vec3 parts;                   // ambient, diffuse, specular
+uniform vec3 own;
 out vec4 pixel;
 void main() {
-  vec3 d = vec3(gl_FragCoord.xy * reach.x + reach.yz, -1.0);
+  vec3 d = vec3(gl_FragCoord.xy * REACH.x + REACH.yz, -1.0);
   float shrink = inversesqrt(dot(n, n)), toward = -inversesqrt(dot(d, d));
-  float nl = dot(n, to_light) * shrink;
+  float nl = dot(n, TO_LIGHT) * shrink;
   float nv = dot(n, d) * shrink * toward;
-  float shine = nl > 0.0 ? clamp(2.0 * nl * nv - dot(d, to_light) * toward, 0.0, 1.0) : 0.0;
-SQUARINGS
-  pixel = vec4(own * (parts.x + parts.y * max(nl, 0.0) * light) + parts.z * shine * light, 1.0);
+  float shine = nl > 0.0 ? clamp(2.0 * nl * nv - dot(d, TO_LIGHT) * toward, 0.0, 1.0) : 0.0;
+  for (int k = 0; k < SQUARINGS; ++k) shine *= shine;
+  pixel = vec4(own * (AMBIENT + DIFFUSE * LIGHT * max(nl, 0.0)) + SPECULAR * LIGHT * shine, 1.0);
 }
 )";
+
+template <typename... Numbers>
+std::string defined(const char* name, const char* type, Numbers... numbers) {
+  std::ostringstream text;
+  text.precision(9);
+  text << "#define " << name << ' ' << type << '(';
+  const char* comma = "";
+  ((text << comma << numbers, comma = ", "), ...);
+  text << ")\n";
+  return text.str();
+}
+
+// The film's numbers for both shaders. LENS: scale over half the picture's width and height, depth z * w = c * z + d;
+// REACH: of a pixel in the eye's plane at 1, and the lower left corner.
+std::string numbers_of(const MeshHead& head) {
+  const float far = 1000, near = head.near;
+  const auto w = static_cast<float>(head.width), h = static_cast<float>(head.height);
+  return "#version 330 core\n" +
+         defined("LENS", "vec4", 2 * head.scale / w, 2 * head.scale / h, (far + near) / (far - near),
+                 -2 * far * near / (far - near)) +
+         defined("REACH", "vec3", 1 / head.scale, -head.center[0] / head.scale, -(h - head.center[1]) / head.scale) +
+         defined("TO_LIGHT", "vec3", head.to_light[0], head.to_light[1], head.to_light[2]) +
+         defined("LIGHT", "vec3", head.light[0], head.light[1], head.light[2]) +
+         defined("AMBIENT", "float", head.ambient) + defined("DIFFUSE", "float", head.diffuse) +
+         defined("SPECULAR", "float", head.specular) + defined("SQUARINGS", "int", head.squarings);
+}
 
 void check(bool fine, const std::string& what) {
   if (!fine) throw std::runtime_error(what);
@@ -88,14 +111,11 @@ GLuint compile(GLenum kind, const std::string& text) {
   return shader;
 }
 
-GLuint link(std::uint32_t squarings) {
-  std::string fragment = kFragmentShader;
-  std::string powers;
-  for (std::uint32_t k = 0; k < squarings; ++k) powers += "  shine *= shine;\n";
-  fragment.replace(fragment.find("SQUARINGS"), 9, powers);
+GLuint link(const MeshHead& head) {
+  const std::string numbers = numbers_of(head);
   const GLuint program = glCreateProgram();
-  glAttachShader(program, compile(GL_VERTEX_SHADER, kVertexShader));
-  glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
+  glAttachShader(program, compile(GL_VERTEX_SHADER, numbers + kVertexShader));
+  glAttachShader(program, compile(GL_FRAGMENT_SHADER, numbers + kFragmentShader));
   glLinkProgram(program);
   GLint fine = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &fine);
@@ -133,20 +153,33 @@ GLuint framebuffer(GLsizei width, GLsizei height) {
 }
 
 struct Corner {
-  std::array<float, 3> place, normal, color;
+  std::array<float, 3> place, normal;
 };
 
-// Patches in the order of their distance, nearest first, so that what is hidden is not shaded.
+// Indices [first, first + count) of one colour.
+struct Batch {
+  std::size_t first, count;
+  std::uint32_t look;
+};
+
+// Segments in the order of their distance, nearest first, and so the patches of each, so that what is hidden is not
+// shaded.
 std::vector<const MeshPatch*> by_distance(const Mesh& mesh, bool moving) {
   std::vector<const MeshPatch*> patches;
-  for (const MeshPatch& patch : mesh.patches)
-    if ((patch.moves == 1) == moving) patches.push_back(&patch);
-  const auto distance = [&](const MeshPatch* patch) {
+  std::map<std::uint32_t, float> of_segment;
+  std::map<const MeshPatch*, float> of_patch;
+  for (const MeshPatch& patch : mesh.patches) {
+    if ((patch.moves == 1) != moving) continue;
     float sum = 0;
-    for (std::uint32_t k = 0; k < patch->vertices; ++k) sum -= mesh.vertices[patch->first_vertex + k].place[2];
-    return sum / static_cast<float>(patch->vertices);
-  };
-  std::sort(patches.begin(), patches.end(), [&](auto* a, auto* b) { return distance(a) < distance(b); });
+    for (std::uint32_t k = 0; k < patch.vertices; ++k) sum -= mesh.vertices[patch.first_vertex + k].place[2];
+    patches.push_back(&patch);
+    of_patch[&patch] = sum / static_cast<float>(patch.vertices);
+    of_segment[patch.segment] += of_patch[&patch];  // all have as many patches
+  }
+  std::sort(patches.begin(), patches.end(), [&](auto* a, auto* b) {
+    return std::tuple(of_segment[a->segment], a->segment, of_patch[a]) <
+           std::tuple(of_segment[b->segment], b->segment, of_patch[b]);
+  });
   return patches;
 }
 
@@ -160,7 +193,7 @@ class Renderer {
  private:
   void load();
   void set_motion(const Motion& motion);
-  void draw(std::size_t first, std::size_t last);
+  void draw(bool moving, const Motion& motion);
   void render_whole();
   void render_inbetween();
   Box mover_box(const Motion& motion) const;
@@ -169,8 +202,8 @@ class Renderer {
   bool inbetweens_;
   GLsizei width_, height_;
   GLuint program_ = 0, drawn_ = 0, kept_ = 0;
-  GLint motion_at_ = -1;
-  std::size_t standing_ = 0, all_ = 0;  // corners in the index buffer
+  GLint motion_at_ = -1, own_at_ = -1;
+  std::vector<Batch> batches_[2];  // what stands, what moves
   std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   Box before_{};
   std::vector<std::uint32_t> pixels_;
@@ -182,18 +215,10 @@ Renderer::Renderer(const Mesh& mesh, bool inbetweens)
     : mesh_(mesh), inbetweens_(inbetweens), width_(static_cast<GLsizei>(mesh.head.width)),
       height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
   const MeshHead& head = mesh.head;
-  program_ = link(head.squarings);
+  program_ = link(head);
   glUseProgram(program_);
-  const auto at = [&](const char* name) { return glGetUniformLocation(program_, name); };
-  motion_at_ = at("motion");
-  const float far = 1000, near = head.near;
-  const float w = static_cast<float>(head.width), h = static_cast<float>(head.height);
-  glUniform4f(at("lens"), 2 * head.scale / w, 2 * head.scale / h, (far + near) / (far - near),
-              -2 * far * near / (far - near));
-  glUniform3fv(at("to_light"), 1, head.to_light.data());
-  glUniform3fv(at("light"), 1, head.light.data());
-  glUniform3f(at("reach"), 1 / head.scale, -head.center[0] / head.scale, -(h - head.center[1]) / head.scale);
-  glUniform3f(at("parts"), head.ambient, head.diffuse, head.specular);
+  motion_at_ = glGetUniformLocation(program_, "motion");
+  own_at_ = glGetUniformLocation(program_, "own");
   load();
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CULL_FACE);
@@ -204,8 +229,7 @@ Renderer::Renderer(const Mesh& mesh, bool inbetweens)
   if (!inbetweens_) return;
   glBindFramebuffer(GL_FRAMEBUFFER, kept_);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  set_motion(kStill);
-  draw(0, standing_);
+  draw(false, kStill);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_);
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
@@ -219,17 +243,17 @@ void Renderer::load() {
   corners.reserve(mesh_.vertices.size());
   std::vector<std::uint32_t> indices;
   indices.reserve(3 * mesh_.triangles.size());
-  for (const bool moving : {false, true}) {
+  for (const bool moving : {false, true})
     for (const MeshPatch* patch : by_distance(mesh_, moving)) {
       const auto at = static_cast<std::uint32_t>(corners.size()) - patch->first_vertex;
+      std::vector<Batch>& batches = batches_[moving];
+      if (batches.empty() || batches.back().look != patch->look) batches.push_back({indices.size(), 0, patch->look});
       for (std::uint32_t k = patch->first_vertex; k < patch->first_vertex + patch->vertices; ++k)
-        corners.push_back({mesh_.vertices[k].place, mesh_.vertices[k].normal, mesh_.looks[patch->look]});
+        corners.push_back({mesh_.vertices[k].place, mesh_.vertices[k].normal});
       for (std::uint32_t t = patch->first_triangle; t < patch->first_triangle + patch->triangles; ++t)
         for (const std::uint32_t corner : mesh_.triangles[t]) indices.push_back(at + corner);
+      batches.back().count = indices.size() - batches.back().first;
     }
-    if (!moving) standing_ = indices.size();
-  }
-  all_ = indices.size();
   GLuint names[3];
   glGenVertexArrays(1, &names[2]);
   glBindVertexArray(names[2]);
@@ -238,7 +262,7 @@ void Renderer::load() {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, names[1]);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(), GL_STATIC_DRAW);
-  for (GLuint k = 0; k < 3; ++k) {
+  for (GLuint k = 0; k < 2; ++k) {
     glEnableVertexAttribArray(k);
     glVertexAttribPointer(k, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<void*>(k * 3 * sizeof(float)));
   }
@@ -249,9 +273,13 @@ void Renderer::set_motion(const Motion& m) {
   glUniformMatrix4x3fv(motion_at_, 1, GL_FALSE, columns);
 }
 
-void Renderer::draw(std::size_t first, std::size_t last) {
-  if (first < last)
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(last - first), GL_UNSIGNED_INT, reinterpret_cast<void*>(first * sizeof(std::uint32_t)));
+void Renderer::draw(bool moving, const Motion& motion) {
+  set_motion(motion);
+  for (const Batch& batch : batches_[moving]) {
+    glUniform3fv(own_at_, 1, mesh_.looks[batch.look].data());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<void*>(batch.first * sizeof(std::uint32_t)));
+  }
 }
 
 void Renderer::render() {
@@ -265,10 +293,8 @@ void Renderer::render() {
 
 void Renderer::render_whole() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  set_motion(mesh_.motion[number_]);  // what moves is in front, and hides
-  draw(standing_, all_);
-  set_motion(kStill);
-  draw(0, standing_);
+  draw(true, mesh_.motion[number_]);  // it is in front, and hides
+  draw(false, kStill);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
 }
 
@@ -280,8 +306,7 @@ void Renderer::render_inbetween() {
   const GLint right = changed.left + changed.width, top = changed.bottom + changed.height;
   glBlitFramebuffer(changed.left, changed.bottom, right, top, changed.left, changed.bottom, right, top,
                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-  set_motion(mesh_.motion[number_]);
-  draw(standing_, all_);
+  draw(true, mesh_.motion[number_]);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
   glReadPixels(changed.left, changed.bottom, changed.width, changed.height, GL_RGBA, GL_UNSIGNED_BYTE,
                &pixels_[static_cast<std::size_t>(changed.bottom) * mesh_.head.width + static_cast<std::size_t>(changed.left)]);

@@ -17,7 +17,7 @@ import time
 
 import films
 import pictures
-from competitor import Competitor, Trouble
+from competitor import Competitor, Team, Trouble
 
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
 WARMING = 5          # frames before those that count
@@ -79,9 +79,12 @@ class Field:
         if made.returncode != 0:
             raise Trouble(made.stderr.strip())
 
-    def begin(self, name, command, environment=None):
+    def start(self, name, command, environment=None, processors=None):
         log = os.path.join(self.folder, f"{name}.log".replace(" ", "-"))
-        self.competitors.append(Competitor(name, command, self.processors, log, environment))
+        return Competitor(name, command, processors or self.processors, log, environment)
+
+    def begin(self, *competitor):
+        self.competitors.append(self.start(*competitor))
         return self.competitors[-1]
 
     def begin_peers(self):
@@ -91,6 +94,16 @@ class Field:
         # Mesa's main thread prepares what its others draw: which number is best differs from scene to scene.
         for threads in (self.column - 1, self.column) if llvmpipe else ():
             self.begin(f"llvmpipe {threads}", [llvmpipe, self.mesh, str(threads), self.course.what])
+        # Inbetweens may go whole to single processors, as ours do.
+        if self.course.what == "inbetween" and self.column > 1:
+            self.begin_team("Embree", embree, "1")
+            self.begin_team("llvmpipe", llvmpipe, "0")
+
+    def begin_team(self, name, program, threads):
+        if program:
+            command = [program, self.mesh, threads, self.course.what]
+            self.competitors.append(Team(f"{name}, {self.column} at a time", [
+                self.start(f"{name} {processor}", command, None, [processor]) for processor in self.processors]))
 
     def begin_ours(self, name, film):
         self.begin_threads(f"{name}, threads", film)
@@ -108,7 +121,9 @@ class Field:
             competitor.wait_ready()
         for turn in range(self.turns):
             for competitor in self.competitors:
-                competitor.go(self.course.frames_a_turn, counted=turn >= WARMING)
+                milliseconds = competitor.go(self.course.frames_a_turn)
+                if turn >= WARMING:
+                    competitor.milliseconds.append(milliseconds)
 
     def check_idle(self):
         before = [competitor.processor_seconds() for competitor in self.competitors]
@@ -153,7 +168,7 @@ def is_alike(row):
 def result_of(field):
     """One course's and column's part of the JSON."""
     files = {competitor.name: field.take_picture(competitor) for competitor in field.competitors}
-    reference = files.get("Embree") or files["ours, threads"]
+    reference = files.get("Embree", files["ours, threads"])
     rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
              "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
             for c in field.competitors]
