@@ -78,15 +78,17 @@ class Farm {
     hal::Cube cube;
     Compositor compositor;       // the first unit's
     std::deque<Assembly> units;  // given to the cube and not done
+    std::deque<double> given;    // and when, in seconds since the start
   };
 
   void give_units();
+  void give_when_asked();
   void give(Work& work);
   void receive();
   void receive_strip();
   bool prepare_one();
   bool compose_one();
-  void submit(const Assembly::Pasted& frame, std::uint32_t interval);
+  void submit(const Assembly::Pasted& frame, std::uint32_t interval, double given);
   void note_taken();
   Assembly& assembly_of(const node::Strip& strip);
 
@@ -120,7 +122,7 @@ Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sin
   const SinkPool::Shape& shape = sinks.shape();
   const std::uint32_t background = pixel_of(film.settings().background);
   for (const hal::Cube& cube : make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units_.size()))
-    work_.push_back({cube, Compositor(shape.width, shape.height, shape.block, background), {}});
+    work_.push_back({cube, Compositor(shape.width, shape.height, shape.block, background), {}, {}});
 }
 
 void Farm::run() {
@@ -141,13 +143,23 @@ void Farm::run() {
 }
 
 void Farm::give_units() {
+  if (listener_.more) return give_when_asked();
   // Every cube gets its first before any gets one ahead: there may be few.
   for (std::size_t ahead = 1; ahead <= kUnitsAhead; ++ahead)
     for (Work& work : work_)
       if (work.units.size() < ahead && next_unit_ < units_.size()) give(work);
 }
 
+void Farm::give_when_asked() {
+  if (!work_.front().units.empty() || !with_sinks_.empty() || next_unit_ == units_.size()) return;
+  if (listener_.more())
+    give(work_.front());
+  else
+    frames_left_ = 0;
+}
+
 void Farm::give(Work& work) {
+  work.given.push_back(dclock() - start_);
   const Unit& unit = units_[next_unit_++];
   const SpanOf span(HostSpan::give, unit.interval);
   const hal::Cube& cube = work.cube;
@@ -209,9 +221,10 @@ bool Farm::compose_one() {
     const std::optional<Assembly::Pasted> pasted = unit.paste(work.compositor, sinks_, store_);
     if (!pasted) continue;
     span.set_value(pasted->number);
-    if (pasted->whole != nullptr) submit(*pasted, unit.interval());
+    if (pasted->whole != nullptr) submit(*pasted, unit.interval(), work.given.front());
     if (unit.done()) {
       work.units.pop_front();
+      work.given.pop_front();
       work.compositor.begin_interval();
     }
     return true;
@@ -220,8 +233,8 @@ bool Farm::compose_one() {
   return false;
 }
 
-void Farm::submit(const Assembly::Pasted& frame, std::uint32_t interval) {
-  const FinishedFrame finished{frame.number, interval, frame.kind, dclock() - start_};
+void Farm::submit(const Assembly::Pasted& frame, std::uint32_t interval, double given) {
+  const FinishedFrame finished{frame.number, interval, frame.kind, dclock() - start_, given};
   report_.frames.push_back(finished);
   with_sinks_[frame.number] = {finished, frame.nodes};
   sinks_.submit(frame.whole);

@@ -41,6 +41,7 @@ struct FinishedFrame {
   std::uint32_t interval;
   node::FrameKind kind;
   double seconds;  // since the first command, when its last strip had come and it was composed
+  double given;    // likewise, when its unit was given to a cube
 };
 
 // Called from the thread that runs the farm.
@@ -48,6 +49,9 @@ struct FarmListener {
   // All nodes are there; keyframes and inbetweens are what will be drawn.
   std::function<void(std::span<const node::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
   std::function<void(const FinishedFrame&)> finished;  // the sinks have it
+  // If there is one, units are given to the first cube alone, one at a time: it is asked when the sinks have all
+  // frames given before, and may wait. False: no more frames are wanted.
+  std::function<bool()> more;
 };
 
 struct FarmReport {

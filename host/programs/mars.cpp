@@ -11,6 +11,7 @@
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
+#include "host/launch/bench.h"
 #include "host/launch/launch.h"
 #include "host/model/patch_file.h"
 #include "host/options/command_line.h"
@@ -35,6 +36,7 @@ Commands:
   mars verify DIR                  are all frames there, and whole?
   mars import FILE -o MODEL.json   a model from a patch file
   mars doctor                      what is in the way here, and what to do
+  mars bench NAME                  measure, where MARS was built from its sources
 
 A film is a JSON file: docs/film-format.md says how to write one.
 )";
@@ -119,6 +121,27 @@ void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
   command->callback([&] { code = run_doctor(options, own_file()) ? 0 : kFailed; });
 }
 
+void add_bench(CLI::App& app, std::string& name, const std::vector<std::string>& own_words) {
+  CLI::App* command = app.add_subcommand("bench", "Run a benchmark, or tell which there are");
+  command->add_option("NAME", name, "The benchmark; what follows is its own. Example: peers --scenes s1");
+  command->footer("mars bench NAME --help tells a benchmark's own options.\n");
+  command->callback([&] {
+    if (name.empty())
+      std::cout << list_benchmarks(own_file());
+    else
+      run_benchmark(own_file(), name, own_words);
+  });
+}
+
+// What follows a benchmark's name is taken from the command line: the benchmark reads it.
+std::vector<std::string> take_benchmark_words(std::vector<const char*>& words) {
+  std::vector<std::string> own;
+  if (words.size() <= 3 || std::string_view(words[1]) != "bench" || words[2][0] == '-') return own;
+  own.assign(words.begin() + 3, words.end());
+  words.resize(3);
+  return own;
+}
+
 // "mars help render" is "mars render --help".
 std::vector<const char*> help_as_option(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
@@ -145,7 +168,9 @@ int run(int argc, char** argv) {
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;
   add_doctor(app, doctor, code);
-  const std::vector<const char*> words = help_as_option(argc, argv);
+  std::vector<const char*> words = help_as_option(argc, argv);
+  const std::vector<std::string> benchmark_words = take_benchmark_words(words);
+  add_bench(app, names.from, benchmark_words);
   if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;

@@ -1,9 +1,11 @@
 """What each command of mars is for, and what the options of render change."""
 
 import json
+import shutil
 import struct
+import subprocess
 
-from harness import EXAMPLES, SOURCES, ProgramTest, main
+from harness import EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main
 
 TEAPOT = EXAMPLES / "teapot.json"
 SMALL = ["--size", "96x54", "--nodes", 2, "--backend", "threads"]
@@ -29,7 +31,7 @@ class Commands(ProgramTest):
     def test_the_way_in(self):
         told = self.succeed("mars")
         self.assertIn("mars render examples/demo.json", told)
-        for command in ["render", "compile", "info", "verify", "import"]:
+        for command in ["render", "compile", "info", "verify", "import", "bench"]:
             self.assertIn(f"mars {command} ", told)
             self.assertIn("Example: ", self.succeed("mars", command, "--help"))
 
@@ -98,6 +100,20 @@ class Commands(ProgramTest):
     def test_a_sink_of_none_writes_nothing(self):
         self.succeed("mars", "render", TEAPOT, "--sink", "none", *SMALL)
         self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_benchmarks_are_those_built(self):
+        self.assertIn("  peers\n", self.succeed("mars", "bench"))
+        self.assertIn("--rounds", self.succeed("mars", "bench", "peers", "--help"))
+        unknown = self.mars("bench", "pears", "--rounds", "3")
+        self.assertEqual(unknown.returncode, 1)
+        self.assertIn("those here: ", unknown.stderr)
+
+    def test_a_program_by_itself_has_no_benchmarks(self):
+        (self.folder / "bin").mkdir()
+        shutil.copy(PROGRAMS / "mars", self.folder / "bin/mars")
+        alone = subprocess.run([self.folder / "bin/mars", "bench", "peers"], capture_output=True, text=True)
+        self.assertEqual(alone.returncode, 1)
+        self.assertIn("./bootstrap bench", alone.stderr)
 
     def test_rendering_again_into_the_same_folder(self):
         for frames in ["0-5", "2-3"]:

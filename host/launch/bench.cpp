@@ -1,0 +1,53 @@
+#include "host/launch/bench.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& program) { return program.parent_path().parent_path() / "bench"; }
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (fs::exists(entry.path() / "run")) names.push_back(entry.path().filename());
+  if (names.empty())
+    throw Failure("no benchmarks were built beside this program", folder.string(),
+                  "in the sources: ./bootstrap bench, then build/release/bin/mars bench");
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::string list_benchmarks(const fs::path& program) {
+  std::string text = "Benchmarks here (mars bench NAME --help tells more):\n";
+  for (const std::string& name : names_in(folder_of(program))) text += "  " + name + "\n";
+  return text;
+}
+
+void run_benchmark(const fs::path& program, const std::string& name, const std::vector<std::string>& words) {
+  const std::vector<std::string> names = names_in(folder_of(program));
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    std::string known;
+    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + known);
+  }
+  const std::string run = folder_of(program) / name / "run";
+  std::vector<char*> arguments{const_cast<char*>(run.c_str())};
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  execv(run.c_str(), arguments.data());
+  throw Failure(std::strerror(errno), run, "build it again: ./bootstrap bench");
+}
+
+}  // namespace mars::host

@@ -1,0 +1,176 @@
+// Makes a film's mesh for the peers: bench-mesh FILM MESH. The triangles are those that MARS itself draws.
+#include <bit>
+#include <cmath>
+#include <iostream>
+
+#include "hal/failure.h"
+#include "host/film/compile.h"
+#include "node/dice.h"
+#include "node/scene.h"
+#include "tests/bench/peers/mesh.h"
+
+namespace mars::bench {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& where) {
+  throw Failure("a mesh cannot hold " + what, where, "use a scene like those in examples/make_scenes.py");
+}
+
+void check_plain(const node::FilmView& film, const std::string& where) {
+  if (film.settings().dice == 0) refuse("adaptive dicing", where);
+  if (film.settings().camera.count != 1) refuse("a camera that moves", where);
+  const auto& lights = film.light_tracks();
+  if (lights.size() != 1 || lights[0].count != 1 || film.lights()[film.value_at(lights[0], 0)].kind != 0)
+    refuse("other light than one direction", where);
+  if (film.intervals().size() > 1) refuse("several render intervals", where);
+  if (film.moving(film.intervals()[0]).size() > 1) refuse("several moving segments", where);
+  const node::Material& all = film.materials()[0];
+  for (const node::Material& m : film.materials())
+    if (m.ambient != all.ambient || m.diffuse != all.diffuse || m.specular != all.specular ||
+        m.exponent != all.exponent)
+      refuse("materials that differ in more than colour", where);
+  if (!(all.exponent >= 1) || !std::has_single_bit(static_cast<unsigned>(all.exponent)))
+    refuse("an exponent that is no power of two", where);
+}
+
+MeshHead head_of(const node::Scene& scene) {
+  const node::FilmSettings& settings = scene.film().settings();
+  const node::Projection& p = scene.projection();
+  const node::EyeLight& light = scene.lights()[0];
+  MeshHead head{};
+  head.magic = kMeshMagic;
+  head.width = settings.width;
+  head.height = settings.height;
+  head.scale = p.scale;
+  head.center = {p.center[0], p.center[1]};
+  head.near = p.near;
+  head.background = settings.background;
+  head.to_light = {light.vector[0], light.vector[1], light.vector[2]};
+  head.light = {light.color[0], light.color[1], light.color[2]};
+  const node::Material& material = scene.film().materials()[0];
+  head.ambient = material.ambient;
+  head.diffuse = material.diffuse;
+  head.specular = material.specular;
+  head.squarings = static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(material.exponent)));
+  head.frames = settings.frames;
+  return head;
+}
+
+void add_patch(const node::Dicer& diced, MeshPatch part, Mesh& mesh) {
+  part.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+  part.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size());
+  part.vertices = static_cast<std::uint32_t>(diced.vertex_count());
+  part.triangles = diced.triangles().count;
+  const node::Vertices& v = diced.vertices();
+  for (std::uint32_t k = 0; k < part.vertices; ++k)
+    mesh.vertices.push_back({{v.place[0][k], v.place[1][k], v.place[2][k]},
+                             {v.normal[0][k], v.normal[1][k], v.normal[2][k]}});
+  const std::uint32_t first = part.first_vertex;
+  for (std::uint32_t k = 0; k < part.triangles; ++k) {
+    const node::Corner3 t = diced.triangles()[k];
+    mesh.triangles.push_back({first + t.a, first + t.b, first + t.c});
+  }
+  mesh.patches.push_back(part);
+}
+
+void add_segments(const node::Scene& scene, bool moving, Mesh& mesh) {
+  const node::FilmView& film = scene.film();
+  node::Dicer dicer(node::best_kernels(""));
+  for (std::uint32_t s = 0; s < film.segments().size(); ++s) {
+    if (scene.moves(s) != moving) continue;
+    const node::EyeMatrix matrix = scene.matrix(s);
+    if (node::mirrors(matrix)) refuse("a mirrored segment", std::string(film.name(film.segments()[s])));
+    const node::Shape& shape = film.shapes()[film.segments()[s].shape];
+    for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
+      dicer.dice(node::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
+      add_patch(dicer, {s, scene.look(s), moving ? 1u : 0u, 0, 0, 0, 0}, mesh);
+    }
+  }
+}
+
+using Square = std::array<std::array<double, 4>, 3>;
+
+Square times(const Square& a, const Square& b) {
+  Square out{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 4; ++c) {
+      out[r][c] = c == 3 ? a[r][3] : 0;
+      for (std::size_t k = 0; k < 3; ++k) out[r][c] += a[r][k] * b[k][c];
+    }
+  return out;
+}
+
+Square inverse(const Square& a) {
+  Square out{};
+  const auto at = [&](std::size_t r, std::size_t c) { return a[r % 3][c % 3]; };
+  double determinant = 0;
+  for (std::size_t c = 0; c < 3; ++c) determinant += a[0][c] * (at(1, c + 1) * at(2, c + 2) - at(1, c + 2) * at(2, c + 1));
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      out[r][c] = (at(c + 1, r + 1) * at(c + 2, r + 2) - at(c + 1, r + 2) * at(c + 2, r + 1)) / determinant;
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) out[r][3] -= out[r][c] * a[c][3];
+  return out;
+}
+
+bool is_rigid(const Square& m) {
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) {
+      double dot = 0;
+      for (std::size_t r = 0; r < 3; ++r) dot += m[r][a] * m[r][b];
+      if (std::abs(dot - (a == b ? 1 : 0)) > 1e-9) return false;
+    }
+  return true;
+}
+
+std::vector<Motion> motion_of(const node::FilmView& film) {
+  constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  std::vector<Motion> motion(film.settings().frames, kStill);
+  const auto movers = film.moving(film.intervals()[0]);
+  if (movers.empty()) return motion;
+  const node::Segment& mover = film.segments()[movers[0]];
+  const Square eye = film.camera_at(0).world_to_eye.m;
+  const Square back = inverse(times(eye, film.matrix_at(mover, 0).m));
+  for (std::uint32_t frame = 0; frame < motion.size(); ++frame) {
+    const Square m = times(times(eye, film.matrix_at(mover, frame).m), back);
+    if (!is_rigid(m)) refuse("a segment that changes its shape", std::string(film.name(mover)));
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 4; ++c) motion[frame][r][c] = static_cast<float>(m[r][c]);
+  }
+  return motion;
+}
+
+Mesh mesh_of(const node::FilmView& film, const std::string& where) {
+  check_plain(film, where);
+  node::Scene scene(film);
+  scene.set_interval(0);
+  scene.set_frame(0);
+  Mesh mesh{};
+  mesh.head = head_of(scene);
+  for (const node::Material& m : film.materials()) mesh.looks.push_back(m.color);
+  for (const bool moving : {false, true}) add_segments(scene, moving, mesh);
+  mesh.motion = motion_of(film);
+  mesh.head.looks = static_cast<std::uint32_t>(mesh.looks.size());
+  mesh.head.patches = static_cast<std::uint32_t>(mesh.patches.size());
+  mesh.head.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.head.triangles = static_cast<std::uint32_t>(mesh.triangles.size());
+  return mesh;
+}
+
+}  // namespace
+}  // namespace mars::bench
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: bench-mesh FILM MESH\n";
+    return 2;
+  }
+  try {
+    const mars::host::CompiledFilm film = mars::host::load_film(argv[1]);
+    mars::bench::write_mesh(mars::bench::mesh_of(film.view(), argv[1]), argv[2]);
+    return 0;
+  } catch (const std::exception& failure) {
+    std::cerr << "bench-mesh: " << mars::reason_of(failure) << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,44 @@
+"""The measuring scenes as films for one competition: culled, and with frames enough."""
+import copy
+import json
+import os
+
+EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "examples")
+STEP = 12         # degrees that s3's teapot turns in a frame
+INTERVAL = 120    # frames of s3 from one keyframe to the next: whole turns
+
+
+def load(name, size=None, dice=None):
+    """An example as it is, but seen from outside only, and in the size and as finely diced as wanted."""
+    with open(os.path.join(EXAMPLES, name + ".json")) as file:
+        film = json.load(file)
+    for material in film["materials"].values():
+        material["sides"] = 1
+    if size:
+        film["size"] = size
+    if dice:
+        film["dice"] = dice
+    return film
+
+
+def turning(film):
+    """The joint keys that must be stretched with the film; none in scenes that stand still."""
+    return [actor for actor in film["actors"] if "keys" in actor]
+
+
+def lengthened(film, frames):
+    """The same film with so many frames, cut at every INTERVAL where something turns."""
+    film = copy.deepcopy(film)
+    film["frames"] = frames
+    for actor in turning(film):
+        keys = range(0, frames + INTERVAL, INTERVAL)
+        actor["keys"] = [{"frame": k, "pose": {actor["model"]: [0, 0, STEP * k]}} for k in keys]
+        film["models"][actor["model"]]["joints"][0]["limits"] = {"z": [0, STEP * keys[-1]]}
+        film["intervals"] = "keyframes"
+    return film
+
+
+def save(film, path):
+    with open(path, "w") as file:
+        json.dump(film, file)
+    return path

@@ -1,0 +1,121 @@
+#include "tests/bench/peers/ours.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "hal/nx.h"
+#include "host/farm/farm.h"
+#include "host/film/compile.h"
+#include "tests/bench/peers/peer.h"
+
+namespace mars::bench {
+namespace {
+
+// Keeps the last frame of every `stride`: those in between are seen by nobody.
+class LastSink : public host::Sink {
+ public:
+  explicit LastSink(std::uint32_t stride) : stride_(stride) {}
+
+  void take(const host::Frame& frame) override {
+    if (frame.number % stride_ == stride_ - 1) pixels_ = frame.pixels;
+  }
+  const std::vector<std::uint32_t>& pixels() const { return pixels_; }
+
+ private:
+  std::uint32_t stride_;
+  std::vector<std::uint32_t> pixels_;
+};
+
+class Driver {
+ public:
+  Driver(const node::FilmView& film, Course course, const std::string& backend);
+
+  void run(std::span<const std::byte> block);
+
+ private:
+  bool more();
+  double milliseconds_a_frame() const;
+
+  Course course_;
+  std::string backend_;
+  std::string kernels_;
+  host::FarmOptions options_;
+  std::uint32_t frames_a_unit_;
+  node::FilmSettings settings_;
+  LastSink sink_;
+  Orders orders_;
+  bool begun_ = false;
+  int wanted_ = 0;  // frames of the order at hand, and those left of them
+  int left_ = 0;
+  std::vector<host::FinishedFrame> finished_;
+};
+
+Driver::Driver(const node::FilmView& film, Course course, const std::string& backend)
+    : course_(course),
+      backend_(backend),
+      frames_a_unit_(course == Course::whole ? 1 : film.intervals()[0].frame_count),
+      settings_(film.settings()),
+      sink_(frames_a_unit_),
+      orders_([this] { return Picture{settings_.width, settings_.height, sink_.pixels()}; }) {
+  options_.coherence = course == Course::inbetween;
+  options_.cubes = 1;
+  options_.frames.resize(settings_.frames);
+  std::iota(options_.frames.begin(), options_.frames.end(), 0u);
+}
+
+void Driver::run(std::span<const std::byte> block) {
+  host::FarmListener listener;
+  listener.booted = [this](std::span<const node::Hello> nodes, std::uint32_t, std::uint32_t) {
+    kernels_ = nodes[0].simd.data();
+  };
+  listener.finished = [this](const host::FinishedFrame& frame) { finished_.push_back(frame); };
+  listener.more = [this] { return more(); };
+  host::SinkPool pool(sink_, {settings_.width, settings_.height, 16, 4, 2});
+  host::render_film(block, options_, pool, listener);
+  if (begun_ && left_ > 0) throw std::runtime_error("the film has too few frames for so many orders");
+}
+
+bool Driver::more() {
+  if (!begun_)
+    orders_.tell_ready("MARS, " + backend_ + " backend, nodes: " + std::to_string(numnodes()) + ", " + kernels_);
+  else if (--left_ == 0)
+    orders_.tell_milliseconds(milliseconds_a_frame());
+  begun_ = true;
+  if (left_ > 0) return true;
+  const auto go = orders_.next_go();
+  if (!go) return false;
+  wanted_ = *go;
+  left_ = course_ == Course::whole ? wanted_ : 1;
+  if (course_ == Course::inbetween && wanted_ + 1 != static_cast<int>(frames_a_unit_))
+    throw std::runtime_error("an interval of this film has " + std::to_string(frames_a_unit_ - 1) + " inbetweens");
+  finished_.clear();
+  return true;
+}
+
+// Whole frames: from the command to the composed frame. Inbetweens: from the keyframe's arrival to the last one's.
+double Driver::milliseconds_a_frame() const {
+  double whole = 0, keyframe = 0, last = 0;
+  for (const host::FinishedFrame& frame : finished_) {
+    whole += frame.seconds - frame.given;
+    last = std::max(last, frame.seconds);
+    if (frame.kind == node::FrameKind::keyframe) keyframe = frame.seconds;
+  }
+  return 1000 * (course_ == Course::whole ? whole : last - keyframe) / wanted_;
+}
+
+}  // namespace
+
+Course course_of(const std::string& word) {
+  if (word == "whole") return Course::whole;
+  if (word == "inbetween") return Course::inbetween;
+  throw std::runtime_error("neither whole nor inbetween: " + word);
+}
+
+void compete(const std::string& film, Course course, const std::string& backend) {
+  const host::CompiledFilm compiled = host::load_film(film);
+  Driver(compiled.view(), course, backend).run(compiled.block());
+}
+
+}  // namespace mars::bench

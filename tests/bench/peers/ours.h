@@ -1,0 +1,18 @@
+// MARS as a competitor: the host's side of bench-ours-threads and bench-ours-mpi, which differ by their backend only.
+#pragma once
+
+#include <string>
+
+namespace mars::bench {
+
+// What "go" renders: one whole frame from scratch after another; or a render interval's inbetweens, as many as it
+// has, whose keyframe is drawn before and not counted.
+enum class Course { whole, inbetween };
+
+// Throws std::runtime_error for another word.
+Course course_of(const std::string& word);
+
+// Runs the calling HAL process as the host and obeys as peer.h says.
+void compete(const std::string& film, Course course, const std::string& backend);
+
+}  // namespace mars::bench

@@ -1,0 +1,19 @@
+// mpirun -n 3 bench-ours-mpi FILM whole|inbetween: the host and two nodes
+#include <stdexcept>
+
+#include "hal/mpi/start.h"
+#include "hal/nx.h"
+#include "host/programs/node_job.h"
+#include "tests/bench/peers/ours.h"
+
+int main(int argc, char** argv) {
+  using namespace mars;
+  return hal::run_mpi(argc, argv, hal::Role::by_rank, [](int count, char** words) {
+    if (count != 3) throw std::runtime_error("usage: bench-ours-mpi FILM whole|inbetween");
+    if (mynode() == myhost())
+      bench::compete(words[1], bench::course_of(words[2]), "MPI");
+    else
+      host::run_node_job();
+    return 0;
+  });
+}

@@ -1,0 +1,58 @@
+#include "tests/bench/peers/peer.h"
+
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace mars::bench {
+namespace {
+
+double render(const Competitor& competitor, int frames) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int frame = 0; frame < frames; ++frame) competitor.render();
+  return milliseconds_since(start) / frames;
+}
+
+}  // namespace
+
+void write_ppm(const Picture& picture, const std::string& path) {
+  std::vector<char> bytes;
+  bytes.reserve(std::size_t{3} * picture.pixels.size());
+  for (std::uint32_t line = 0; line < picture.height; ++line) {
+    const std::uint32_t row = picture.from_the_bottom ? picture.height - 1 - line : line;
+    for (const std::uint32_t pixel : picture.pixels.subspan(std::size_t{row} * picture.width, picture.width))
+      for (int shift = 0; shift < 24; shift += 8) bytes.push_back(static_cast<char>(pixel >> shift & 255));
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << "P6\n" << picture.width << ' ' << picture.height << "\n255\n";
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+void Orders::tell_ready(const std::string& text) const { std::cout << "ready " << text << std::endl; }
+
+void Orders::tell_milliseconds(double a_frame) const { std::cout << "ms " << a_frame << std::endl; }
+
+std::optional<int> Orders::next_go() const {
+  for (std::string line; std::getline(std::cin, line);) {
+    std::istringstream words(line);
+    std::string order, argument;
+    words >> order >> argument;
+    if (order == "go") return std::stoi(argument);
+    if (order != "picture") throw std::runtime_error("unknown order: " + line);
+    write_ppm(last_picture_(), argument);
+    std::cout << "done" << std::endl;
+  }
+  return {};
+}
+
+void obey(const Competitor& competitor) {
+  const Orders orders(competitor.last_picture);
+  orders.tell_ready(competitor.ready);
+  while (const auto frames = orders.next_go()) orders.tell_milliseconds(render(competitor, *frames));
+}
+
+}  // namespace mars::bench

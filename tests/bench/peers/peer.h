@@ -1,0 +1,56 @@
+// What every competitor of the benchmark does on its standard input, one order a line, one answer a line:
+//   (start)          "ready TEXT"  the scene is loaded; TEXT tells what it wants told
+//   go N             "ms T"        renders N frames one after another, each until its last pixel is in memory;
+//                                  T milliseconds a frame
+//   picture FILE     "done"        writes the last frame as a PPM file
+//   (end of input)                 ends
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace mars::bench {
+
+struct Picture {
+  std::uint32_t width, height;
+  // Rows from the top; red in the lowest byte, then green and blue; or from the bottom, as OpenGL has them.
+  std::span<const std::uint32_t> pixels;
+  bool from_the_bottom = false;
+};
+
+void write_ppm(const Picture& picture, const std::string& path);
+
+// The orders as they come, for a competitor that is asked what to do next.
+class Orders {
+ public:
+  explicit Orders(std::function<Picture()> last_picture) : last_picture_(std::move(last_picture)) {}
+
+  void tell_ready(const std::string& text) const;
+  // Draws pictures where they are wanted; frames of the next "go", none at the end of input. Throws
+  // std::runtime_error for an order it does not know.
+  std::optional<int> next_go() const;
+  void tell_milliseconds(double a_frame) const;
+
+ private:
+  std::function<Picture()> last_picture_;
+};
+
+struct Competitor {
+  std::string ready;                      // one line
+  std::function<void()> render;           // the next frame
+  std::function<Picture()> last_picture;
+};
+
+// Obeys until the input ends.
+void obey(const Competitor& competitor);
+
+inline double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace mars::bench

@@ -1,0 +1,361 @@
+// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween. How it was made fast: README.md.
+//
+// The scene is in buffers once; a frame is a few draw calls and glReadPixels. Inbetweens begin from the standing
+// part's colours and depths, which another framebuffer keeps.
+#define GL_GLEXT_PROTOTYPES
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+
+#include "tests/bench/peers/mesh.h"
+#include "tests/bench/peers/peer.h"
+
+namespace mars::bench {
+namespace {
+
+// What stays the same for a scene is written into the shaders as numbers.
+constexpr const char* kVertexShader = R"(
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec3 normal;
+uniform mat4x3 motion;
+out vec3 n;
+void main() {
+  vec3 p = motion * vec4(place, 1.0);
+  gl_Position = vec4(LENS.x * p.x, LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
+  n = mat3(motion) * normal;
+}
+)";
+
+constexpr const char* kFragmentShader = R"(
+in vec3 n;
+uniform vec3 own;
+out vec4 pixel;
+void main() {
+  vec3 d = vec3(gl_FragCoord.xy * REACH.x + REACH.yz, -1.0);
+  float shrink = inversesqrt(dot(n, n)), toward = -inversesqrt(dot(d, d));
+  float nl = dot(n, TO_LIGHT) * shrink;
+  float nv = dot(n, d) * shrink * toward;
+  float shine = nl > 0.0 ? clamp(2.0 * nl * nv - dot(d, TO_LIGHT) * toward, 0.0, 1.0) : 0.0;
+  for (int k = 0; k < SQUARINGS; ++k) shine *= shine;
+  pixel = vec4(own * (AMBIENT + DIFFUSE * LIGHT * max(nl, 0.0)) + SPECULAR * LIGHT * shine, 1.0);
+}
+)";
+
+template <typename... Numbers>
+std::string defined(const char* name, const char* type, Numbers... numbers) {
+  std::ostringstream text;
+  text.precision(9);
+  text << "#define " << name << ' ' << type << '(';
+  const char* comma = "";
+  ((text << comma << numbers, comma = ", "), ...);
+  text << ")\n";
+  return text.str();
+}
+
+// The film's numbers for both shaders. LENS: scale over half the picture's width and height, depth z * w = c * z + d;
+// REACH: of a pixel in the eye's plane at 1, and the lower left corner.
+std::string numbers_of(const MeshHead& head) {
+  const float far = 1000, near = head.near;
+  const auto w = static_cast<float>(head.width), h = static_cast<float>(head.height);
+  return "#version 330 core\n" +
+         defined("LENS", "vec4", 2 * head.scale / w, 2 * head.scale / h, (far + near) / (far - near),
+                 -2 * far * near / (far - near)) +
+         defined("REACH", "vec3", 1 / head.scale, -head.center[0] / head.scale, -(h - head.center[1]) / head.scale) +
+         defined("TO_LIGHT", "vec3", head.to_light[0], head.to_light[1], head.to_light[2]) +
+         defined("LIGHT", "vec3", head.light[0], head.light[1], head.light[2]) +
+         defined("AMBIENT", "float", head.ambient) + defined("DIFFUSE", "float", head.diffuse) +
+         defined("SPECULAR", "float", head.specular) + defined("SQUARINGS", "int", head.squarings);
+}
+
+void check(bool fine, const std::string& what) {
+  if (!fine) throw std::runtime_error(what);
+}
+
+// A context without a window.
+void begin_gl() {
+  const auto get_display =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+  check(get_display != nullptr, "this EGL has no platforms");
+  EGLDisplay display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  check(eglInitialize(display, nullptr, nullptr) == EGL_TRUE, "EGL cannot begin without a window");
+  eglBindAPI(EGL_OPENGL_API);
+  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
+  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+  check(context != EGL_NO_CONTEXT, "EGL gives no context of OpenGL 3.3");
+  check(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE, "EGL needs a surface here");
+}
+
+GLuint compile(GLenum kind, const std::string& text) {
+  const GLuint shader = glCreateShader(kind);
+  const char* source = text.c_str();
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  GLint fine = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &fine);
+  char words[1024] = "";
+  if (!fine) glGetShaderInfoLog(shader, sizeof words, nullptr, words);
+  check(fine, words);
+  return shader;
+}
+
+GLuint link(const MeshHead& head) {
+  const std::string numbers = numbers_of(head);
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, compile(GL_VERTEX_SHADER, numbers + kVertexShader));
+  glAttachShader(program, compile(GL_FRAGMENT_SHADER, numbers + kFragmentShader));
+  glLinkProgram(program);
+  GLint fine = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &fine);
+  check(fine, "the shaders do not fit each other");
+  return program;
+}
+
+struct Box {
+  GLint left, bottom;
+  GLsizei width, height;
+};
+
+// The box round both.
+Box round(const Box& a, const Box& b) {
+  if (a.width == 0) return b;
+  if (b.width == 0) return a;
+  const GLint left = std::min(a.left, b.left), bottom = std::min(a.bottom, b.bottom);
+  return {left, bottom, std::max(a.left + a.width, b.left + b.width) - left,
+          std::max(a.bottom + a.height, b.bottom + b.height) - bottom};
+}
+
+GLuint framebuffer(GLsizei width, GLsizei height) {
+  GLuint names[3];
+  glGenFramebuffers(1, &names[0]);
+  glBindFramebuffer(GL_FRAMEBUFFER, names[0]);
+  glGenRenderbuffers(2, &names[1]);
+  glBindRenderbuffer(GL_RENDERBUFFER, names[1]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, names[1]);
+  glBindRenderbuffer(GL_RENDERBUFFER, names[2]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, names[2]);
+  check(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "no framebuffer of this size");
+  return names[0];
+}
+
+struct Corner {
+  std::array<float, 3> place, normal;
+};
+
+// Indices [first, first + count) of one colour.
+struct Batch {
+  std::size_t first, count;
+  std::uint32_t look;
+};
+
+// Segments in the order of their distance, nearest first, and so the patches of each, so that what is hidden is not
+// shaded.
+std::vector<const MeshPatch*> by_distance(const Mesh& mesh, bool moving) {
+  std::vector<const MeshPatch*> patches;
+  std::map<std::uint32_t, float> of_segment;
+  std::map<const MeshPatch*, float> of_patch;
+  for (const MeshPatch& patch : mesh.patches) {
+    if ((patch.moves == 1) != moving) continue;
+    float sum = 0;
+    for (std::uint32_t k = 0; k < patch.vertices; ++k) sum -= mesh.vertices[patch.first_vertex + k].place[2];
+    patches.push_back(&patch);
+    of_patch[&patch] = sum / static_cast<float>(patch.vertices);
+    of_segment[patch.segment] += of_patch[&patch];  // all have as many patches
+  }
+  std::sort(patches.begin(), patches.end(), [&](auto* a, auto* b) {
+    return std::tuple(of_segment[a->segment], a->segment, of_patch[a]) <
+           std::tuple(of_segment[b->segment], b->segment, of_patch[b]);
+  });
+  return patches;
+}
+
+class Renderer {
+ public:
+  Renderer(const Mesh& mesh, bool inbetweens);
+
+  void render();
+  Picture picture() const { return {mesh_.head.width, mesh_.head.height, pixels_, true}; }
+
+ private:
+  void load();
+  void set_motion(const Motion& motion);
+  void draw(bool moving, const Motion& motion);
+  void render_whole();
+  void render_inbetween();
+  Box mover_box(const Motion& motion) const;
+
+  const Mesh& mesh_;
+  bool inbetweens_;
+  GLsizei width_, height_;
+  GLuint program_ = 0, drawn_ = 0, kept_ = 0;
+  GLint motion_at_ = -1, own_at_ = -1;
+  std::vector<Batch> batches_[2];  // what stands, what moves
+  std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
+  Box before_{};
+  std::vector<std::uint32_t> pixels_;
+};
+
+constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+Renderer::Renderer(const Mesh& mesh, bool inbetweens)
+    : mesh_(mesh), inbetweens_(inbetweens), width_(static_cast<GLsizei>(mesh.head.width)),
+      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
+  const MeshHead& head = mesh.head;
+  program_ = link(head);
+  glUseProgram(program_);
+  motion_at_ = glGetUniformLocation(program_, "motion");
+  own_at_ = glGetUniformLocation(program_, "own");
+  load();
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glClearColor(head.background[0], head.background[1], head.background[2], 1);
+  glViewport(0, 0, width_, height_);
+  kept_ = framebuffer(width_, height_);
+  drawn_ = framebuffer(width_, height_);
+  if (!inbetweens_) return;
+  glBindFramebuffer(GL_FRAMEBUFFER, kept_);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw(false, kStill);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+}
+
+void Renderer::load() {
+  std::vector<Corner> corners;
+  corners.reserve(mesh_.vertices.size());
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * mesh_.triangles.size());
+  for (const bool moving : {false, true})
+    for (const MeshPatch* patch : by_distance(mesh_, moving)) {
+      const auto at = static_cast<std::uint32_t>(corners.size()) - patch->first_vertex;
+      std::vector<Batch>& batches = batches_[moving];
+      if (batches.empty() || batches.back().look != patch->look) batches.push_back({indices.size(), 0, patch->look});
+      for (std::uint32_t k = patch->first_vertex; k < patch->first_vertex + patch->vertices; ++k)
+        corners.push_back({mesh_.vertices[k].place, mesh_.vertices[k].normal});
+      for (std::uint32_t t = patch->first_triangle; t < patch->first_triangle + patch->triangles; ++t)
+        for (const std::uint32_t corner : mesh_.triangles[t]) indices.push_back(at + corner);
+      batches.back().count = indices.size() - batches.back().first;
+    }
+  GLuint names[3];
+  glGenVertexArrays(1, &names[2]);
+  glBindVertexArray(names[2]);
+  glGenBuffers(2, names);
+  glBindBuffer(GL_ARRAY_BUFFER, names[0]);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, names[1]);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(), GL_STATIC_DRAW);
+  for (GLuint k = 0; k < 2; ++k) {
+    glEnableVertexAttribArray(k);
+    glVertexAttribPointer(k, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<void*>(k * 3 * sizeof(float)));
+  }
+}
+
+void Renderer::set_motion(const Motion& m) {
+  const float columns[12] = {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2], m[0][3], m[1][3], m[2][3]};
+  glUniformMatrix4x3fv(motion_at_, 1, GL_FALSE, columns);
+}
+
+void Renderer::draw(bool moving, const Motion& motion) {
+  set_motion(motion);
+  for (const Batch& batch : batches_[moving]) {
+    glUniform3fv(own_at_, 1, mesh_.looks[batch.look].data());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<void*>(batch.first * sizeof(std::uint32_t)));
+  }
+}
+
+void Renderer::render() {
+  number_ = (number_ + 1) % mesh_.head.frames;
+  if (inbetweens_ && number_ == 0) number_ = 1;
+  if (inbetweens_)
+    render_inbetween();
+  else
+    render_whole();
+}
+
+void Renderer::render_whole() {
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw(true, mesh_.motion[number_]);  // it is in front, and hides
+  draw(false, kStill);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+}
+
+void Renderer::render_inbetween() {
+  const Box now = mover_box(mesh_.motion[number_]);
+  const Box changed = round(before_, now);
+  before_ = now;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
+  const GLint right = changed.left + changed.width, top = changed.bottom + changed.height;
+  glBlitFramebuffer(changed.left, changed.bottom, right, top, changed.left, changed.bottom, right, top,
+                    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  draw(true, mesh_.motion[number_]);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
+  glReadPixels(changed.left, changed.bottom, changed.width, changed.height, GL_RGBA, GL_UNSIGNED_BYTE,
+               &pixels_[static_cast<std::size_t>(changed.bottom) * mesh_.head.width + static_cast<std::size_t>(changed.left)]);
+}
+
+Box Renderer::mover_box(const Motion& m) const {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  float low[2] = {kFar, kFar}, high[2] = {-kFar, -kFar};
+  for (std::size_t k = mesh_.first_moving_vertex(); k < mesh_.vertices.size(); ++k) {
+    const auto& p = mesh_.vertices[k].place;
+    float q[3];
+    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r][0] * p[0] + m[r][1] * p[1] + m[r][2] * p[2] + m[r][3];
+    const float x = mesh_.head.center[0] - mesh_.head.scale * q[0] / q[2];
+    const float y = static_cast<float>(height_) - mesh_.head.center[1] - mesh_.head.scale * q[1] / q[2];
+    low[0] = std::min(low[0], x), high[0] = std::max(high[0], x);
+    low[1] = std::min(low[1], y), high[1] = std::max(high[1], y);
+  }
+  const auto clamped = [](float v, GLsizei most) { return static_cast<GLint>(std::clamp(v, 0.0f, static_cast<float>(most))); };
+  const GLint left = clamped(low[0] - 1, width_), bottom = clamped(low[1] - 1, height_);
+  return {left, bottom, clamped(high[0] + 2, width_) - left, clamped(high[1] + 2, height_) - bottom};
+}
+
+void run(int argc, char** argv) {
+  check(argc == 4, "usage: peer-llvmpipe MESH THREADS whole|inbetween");
+  // Mesa takes its memory anew for every frame: it shall not go back to the system in between.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  setenv("LP_NUM_THREADS", argv[2], 1);
+  setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  begin_gl();
+  const Mesh mesh = read_mesh(argv[1]);
+  Renderer renderer(mesh, std::string_view(argv[3]) == "inbetween");
+  const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  check(driver.find("llvmpipe") != std::string::npos, "not llvmpipe but " + driver);
+  const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+  obey({version + ", " + driver, [&] { renderer.render(); }, [&] { return renderer.picture(); }});
+  check(glGetError() == GL_NO_ERROR, "OpenGL found an error");
+}
+
+}  // namespace
+}  // namespace mars::bench
+
+int main(int argc, char** argv) {
+  try {
+    mars::bench::run(argc, argv);
+    return 0;
+  } catch (const std::exception& failure) {
+    std::cerr << "peer-llvmpipe: " << failure.what() << '\n';
+    return 1;
+  }
+}

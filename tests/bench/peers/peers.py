@@ -1,0 +1,263 @@
+#!/usr/bin/env python3
+"""MARS and its peers on the same scenes, in turn, so that only ratios count; and do all draw the same picture?
+
+Every competitor keeps its scene loaded and renders one frame when it is its turn, timed from the order to the last
+pixel in memory. A column is a number of processors: competitors have so many threads or nodes, and may use no other
+processor. README.md beside this program tells what each peer does."""
+import argparse
+import contextlib
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import films
+import pictures
+from competitor import Competitor, Team, Trouble
+
+MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
+WARMING = 5          # frames before those that count
+FINE = 64            # quads along a patch's side that adaptive dicing is compared with
+MOST_IDLE = 0.05     # processor seconds a competitor may use in a second that is not its turn
+
+
+class Course:
+    """One line of the table: a scene, and what of it is rendered at every turn."""
+
+    def __init__(self, scene, what="whole"):
+        self.scene, self.what = scene, what
+        self.title = scene if what == "whole" else f"{scene}'s inbetweens"
+        self.frames_a_turn = 1 if what == "whole" else films.INTERVAL - 1
+
+    def frames(self, turns):
+        return turns if self.what == "whole" else turns * films.INTERVAL
+
+
+def courses_of(scenes):
+    for scene in scenes:
+        yield Course(scene)
+        if films.turning(films.load(scene)):
+            yield Course(scene, "inbetween")
+
+
+class Field:
+    """The competitors of one course and column."""
+
+    def __init__(self, wanted, course, column, folder):
+        self.programs = os.path.join(wanted.build, "bench", "peers")
+        self.course, self.column, self.folder = course, column, folder
+        self.processors = sorted(os.sched_getaffinity(0))[:column]
+        self.turns = wanted.rounds + WARMING  # the film has one more: after its last frame no order is read
+        film = films.load(course.scene, wanted.size, wanted.dice)
+        self.film = films.lengthened(film, course.frames(self.turns + 1))
+        self.mesh = os.path.join(folder, "mesh")
+        self.make_mesh(films.lengthened(film, films.INTERVAL if films.turning(film) else 1))
+        self.competitors = []
+        self.begin_peers()
+        self.begin_ours("ours", self.film)
+        self.adaptive = wanted.adaptive and not films.turning(film)
+        if self.adaptive:
+            self.begin_ours("ours, adaptive", self.diced("adaptive"))
+
+    def save(self, film, name):
+        return films.save(film, os.path.join(self.folder, name))
+
+    def diced(self, dice):
+        return {**self.film, "dice": dice}
+
+    def program(self, name):
+        path = os.path.join(self.programs, name)
+        return path if os.path.exists(path) else None
+
+    def make_mesh(self, film):
+        made = subprocess.run([self.program("bench-mesh"), self.save(film, "mesh.json"), self.mesh],
+                              stderr=subprocess.PIPE, text=True)
+        if made.returncode != 0:
+            raise Trouble(made.stderr.strip())
+
+    def start(self, name, command, environment=None, processors=None):
+        log = os.path.join(self.folder, f"{name}.log".replace(" ", "-"))
+        return Competitor(name, command, processors or self.processors, log, environment)
+
+    def begin(self, *competitor):
+        self.competitors.append(self.start(*competitor))
+        return self.competitors[-1]
+
+    def begin_peers(self):
+        embree, llvmpipe = self.program("peer-embree"), self.program("peer-llvmpipe")
+        if embree:
+            self.begin("Embree", [embree, self.mesh, str(self.column), self.course.what])
+        # Mesa's main thread prepares what its others draw: which number is best differs from scene to scene.
+        for threads in (self.column - 1, self.column) if llvmpipe else ():
+            self.begin(f"llvmpipe {threads}", [llvmpipe, self.mesh, str(threads), self.course.what])
+        # Inbetweens may go whole to single processors, as ours do.
+        if self.course.what == "inbetween" and self.column > 1:
+            self.begin_team("Embree", embree, "1")
+            self.begin_team("llvmpipe", llvmpipe, "0")
+
+    def begin_team(self, name, program, threads):
+        if program:
+            command = [program, self.mesh, threads, self.course.what]
+            self.competitors.append(Team(f"{name}, {self.column} at a time", [
+                self.start(f"{name} {processor}", command, None, [processor]) for processor in self.processors]))
+
+    def begin_ours(self, name, film):
+        self.begin_threads(f"{name}, threads", film)
+        mpi = self.program("bench-ours-mpi")
+        if mpi:
+            self.begin(f"{name}, MPI", ["mpirun", "-n", str(self.column + 1), mpi, self.save(film, f"{name}.json"),
+                                        self.course.what], MPI_ENVIRONMENT)
+
+    def begin_threads(self, name, film):
+        return self.begin(name, [self.program("bench-ours-threads"), self.save(film, f"{name}.json"),
+                                 self.course.what, str(self.column)])
+
+    def compete(self, rounds):
+        for competitor in self.competitors:
+            competitor.wait_ready()
+        for turn in range(self.turns):
+            for competitor in self.competitors:
+                milliseconds = competitor.go(self.course.frames_a_turn)
+                if turn >= WARMING:
+                    competitor.milliseconds.append(milliseconds)
+
+    def check_idle(self):
+        before = [competitor.processor_seconds() for competitor in self.competitors]
+        time.sleep(1)
+        for competitor, used in zip(self.competitors, before):
+            if competitor.processor_seconds() - used > MOST_IDLE:
+                raise Trouble(f"{competitor.name} does not rest while others render")
+
+    def take_picture(self, competitor):
+        file = os.path.join(self.folder, competitor.name.replace(" ", "-") + ".ppm")
+        competitor.picture(file)
+        return file
+
+    def fine_picture(self):
+        """What finer triangles than anybody competes with show: ours, for ours are as the peers' by then."""
+        fine = self.begin_threads("fine", self.diced(FINE))
+        fine.wait_ready()
+        fine.go(1)
+        return self.take_picture(fine)
+
+    def end(self):
+        for competitor in self.competitors:
+            competitor.end()
+
+
+# Open MPI (4, then 5): more ranks than processors, bound to none, also as root as in a container.
+MPI_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "PRTE_MCA_hwloc_default_binding_policy": "none"}
+
+
+def is_ours(name):
+    return name.startswith("ours")
+
+
+def is_alike(row):
+    """Whether it draws the triangles that the peers draw."""
+    return "adaptive" not in row["name"]
+
+
+def result_of(field):
+    """One course's and column's part of the JSON."""
+    files = {competitor.name: field.take_picture(competitor) for competitor in field.competitors}
+    reference = files.get("Embree", files["ours, threads"])
+    rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
+             "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
+            for c in field.competitors]
+    if field.adaptive:
+        fine = field.fine_picture()
+        for row in rows:
+            row["rms_fine"] = pictures.rms(fine, files[row["name"]])
+    peers = [row for row in rows if not is_ours(row["name"])]
+    result = {"course": field.course.title, "column": field.column, "competitors": rows}
+    if peers:
+        best = min(peers, key=lambda row: row["best"])
+        result["best_peer"] = best["name"]
+        for row in rows:
+            if is_ours(row["name"]):
+                row["ratio"] = row["best"] / best["best"]
+    return result
+
+
+def check_alike(result):
+    for row in result["competitors"]:
+        if is_ours(row["name"]) and is_alike(row) and row["rms"] > MOST_RMS:
+            raise Trouble(f"{result['course']}: the picture of {row['name']} differs from Embree's by {row['rms']:.2f} "
+                          f"of 255, more than {MOST_RMS}")
+
+
+def run_course(wanted, course, column):
+    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as ends:
+        field = Field(wanted, course, column, folder)
+        ends.callback(field.end)
+        field.compete(wanted.rounds)
+        field.check_idle()
+        return result_of(field)
+
+
+def line_of(row, rms, best_peer):
+    ratio = f"   {row['ratio']:.2f} of {best_peer}'s" if "ratio" in row else ""
+    return f"  {row['name']:24} {row['best']:8.2f} ({row['middle']:.2f})".ljust(48) + f"RMS {row[rms]:.2f}{ratio}"
+
+
+def tell(result):
+    where = f"{result['course']}, {result['column']} processor{'s' if result['column'] > 1 else ''}"
+    print(f"\n{where}")
+    for row in filter(is_alike, result["competitors"]):
+        print(line_of(row, "rms", result.get("best_peer")))
+    if "rms_fine" in result["competitors"][0]:
+        print(f"\n{where}: other triangles, RMS against {FINE} x {FINE} quads a patch")
+        for row in result["competitors"]:
+            if row["name"] == "Embree" or not is_alike(row):
+                print(line_of(row, "rms_fine", result.get("best_peer")))
+    sys.stdout.flush()
+
+
+def read_command_line():
+    def numbers(text):
+        return [int(n) for n in text.split(",")]
+
+    def size(text):
+        return [int(n) for n in text.split("x")]
+
+    parser = argparse.ArgumentParser(prog="mars bench peers", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--scenes", default="s1,s1m,s2,s3", type=lambda text: text.split(","))
+    parser.add_argument("--rounds", default=15, type=int)
+    parser.add_argument("--columns", default="1,2", type=numbers, help="numbers of processors")
+    parser.add_argument("--size", type=size, help="of the pictures, as 1920x1080")
+    parser.add_argument("--dice", type=int, help="quads along a patch's side, in place of the scene's own")
+    parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well, where nothing moves")
+    parser.add_argument("-o", dest="output", metavar="FILE", help="all that was measured, as JSON")
+    return parser.parse_args()
+
+
+def main():
+    wanted = read_command_line()
+    results = []
+    print("ms a frame: best (middle)")
+    for course in courses_of(wanted.scenes):
+        for column in wanted.columns:
+            results.append(run_course(wanted, course, column))
+            tell(results[-1])
+    if wanted.output:
+        with open(wanted.output, "w") as file:
+            json.dump({"machine": platform.processor(), "rounds": wanted.rounds, "results": results}, file, indent=1)
+    for result in results:
+        check_alike(result)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Trouble as trouble:
+        sys.exit(f"mars bench peers: {trouble}")

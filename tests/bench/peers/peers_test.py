@@ -1,0 +1,80 @@
+"""`mars bench peers` on small pictures: all that were built compete and draw alike, and the JSON holds what is told.
+
+Started as: peers_test.py BUILD_FOLDER. Exit code 77 (skipped) where no peer was built."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import peers
+import pictures
+
+BUILD = sys.argv[1]
+PEERS = os.path.join(BUILD, "bench", "peers")
+SMALL = ["--size", "384x216", "--dice", "4", "--columns", "1"]
+SKIPPED = 77
+
+
+def bench(*words):
+    return subprocess.run([os.path.join(BUILD, "bin", "mars"), "bench", "peers", *words], capture_output=True, text=True)
+
+
+class Benchmark(unittest.TestCase):
+    def measured(self, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "measured.json")
+            run = bench(*SMALL, *words, "-o", file)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(file) as text:
+                return json.load(text)["results"]
+
+    def test_all_compete_and_draw_alike(self):
+        results = self.measured("--scenes", "s1,s3", "--rounds", "2")
+        self.assertEqual([result["course"] for result in results], ["s1", "s3", "s3's inbetweens"])
+        for result in results:
+            self.check_rows(result)
+
+    def test_adaptive_dicing_is_told_apart(self):
+        result, = self.measured("--scenes", "s1", "--rounds", "1", "--adaptive")
+        fine = {row["name"]: row["rms_fine"] for row in result["competitors"]}
+        self.assertLess(fine["ours, adaptive, threads"], fine["ours, threads"] / 2)
+
+    def check_rows(self, result):
+        rows = {row["name"]: row for row in result["competitors"]}
+        self.assertIn("ours, threads", rows)
+        self.assertIn(result["best_peer"], rows)
+        fastest = min(row["best"] for name, row in rows.items() if not name.startswith("ours"))
+        for name, row in rows.items():
+            self.assertEqual(len(row["milliseconds"]), 2)
+            self.assertEqual(row["best"], min(row["milliseconds"]))
+            self.assertLess(row["rms"], 0.5, f"{name}, {result['course']}")
+            if name.startswith("ours"):
+                self.assertAlmostEqual(row["ratio"], row["best"] / fastest)
+
+    def test_pictures_that_differ_end_it(self):
+        row = {"name": "ours, threads", "rms": peers.MOST_RMS + 0.1}
+        with self.assertRaisesRegex(peers.Trouble, "differs from Embree's by 0.60"):
+            peers.check_alike({"course": "s1", "competitors": [row]})
+        peers.check_alike({"course": "s1", "competitors": [{**row, "rms": peers.MOST_RMS}]})
+
+    def test_rms(self):
+        with tempfile.TemporaryDirectory() as folder:
+            files = [os.path.join(folder, name) for name in "ab"]
+            for file, pixels in zip(files, (b"\x00\x10\x20" * 2, b"\x00\x10\x26" * 2)):
+                with open(file, "wb") as out:
+                    out.write(b"P6\n2 1\n255\n" + pixels)
+            self.assertAlmostEqual(pictures.rms(*files), (6 * 6 / 3) ** 0.5)
+
+    def test_what_a_competitor_says_at_its_end_is_told(self):
+        run = bench("--scenes", "s1", "--dice", "300", "--rounds", "1")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("300", run.stderr)
+
+
+if __name__ == "__main__":
+    if not any(os.path.exists(os.path.join(PEERS, name)) for name in ("peer-embree", "peer-llvmpipe")):
+        print("no peer was built: ./bootstrap bench installs their packages")
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1])
