@@ -15,7 +15,10 @@ Frame* begun(Frame* frame, const Compositor& compositor) {
 }  // namespace
 
 Assembly::Assembly(const Unit& unit, int nodes)
-    : interval_(unit.interval), keyframe_(unit.frames.front()), alone_(unit.frames.size() == 1), not_begun_(unit.frames.size()) {
+    : interval_(unit.interval),
+      keyframe_(unit.frames.front()),
+      alone_(unit.frames.size() == 1),
+      not_begun_(unit.frames.size()) {
   for (const std::uint32_t frame : unit.frames) parts_[frame].artists_left = frame == keyframe_ ? nodes : 1;
 }
 

@@ -7,16 +7,10 @@
 #include "hal/nx.h"
 
 namespace mars::host {
-namespace {
-
-constexpr std::uint32_t kReady = 2;  // frames made from the start: one with the sink, one being composed
-
-}  // namespace
 
 SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) {
   check(shape.frames >= 1 && shape.threads >= 1, "a sink pool has a frame and a thread");
-  // These first frames do not wait for fresh memory.
-  while (frames_.size() < std::min(shape.frames, kReady)) make_frame();
+  make_frame();  // the first does not wait for fresh memory
   for (std::uint32_t i = 0; i < shape.threads; ++i) threads_.emplace_back([this, i] { work(i); });
 }
 

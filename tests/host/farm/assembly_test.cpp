@@ -77,7 +77,8 @@ Drawn draw(std::mt19937& random, const Unit& unit, int nodes, StripStore& store)
         const Runs constant = keyframe ? random_runs(random, top, bottom) : Runs{};
         moving[frame].push_back(random_runs(random, top, bottom));
         paste(constant, background);
-        out.by_node[static_cast<std::size_t>(node)].push_back(strip_bytes(header, constant, moving[frame].back(), store));
+        auto& strips = out.by_node[static_cast<std::size_t>(node)];
+        strips.push_back(strip_bytes(header, constant, moving[frame].back(), store));
       }
     }
   }
@@ -100,7 +101,8 @@ void expect_put_together(unsigned seed) {
   std::uint32_t next = 0;
   for (std::uint32_t number = 0; number < 4; ++number) {
     Unit unit{number, {}, 0};
-    for (std::uint32_t frames = random() % 2 == 0 ? 1 : 2 + random() % 5; frames > 0; --frames) unit.frames.push_back(next++);
+    const std::uint32_t frames = random() % 2 == 0 ? 1 : 2 + random() % 5;
+    while (unit.frames.size() < frames) unit.frames.push_back(next++);
     Drawn drawn = draw(random, unit, nodes, store);
     expected.merge(drawn.pictures);
     Assembly assembly(unit, nodes);

@@ -26,7 +26,8 @@ inline StripBytes strip_bytes(node::Strip header, const Runs& constant, const Ru
     to += size;
   };
   append(&header, sizeof header);
-  for (const Runs* part : {&constant, &moving}) append(part->pixels.data(), part->pixels.size() * sizeof(std::uint32_t));
+  for (const Runs* part : {&constant, &moving})
+    append(part->pixels.data(), part->pixels.size() * sizeof(std::uint32_t));
   for (const Runs* part : {&constant, &moving}) append(part->runs.data(), part->runs.size() * sizeof(node::Run));
   return bytes;
 }
