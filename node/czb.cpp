@@ -4,33 +4,21 @@
 #include "hal/nx.h"
 
 namespace mars::node {
-namespace {
 
-// The machine of each node.
-std::vector<std::int32_t> machines() {
-  std::vector<std::int32_t> all(static_cast<std::size_t>(numnodes()));
-  const std::int32_t mine = hal::neighbourhood().machine;
-  long bytes = 0;
-  gcol(&mine, sizeof mine, all.data(), static_cast<long>(all.size() * sizeof mine), &bytes);
-  return all;
-}
-
-}  // namespace
-
-Czb::Czb(int cubes, std::int32_t width, std::int32_t height) : width_(static_cast<std::size_t>(width)) {
-  const auto nodes = static_cast<int>(numnodes()), self = static_cast<int>(mynode());
-  const std::vector<std::int32_t> machine = machines();
-  const auto together = [&](int a, int b) { return machine[static_cast<std::size_t>(a)] == machine[static_cast<std::size_t>(b)]; };
-  std::size_t shared = 0;        // by cubes with several nodes here
+Czb::Czb(std::span<const std::int32_t> machines, int cubes, std::int32_t width, std::int32_t height)
+    : width_(static_cast<std::size_t>(width)) {
+  const auto nodes = static_cast<int>(machines.size()), self = static_cast<int>(mynode());
+  const auto machine = [&](int node) { return machines[static_cast<std::size_t>(node)]; };
+  std::size_t shared = 0;           // by cubes with several nodes here
   std::optional<std::size_t> mine;  // its number among them
   for (int number = 0; number < cubes; ++number) {
     const hal::Cube cube = hal::cube_of(nodes, cubes, number);
     int here = 0;
     for (int node = cube.first; node < cube.first + cube.count; ++node) {
       int head = cube.first;
-      while (!together(head, node)) ++head;
+      while (machine(head) != machine(node)) ++head;
       heads_.push_back(head);
-      here += together(node, self);
+      here += machine(node) == machine(self);
     }
     if (here < 2) continue;
     if (cube.first <= self && self < cube.first + cube.count) mine = shared;

@@ -19,9 +19,9 @@ namespace mars::node {
 
 class Czb {
  public:
-  // Of a picture's size, of the caller's cube, one of `cubes` side by side; pages are used as lines are written.
-  // Collective over all nodes. Throws Failure where the machine does not give it.
-  Czb(int cubes, std::int32_t width, std::int32_t height);
+  // Of a picture's size, of the caller's cube, one of `cubes` that the nodes, each on its machine, form side by side.
+  // Pages are used as lines are written. Collective over a machine's nodes. Throws Failure where it does not give it.
+  Czb(std::span<const std::int32_t> machines, int cubes, std::int32_t width, std::int32_t height);
 
   // 1 / w a sample, 0 where nothing stands; line after line.
   std::span<float> lines(const LineRange& lines);

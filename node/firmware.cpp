@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hal/failure.h"
@@ -37,7 +38,7 @@ class Firmware {
   const Kernels& kernels_;
   std::optional<hal::SharedMemory> film_block_;
   std::optional<Renderer> renderer_;
-  std::vector<std::byte> command_;  // Render and its frames
+  std::vector<std::byte> command_;  // Load or Render and what follows it
 };
 
 Firmware::Firmware(const NodeIdentity& identity) : kernels_(best_kernels(identity.simd)) {
@@ -73,15 +74,17 @@ void Firmware::obey() {
 
 // The machine's first node takes the film from the host; the others read it there.
 void Firmware::load() {
-  Load load;
-  crecv(kLoad, &load, sizeof load);
+  command_.resize(sizeof(Load) + static_cast<std::size_t>(numnodes()) * sizeof(std::int32_t));
+  crecv(kLoad, command_.data(), static_cast<long>(command_.size()));
+  const auto& load = *reinterpret_cast<const Load*>(command_.data());
+  const auto* machines = reinterpret_cast<const std::int32_t*>(command_.data() + sizeof(Load));
   const hal::Neighbourhood machine = hal::neighbourhood();
   film_block_.emplace(load.film_bytes);
   const auto block = film_block_->bytes();
   if (machine.index == 0) crecv(kFilmBlock, block.data(), static_cast<long>(block.size()));
   gsync();
   const FilmView film(block, "film", true);
-  renderer_.emplace(film, load, kernels_);
+  renderer_.emplace(film, load, std::span(machines, static_cast<std::size_t>(numnodes())), kernels_);
   command_.resize(sizeof(Render) + film.settings().frames * sizeof(std::uint32_t));
   csend(kLoaded, nullptr, 0, myhost(), 0);
 }

@@ -54,7 +54,8 @@ struct Hello {
 
 enum class Mapping : std::uint32_t { greedy, optimal };
 
-// Prepares a film of `film_bytes`. Nodes that lead a machine get the block next, as kFilmBlock.
+// Prepares a film of `film_bytes`. Followed by each node's machine (int32), as in Hello. Nodes that lead a machine get
+// the block next, as kFilmBlock.
 struct Load {
   std::uint64_t film_bytes;
   std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node

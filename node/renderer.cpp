@@ -36,14 +36,15 @@ constexpr std::uint64_t kInLine = sizeof(EdgeBox);
 
 }  // namespace
 
-Renderer::Renderer(const FilmView& film, const Load& load, const Kernels& kernels)
+Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines,
+                   const Kernels& kernels)
     : scene_(film),
       kernels_(kernels),
       mapping_(load.mapping),
       polygon_maker_(kernels),
       arena_(load.memory),
       z_buffer_(kernels, scene_.width()),
-      czb_(load.cubes, scene_.width(), scene_.height()),
+      czb_(machines, load.cubes, scene_.width(), scene_.height()),
       exchange_(static_cast<int>(numnodes())),
       outbox_(film.settings().width, film.settings().height, load.credits),
       draws_(static_cast<std::size_t>(numnodes())),

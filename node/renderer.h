@@ -27,7 +27,8 @@ inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,
 
 class Renderer {
  public:
-  Renderer(const FilmView& film, const Load& load, const Kernels& kernels);
+  // `machines`: each node's. Collective over a machine's nodes.
+  Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines, const Kernels& kernels);
 
   // Draws the caller's share of `frames` (see Render) and sends it.
   void render(const Render& command, std::span<const std::uint32_t> frames);

@@ -56,7 +56,11 @@ void load_film(std::span<const std::byte> block, const FarmOptions& options, std
   const SpanOf span(HostSpan::load, block.size());
   const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping,
                         static_cast<std::int32_t>(cubes), options.trace != nullptr ? 1u : 0u};
-  send_to_all(node::kLoad, &load, sizeof load);
+  std::vector<std::byte> message(sizeof load + hellos.size() * sizeof hellos[0].machine);
+  std::memcpy(message.data(), &load, sizeof load);
+  for (std::size_t n = 0; n < hellos.size(); ++n)
+    std::memcpy(message.data() + sizeof load + n * sizeof hellos[n].machine, &hellos[n].machine, sizeof hellos[n].machine);
+  send_to_all(node::kLoad, message.data(), message.size());
   std::vector<long> sends;
   for (const node::Hello& hello : hellos)
     if (hello.machine == hello.node)
