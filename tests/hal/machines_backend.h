@@ -20,21 +20,48 @@ class Machines {
     const int first = node / nodes_each_ * nodes_each_;
     return {first, node - first, std::min(nodes_each_, nodes - first), node, false};
   }
-  // Block number `number` of a machine, of which each of its nodes gets its part.
+  // Block number `number` of a machine, of which each of its nodes gets its part. Every float is not a number.
   std::shared_ptr<std::byte> share(int machine, int number, std::size_t bytes) {
     const std::lock_guard lock(mutex_);
-    auto& block = blocks_[{machine, number}];
-    if (!block) block = {new (std::align_val_t{64}) std::byte[bytes], Release()};
-    return block;
+    Block& block = blocks_[{machine, number}];
+    if (!block.bytes) {
+      block = {{new (std::align_val_t{64}) std::byte[bytes], Release()}, bytes};
+      std::fill_n(block.bytes.get(), bytes, kUntouched);
+    }
+    return block.bytes;
+  }
+
+  // Bytes of all machines' blocks but the first of each, which is the film's; and how many of them were written.
+  std::size_t shared() const {
+    return add_up([](const Block& block) { return block.size; });
+  }
+  std::size_t written() const {
+    return shared() - add_up([](const Block& block) {
+             return static_cast<std::size_t>(std::count(block.bytes.get(), block.bytes.get() + block.size, kUntouched));
+           });
   }
 
  private:
   struct Release {
     void operator()(std::byte* block) const { ::operator delete[](block, std::align_val_t{64}); }
   };
+  struct Block {
+    std::shared_ptr<std::byte> bytes;
+    std::size_t size = 0;
+  };
+  static constexpr std::byte kUntouched{0xff};
+
+  template <typename Count>
+  std::size_t add_up(const Count& count) const {
+    std::size_t sum = 0;
+    for (const auto& [key, block] : blocks_)
+      if (key.second > 0) sum += count(block);
+    return sum;
+  }
+
   int nodes_each_;
   std::mutex mutex_;
-  std::map<std::pair<int, int>, std::shared_ptr<std::byte>> blocks_;
+  std::map<std::pair<int, int>, Block> blocks_;  // by machine and number
 };
 
 class MachinesBackend : public CountingBackend {

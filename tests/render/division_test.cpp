@@ -43,6 +43,7 @@ class StripReader : public hal::MachinesBackend {
 struct Counted {
   FilmRun run;
   hal::Counts counts;
+  std::size_t czb_written = 0;  // bytes, on all machines
 };
 
 struct Cluster {
@@ -59,6 +60,7 @@ void run_counted(const node::FilmData& film, const Cluster& cluster, Counted& ou
   options.farm.frames = std::move(frames);
   options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
   out.run = run_film(FilmBlock(film).bytes(), options);
+  out.czb_written = machines.written();
 }
 
 std::vector<Strip> of_kind(const Counted& counted, FrameKind kind) {
@@ -206,6 +208,21 @@ TEST_P(Division, BytesReportedAreBytesSent) {
   }
 }
 
+// The arena holds what docs/performance.md says, at its fullest, and little more.
+TEST_P(Division, MemoryIsAsTheFormulaSays) {
+  Counted counted;
+  run_counted(film_, {GetParam()}, counted, {0});
+  std::uint64_t all_sent = 0;
+  for (const Strip& strip : counted.run.report.strips) all_sent += strip.work.bytes_to_nodes;
+  for (const Strip& strip : counted.run.report.strips) {
+    const auto& work = strip.work;
+    const std::uint64_t own = 64 * work.triangles + 12 * work.edge_boxes_diced, in_lines = 8 * work.edge_boxes;
+    const std::uint64_t small = 16 * film_.settings.height + 512 * static_cast<std::uint64_t>(GetParam()) + 4096;
+    EXPECT_GE(work.memory, own + in_lines);
+    EXPECT_LE(work.memory, own + in_lines + all_sent + small) << "what it sends and receives is part of what all send";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
 
 // As many units as cubes: none gets two while another has none.
@@ -229,7 +246,7 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   maker.add_segment(box, look, {placed({-0.2, -4, -1.4}, 0.4), placed({0, -4, -1.4}, 0.4)});
   maker.set_cameras({looking({0, -9, 0}, {0, 0, 0}, 40)});
   const node::FilmData film = maker.make();
-  std::map<int, std::uint64_t> bytes;  // by nodes a machine
+  std::map<int, std::uint64_t> bytes, written;  // by nodes a machine
   for (const int nodes_each : {1, 2, 4}) {
     Counted counted;
     run_counted(film, {4, nodes_each}, counted);
@@ -238,11 +255,14 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
       bytes[nodes_each] += sent.bytes;
       EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
     }
+    written[nodes_each] = counted.czb_written;
   }
   EXPECT_GT(bytes[1], 0u);
   EXPECT_LT(bytes[1], 200u * 200 * sizeof(float) / 3) << "the mover passes over less than a third of the lines";
   EXPECT_LE(bytes[2], bytes[1]);
   EXPECT_EQ(bytes[4], 0u);
+  EXPECT_GT(written[4], 0u);
+  EXPECT_LT(written[4], 200u * 200 * sizeof(float) / 3) << "and no other line of a machine's CZB is touched";
 }
 
 }  // namespace

@@ -1,0 +1,158 @@
+// CZB is shared by the nodes of a cube on one machine: the pictures stay the same wherever the nodes are and
+// whichever of them is slow, and lines go once to every other machine.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/hal/machines_backend.h"
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+
+namespace mars::test {
+namespace {
+
+constexpr std::uint32_t kWidth = 160, kHeight = 120, kFrames = 12;
+
+node::FilmData film(std::uint32_t interval) { return crowd(kWidth, kHeight, kFrames, interval); }
+
+// Sleeps before each message of one type that one node sends.
+class SlowNode : public hal::MachinesBackend {
+ public:
+  SlowNode(hal::Backend& inner, hal::Counts& counts, hal::Machines& machines, int node, long type)
+      : hal::MachinesBackend(inner, counts, machines), node_(node), type_(type) {}
+
+  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    if (rank() == node_ && type == type_) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return hal::MachinesBackend::start_send(to, type, data, length);
+  }
+
+ private:
+  int node_;
+  long type_;
+};
+
+struct SharedRun {
+  FilmRun film;
+  hal::Counts counts;
+  std::size_t shared = 0;
+};
+
+struct Nodes {
+  int count;
+  int each;  // on its machines
+  std::uint32_t cubes = 1;
+};
+
+void PrintTo(const Nodes& n, std::ostream* out) { *out << n.count << " nodes, " << n.each << " a machine, " << n.cubes << " cubes"; }
+
+void run(const node::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = 0,
+         std::uint64_t memory = 256 << 20) {
+  hal::Machines machines(nodes.each);
+  RunOptions options;
+  options.nodes = nodes.count;
+  options.farm.cubes = nodes.cubes;
+  options.memory = memory;
+  options.wrap = [&](hal::Backend& inner) { return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type); };
+  out.film = run_film(FilmBlock(data).bytes(), options);
+  out.shared = machines.shared();
+}
+
+FilmRun from_scratch(const node::FilmData& data) {
+  RunOptions options;
+  options.farm.coherence = false;
+  return run_film(FilmBlock(data).bytes(), options);
+}
+
+void expect_pictures(const SharedRun& rendered, const node::FilmData& data, const FilmRun& expected) {
+  ASSERT_EQ(rendered.film.frames.size(), kFrames);
+  expect_same(rendered.film, expected, data.settings, "sharing");
+}
+
+std::uint64_t depth_bytes(const SharedRun& run, int nodes) {
+  std::uint64_t bytes = 0;
+  for (int from = 0; from < nodes; ++from)
+    bytes += run.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)}).bytes;
+  return bytes;
+}
+
+TEST(Sharing, AnyMachinesAndCubes) {
+  for (const std::uint32_t interval : {4u, 1u}) {
+    const node::FilmData data = film(interval);
+    const FilmRun expected = from_scratch(data);
+    for (const int each : {6, 5, 4, 3, 2, 1})
+      for (const std::uint32_t cubes : {1u, 2u, 3u, 6u}) {
+        const Nodes nodes{6, each, cubes};
+        SCOPED_TRACE(testing::PrintToString(nodes));
+        SharedRun rendered;
+        run(data, nodes, rendered);
+        expect_pictures(rendered, data, expected);
+      }
+  }
+}
+
+TEST(Sharing, InSeveralPasses) {
+  const node::FilmData data = film(4);
+  SharedRun rendered;
+  run(data, {4, 2}, rendered, -1, 0, 200'000);
+  EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
+  expect_pictures(rendered, data, from_scratch(data));
+}
+
+// While one node is late with its inbetweens the others have come to the next keyframe; while it is late with its
+// home lines they want to begin with theirs.
+TEST(Sharing, ASlowNodeIsWaitedFor) {
+  const node::FilmData data = film(3);
+  const FilmRun expected = from_scratch(data);
+  for (const int each : {4, 2})
+    for (int slow = 0; slow < 4; ++slow)
+      for (const long type : {long{node::kStrip}, node::triangles_from(slow), node::depth_lines_from(slow)}) {
+        SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " + std::to_string(type));
+        SharedRun rendered;
+        run(data, {4, each}, rendered, slow, type);
+        expect_pictures(rendered, data, expected);
+      }
+}
+
+TEST(Sharing, NoLineOfCzbTravelsOnOneMachine) {
+  SharedRun rendered;
+  run(film(6), {4, 4}, rendered);
+  EXPECT_EQ(depth_bytes(rendered, 4), 0u);
+}
+
+// What all machines but a line's own receive of it, however many nodes they have.
+TEST(Sharing, LinesTravelOnceToEachMachine) {
+  SharedRun two_nodes, six_nodes;
+  run(film(6), {2, 1}, two_nodes);
+  run(film(6), {6, 3}, six_nodes);
+  const std::uint64_t bytes = depth_bytes(two_nodes, 2);
+  EXPECT_GT(bytes, 0u);
+  EXPECT_LE(bytes, std::uint64_t{kWidth} * kHeight * sizeof(float) * kFrames / 6);
+  EXPECT_EQ(depth_bytes(six_nodes, 6), bytes);
+}
+
+TEST(Sharing, OneCzbForEachCubeWithSeveralNodesOnAMachine) {
+  constexpr std::size_t kCzb = kWidth * kHeight * sizeof(float);
+  const auto shared = [](const Nodes& nodes) {
+    SharedRun rendered;
+    run(film(4), nodes, rendered);
+    return rendered.shared;
+  };
+  EXPECT_EQ(shared({6, 6, 1}), kCzb);
+  EXPECT_EQ(shared({6, 6, 2}), 2 * kCzb);
+  EXPECT_EQ(shared({6, 3, 1}), 2 * kCzb);
+  EXPECT_EQ(shared({6, 3, 2}), 2 * kCzb);
+  EXPECT_EQ(shared({6, 4, 2}), 2 * kCzb) << "nodes 0 to 2; 4 and 5. Node 3 is apart from its mates";
+  EXPECT_EQ(shared({6, 6, 6}), 0u) << "a cube of one node has nobody to share with";
+}
+
+// Where there is no inbetween nothing is kept, and nobody is told of it.
+TEST(Sharing, NothingWithoutInbetweens) {
+  SharedRun rendered;
+  run(film(1), {4, 2}, rendered);
+  for (int from = 0; from < 4; ++from)
+    EXPECT_EQ(rendered.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)}).messages, 0u);
+}
+
+}  // namespace
+}  // namespace mars::test
