@@ -17,6 +17,9 @@ PrivateMemory::PrivateMemory(std::size_t bytes) {
   block_ = {static_cast<std::byte*>(block), Release{bytes}};
 }
 
+// Whether the machine does is its affair.
+void PrivateMemory::prefer_large_pages() { madvise(block_.get(), block_.get_deleter().size, MADV_HUGEPAGE); }
+
 void PrivateMemory::Release::operator()(std::byte* block) const { munmap(block, size); }
 
 }  // namespace mars::hal

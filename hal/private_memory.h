@@ -14,6 +14,9 @@ class PrivateMemory {
   // that touches them. Throws Failure.
   explicit PrivateMemory(std::size_t bytes);
 
+  // Lets the machine give large pages (2 MiB), where it has them: for memory that is used from end to end.
+  void prefer_large_pages();
+
   std::span<std::byte> bytes() const { return {block_.get(), block_.get_deleter().size}; }
 
  private:

@@ -6,7 +6,9 @@
 
 namespace mars::node {
 
-Arena::Arena(std::size_t bytes) : block_(bytes), size_(bytes / kGrain * kGrain), back_(size_) {}
+Arena::Arena(std::size_t bytes) : block_(bytes), size_(bytes / kGrain * kGrain), back_(size_) {
+  block_.prefer_large_pages();
+}
 
 std::byte* Arena::take_bytes(std::size_t bytes) {
   std::byte* start = block_.bytes().data() + front_;
