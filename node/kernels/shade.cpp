@@ -40,7 +40,7 @@ constexpr std::uint32_t kBlock = 256;
 constexpr std::uint32_t kRoom = kBlock + kVectorSlack;
 struct Block {
   alignas(64) float values[kRoom][kValues];
-  alignas(64) std::int32_t column[kRoom];
+  alignas(64) float column[kRoom];
   alignas(64) float facing[kRoom];  // of one light: N.L
   alignas(64) float square[kRoom];  // and (R.V)^2; 0 where it is not to be seen
   alignas(64) float color[3][kRoom];
@@ -49,41 +49,45 @@ struct Block {
   std::uint32_t count = 0;
 };
 
-// First of columns [column, last) that shows something, or `last`.
-std::uint32_t next_shown(const std::uint32_t* ids, std::uint32_t column, std::uint32_t last) {
+// First of columns [column, last) that shows something, or nothing, or else `last`.
+std::uint32_t find(bool something, const std::uint32_t* ids, std::uint32_t column, std::uint32_t last) {
   const auto* shown = reinterpret_cast<const std::int32_t*>(ids);
   const Ints none = hn::Set(kInts, static_cast<std::int32_t>(kNoTriangle));
-  while (column < last && hn::AllTrue(kInts, hn::Eq(hn::LoadU(kInts, shown + column), none))) column += kLanes;
-  while (column < last && ids[column] == kNoTriangle) ++column;
+  for (; column < last; column += kLanes) {
+    const Ints here = hn::LoadU(kInts, shown + column);
+    const auto at = hn::FindFirstTrue(kInts, something ? hn::Ne(here, none) : hn::Eq(here, none));
+    if (at < 0) continue;
+    column += static_cast<std::uint32_t>(at);
+    break;
+  }
   return column < last ? column : last;
 }
 
-// Adds columns from `column` up to `last`, a gap or the block's end; says where it stopped. Whether neighbours show
+// Adds `count` samples from `column` on, none of them a gap, and as many as there is room for. Whether neighbours show
 // the same triangle is not asked: the answer costs more than the planes of a sample.
-std::uint32_t interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint32_t line,
-                          std::uint32_t column, std::uint32_t last, Block& block) {
-  const auto y = static_cast<std::int32_t>(line) * kSubpixels + kSampleOffset;
-  const Places down = {y, y, y, y};
-  const auto x = static_cast<std::int32_t>(column) * kSubpixels + kSampleOffset;
-  Places along = {x, x, x, x};
-  std::uint32_t count = block.count;
-  std::uint32_t look = count > 0 ? block.looks[block.look_count - 1].look : ~triangles[ids[column]].look;
-  if (last - column > kBlock - count) last = column + (kBlock - count);
-  for (; column < last && ids[column] != kNoTriangle; ++column, ++count) {
-    const Triangle& t = triangles[ids[column]];
+void interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint32_t line, std::uint32_t column,
+                 std::uint32_t count, Block& block) {
+  Places sample = {static_cast<std::int32_t>(column) * kSubpixels + kSampleOffset,
+                   static_cast<std::int32_t>(line) * kSubpixels + kSampleOffset, 0, 0};
+  const Places step = {kSubpixels, 0, 0, 0};
+  const std::uint32_t* id = ids + column;
+  float(*values)[kValues] = block.values + block.count;
+  std::uint32_t look = block.look_count > 0 ? block.looks[block.look_count - 1].look : ~triangles[*id].look;
+  for (const std::uint32_t* end = id + count; id != end; ++id, ++values, sample += step) {
+    const Triangle& t = triangles[*id];
     if (t.look != look) {
       look = t.look;
-      block.looks[block.look_count++] = {count, look};
+      block.looks[block.look_count++] = {static_cast<std::uint32_t>(values - block.values), look};
     }
-    const Sample dx = __builtin_convertvector(along - t.first_x, Sample);
-    const Sample dy = __builtin_convertvector(down - t.first_y, Sample);
-    const Sample here = (load(t.at_first) + dy * load(t.per_y)) + dx * load(t.per_x);
-    std::memcpy(block.values[count], &here, sizeof here);
-    block.column[count] = static_cast<std::int32_t>(column);
-    along += kSubpixels;
+    Places first;
+    std::memcpy(&first, &t.first_x, sizeof first);
+    const Sample from_first = __builtin_convertvector(sample - first, Sample);
+    const Sample here = (load(t.at_first) + from_first[1] * load(t.per_y)) + from_first[0] * load(t.per_x);
+    std::memcpy(*values, &here, sizeof here);
   }
-  block.count = count;
-  return column;
+  for (std::uint32_t k = 0; k < count; k += kLanes)
+    hn::StoreU(hn::Iota(kFloats, static_cast<float>(column + k)), kFloats, block.column + block.count + k);
+  block.count += count;
 }
 
 // Fills facing and square for one light.
@@ -94,8 +98,7 @@ void face(const Projection& p, std::uint32_t line, const EyeLight& light, Block&
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
     Floats n[3], inverse_w;
     hn::LoadInterleaved4(kFloats, block.values[k], inverse_w, n[0], n[1], n[2]);
-    const Floats column = hn::ConvertTo(kFloats, hn::Load(kInts, block.column + k));
-    const Floats eye[3] = {hn::Mul(hn::Sub(center, column), per_pixel), up, one};
+    const Floats eye[3] = {hn::Mul(hn::Sub(center, hn::Load(kFloats, block.column + k)), per_pixel), up, one};
     const Floats nn = dot(n, n), ee = dot(eye, eye), ne = dot(n, eye);
     const Floats length = hn::Sqrt(nn);
     const Floats inverse = hn::Div(one, hn::Mul(length, ee));
@@ -260,14 +263,17 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
     block.count = block.look_count = 0;
   };
   const std::uint32_t last = extent.last;
-  for (std::uint32_t first = next_shown(ids, extent.first, last); first < last;) {
-    std::uint32_t column = first;
-    while (column < last && ids[column] != kNoTriangle) {
+  for (std::uint32_t first = find(true, ids, extent.first, last); first < last;) {
+    const std::uint32_t end = find(false, ids, first, last);
+    runs[done.runs++] = {line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(end - first)};
+    for (std::uint32_t column = first; column < end;) {
       if (block.count == kBlock) flush();
-      column = interpolate(shading.triangles, ids, line, column, last, block);
+      const std::uint32_t room = kBlock - block.count;
+      const std::uint32_t count = end - column < room ? end - column : room;
+      interpolate(shading.triangles, ids, line, column, count, block);
+      column += count;
     }
-    runs[done.runs++] = {line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(column - first)};
-    first = next_shown(ids, column, last);
+    first = find(true, ids, end, last);
   }
   flush();
   return done;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "node/kernels.h"
@@ -19,7 +20,7 @@ using node::Triangle;
 
 constexpr std::uint32_t kLine = 7;
 
-// Boxes of one line, most of them narrow, some of them with the same plane, so that depths tie.
+// Boxes of one line in any order, most of them narrow, some of them with the same plane, so that depths tie.
 struct Boxes {
   std::vector<Triangle> triangles;
   std::vector<EdgeBox> boxes;
@@ -43,8 +44,11 @@ Boxes random_boxes(Random& random, std::int32_t width, int count) {
       t.per_x[node::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
       t.per_y[node::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
     }
+    t.patch = static_cast<std::uint32_t>(random.whole(0, 3));
     out.triangles.push_back(t);
   }
+  for (std::size_t k = out.boxes.size(); k > 1; --k)
+    std::swap(out.boxes[k - 1], out.boxes[static_cast<std::size_t>(random.whole(0, static_cast<std::int32_t>(k) - 1))]);
   return out;
 }
 
@@ -64,7 +68,7 @@ struct Line {
   std::vector<std::uint32_t> ids;
 };
 
-// Sample by sample, box by box; of equals the first stays.
+// Sample by sample, box by box; of equals what was there before stays, else the lower patch's is seen, then the first.
 void draw_plainly(const Boxes& boxes, Line& line) {
   for (const EdgeBox& box : boxes.boxes)
     for (std::int32_t column = box.first; column < box.last; ++column) {
@@ -73,7 +77,10 @@ void draw_plainly(const Boxes& boxes, Line& line) {
       const float row = t.at_first[node::kDepth] +
                         static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[node::kDepth];
       const float depth = row + static_cast<float>(256 * column + 128 - t.first_x) * t.per_x[node::kDepth];
-      if (!(depth > line.depth[at])) continue;
+      const std::uint32_t shown = line.ids[at];
+      const bool first = shown != node::kNoTriangle &&
+                         std::pair(t.patch, box.triangle) < std::pair(boxes.triangles[shown].patch, shown);
+      if (!(depth > line.depth[at] || (depth == line.depth[at] && first))) continue;
       line.depth[at] = depth;
       line.ids[at] = box.triangle;
     }

@@ -1,0 +1,57 @@
+// A measuring scene as far as the scanline step: what a node's own dicing, set-up and fill make of a film's first
+// frame, and what drawing leaves in every line. The same for every instruction set.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "host/film/compile.h"
+#include "node/arena.h"
+#include "node/dice.h"
+#include "node/scanline.h"
+#include "node/scene.h"
+#include "tests/bench/floors/bare.h"
+
+namespace mars::bench {
+
+class Workload {
+ public:
+  // Throws Failure where the film cannot be read.
+  explicit Workload(const std::filesystem::path& film);
+
+  // The steps again: patches to vertices; these to triangles and edge boxes; those into their lines.
+  void dice(node::Dicer& dicer);
+  void make(const node::Kernels& kernels);
+  void fill();
+
+  const node::WorkCounts& counts() const { return counts_; }  // vertices; triangles that touch a sample
+  std::uint64_t examined() const { return examined_; }        // triangles of all diced patches
+  const node::Shading& shading() const { return shading_; }
+  const node::LineBoxes& boxes() const { return boxes_; }
+  std::uint32_t width() const { return static_cast<std::uint32_t>(scene_.width()); }
+  std::uint32_t height() const { return static_cast<std::uint32_t>(scene_.height()); }
+  // The visible stretches of one triangle each, line by line.
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  std::uint64_t pixels() const { return pixels_; }
+
+ private:
+  void find_pieces();
+
+  host::CompiledFilm film_;
+  node::FilmView view_;
+  node::Scene scene_;
+  node::Arena made_, filled_;
+  std::vector<std::uint32_t> line_counts_;
+  std::vector<std::uint64_t> ebc_;
+  std::vector<std::uint8_t> wanted_;
+  node::Polygons polygons_{};
+  node::LineBoxes boxes_{};
+  node::Shading shading_{};
+  node::WorkCounts counts_{};
+  std::uint64_t examined_ = 0;
+  std::vector<Piece> pieces_;
+  std::uint64_t pixels_ = 0;
+};
+
+}  // namespace mars::bench
