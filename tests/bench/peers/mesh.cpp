@@ -17,22 +17,12 @@ void read_all(std::ifstream& file, std::vector<T>& values, std::uint32_t count) 
   file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
 }
 
-const MeshPatch* first_moving(const Mesh& mesh) {
-  for (const MeshPatch& patch : mesh.patches)
-    if (patch.moves == 1) return &patch;
-  return nullptr;
-}
-
 }  // namespace
 
 std::uint32_t Mesh::first_moving_triangle() const {
-  const MeshPatch* patch = first_moving(*this);
-  return patch ? patch->first_triangle : head.triangles;
-}
-
-std::uint32_t Mesh::first_moving_vertex() const {
-  const MeshPatch* patch = first_moving(*this);
-  return patch ? patch->first_vertex : head.vertices;
+  for (const MeshPatch& patch : patches)
+    if (patch.moves == 1) return patch.first_triangle;
+  return head.triangles;
 }
 
 void write_mesh(const Mesh& mesh, const std::string& path) {

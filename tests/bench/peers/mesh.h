@@ -60,9 +60,8 @@ struct Mesh {
   std::vector<Corners> triangles;
   std::vector<Motion> motion;  // one a frame
 
-  // Where what moves begins among the triangles and the vertices; their number where nothing moves.
+  // Where what moves begins among the triangles; their number where nothing moves.
   std::uint32_t first_moving_triangle() const;
-  std::uint32_t first_moving_vertex() const;
 };
 
 // The head, then the vectors in order. Throw std::runtime_error that names the file.

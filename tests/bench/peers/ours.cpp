@@ -1,13 +1,17 @@
 #include "tests/bench/peers/ours.h"
 
 #include <algorithm>
+#include <iostream>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "hal/nx.h"
+#include "hal/recorder.h"
 #include "host/farm/farm.h"
 #include "host/film/compile.h"
+#include "host/trace/trace.h"
 #include "tests/bench/peers/peer.h"
 
 namespace mars::bench {
@@ -105,17 +109,55 @@ double Driver::milliseconds_a_frame() const {
   return 1000 * (course_ == Course::whole ? whole : last - keyframe) / wanted_;
 }
 
+// Whether an event is a step of drawing a frame on a node, or of receiving and composing it on the host; which frame.
+std::optional<std::uint32_t> frame_of_step(const host::Trace::Record& record, int host) {
+  const hal::Event& event = record.event;
+  if (event.kind != hal::Event::Kind::span) return {};
+  if (record.rank != host) {
+    if (event.what >= static_cast<std::int32_t>(node::Phase::credit)) return {};
+    return static_cast<std::uint32_t>(event.frame);
+  }
+  const auto what = static_cast<host::HostSpan>(event.what);
+  if (what != host::HostSpan::strip && what != host::HostSpan::compose) return {};
+  return static_cast<std::uint32_t>(event.value);
+}
+
+// Seconds; the middle one of the first interval's inbetweens.
+double inbetween_latency(const host::CompiledFilm& film) {
+  const node::FilmSettings settings = film.view().settings();
+  const node::Interval interval = film.view().intervals()[0];
+  host::NothingSink sink;
+  host::SinkPool pool(sink, {settings.width, settings.height, 16, 4, 2});
+  host::Trace trace;
+  host::FarmOptions options;
+  options.trace = &trace;
+  options.frames.resize(interval.frame_count);
+  std::iota(options.frames.begin(), options.frames.end(), interval.first_frame);
+  host::render_film(film.block(), options, pool, {});
+  std::vector<double> seconds(interval.frame_count);
+  for (const host::Trace::Record& record : trace.records())
+    if (const auto frame = frame_of_step(record, trace.host()))
+      seconds.at(*frame - interval.first_frame) += record.event.end - record.event.begin;
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+  std::nth_element(seconds.begin() + 1, middle, seconds.end());
+  return *middle;
+}
+
 }  // namespace
 
 Course course_of(const std::string& word) {
   if (word == "whole") return Course::whole;
   if (word == "inbetween") return Course::inbetween;
-  throw std::runtime_error("neither whole nor inbetween: " + word);
+  if (word == "latency") return Course::latency;
+  throw std::runtime_error("none of whole, inbetween, latency: " + word);
 }
 
 void compete(const std::string& film, Course course, const std::string& backend) {
   const host::CompiledFilm compiled = host::load_film(film);
-  Driver(compiled.view(), course, backend).run(compiled.block());
+  if (course == Course::latency)
+    std::cout << "latency " << 1000 * inbetween_latency(compiled) << std::endl;
+  else
+    Driver(compiled.view(), course, backend).run(compiled.block());
 }
 
 }  // namespace mars::bench

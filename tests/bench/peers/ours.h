@@ -6,8 +6,9 @@
 namespace mars::bench {
 
 // What "go" renders: one whole frame from scratch after another; or a render interval's inbetweens, as many as it
-// has, whose keyframe is drawn before and not counted.
-enum class Course { whole, inbetween };
+// has, whose keyframe is drawn before and not counted. `latency` obeys nothing: it renders the first interval and
+// says "latency T", the milliseconds of all steps of one inbetween after each other, from its dicing to its frame.
+enum class Course { whole, inbetween, latency };
 
 // Throws std::runtime_error for another word.
 Course course_of(const std::string& word);

@@ -1,4 +1,4 @@
-// mpirun -n 3 bench-ours-mpi FILM whole|inbetween: the host and two nodes
+// mpirun -n 3 bench-ours-mpi FILM whole|inbetween|latency: the host and two nodes
 #include <stdexcept>
 
 #include "hal/mpi/start.h"
@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace mars;
   return hal::run_mpi(argc, argv, hal::Role::by_rank, [](int count, char** words) {
-    if (count != 3) throw std::runtime_error("usage: bench-ours-mpi FILM whole|inbetween");
+    if (count != 3) throw std::runtime_error("usage: bench-ours-mpi FILM whole|inbetween|latency");
     if (mynode() == myhost())
       bench::compete(words[1], bench::course_of(words[2]), "MPI");
     else

@@ -1,4 +1,4 @@
-// bench-ours-threads FILM whole|inbetween NODES
+// bench-ours-threads FILM whole|inbetween|latency NODES
 #include <iostream>
 
 #include "hal/failure.h"
@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace mars;
   try {
-    if (argc != 4) throw std::runtime_error("usage: bench-ours-threads FILM whole|inbetween NODES");
+    if (argc != 4) throw std::runtime_error("usage: bench-ours-threads FILM whole|inbetween|latency NODES");
     const bench::Course course = bench::course_of(argv[2]);
     hal::run_threads(std::stoi(argv[3]), [&] { bench::compete(argv[1], course, "threads"); }, host::run_node_job);
     return 0;

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/bench/peers/cover.h"
 #include "tests/bench/peers/crew.h"
 #include "tests/bench/peers/mesh.h"
 #include "tests/bench/peers/peer.h"
@@ -37,17 +38,12 @@ struct alignas(16) Normals {
   std::uint32_t look;
 };
 
-struct Box {
-  int left, top, right, bottom;  // pixels, half open
-  bool meets(const Box& other) const {
-    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
-  }
-};
-
 // A scene of Embree's with its triangles' normals, and the eye and light as that scene has them.
 struct View {
   RTCScene scene;
   std::vector<Normals> normals;
+  std::vector<Outline> outlines;    // of its patches
+  std::vector<std::uint8_t> tiles;  // 1: a ray there may meet it
   float origin[3];
   float ahead[3], right[3], up[3];  // a ray's direction: ahead + x * right + y * up, of length 1 along the eye's axis
   float to_light[3];
@@ -133,19 +129,19 @@ class Renderer {
   std::string note() const { return note_; }
 
  private:
+  void draw_tiles();
   void work();
-  void draw(const Box& tile);
+  void draw(std::size_t number);
   void draw_packet(const View& view, int left, int top, bool over);
   template <typename Vector, typename Number>
   void store(int left, int top, Ints where, Vector values, std::vector<Number>& picture);
   void interpolate(const View& view, const RTCRayHit16& rays, Ints met, Floats* normal, Floats* color) const;
   Ints shade(const View& view, const RTCRayHit16& rays, Ints met, const Floats* direction) const;
   std::size_t place(int left, int top, int row) const;
-  Box mover_box(const Motion& motion) const;
-  bool moving() const { return !mover_.normals.empty(); }
+  void mark_tiles(View& view, const Motion& motion) const;
 
   const Mesh& mesh_;
-  bool inbetweens_;
+  bool inbetweens_ = false;
   bool keeping_depth_;  // where something moves
   std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   View standing_{}, mover_{};
@@ -154,29 +150,14 @@ class Renderer {
   std::vector<float> depth_;  // of the standing part
   std::vector<std::uint32_t> kept_;  // the standing part's colours
   std::uint32_t background_ = 0;
-  Box standing_box_{}, mover_now_{}, mover_before_{};
-  std::vector<Box> tiles_;
+  int columns_;                       // of tiles
+  std::vector<Area> tiles_;           // row by row
+  std::vector<std::uint8_t> before_;  // the mover's tiles in the frame before
   std::atomic<std::size_t> next_tile_{0};
   std::unique_ptr<Crew> crew_;
 };
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-
-Box box_of(const Mesh& mesh, std::uint32_t first, std::uint32_t last, const Motion& m) {
-  float low[2] = {kFar, kFar}, high[2] = {-kFar, -kFar};
-  for (std::uint32_t k = first; k < last; ++k) {
-    const auto& p = mesh.vertices[k].place;
-    float q[3];
-    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r][0] * p[0] + m[r][1] * p[1] + m[r][2] * p[2] + m[r][3];
-    const float x = mesh.head.center[0] - mesh.head.scale * q[0] / q[2];
-    const float y = mesh.head.center[1] + mesh.head.scale * q[1] / q[2];
-    low[0] = std::min(low[0], x), high[0] = std::max(high[0], x);
-    low[1] = std::min(low[1], y), high[1] = std::max(high[1], y);
-  }
-  const auto clamped = [](float v, std::uint32_t most) { return static_cast<int>(std::clamp(v, 0.0f, float(most))); };
-  const auto w = mesh.head.width, h = mesh.head.height;
-  return {clamped(low[0], w), clamped(low[1], h), clamped(high[0] + 1, w), clamped(high[1] + 1, h)};
-}
 
 std::uint32_t pixel_of(const std::array<float, 3>& color) {
   std::uint32_t pixel = 0;
@@ -187,7 +168,7 @@ std::uint32_t pixel_of(const std::array<float, 3>& color) {
 
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh), inbetweens_(inbetweens),
+Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh),
       keeping_depth_(mesh.first_moving_triangle() < mesh.head.triangles), number_(mesh.head.frames - 1) {
   const std::size_t pixels = std::size_t{mesh.head.width} * mesh.head.height;
   background_ = pixel_of(mesh.head.background);
@@ -206,48 +187,60 @@ Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh)
   standing_.normals = normals_of(mesh, 0, moving);
   mover_.normals = normals_of(mesh, moving, mesh.head.triangles);
   set_motion(standing_, mesh.head, kStill);
-  standing_box_ = box_of(mesh, 0, mesh.first_moving_vertex(), kStill);
+  standing_.outlines = outlines_of(mesh, false);
+  mover_.outlines = outlines_of(mesh, true);
   const int width = static_cast<int>(mesh.head.width), height = static_cast<int>(mesh.head.height);
   for (int top = 0; top < height; top += kTile)
     for (int left = 0; left < width; left += kTile)
       tiles_.push_back({left, top, std::min(left + kTile, width), std::min(top + kTile, height)});
+  columns_ = (width + kTile - 1) / kTile;
+  before_.resize(tiles_.size());
+  mover_.tiles.resize(tiles_.size());
   crew_ = std::make_unique<Crew>(threads, [this] { work(); });
-  if (!inbetweens_) return;
-  inbetweens_ = false;
-  mover_now_ = {};
-  const std::vector<Normals> mover = std::move(mover_.normals);
-  mover_.normals.clear();
-  render();
+  if (!inbetweens) return;
+  mark_tiles(standing_, kStill);
+  draw_tiles();  // and nothing that moves yet
   kept_ = frame_;
-  mover_.normals = mover;
   inbetweens_ = true;
 }
 
-Box Renderer::mover_box(const Motion& motion) const {
-  return box_of(mesh_, mesh_.first_moving_vertex(), mesh_.head.vertices, motion);
+void Renderer::draw_tiles() {
+  next_tile_ = 0;
+  crew_->run();
+}
+
+void Renderer::mark_tiles(View& view, const Motion& motion) const {
+  view.tiles.assign(tiles_.size(), 0);
+  for (const Outline& outline : view.outlines) {
+    const Area pixels = cover(outline, mesh_.head, motion);
+    for (int row = pixels.top / kTile; row * kTile < pixels.bottom; ++row)
+      for (int column = pixels.left / kTile; column * kTile < pixels.right; ++column)
+        view.tiles[static_cast<std::size_t>(row * columns_ + column)] = 1;
+  }
 }
 
 void Renderer::render() {
   number_ = (number_ + 1) % mesh_.head.frames;
   if (inbetweens_ && number_ == 0) number_ = 1;
-  if (moving()) {
+  if (!mover_.normals.empty()) {
     const Motion& motion = mesh_.motion[number_];
     set_motion(mover_, mesh_.head, motion);
-    mover_before_ = mover_now_;
-    mover_now_ = mover_box(motion);
+    before_ = mover_.tiles;
+    mark_tiles(mover_, motion);
   }
-  next_tile_ = 0;
-  crew_->run();
+  if (!inbetweens_) mark_tiles(standing_, kStill);
+  draw_tiles();
 }
 
 void Renderer::work() {
-  for (std::size_t k; (k = next_tile_.fetch_add(1, std::memory_order_relaxed)) < tiles_.size();) draw(tiles_[k]);
+  for (std::size_t k; (k = next_tile_.fetch_add(1, std::memory_order_relaxed)) < tiles_.size();) draw(k);
 }
 
-void Renderer::draw(const Box& tile) {
-  const bool mover_here = moving() && tile.meets(mover_now_);
-  if (inbetweens_ && !mover_here && !tile.meets(mover_before_)) return;
-  const bool standing_here = !inbetweens_ && tile.meets(standing_box_);
+void Renderer::draw(std::size_t number) {
+  const Area& tile = tiles_[number];
+  const bool mover_here = mover_.tiles[number] == 1;
+  if (inbetweens_ && !mover_here && before_[number] == 0) return;
+  const bool standing_here = !inbetweens_ && standing_.tiles[number] == 1;
   if (!standing_here)
     for (int line = tile.top; line < tile.bottom; ++line) {
       const std::size_t row = std::size_t(line) * mesh_.head.width;

@@ -20,6 +20,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "tests/bench/peers/cover.h"
 #include "tests/bench/peers/mesh.h"
 #include "tests/bench/peers/peer.h"
 
@@ -205,6 +206,7 @@ class Renderer {
   GLint motion_at_ = -1, own_at_ = -1;
   std::vector<Batch> batches_[2];  // what stands, what moves
   std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
+  std::vector<Outline> mover_;
   Box before_{};
   std::vector<std::uint32_t> pixels_;
 };
@@ -213,7 +215,7 @@ constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 Renderer::Renderer(const Mesh& mesh, bool inbetweens)
     : mesh_(mesh), inbetweens_(inbetweens), width_(static_cast<GLsizei>(mesh.head.width)),
-      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
+      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), mover_(outlines_of(mesh, true)), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
   const MeshHead& head = mesh.head;
   program_ = link(head);
   glUseProgram(program_);
@@ -312,21 +314,13 @@ void Renderer::render_inbetween() {
                &pixels_[static_cast<std::size_t>(changed.bottom) * mesh_.head.width + static_cast<std::size_t>(changed.left)]);
 }
 
-Box Renderer::mover_box(const Motion& m) const {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  float low[2] = {kFar, kFar}, high[2] = {-kFar, -kFar};
-  for (std::size_t k = mesh_.first_moving_vertex(); k < mesh_.vertices.size(); ++k) {
-    const auto& p = mesh_.vertices[k].place;
-    float q[3];
-    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r][0] * p[0] + m[r][1] * p[1] + m[r][2] * p[2] + m[r][3];
-    const float x = mesh_.head.center[0] - mesh_.head.scale * q[0] / q[2];
-    const float y = static_cast<float>(height_) - mesh_.head.center[1] - mesh_.head.scale * q[1] / q[2];
-    low[0] = std::min(low[0], x), high[0] = std::max(high[0], x);
-    low[1] = std::min(low[1], y), high[1] = std::max(high[1], y);
+Box Renderer::mover_box(const Motion& motion) const {
+  Box box{};
+  for (const Outline& outline : mover_) {
+    const Area area = cover(outline, mesh_.head, motion);
+    box = round(box, {area.left, height_ - area.bottom, area.right - area.left, area.bottom - area.top});
   }
-  const auto clamped = [](float v, GLsizei most) { return static_cast<GLint>(std::clamp(v, 0.0f, static_cast<float>(most))); };
-  const GLint left = clamped(low[0] - 1, width_), bottom = clamped(low[1] - 1, height_);
-  return {left, bottom, clamped(high[0] + 2, width_) - left, clamped(high[1] + 2, height_) - bottom};
+  return box;
 }
 
 void run(int argc, char** argv) {

@@ -113,8 +113,10 @@ class Field:
                                         self.course.what], MPI_ENVIRONMENT)
 
     def begin_threads(self, name, film):
-        return self.begin(name, [self.program("bench-ours-threads"), self.save(film, f"{name}.json"),
-                                 self.course.what, str(self.column)])
+        return self.begin(name, self.threads_command(self.save(film, f"{name}.json"), self.course.what))
+
+    def threads_command(self, film, what):
+        return [self.program("bench-ours-threads"), film, what, str(self.column)]
 
     def compete(self, rounds):
         for competitor in self.competitors:
@@ -144,6 +146,11 @@ class Field:
         fine.go(1)
         return self.take_picture(fine)
 
+    def latency(self):
+        """Milliseconds that an inbetween of ours takes from its beginning to its frame."""
+        return float(self.begin("latency", self.threads_command(self.save(self.film, "latency.json"), "latency"))
+                     .answer("latency"))
+
     def end(self):
         for competitor in self.competitors:
             competitor.end()
@@ -172,12 +179,14 @@ def result_of(field):
     rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
              "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
             for c in field.competitors]
+    result = {"course": field.course.title, "column": field.column, "competitors": rows}
+    if field.course.what == "inbetween":
+        result["latency"] = field.latency()
     if field.adaptive:
         fine = field.fine_picture()
         for row in rows:
             row["rms_fine"] = pictures.rms(fine, files[row["name"]])
     peers = [row for row in rows if not is_ours(row["name"])]
-    result = {"course": field.course.title, "column": field.column, "competitors": rows}
     if peers:
         best = min(peers, key=lambda row: row["best"])
         result["best_peer"] = best["name"]
@@ -213,6 +222,8 @@ def tell(result):
     print(f"\n{where}")
     for row in filter(is_alike, result["competitors"]):
         print(line_of(row, "rms", result.get("best_peer")))
+    if "latency" in result:
+        print(f"  one inbetween of ours, from its beginning to its frame: {result['latency']:.2f}")
     if "rms_fine" in result["competitors"][0]:
         print(f"\n{where}: other triangles, RMS against {FINE} x {FINE} quads a patch")
         for row in result["competitors"]:
