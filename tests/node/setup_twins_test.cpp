@@ -27,12 +27,14 @@ constexpr std::int32_t kWidth = 200, kHeight = 150;
 const Picture kPicture{projection(kWidth, kHeight, 2, 0.1, 1000), kWidth, kHeight};
 const double kScale = kPicture.projection.scale;
 
-Made expected_of(const std::vector<PlainTriangle>& plain, bool moving) {
+// `turned_over`, if any, counts those that snapping turned over.
+Made expected_of(const std::vector<PlainTriangle>& plain, bool moving, int* turned_over = nullptr) {
   Made out;
   out.line_counts.resize(kHeight);
   for (const PlainTriangle& t : plain) {
     auto crossings = plain_crossings(t.corners, kWidth, kHeight);
     if (crossings.empty()) continue;
+    if (turned_over) *turned_over += t.faces != (area(t.corners) < 0);
     for (node::Crossing& crossing : crossings) {
       crossing.box.triangle = static_cast<std::uint32_t>(out.triangles.size());
       crossing.moving = moving;
@@ -58,6 +60,7 @@ struct Paths {
   int clipped = 0;
   int dropped = 0;
   int edge_boxes = 0;
+  int turned_over = 0;  // by snapping, of those that cover samples
 
   void count(const node::Kernels& kernels, const Dicer& diced, const PatchIdentity& identity) {
     if (diced.reaches_outside()) {
@@ -87,7 +90,7 @@ class SetUpTwins : public testing::Test {
     for (auto& [kernels, dicer] : dicers) {
       dicer.dice(patch, kPicture.projection, rate);
       if (kernels == dicers[0].first) {
-        expected = expected_of(plain_set_up(dicer, kPicture.projection, identity), identity.moving);
+        expected = expected_of(plain_set_up(dicer, kPicture.projection, identity), identity.moving, &paths.turned_over);
         paths.count(*kernels, dicer, identity);
         paths.edge_boxes += static_cast<int>(expected.edge_boxes);
       }
@@ -220,6 +223,22 @@ TEST_F(SetUpTwins, MakeTheSameOfAllKindsOfPatches) {
     EXPECT_GE(paths.clipped, kind.least_clipped);
     EXPECT_GT(paths.edge_boxes, 1000);
   }
+}
+
+// Strips as long as the picture and about 1/256 pixel thin: snapping turns some of their triangles over.
+TEST_F(SetUpTwins, MakeTheSameOfWhatSnappingTurnsOver) {
+  Random random(82);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double x = random.real(0, kWidth), y = random.real(0, kHeight), to_x = random.real(0, kWidth),
+                 to_y = random.real(0, kHeight);
+    const auto near = [&](double place) { return place + random.real(-1, 1) / 256; };
+    expect_same(bilinear({seen_at(near(x), near(y), 3), seen_at(near(to_x), near(to_y), 4),
+                          seen_at(near(to_x), near(to_y), 4), seen_at(near(x), near(y), 3)}),
+                random.whole(1, 2), random_identity(random));
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(paths.turned_over, 20);
+  EXPECT_GT(paths.undecided, 3000);
 }
 
 // A quad with corners at these 1/256 pixels, each as far away as it likes.
