@@ -47,7 +47,8 @@ class Batch16 {
     vertices.x = x_;
     vertices.y = y_;
     const node::Batch batch{first_, first_ + count, consecutive_};
-    const node::Triangles triangles{corners_[0].data(), corners_[1].data(), corners_[2].data(), first_ + count, &batch, 1};
+    const node::Triangles triangles{
+        corners_[0].data(), corners_[1].data(), corners_[2].data(), first_ + count, &batch, 1};
     Examined out;
     kernels.examine(task, vertices, triangles, batch, out);
     return out;
@@ -91,12 +92,14 @@ bool right_state(State state, const Corners& t, const Examination& task, bool co
 }
 
 // Whether a decided triangle's columns are these crossings and nothing else, and its numbers those of its corners.
-bool right_columns(const Examined& e, std::uint32_t lane, const Corners& t, const std::vector<node::Crossing>& crossings) {
+bool right_columns(const Examined& e, std::uint32_t lane, const Corners& t,
+                   const std::vector<node::Crossing>& crossings) {
   auto next = crossings.begin();
   for (std::int32_t row = e.first_row[lane]; row < e.last_row[lane]; ++row) {
     const std::uint32_t columns = e.columns[row - e.first_row[lane]][lane];
     if (columns == 0) continue;
-    if (next == crossings.end() || next->line != row || (next->box.first | static_cast<std::uint32_t>(next->box.last) << 16) != columns)
+    if (next == crossings.end() || next->line != row ||
+        (next->box.first | static_cast<std::uint32_t>(next->box.last) << 16) != columns)
       return false;
     ++next;
   }
@@ -126,9 +129,9 @@ void expect_right(const std::vector<Corners>& triangles, const Examination& task
       const bool right = lane >= count ? state == kDropped
                                        : right_state(state, t, task, !crossings[lane].empty()) &&
                                              (state != kDecided || right_columns(e, lane, t, crossings[lane]));
-      ASSERT_TRUE(right) << kernels->name << ", lane " << lane << " of " << count << ", state " << state << ": " << t.x[0]
-                         << ',' << t.y[0] << ' ' << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2] << " in "
-                         << task.width << " x " << task.height;
+      ASSERT_TRUE(right) << kernels->name << ", lane " << lane << " of " << count << ", state " << state << ": "
+                         << t.x[0] << ',' << t.y[0] << ' ' << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2]
+                         << " in " << task.width << " x " << task.height;
       tally.states[state] += kernels->name == std::string_view("sse2") && lane < count;
     }
   }
@@ -202,7 +205,8 @@ TEST(Examine, TheBordersOfWhatIsDecided) {
     for (Corners& t : triangles) {
       const std::int32_t x = random.whole(-9000, 17000), y = random.whole(-9000, 12000);
       if (random.whole(0, 1)) {
-        const std::int32_t width = kSmall + random.whole(-1, 1), height = random.whole(0, 1) ? kSmall + random.whole(-1, 1) : 3000;
+        const std::int32_t width = kSmall + random.whole(-1, 1),
+                           height = random.whole(0, 1) ? kSmall + random.whole(-1, 1) : 3000;
         t = {{x, x + width, x + random.whole(-width, width)}, {y, y + random.whole(-height, height), y + height}};
         (small(t) ? just_small : just_large) += 1;
       } else {  // the side 5 high is thin where long is 4 far + 20 or less

@@ -69,13 +69,13 @@ bool larger_than_snapping(const node::Corners& t) {
   return std::abs(area(t)) > 4 * lengths;
 }
 
-void set_planes(const PlainVertex (&t)[3], bool faces, PlainTriangle& out) {
+void set_planes(const PlainVertex (&t)[3], PlainTriangle& out) {
   const node::Corners& at = out.corners;
   const auto x1 = static_cast<float>(at.x[1] - at.x[0]), y1 = static_cast<float>(at.y[1] - at.y[0]);
   const auto x2 = static_cast<float>(at.x[2] - at.x[0]), y2 = static_cast<float>(at.y[2] - at.y[0]);
   const float inverse = 1.0f / static_cast<float>(area(at));
   for (int value = 0; value < kValues; ++value) {
-    const float sign = value == node::kDepth || faces ? 1.0f : -1.0f;
+    const float sign = value == node::kDepth || out.faces ? 1.0f : -1.0f;
     const float f0 = sign * t[0].values[value];
     const float d1 = sign * t[1].values[value] - f0, d2 = sign * t[2].values[value] - f0;
     out.record.at_first[value] = f0;
@@ -89,10 +89,9 @@ void add(const PlainVertex (&t)[3], std::optional<bool> known, const node::Patch
   PlainTriangle made{};
   made.corners = {{t[0].x, t[1].x, t[2].x}, {t[0].y, t[1].y, t[2].y}};
   if (area(made.corners) == 0) return;
-  made.sure = larger_than_snapping(made.corners);
-  const bool faces = known ? *known : made.sure ? area(made.corners) < 0 : faces_eye(t);
-  if (identity.one_sided && faces == identity.mirrored) return;
-  set_planes(t, faces, made);
+  made.faces = known ? *known : larger_than_snapping(made.corners) ? area(made.corners) < 0 : faces_eye(t);
+  if (identity.one_sided && made.faces == identity.mirrored) return;
+  set_planes(t, made);
   made.record.first_x = t[0].x;
   made.record.first_y = t[0].y;
   made.record.patch = identity.patch;

@@ -46,7 +46,7 @@ void add_segment(const node::Scene& scene, std::size_t segment, node::Dicer& dic
 }
 
 void draw(Reference& reference, std::size_t number, std::int32_t width, std::int32_t height) {
-  const auto& [t, record, index, sure] = reference.triangles[number];
+  const auto& [t, record, index, faces] = reference.triangles[number];
   const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const auto sample = [](std::int32_t place) { return (place - 128) / 256; };
