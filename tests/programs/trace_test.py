@@ -44,9 +44,11 @@ class Traces(ProgramTest):
 
     def test_of_a_run_that_fails(self):
         """A node whose memory is too short for one line of a large picture says so when it has diced."""
+        film = json.loads((EXAMPLES / "s2.json").read_text())
+        fine = self.write("fine.json", {**film, "dice": 64})
         for backend in BACKENDS:
             with self.subTest(backend=backend):
-                self.fail_clearly(1, "render", EXAMPLES / "s2.json", "--sink", "none", "--size", "7680x4320", "--nodes", 2,
+                self.fail_clearly(1, "render", fine, "--sink", "none", "--size", "7680x4320", "--nodes", 2,
                                   "--backend", backend, "--trace", "trace.json", says="set MARS_MEMORY to more",
                                   env=dict(ENVIRONMENT, MARS_MEMORY="1"))
                 trace = self.trace()
