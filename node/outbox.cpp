@@ -5,14 +5,14 @@
 
 namespace mars::node {
 
-Outbox::Outbox(std::size_t width, std::size_t height, int credits)
-    : slots_{Slot{StripBuffer(width, height)}, Slot{StripBuffer(width, height)}}, credits_(credits) {}
+Outbox::Outbox(std::size_t width, int credits)
+    : slots_{Slot{StripBuffer(width)}, Slot{StripBuffer(width)}}, credits_(credits) {}
 
-StripBuffer& Outbox::begin(std::size_t constant_lines) {
+StripBuffer& Outbox::begin(bool constant) {
   current_ = (current_ + 1) % slots_.size();
   Slot& slot = slots_[current_];
   wait(slot);
-  slot.buffer.clear(constant_lines);
+  slot.buffer.clear(constant);
   return slot.buffer;
 }
 

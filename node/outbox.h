@@ -9,10 +9,10 @@ namespace mars::node {
 
 class Outbox {
  public:
-  Outbox(std::size_t width, std::size_t height, int credits);
+  Outbox(std::size_t width, int credits);
 
   // An empty buffer (StripBuffer::clear); waits until the strip last sent from it is gone.
-  StripBuffer& begin(std::size_t constant_lines);
+  StripBuffer& begin(bool constant);
   // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it.
   void send(Strip& header);
 

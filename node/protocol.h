@@ -113,7 +113,7 @@ struct WorkCounts {
 
 enum class FrameKind : std::uint32_t { keyframe, inbetween };
 
-// One node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
+// A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
 // its moving parts (MFB). Followed by all pixels, each one uint32 (red in the lowest byte, then green, blue,
 // 0), then by constant_runs + moving_runs Run that say where they go, in the same order.
 struct Strip {
@@ -123,9 +123,9 @@ struct Strip {
   std::int32_t node;
   std::int32_t cube_first;
   std::int32_t cube_count;
-  std::uint32_t strips;           // that this node sends for this frame: one a pass over line ranges
+  std::uint32_t number;           // of the strips that this node sends for this frame, from 0
   std::uint32_t last;             // 1 if this is the last of them; a frame is whole when all nodes' last came
-  std::uint32_t first_line;       // the node's home lines [first_line, last_line), or a pass's part of them
+  std::uint32_t first_line;       // it is of the node's home lines [first_line, last_line)
   std::uint32_t last_line;
   std::uint32_t constant_runs;
   std::uint32_t moving_runs;

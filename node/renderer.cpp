@@ -18,14 +18,6 @@ LineRange part_of(const LineRange& range, std::uint32_t number, std::uint32_t pa
   return {at(number), at(number + 1)};
 }
 
-// Passes that keep one strip's message far below 2 GiB, whatever is seen.
-std::uint32_t passes_for_message(std::uint64_t width, std::uint64_t height) {
-  constexpr std::uint64_t kPixel = 2 * (sizeof(std::uint32_t) + sizeof(Run) / 2);  // CFB and MFB, shortest runs
-  std::uint32_t passes = 1;
-  while (width * height * kPixel / passes >= std::uint64_t{1} << 31) passes *= 2;
-  return passes;
-}
-
 // Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
 // piece of memory is rounded up.
 std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 16 * lines + 512 * nodes + 4096; }
@@ -46,7 +38,7 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
       z_buffer_(kernels, scene_.width()),
       czb_(machines, load.cubes, scene_.width(), scene_.height()),
       exchange_(static_cast<int>(numnodes())),
-      outbox_(film.settings().width, film.settings().height, load.credits),
+      outbox_(film.settings().width, load.credits),
       draws_(static_cast<std::size_t>(numnodes())),
       line_counts_(film.settings().height),
       ebc_(film.settings().height + 1),
@@ -162,7 +154,7 @@ void Renderer::sum_counts(const hal::Cube& cube) {
 std::uint32_t Renderer::plan_passes(const hal::Cube& cube) {
   const std::size_t lines = line_counts_.size();
   const std::uint64_t height = lines;
-  std::uint32_t passes = passes_for_message(static_cast<std::uint64_t>(scene_.width()), height);
+  std::uint32_t passes = 1;
   bool fits = true;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cube.count); ++n) {
     const std::uint64_t boxes = ebc_[homes_[n].last] - ebc_[homes_[n].first];
@@ -215,38 +207,60 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
   const auto pass_homes = std::span(pass_homes_).first(nodes);
   for (std::size_t n = 0; n < nodes; ++n) pass_homes[n] = part_of(homes_[n], pass, passes);
   const LineRange lines = pass_homes[static_cast<std::size_t>(mynode() - cube.first)];
-  const std::uint64_t boxes = ebc_[lines.last] - ebc_[lines.first];
 
   const LineBoxes line_boxes = gather_boxes(cube, own, lines, pass_homes);
-  strip_.work.edge_boxes += boxes;
-
-  StripBuffer& buffer = outbox_.begin(line_boxes.stationary_lines());
-  clock(Phase::credit);
+  strip_.work.edge_boxes += line_boxes.boxes.size();
+  strip_.work.passes = passes;
   const Shading look = shading(own.triangles);
-  if (strip_.kind == FrameKind::keyframe)
-    z_buffer_.draw_keyframe(line_boxes, look, lines_of_movers_, czb_, buffer);
-  else
-    z_buffer_.draw_inbetween(line_boxes, look, lines_of_movers_, czb_, buffer);
-  clock(Phase::scanline);
+  const bool constant = line_boxes.any_stationary();
+  LineRange strip{lines.first, lines.first};
+  do {
+    StripBuffer& buffer = outbox_.begin(constant);
+    clock(Phase::credit);
+    strip = {strip.last, draw_strip(line_boxes, strip.last, look, buffer)};
+    clock(Phase::scanline);
+    const bool drawn = strip.last == lines.last;
+    if (drawn) finish_pass(cube, pass + 1 == passes);
+    send_strip(cube, strip, drawn && pass + 1 == passes);
+  } while (strip.last < lines.last);
+}
 
-  const bool last = pass + 1 == passes;
+// Draws lines from `first` on until the strip is full or all are drawn; one past the last of them.
+std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& look, StripBuffer& out) {
+  std::uint32_t line = first;
+  while (line < boxes.lines.last && !out.full()) {
+    const LineRange part{line, std::min(line + StripBuffer::kLines, boxes.lines.last)};
+    if (strip_.kind == FrameKind::keyframe)
+      z_buffer_.draw_keyframe(boxes, part, look, lines_of_movers_, czb_, out);
+    else
+      z_buffer_.draw_inbetween(boxes, part, look, lines_of_movers_, czb_, out);
+    line = part.last;
+  }
+  return line;
+}
+
+void Renderer::finish_pass(const hal::Cube& cube, bool last) {
   exchange_.finish();
   clock(Phase::exchange);
-  if (last && strip_.kind == FrameKind::keyframe && nodes > 1) share_depth(cube);
+  if (!last || strip_.kind != FrameKind::keyframe || cube.count == 1) return;
+  exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, czb_);
+  clock(Phase::depth);
+}
+
+void Renderer::send_strip(const hal::Cube& cube, const LineRange& lines, bool last) {
   strip_.frame = frame_;
   strip_.interval = command_.interval;
   strip_.node = static_cast<std::int32_t>(mynode());
   strip_.cube_first = cube.first;
   strip_.cube_count = cube.count;
-  strip_.strips = passes;
   strip_.last = last ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;
-  strip_.work.passes = passes;
   strip_.work.memory = arena_.fullest();
   strip_.work.bytes_to_nodes = hal::traffic().to_nodes.bytes - sent_before_;
   outbox_.send(strip_);
-  clock_ = dclock();  // send() told its wait itself: it is no step of the next pass
+  ++strip_.number;
+  clock_ = dclock();  // send() told its wait itself: it is no step of the next strip
 }
 
 // Edge boxes of all nodes on `lines`. While others' are on their way, the own ones are put into their lines.
@@ -264,11 +278,6 @@ LineBoxes Renderer::gather_boxes(const hal::Cube& cube, const Polygons& own, con
     clock(Phase::fill);
   }
   return filler.finish();
-}
-
-void Renderer::share_depth(const hal::Cube& cube) {
-  exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, czb_);
-  clock(Phase::depth);
 }
 
 Shading Renderer::shading(const Triangle* triangles) const {

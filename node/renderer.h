@@ -49,7 +49,10 @@ class Renderer {
   std::uint32_t plan_passes(const hal::Cube& cube);
   std::uint64_t memory_for(const hal::Cube& cube, std::uint32_t passes) const;
   void draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
-  void share_depth(const hal::Cube& cube);
+  std::uint32_t draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& look, StripBuffer& out);
+  // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
+  void finish_pass(const hal::Cube& cube, bool last);
+  void send_strip(const hal::Cube& cube, const LineRange& lines, bool last);
   void mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes);
   LineBoxes gather_boxes(const hal::Cube& cube, const Polygons& own, const LineRange& lines,
                          std::span<const LineRange> homes);

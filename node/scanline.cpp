@@ -16,10 +16,10 @@ std::span<const EdgeBox> LineBoxes::moving(std::uint32_t line) const {
   return boxes.subspan(stationary_end[i], end[i] - stationary_end[i]);
 }
 
-std::size_t LineBoxes::stationary_lines() const {
-  std::size_t count = 0;
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) count += !stationary(line).empty();
-  return count;
+bool LineBoxes::any_stationary() const {
+  for (std::uint32_t line = lines.first; line < lines.last; ++line)
+    if (!stationary(line).empty()) return true;
+  return false;
 }
 
 LineFiller::LineFiller(const LineRange& lines, std::span<const std::uint64_t> ebc, const Triangle* first, Arena& arena)
@@ -68,9 +68,9 @@ ZBuffer::ZBuffer(const Kernels& kernels, std::int32_t width)
   std::fill_n(ids(), ids_.size() * kVectorSlack, kNoTriangle);
 }
 
-void ZBuffer::draw_keyframe(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb,
-                            StripBuffer& out) {
-  for (std::uint32_t line = boxes.lines.first; line < boxes.lines.last; ++line) {
+void ZBuffer::draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading,
+                            const LineRange& kept, Czb& czb, StripBuffer& out) {
+  for (std::uint32_t line = part.first; line < part.last; ++line) {
     const auto stationary = boxes.stationary(line), moving = boxes.moving(line);
     if (stationary.empty() && moving.empty() && !kept.has(line)) continue;
     std::fill_n(depth(), width_, 0.0f);
@@ -81,9 +81,9 @@ void ZBuffer::draw_keyframe(const LineBoxes& boxes, const Shading& shading, cons
   }
 }
 
-void ZBuffer::draw_inbetween(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb,
-                             StripBuffer& out) {
-  for (std::uint32_t line = boxes.lines.first; line < boxes.lines.last; ++line) {
+void ZBuffer::draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading,
+                             const LineRange& kept, Czb& czb, StripBuffer& out) {
+  for (std::uint32_t line = part.first; line < part.last; ++line) {
     const auto moving = boxes.moving(line);
     if (moving.empty()) continue;
     check(kept.has(line), "moving parts stay on the lines that were foreseen");

@@ -30,8 +30,7 @@ struct LineBoxes {
 
   std::span<const EdgeBox> stationary(std::uint32_t line) const;
   std::span<const EdgeBox> moving(std::uint32_t line) const;
-  // How many lines have stationary boxes.
-  std::size_t stationary_lines() const;
+  bool any_stationary() const;
 };
 
 // Puts edge boxes into their lines: a counting sort whose offsets are EBC's running totals (mapping.h). Senders may be
@@ -59,10 +58,13 @@ class ZBuffer {
  public:
   ZBuffer(const Kernels& kernels, std::int32_t width);
 
-  // Draws stationary parts (CFB), and against them the moving ones (MFB). CZB of `kept` lines goes to `czb`.
-  void draw_keyframe(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb, StripBuffer& out);
-  // Draws moving parts against `czb`, whose `kept` lines have all of them, and each other.
-  void draw_inbetween(const LineBoxes& boxes, const Shading& shading, const LineRange& kept, Czb& czb, StripBuffer& out);
+  // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB). CZB of
+  // `kept` lines goes to `czb`.
+  void draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& kept,
+                     Czb& czb, StripBuffer& out);
+  // Draws moving parts of these lines against `czb`, whose `kept` lines have all of them, and each other.
+  void draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& kept,
+                      Czb& czb, StripBuffer& out);
 
  private:
   // Samples, as many as kernels take at a time.

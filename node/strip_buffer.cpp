@@ -5,10 +5,6 @@
 namespace mars::node {
 namespace {
 
-// A line's runs are apart from each other, so at most every second column begins one.
-std::size_t most_runs(std::size_t width, std::size_t lines) { return lines * (width / 2 + 1) + kVectorSlack; }
-std::size_t most_pixels(std::size_t width, std::size_t lines) { return lines * width + kVectorSlack; }
-
 // `items` to `at`, which they may overlap; returns what comes behind them.
 template <typename T>
 std::byte* put(std::span<const T> items, std::byte* at) {
@@ -23,17 +19,16 @@ void StripBuffer::Layer::added(const Shaded& shaded) {
   run_count_ += shaded.runs;
 }
 
-StripBuffer::StripBuffer(std::size_t width, std::size_t height)
-    : width_(width),
-      message_(sizeof(Strip) + 2 * (most_pixels(width, height) * sizeof(std::uint32_t) + most_runs(width, height) * sizeof(Run))),
-      runs_(2 * most_runs(width, height) * sizeof(Run)) {}
+StripBuffer::StripBuffer(std::size_t width)
+    : room_(kPixels + kLines * width + kVectorSlack),
+      message_(sizeof(Strip) + 2 * room_ * (sizeof(std::uint32_t) + sizeof(Run))),
+      runs_(2 * room_ * sizeof(Run)) {}
 
-void StripBuffer::clear(std::size_t constant_lines) {
+void StripBuffer::clear(bool constant) {
   auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(Strip));
   auto* runs = reinterpret_cast<Run*>(runs_.bytes().data());
   constant_ = {pixels, runs};
-  moving_ = constant_lines == 0 ? Layer(pixels, runs)
-                                : Layer(pixels + most_pixels(width_, constant_lines), runs + most_runs(width_, constant_lines));
+  moving_ = constant ? Layer(pixels + room_, runs + room_) : Layer(pixels, runs);
 }
 
 std::span<const std::byte> StripBuffer::finish(Strip& header) {

@@ -34,12 +34,18 @@ class StripBuffer {
     std::size_t run_count_ = 0;
   };
 
-  // Room for every pixel of a picture twice (stationary and moving). Pages are used as they are touched.
-  // Throws Failure where the machine does not give it.
-  StripBuffer(std::size_t width, std::size_t height);
+  // A strip goes to the host when it has so many pixels: few enough to stay in a core's cache on their way, and
+  // the host puts them in place while the node draws on.
+  static constexpr std::size_t kPixels = 65536;
+  // Lines that may be drawn between one look at full() and the next.
+  static constexpr std::uint32_t kLines = 8;
 
-  // Empty, with room for `constant_lines` lines of stationary parts.
-  void clear(std::size_t constant_lines);
+  // For pictures of `width`. Throws Failure where the machine does not give the memory.
+  explicit StripBuffer(std::size_t width);
+
+  // Empty. `constant`: whether stationary parts will come.
+  void clear(bool constant);
+  bool full() const { return constant_.pixels().size() + moving_.pixels().size() >= kPixels; }
 
   Layer& constant() { return constant_; }
   Layer& moving() { return moving_; }
@@ -49,7 +55,7 @@ class StripBuffer {
   std::span<const std::byte> finish(Strip& header);
 
  private:
-  std::size_t width_;
+  std::size_t room_;  // pixels, and runs, of one layer
   hal::PrivateMemory message_;
   hal::PrivateMemory runs_;
   Layer constant_;

@@ -98,13 +98,13 @@ TEST(LineFiller, PutsEachBoxIntoItsLine) {
     node::LineFiller filler(lines, sent.ebc, sent.triangles.data(), arena);
     for (const node::Polygons& sender : sent.senders) filler.add(sender);
     const node::LineBoxes filled = filler.finish();
-    std::size_t stationary_lines = 0;
+    bool any_stationary = false;
     for (std::uint32_t line = lines.first; line < lines.last; ++line) {
       ASSERT_EQ(boxes_of(filled.stationary(line)), expected_on(sent, line, false)) << "trial " << trial << ", line " << line;
       ASSERT_EQ(boxes_of(filled.moving(line)), expected_on(sent, line, true)) << "trial " << trial << ", line " << line;
-      stationary_lines += !filled.stationary(line).empty();
+      any_stationary |= !filled.stationary(line).empty();
     }
-    EXPECT_EQ(filled.stationary_lines(), stationary_lines);
+    EXPECT_EQ(filled.any_stationary(), any_stationary);
     boxes += filled.boxes.size();
   }
   EXPECT_GT(boxes, 50000u);

@@ -114,7 +114,7 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
     const FilmRun run = run_film(block.bytes(), options);
     expect_same(run, run_film(block.bytes(), from_scratch()), GetParam().film.settings, "passes");
     for (const node::Strip& strip : run.report.strips) {
-      passes = std::max(passes, strip.strips);
+      passes = std::max(passes, strip.work.passes);
       EXPECT_LE(strip.work.memory, options.memory);
     }
   }
