@@ -7,9 +7,8 @@ namespace {
 // Boxes ahead whose triangles are fetched: they come from all over memory.
 constexpr std::uint32_t kAhead = 32;
 
-// Narrower boxes are drawn sample by sample, wider ones by vectors, but not by the widest: a vector waits until what
-// a neighbouring box stored of its samples has reached the cache.
-constexpr int kWide = 3;
+// Boxes of one sample, the most frequent, are drawn alone, others by vectors, but not by the widest: a vector waits
+// until what a neighbouring box stored of its samples has reached the cache.
 using Narrow = hn::CappedTag<float, 1>;
 using Wide = hn::CappedTag<float, 8>;
 
@@ -79,7 +78,7 @@ Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count
     const auto dx = static_cast<float>(box.first * kSubpixels + kSampleOffset - t.first_x);
     const Depth plane{t.at_first[kDepth] + dy * t.per_y[kDepth], t.per_x[kDepth]};
     const int width = box.last - box.first;
-    if (width < kWide)
+    if (width == 1)
       draw_samples(Narrow(), plane, dx, width, triangles, box.triangle, depth + box.first, ids + box.first);
     else
       draw_samples(Wide(), plane, dx, width, triangles, box.triangle, depth + box.first, ids + box.first);
