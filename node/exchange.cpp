@@ -116,14 +116,16 @@ void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> hom
   if (self == head && drawn_under(self)) {
     collect_depth(cube, homes, needed, czb);
     for (int node = cube.first; node < cube.first + cube.count; ++node)
-      if (node != self && drawn_at(node) && czb.head_of(node) == self) csend(depth_lines_from(self), nullptr, 0, node, 0);
+      if (node != self && drawn_at(node) && czb.head_of(node) == self)
+        csend(depth_lines_from(self), nullptr, 0, node, 0);
   } else if (drawn_at(self)) {
     crecv(depth_lines_from(head), nullptr, 0);
   }
   finish();
 }
 
-void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb) {
+void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
+                             Czb& czb) {
   const auto self = static_cast<int>(mynode());
   for (int from = cube.first; from < cube.first + cube.count; ++from) {
     const LineRange lines = overlap(homes[static_cast<std::size_t>(from - cube.first)], needed);
