@@ -1,6 +1,7 @@
 #include "node/exchange.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "hal/failure.h"
 #include "hal/nx.h"
@@ -14,67 +15,70 @@ LineRange overlap(const LineRange& a, const LineRange& b) {
   return {first, std::max(first, last)};
 }
 
-// Copies crossings on `home`, from the last to the first, to the end of a piece of memory and their triangles to its
-// front, numbered anew: in memory as a node has its own.
-class Selection {
- public:
-  Selection(std::span<std::byte> room)
-      : triangles_(reinterpret_cast<Triangle*>(room.data())),
-        end_(reinterpret_cast<Crossing*>(room.data() + room.size())),
-        crossing_(end_) {}
-
-  void add(const Triangle* triangles, std::span<const Crossing> crossings, const LineRange& home) {
-    std::uint32_t copied = kNoTriangle;  // the triangle copied last
-    for (auto next = crossings.rbegin(); next != crossings.rend(); ++next) {
-      if (next->line < home.first || next->line >= home.last) continue;
-      if (next->box.triangle != copied) {
-        copied = next->box.triangle;
-        triangles_[count_++] = triangles[copied];
-      }
-      *--crossing_ = *next;
-      crossing_->box.triangle = static_cast<std::uint32_t>(count_ - 1);
-    }
-  }
-
-  std::span<const Triangle> triangles() const { return {triangles_, count_}; }
-  std::span<const Crossing> crossings() const { return {crossing_, static_cast<std::size_t>(end_ - crossing_)}; }
-
- private:
-  Triangle* triangles_;
-  Crossing* end_;
-  Crossing* crossing_;
-  std::size_t count_ = 0;
-};
+// visit(crossing) for all own crossings in the order of polygon numbers: those that stand still, then the others.
+template <typename Visit>
+void visit_all(const Polygons& polygons, const Visit& visit) {
+  for (const auto& crossings : {polygons.stationary, polygons.moving})
+    for (auto next = crossings.rbegin(); next != crossings.rend(); ++next) visit(*next);
+}
 
 template <typename T>
-long bytes_of(std::span<const T> items) {
+long bytes_of(std::span<T> items) {
   return static_cast<long>(items.size_bytes());
 }
 
 }  // namespace
 
-Exchange::Exchange(int nodes) {
+Exchange::Exchange(int nodes, std::size_t lines) : parcels_(static_cast<std::size_t>(nodes)), home_of_(lines) {
   pending_.reserve(4 * static_cast<std::size_t>(nodes));
 }
 
 void Exchange::send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
                               Arena& arena) {
-  const int self = static_cast<int>(mynode()) - cube.first;
-  for (int i = 1; i < cube.count; ++i) {
-    const int index = (self + i) % cube.count;  // so that not all send to the same node first
-    send_triangles_to(cube.first + index, own, homes[static_cast<std::size_t>(index)], arena);
+  const auto self = static_cast<std::size_t>(mynode() - cube.first);
+  count_parcels(own, homes);
+  parcels_[self] = {};
+  for (std::size_t home = 0; home < homes.size(); ++home) {
+    Parcel& parcel = parcels_[home];
+    parcel.triangles = arena.take<Triangle>(parcel.triangle_count);
+    parcel.crossings = arena.take<Crossing>(parcel.crossing_count);
+  }
+  fill_parcels(own, static_cast<std::uint32_t>(self));
+  for (std::size_t i = 1; i < homes.size(); ++i) {
+    const std::size_t index = (self + i) % homes.size();  // so that not all send to the same node first
+    const Parcel& parcel = parcels_[index];
+    const long node = cube.first + static_cast<long>(index);
+    pending_.push_back(isend(triangles_from(mynode()), parcel.triangles.data(), bytes_of(parcel.triangles), node, 0));
+    pending_.push_back(isend(crossings_from(mynode()), parcel.crossings.data(), bytes_of(parcel.crossings), node, 0));
   }
 }
 
-void Exchange::send_triangles_to(int node, const Polygons& own, const LineRange& home, Arena& arena) {
-  Selection selection(arena.rest());
-  selection.add(own.triangles, own.stationary, home);
-  selection.add(own.triangles, own.moving, home);
-  const auto triangles = selection.triangles();
-  const auto crossings = selection.crossings();
-  arena.keep(triangles.size_bytes(), crossings.size_bytes());
-  pending_.push_back(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
-  pending_.push_back(isend(crossings_from(mynode()), crossings.data(), bytes_of(crossings), node, 0));
+// How much goes to each home. A triangle's crossings follow each other, so a home knows by the last one it met.
+void Exchange::count_parcels(const Polygons& own, std::span<const LineRange> homes) {
+  for (std::size_t home = 0; home < homes.size(); ++home) {
+    parcels_[home] = {};
+    const auto lines = std::span(home_of_).subspan(homes[home].first, homes[home].count());
+    std::fill(lines.begin(), lines.end(), static_cast<std::uint32_t>(home));
+  }
+  visit_all(own, [&](const Crossing& crossing) {
+    Parcel& parcel = parcels_[home_of_[crossing.line]];
+    parcel.triangle_count += std::exchange(parcel.met, crossing.box.triangle) != crossing.box.triangle;
+    ++parcel.crossing_count;
+  });
+}
+
+// As a node has its own: triangles in order and numbered anew, crossings from the last to the first.
+void Exchange::fill_parcels(const Polygons& own, std::uint32_t self) {
+  for (Parcel& parcel : parcels_) parcel.triangle_count = 0, parcel.met = kNoTriangle;
+  visit_all(own, [&](const Crossing& crossing) {
+    const std::uint32_t home = home_of_[crossing.line];
+    if (home == self) return;
+    Parcel& parcel = parcels_[home];
+    if (std::exchange(parcel.met, crossing.box.triangle) != crossing.box.triangle)
+      parcel.triangles[parcel.triangle_count++] = own.triangles[crossing.box.triangle];
+    Crossing& copy = parcel.crossings[--parcel.crossing_count] = crossing;
+    copy.box.triangle = static_cast<std::uint32_t>(parcel.triangle_count - 1);
+  });
 }
 
 Polygons Exchange::receive_triangles(const hal::Cube& cube, int number, Arena& arena) {
@@ -82,10 +86,10 @@ Polygons Exchange::receive_triangles(const hal::Cube& cube, int number, Arena& a
   const int node = cube.first + (self + cube.count - number) % cube.count;
   cprobe(triangles_from(node));
   const auto triangles = arena.take<Triangle>(static_cast<std::size_t>(infocount()) / sizeof(Triangle));
-  crecv(triangles_from(node), triangles.data(), bytes_of(std::span<const Triangle>(triangles)));
+  crecv(triangles_from(node), triangles.data(), bytes_of(triangles));
   cprobe(crossings_from(node));
   const auto crossings = arena.take<Crossing>(static_cast<std::size_t>(infocount()) / sizeof(Crossing));
-  crecv(crossings_from(node), crossings.data(), bytes_of(std::span<const Crossing>(crossings)));
+  crecv(crossings_from(node), crossings.data(), bytes_of(crossings));
   const auto stationary =
       std::partition_point(crossings.begin(), crossings.end(), [](const Crossing& c) { return c.moving == 1; });
   const auto moving = static_cast<std::size_t>(stationary - crossings.begin());
@@ -107,25 +111,27 @@ void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> hom
   for (int to = cube.first; to < cube.first + cube.count; ++to) {
     if (to == self || czb.head_of(to) != to || own.count() == 0 || !drawn_under(to)) continue;
     const auto lines = czb.lines(to == head ? LineRange{} : own);
-    pending_.push_back(isend(depth_lines_from(self), lines.data(), bytes_of(std::span<const float>(lines)), to, 0));
+    pending_.push_back(isend(depth_lines_from(self), lines.data(), bytes_of(lines), to, 0));
   }
   if (self == head && drawn_under(self)) {
     collect_depth(cube, homes, needed, czb);
     for (int node = cube.first; node < cube.first + cube.count; ++node)
-      if (node != self && drawn_at(node) && czb.head_of(node) == self) csend(depth_lines_from(self), nullptr, 0, node, 0);
+      if (node != self && drawn_at(node) && czb.head_of(node) == self)
+        csend(depth_lines_from(self), nullptr, 0, node, 0);
   } else if (drawn_at(self)) {
     crecv(depth_lines_from(head), nullptr, 0);
   }
   finish();
 }
 
-void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb) {
+void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
+                             Czb& czb) {
   const auto self = static_cast<int>(mynode());
   for (int from = cube.first; from < cube.first + cube.count; ++from) {
     const LineRange lines = overlap(homes[static_cast<std::size_t>(from - cube.first)], needed);
     if (from == self || lines.count() == 0) continue;
     const auto depth = czb.lines(czb.head_of(from) == self ? LineRange{} : lines);
-    pending_.push_back(irecv(depth_lines_from(from), depth.data(), static_cast<long>(depth.size_bytes())));
+    pending_.push_back(irecv(depth_lines_from(from), depth.data(), bytes_of(depth)));
   }
   finish();
 }

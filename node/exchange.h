@@ -2,6 +2,8 @@
 // afterwards CZB to those that will draw inbetweens.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,7 +16,8 @@ namespace mars::node {
 
 class Exchange {
  public:
-  explicit Exchange(int nodes);
+  // `nodes`: the most a cube has; `lines`: of a picture.
+  Exchange(int nodes, std::size_t lines);
 
   // Begins to send to every other node of the cube those of `own` triangles that have edge boxes on its lines,
   // `homes`, from copies in `arena`. They are gone after finish().
@@ -29,10 +32,22 @@ class Exchange {
                    std::span<const std::uint8_t> draws, Czb& czb);
 
  private:
-  void send_triangles_to(int node, const Polygons& own, const LineRange& home, Arena& arena);
+  // What goes to one home.
+  struct Parcel {
+    std::span<Triangle> triangles;
+    std::span<Crossing> crossings;
+    std::size_t triangle_count = 0;
+    std::size_t crossing_count = 0;
+    std::uint32_t met = kNoTriangle;  // the triangle last seen to go there
+  };
+
+  void count_parcels(const Polygons& own, std::span<const LineRange> homes);
+  void fill_parcels(const Polygons& own, std::uint32_t self);
   void collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
 
   std::vector<long> pending_;  // message ids
+  std::vector<Parcel> parcels_;
+  std::vector<std::uint32_t> home_of_;  // each line of some home: its index
 };
 
 }  // namespace mars::node

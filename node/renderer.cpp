@@ -37,7 +37,7 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
       arena_(load.memory),
       z_buffer_(kernels, scene_.width()),
       czb_(machines, load.cubes, scene_.width(), scene_.height()),
-      exchange_(static_cast<int>(numnodes())),
+      exchange_(static_cast<int>(numnodes()), film.settings().height),
       outbox_(film.settings().width, load.credits),
       draws_(static_cast<std::size_t>(numnodes())),
       line_counts_(film.settings().height),

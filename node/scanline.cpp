@@ -88,14 +88,18 @@ void ZBuffer::draw_inbetween(const LineBoxes& boxes, const LineRange& part, cons
     if (moving.empty()) continue;
     check(kept.has(line), "moving parts stay on the lines that were foreseen");
     std::uint32_t first = moving[0].first, last = moving[0].last;
-    for (const EdgeBox& box : moving) first = std::min<std::uint32_t>(first, box.first), last = std::max<std::uint32_t>(last, box.last);
+    for (const EdgeBox& box : moving) {
+      first = std::min<std::uint32_t>(first, box.first);
+      last = std::max<std::uint32_t>(last, box.last);
+    }
     std::copy_n(czb.lines({line, line + 1}).data() + first, last - first, depth() + first);
     draw(moving, shading, line, out.moving());
   }
 }
 
 // Draws the line's boxes, shades what their ids show and forgets these.
-void ZBuffer::draw(std::span<const EdgeBox> boxes, const Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {
+void ZBuffer::draw(std::span<const EdgeBox> boxes, const Shading& shading, std::uint32_t line,
+                   StripBuffer::Layer& out) {
   if (boxes.empty()) return;
   const Extent extent = kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
                                       depth(), ids());
