@@ -1,6 +1,7 @@
 #include "node/exchange.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "hal/failure.h"
@@ -34,42 +35,30 @@ Exchange::Exchange(int nodes, std::size_t lines) : parcels_(static_cast<std::siz
 }
 
 void Exchange::send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
-                              Arena& arena) {
+                              std::span<const std::uint32_t> line_counts, Arena& arena) {
   const auto self = static_cast<std::size_t>(mynode() - cube.first);
-  count_parcels(own, homes);
-  parcels_[self] = {};
+  if (homes.size() == 1) return;
   for (std::size_t home = 0; home < homes.size(); ++home) {
-    Parcel& parcel = parcels_[home];
-    parcel.triangles = arena.take<Triangle>(parcel.triangle_count);
-    parcel.crossings = arena.take<Crossing>(parcel.crossing_count);
+    const auto on_home = [&](const auto& lines) { return lines.subspan(homes[home].first, homes[home].count()); };
+    std::ranges::fill(on_home(std::span(home_of_)), static_cast<std::uint32_t>(home));
+    const auto counts = on_home(line_counts);
+    const std::size_t crossings = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    // Room for the most triangles that as many edge boxes can have; less is filled.
+    parcels_[home] = {arena.take<Triangle>(crossings), arena.take<Crossing>(crossings), 0, crossings, kNoTriangle};
   }
   fill_parcels(own, static_cast<std::uint32_t>(self));
   for (std::size_t i = 1; i < homes.size(); ++i) {
     const std::size_t index = (self + i) % homes.size();  // so that not all send to the same node first
     const Parcel& parcel = parcels_[index];
     const long node = cube.first + static_cast<long>(index);
-    pending_.push_back(isend(triangles_from(mynode()), parcel.triangles.data(), bytes_of(parcel.triangles), node, 0));
+    const auto triangles = parcel.triangles.first(parcel.triangle_count);
+    pending_.push_back(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
     pending_.push_back(isend(crossings_from(mynode()), parcel.crossings.data(), bytes_of(parcel.crossings), node, 0));
   }
 }
 
-// How much goes to each home. A triangle's crossings follow each other, so a home knows by the last one it met.
-void Exchange::count_parcels(const Polygons& own, std::span<const LineRange> homes) {
-  for (std::size_t home = 0; home < homes.size(); ++home) {
-    parcels_[home] = {};
-    const auto lines = std::span(home_of_).subspan(homes[home].first, homes[home].count());
-    std::fill(lines.begin(), lines.end(), static_cast<std::uint32_t>(home));
-  }
-  visit_all(own, [&](const Crossing& crossing) {
-    Parcel& parcel = parcels_[home_of_[crossing.line]];
-    parcel.triangle_count += std::exchange(parcel.met, crossing.box.triangle) != crossing.box.triangle;
-    ++parcel.crossing_count;
-  });
-}
-
 // As a node has its own: triangles in order and numbered anew, crossings from the last to the first.
 void Exchange::fill_parcels(const Polygons& own, std::uint32_t self) {
-  for (Parcel& parcel : parcels_) parcel.triangle_count = 0, parcel.met = kNoTriangle;
   visit_all(own, [&](const Crossing& crossing) {
     const std::uint32_t home = home_of_[crossing.line];
     if (home == self) return;

@@ -20,8 +20,9 @@ class Exchange {
   Exchange(int nodes, std::size_t lines);
 
   // Begins to send to every other node of the cube those of `own` triangles that have edge boxes on its lines,
-  // `homes`, from copies in `arena`. They are gone after finish().
-  void send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes, Arena& arena);
+  // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
+  void send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
+                      std::span<const std::uint32_t> line_counts, Arena& arena);
   // What another node, the `number`th of count - 1, sends; it lies in `arena`.
   Polygons receive_triangles(const hal::Cube& cube, int number, Arena& arena);
   void finish();
@@ -36,12 +37,11 @@ class Exchange {
   struct Parcel {
     std::span<Triangle> triangles;
     std::span<Crossing> crossings;
-    std::size_t triangle_count = 0;
-    std::size_t crossing_count = 0;
-    std::uint32_t met = kNoTriangle;  // the triangle last seen to go there
+    std::size_t triangle_count = 0;   // filled from the front
+    std::size_t crossing_count = 0;   // not filled yet, from the back
+    std::uint32_t met = kNoTriangle;  // the triangle last seen to go there: a triangle's crossings follow each other
   };
 
-  void count_parcels(const Polygons& own, std::span<const LineRange> homes);
   void fill_parcels(const Polygons& own, std::uint32_t self);
   void collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
 

@@ -266,7 +266,7 @@ void Renderer::send_strip(const hal::Cube& cube, const LineRange& lines, bool la
 // Edge boxes of all nodes on `lines`. While others' are on their way, the own ones are put into their lines.
 LineBoxes Renderer::gather_boxes(const hal::Cube& cube, const Polygons& own, const LineRange& lines,
                                  std::span<const LineRange> homes) {
-  exchange_.send_triangles(cube, own, homes, arena_);
+  exchange_.send_triangles(cube, own, homes, line_counts_, arena_);
   clock(Phase::exchange);
   LineFiller filler(lines, ebc_, own.triangles, arena_);
   filler.add(own);
