@@ -20,6 +20,7 @@ import pictures
 import ray_tracers
 from competitor import Competitor, Team, Trouble
 
+SCENES = ["s1", "s1m", "s2", "s3"]
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
 WARMING = 5          # frames before those that count
 FINE = 64            # quads along a patch's side that adaptive dicing is compared with
@@ -247,8 +248,19 @@ def processor_name():
 
 
 def read_command_line():
-    def numbers(text):
-        return [int(n) for n in text.split(",")]
+    here = len(os.sched_getaffinity(0))
+
+    def processors(text):
+        columns = [int(n) for n in text.split(",")]
+        if not all(1 <= n <= here for n in columns):
+            raise argparse.ArgumentTypeError(f"there are {here} processors to use here")
+        return columns
+
+    def scenes(text):
+        names = text.split(",")
+        if not set(names) <= set(SCENES):
+            raise argparse.ArgumentTypeError(f"the scenes are {', '.join(SCENES)}")
+        return names
 
     def size(text):
         return [int(n) for n in text.split("x")]
@@ -256,15 +268,15 @@ def read_command_line():
     parser = argparse.ArgumentParser(prog="mars bench peers", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--scenes", default="s1,s1m,s2,s3", type=lambda text: text.split(","))
+    parser.add_argument("--scenes", default=",".join(SCENES), type=scenes)
     parser.add_argument("--rounds", default=15, type=int)
-    parser.add_argument("--columns", default="1,2", type=numbers, help="numbers of processors")
+    parser.add_argument("--columns", default="1,2" if here > 1 else "1", type=processors, help="numbers of processors")
     parser.add_argument("--size", type=size, help="of the pictures, as 1920x1080")
     parser.add_argument("--dice", type=int, help="quads along a patch's side, in place of the scene's own")
     parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well, where nothing moves")
     parser.add_argument("--ray-tracers", action="store_true",
                         help="also POV-Ray and Tachyon, once each, where nothing moves")
-    parser.add_argument("-o", dest="output", metavar="FILE", help="all that was measured, as JSON")
+    parser.add_argument("-o", dest="output", metavar="FILE", type=argparse.FileType("w"), help="all that was measured, as JSON")
     return parser.parse_args()
 
 
@@ -277,7 +289,7 @@ def main():
             results.append(run_course(wanted, course, column))
             tell(results[-1])
     if wanted.output:
-        with open(wanted.output, "w") as file:
+        with wanted.output as file:
             json.dump({"machine": processor_name(), "rounds": wanted.rounds, "results": results}, file, indent=1)
     for result in results:
         check_alike(result)
