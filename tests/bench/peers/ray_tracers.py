@@ -62,7 +62,8 @@ light_source {{ {vector(1e6 * c for c in scene.to_light)} rgb {vector(scene.ligh
             corners = scene.triangles[first_triangle:first_triangle + triangles]
             print("mesh2 { vertex_vectors {", count, ",", ",".join(vector(v[:3]) for v in own),
                   "} normal_vectors {", count, ",", ",".join(vector(v[3:]) for v in own),
-                  "} face_indices {", triangles, ",", ",".join(f"<{a - first},{b - first},{c - first}>" for a, b, c in corners),
+                  "} face_indices {", triangles, ",",
+                  ",".join(f"<{a - first},{b - first},{c - first}>" for a, b, c in corners),
                   "} pigment { rgb", vector(scene.looks[look]), "} no_shadow }", file=file)
 
 
