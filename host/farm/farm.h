@@ -41,7 +41,7 @@ struct FinishedFrame {
   std::uint32_t interval;
   node::FrameKind kind;
   double seconds;  // since the first command, when its last strip had come and it was composed
-  double given;    // likewise, when its unit was given to a cube
+  double given = 0;  // likewise, when its unit was given to a cube
 };
 
 // Called from the thread that runs the farm.

@@ -215,7 +215,8 @@ constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 Renderer::Renderer(const Mesh& mesh, bool inbetweens)
     : mesh_(mesh), inbetweens_(inbetweens), width_(static_cast<GLsizei>(mesh.head.width)),
-      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), mover_(outlines_of(mesh, true)), pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
+      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), mover_(outlines_of(mesh, true)),
+      pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
   const MeshHead& head = mesh.head;
   program_ = link(head);
   glUseProgram(program_);
@@ -234,7 +235,8 @@ Renderer::Renderer(const Mesh& mesh, bool inbetweens)
   draw(false, kStill);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_);
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
+                    GL_NEAREST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   glPixelStorei(GL_PACK_ROW_LENGTH, width_);

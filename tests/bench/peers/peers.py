@@ -17,8 +17,10 @@ import time
 
 import films
 import pictures
+import ray_tracers
 from competitor import Competitor, Team, Trouble
 
+SCENES = ["s1", "s1m", "s2", "s3"]
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
 WARMING = 5          # frames before those that count
 FINE = 64            # quads along a patch's side that adaptive dicing is compared with
@@ -60,6 +62,7 @@ class Field:
         self.begin_peers()
         self.begin_ours("ours", self.film)
         self.adaptive = wanted.adaptive and not films.turning(film)
+        self.ray_tracers = wanted.ray_tracers and not films.turning(film)
         if self.adaptive:
             self.begin_ours("ours, adaptive", self.diced("adaptive"))
 
@@ -186,6 +189,10 @@ def result_of(field):
         fine = field.fine_picture()
         for row in rows:
             row["rms_fine"] = pictures.rms(fine, files[row["name"]])
+    if field.ray_tracers:
+        traced = ray_tracers.trace(field.mesh, field.column, field.processors, field.folder)
+        result["traced"] = [{"name": name, "milliseconds": milliseconds, "rms": pictures.rms(reference, file)}
+                            for name, milliseconds, file in traced]
     peers = [row for row in rows if not is_ours(row["name"])]
     if peers:
         best = min(peers, key=lambda row: row["best"])
@@ -222,6 +229,8 @@ def tell(result):
     print(f"\n{where}")
     for row in filter(is_alike, result["competitors"]):
         print(line_of(row, "rms", result.get("best_peer")))
+    for row in result.get("traced", []):
+        print(f"  {row['name']:24} {row['milliseconds']:8.0f}, once".ljust(48) + f"RMS {row['rms']:.2f}")
     if "latency" in result:
         print(f"  one inbetween of ours, from its beginning to its frame: {result['latency']:.2f}")
     if "rms_fine" in result["competitors"][0]:
@@ -232,9 +241,26 @@ def tell(result):
     sys.stdout.flush()
 
 
+def processor_name():
+    with open("/proc/cpuinfo") as file:
+        names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
 def read_command_line():
-    def numbers(text):
-        return [int(n) for n in text.split(",")]
+    here = len(os.sched_getaffinity(0))
+
+    def processors(text):
+        columns = [int(n) for n in text.split(",")]
+        if not all(1 <= n <= here for n in columns):
+            raise argparse.ArgumentTypeError(f"there are {here} processors to use here")
+        return columns
+
+    def scenes(text):
+        names = text.split(",")
+        if not set(names) <= set(SCENES):
+            raise argparse.ArgumentTypeError(f"the scenes are {', '.join(SCENES)}")
+        return names
 
     def size(text):
         return [int(n) for n in text.split("x")]
@@ -242,13 +268,15 @@ def read_command_line():
     parser = argparse.ArgumentParser(prog="mars bench peers", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--scenes", default="s1,s1m,s2,s3", type=lambda text: text.split(","))
+    parser.add_argument("--scenes", default=",".join(SCENES), type=scenes)
     parser.add_argument("--rounds", default=15, type=int)
-    parser.add_argument("--columns", default="1,2", type=numbers, help="numbers of processors")
+    parser.add_argument("--columns", default="1,2" if here > 1 else "1", type=processors, help="numbers of processors")
     parser.add_argument("--size", type=size, help="of the pictures, as 1920x1080")
     parser.add_argument("--dice", type=int, help="quads along a patch's side, in place of the scene's own")
     parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well, where nothing moves")
-    parser.add_argument("-o", dest="output", metavar="FILE", help="all that was measured, as JSON")
+    parser.add_argument("--ray-tracers", action="store_true",
+                        help="also POV-Ray and Tachyon, once each, where nothing moves")
+    parser.add_argument("-o", dest="output", metavar="FILE", type=argparse.FileType("w"), help="all that was measured, as JSON")
     return parser.parse_args()
 
 
@@ -261,8 +289,8 @@ def main():
             results.append(run_course(wanted, course, column))
             tell(results[-1])
     if wanted.output:
-        with open(wanted.output, "w") as file:
-            json.dump({"machine": platform.processor(), "rounds": wanted.rounds, "results": results}, file, indent=1)
+        with wanted.output as file:
+            json.dump({"machine": processor_name(), "rounds": wanted.rounds, "results": results}, file, indent=1)
     for result in results:
         check_alike(result)
 

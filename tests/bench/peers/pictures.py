@@ -6,10 +6,12 @@ import operator
 def read(path):
     """(width, height) and the bytes of a picture as the competitors write it."""
     with open(path, "rb") as file:
-        kind, size, most = (file.readline().split() for _ in range(3))
+        words = []
+        while len(words) < 4:
+            words += file.readline().partition(b"#")[0].split()
         pixels = file.read()
-    width, height = map(int, size)
-    if kind != [b"P6"] or most != [b"255"] or len(pixels) != 3 * width * height:
+    width, height = map(int, words[1:3])
+    if words[0] != b"P6" or words[3] != b"255" or len(pixels) != 3 * width * height:
         raise ValueError(f"{path}: not a whole PPM picture")
     return (width, height), pixels
 
