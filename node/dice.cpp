@@ -188,14 +188,16 @@ void Dicer::triangulate() {
   end_batches(false);
 }
 
-// Row by row the lower triangles of its quads, then the upper ones.
+// Row by row the lower triangles of its quads, then the upper ones: each row's are consecutive. Rows so short that most
+// of a batch would lie idle share theirs.
 void Dicer::fill_inside() {
+  const bool long_rows = columns_ - 1 > static_cast<int>(kExamined) / 2;
   for (int j = 0; j + 1 < rows_; ++j) {
     const int first = j * columns_, last = first + columns_ - 1;
     for (int a = first; a < last; ++a) add(a, a + 1, a + columns_ + 1);
-    end_batches(true);
+    if (long_rows) end_batches(true);
     for (int a = first; a < last; ++a) add(a, a + columns_ + 1, a + columns_);
-    end_batches(true);
+    if (long_rows) end_batches(true);
   }
 }
 

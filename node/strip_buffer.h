@@ -36,7 +36,7 @@ class StripBuffer {
 
   // A strip goes to the host when it has so many pixels: few enough to stay in a core's cache on their way, and
   // the host puts them in place while the node draws on.
-  static constexpr std::size_t kPixels = 65536;
+  static constexpr std::size_t kPixels = 131072;
   // Lines that may be drawn between one look at full() and the next.
   static constexpr std::uint32_t kLines = 8;
 
