@@ -20,7 +20,7 @@ LineRange part_of(const LineRange& range, std::uint32_t number, std::uint32_t pa
 
 // Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
 // piece of memory is rounded up.
-std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 16 * lines + 512 * nodes + 4096; }
+std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 24 * lines + 512 * nodes + 4096; }
 
 // Bytes of edge boxes that travel with their triangles, at most; and of those that lie in their lines.
 constexpr std::uint64_t kTravelling = sizeof(Triangle) + sizeof(Crossing);
