@@ -5,8 +5,9 @@
 
 namespace mars::node {
 
-Outbox::Outbox(std::size_t width, int credits)
-    : slots_{Slot{StripBuffer(width)}, Slot{StripBuffer(width)}}, credits_(credits) {}
+Outbox::Outbox(std::size_t width, int credits) : credits_(credits) {
+  for (int i = 0; i < credits; ++i) slots_.push_back(Slot{StripBuffer(width)});
+}
 
 StripBuffer& Outbox::begin(bool constant) {
   current_ = (current_ + 1) % slots_.size();

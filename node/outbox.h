@@ -1,7 +1,8 @@
-// Strips on their way to the host, two buffers in turn, and the credits that bound how many may be on the way.
+// Strips on their way to the host, a buffer for each credit: how many may be on
+// the way, so that a node draws on while the host is busy.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "node/strip_buffer.h"
 
@@ -30,7 +31,7 @@ class Outbox {
   void wait_for_credit(Strip& header);
   static void wait(Slot& slot);
 
-  std::array<Slot, 2> slots_;
+  std::vector<Slot> slots_;
   std::size_t current_ = 0;
   int credits_;
 };
