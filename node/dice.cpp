@@ -76,7 +76,8 @@ Dicer::Dicer(const Kernels& kernels)
   vertices_.x = places_.get();
   vertices_.y = places_.get() + kMostVertices;
   vertices_.outside = flags_.get();
-  triangles_ = {corners_.get(), corners_.get() + kMostTriangles, corners_.get() + 2 * kMostTriangles, 0, batches_.get(), 0};
+  const std::uint32_t* corners = corners_.get();
+  triangles_ = {corners, corners + kMostTriangles, corners + 2 * kMostTriangles, 0, batches_.get(), 0};
 }
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
@@ -136,7 +137,8 @@ void Dicer::mend_normals(const EyePatch& patch) {
   };
   for (int k = 0; k < columns_ * rows_; ++k)
     if (missing(k))
-      mend_normal(patch, k, static_cast<float>(k % columns_ + 1) / rates_.u, static_cast<float>(k / columns_ + 1) / rates_.v);
+      mend_normal(patch, k, static_cast<float>(k % columns_ + 1) / rates_.u,
+                  static_cast<float>(k / columns_ + 1) / rates_.v);
   for (const Side side : kSides) {
     const int s = static_cast<int>(side);
     const bool along_u = side == Side::bottom || side == Side::top;

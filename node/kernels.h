@@ -49,8 +49,8 @@ struct Fineness {
 };
 
 // Kernels work on whole vectors: every array of vertices, of triangles' corners and of pixels has room for this many
-// items more than are asked for, which may be written (with anything) or read. So has a line's depth and ids; there
-// what lies behind the line is read, and written back as it was.
+// items more than are asked for, which may be written (with anything) or read; corners there must be numbers of
+// vertices. So has a line's depth and ids; there what lies behind the line is read, and written back as it was.
 inline constexpr int kVectorSlack = 16;
 
 // Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then
@@ -208,9 +208,8 @@ struct Kernels {
   void (*keep)(const Vertices& vertices, const Triangles& triangles, const Batch& batch, const Examined& examined,
                std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 
-  // Draws `count` edge boxes of line `line`, in any order: a sample nearer than depth[x] takes over depth and id; of two
-  // triangles as near the lower patch's is seen, within a patch the first.
-  // Says which columns the boxes span.
+  // Draws `count` edge boxes of line `line`, in any order: a sample nearer than depth[x] takes over depth and id; of
+  // two triangles as near the lower patch's is seen, within a patch the first. Says which columns the boxes span.
   Extent (*draw)(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
                  float* depth, std::uint32_t* ids);
 

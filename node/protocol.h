@@ -5,7 +5,8 @@
 //   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or that they are there (types that say who sends)
+//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or that they are
+//                  there (types that say who sends)
 #pragma once
 
 #include <array>

@@ -53,7 +53,9 @@ void Renderer::render(const Render& command, std::span<const std::uint32_t> fram
   const hal::Cube cube{command.cube_first, command.cube_count};
   const auto index = static_cast<std::uint64_t>(mynode() - cube.first);
   const auto inbetweens = frames.subspan(1);
-  const auto artist = [&](std::size_t k) { return (command.first_inbetween + k) % static_cast<std::uint64_t>(cube.count); };
+  const auto artist = [&](std::size_t k) {
+    return (command.first_inbetween + k) % static_cast<std::uint64_t>(cube.count);
+  };
   command_ = command;
   scene_.set_interval(command.interval);
   lines_of_movers_ = scene_.lines_of_movers(inbetweens);

@@ -42,7 +42,8 @@ void LineFiller::add(const Polygons& polygons) {
     const std::uint32_t first = lines_.first, count = lines_.count();
     for (const Crossing crossing : crossings) {
       const std::uint32_t line = crossing.line - first;
-      if (line < count) put(line, EdgeBox{first_triangle + crossing.box.triangle, crossing.box.first, crossing.box.last});
+      const EdgeBox box{first_triangle + crossing.box.triangle, crossing.box.first, crossing.box.last};
+      if (line < count) put(line, box);
     }
   };
   EdgeBox* const boxes = boxes_.data();

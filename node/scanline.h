@@ -58,8 +58,8 @@ class ZBuffer {
  public:
   ZBuffer(const Kernels& kernels, std::int32_t width);
 
-  // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB). CZB of
-  // `kept` lines goes to `czb`.
+  // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB).
+  // CZB of `kept` lines goes to `czb`.
   void draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& kept,
                      Czb& czb, StripBuffer& out);
   // Draws moving parts of these lines against `czb`, whose `kept` lines have all of them, and each other.

@@ -87,7 +87,8 @@ struct FewVertices {
   alignas(64) float values[kFew][kValues];
 
   Vertices view() {
-    return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, values, places[0], places[1], flags};
+    return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, values, places[0],
+            places[1], flags};
   }
 };
 

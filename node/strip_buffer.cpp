@@ -8,7 +8,8 @@ namespace {
 // `items` to `at`, which they may overlap; returns what comes behind them.
 template <typename T>
 std::byte* put(std::span<const T> items, std::byte* at) {
-  if (!items.empty() && static_cast<const void*>(items.data()) != at) std::memmove(at, items.data(), items.size_bytes());
+  const bool there = static_cast<const void*>(items.data()) == at;
+  if (!there && !items.empty()) std::memmove(at, items.data(), items.size_bytes());
   return at + items.size_bytes();
 }
 

@@ -35,7 +35,7 @@ FarmReport two_nodes_two_frames() {
     report.nodes.push_back(hello);
   }
   report.strips = {strip_of(1, 1, 1), strip_of(0, 1, 0), strip_of(0, 1, 1), strip_of(0, 0, 1)};
-  report.frames = {{1, 0, node::FrameKind::inbetween, 0.5}, {0, 0, node::FrameKind::keyframe, 0.25}};
+  report.frames = {{1, 0, node::FrameKind::inbetween, 0.5, 0}, {0, 0, node::FrameKind::keyframe, 0.25, 0}};
   report.film_bytes = 4096;
   report.total_seconds = 3;
   return report;
