@@ -13,7 +13,8 @@ class Rendering(ClusterTest):
 
     def assertRendered(self, output, nodes):
         """All hosts took part, and drew what one process draws."""
-        booted = next(event for event in events(output) if event["event"] == "booted")
+        booted = next((event for event in events(output) if event["event"] == "booted"), None)
+        self.assertIsNotNone(booted, output)
         self.assertEqual(len(booted["nodes"]), nodes)
         self.assertEqual(booted["machines"], len(HOSTS))
         self.assertEqual({node["host"] for node in booted["nodes"]}, set(HOSTS))
