@@ -126,12 +126,36 @@ TEST(Boundaries, HostAndNodeShareTheProtocol) {
   }
 }
 
-// Kernels are compiled for several CPUs: what they share with others must be plain.
-TEST(Boundaries, KernelsIncludeNoTemplates) {
+// Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide
+// CPU's copy of an inline function for all.
+TEST(Boundaries, KernelsIncludeLittle) {
+  const Files allowed = {"bit", "cstddef", "cstring", "hwy/highway.h", "node/kernels.h", "node/kernels/simd.h"};
+  int seen = 0;
   for (const Source& source : sources()) {
-    if (source.path != "node/kernels.cpp") continue;
-    EXPECT_EQ(source.includes, (std::vector<std::string>{"cmath", "node/kernels.h"}));
+    if (!begins(source.path, "node/kernels/")) continue;
+    ++seen;
+    for (const std::string& include : source.includes)
+      EXPECT_TRUE(allowed.count(include)) << source.path << " includes " << include;
   }
+  EXPECT_GT(seen, 5) << "nothing to scan: the test is broken";
+  expect_within(files_including(std::regex("^hwy/")), "node/kernels/");
+}
+
+// Frames are exact: only the peers of a benchmark, other people's renderers in our harness, may be built otherwise.
+TEST(Boundaries, FastMathOnlyForPeers) {
+  int scanned = 0;
+  for (const char* folder : {"hal", "host", "node", "topology", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(MARS_SOURCE_DIR) / folder)) {
+      if (entry.path().filename() != "CMakeLists.txt") continue;
+      ++scanned;
+      const std::string path = fs::relative(entry.path(), MARS_SOURCE_DIR).generic_string();
+      const bool fast = std::regex_search(read(entry.path()), std::regex("fast-math|fp-contract=fast|Ofast"));
+      EXPECT_TRUE(!fast || path == "tests/bench/peers/CMakeLists.txt") << path;
+    }
+  EXPECT_GT(scanned, 10) << "nothing to scan: the test is broken";
+  const std::string root = read(fs::path(MARS_SOURCE_DIR) / "CMakeLists.txt");
+  EXPECT_FALSE(std::regex_search(root, std::regex("fast-math|fp-contract=fast|Ofast")));
+  EXPECT_NE(root.find("-ffp-contract=off"), std::string::npos);
 }
 
 }  // namespace

@@ -55,4 +55,14 @@ void obey(const Competitor& competitor) {
   while (const auto frames = orders.next_go()) orders.tell_milliseconds(render(competitor, *frames));
 }
 
+int main_of(const char* name, const std::function<void()>& run) {
+  try {
+    run();
+    return 0;
+  } catch (const std::exception& failure) {
+    std::cerr << name << ": " << failure.what() << '\n';
+    return 1;
+  }
+}
+
 }  // namespace mars::bench

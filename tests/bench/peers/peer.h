@@ -49,6 +49,9 @@ struct Competitor {
 // Obeys until the input ends.
 void obey(const Competitor& competitor);
 
+// A competitor's main: its exit code after `run`, whose failure is told under its `name`.
+int main_of(const char* name, const std::function<void()>& run);
+
 inline double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }

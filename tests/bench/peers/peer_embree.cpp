@@ -8,7 +8,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -367,11 +366,5 @@ void run(int argc, char** argv) {
 }  // namespace mars::bench
 
 int main(int argc, char** argv) {
-  try {
-    mars::bench::run(argc, argv);
-    return 0;
-  } catch (const std::exception& failure) {
-    std::cerr << "peer-embree: " << failure.what() << '\n';
-    return 1;
-  }
+  return mars::bench::main_of("peer-embree", [&] { mars::bench::run(argc, argv); });
 }

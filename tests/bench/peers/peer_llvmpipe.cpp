@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -347,11 +346,5 @@ void run(int argc, char** argv) {
 }  // namespace mars::bench
 
 int main(int argc, char** argv) {
-  try {
-    mars::bench::run(argc, argv);
-    return 0;
-  } catch (const std::exception& failure) {
-    std::cerr << "peer-llvmpipe: " << failure.what() << '\n';
-    return 1;
-  }
+  return mars::bench::main_of("peer-llvmpipe", [&] { mars::bench::run(argc, argv); });
 }
