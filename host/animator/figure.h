@@ -10,7 +10,7 @@
 
 #include "host/animator/channel.h"
 #include "host/animator/rotation.h"
-#include "host/model/model.h"
+#include "host/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,5 +1,5 @@
 // A whole file into memory, for every reader of models and films. What cannot be read is one Failure that
-// names the file. (Files are written by host/sinks/whole_file.h.)
+// names the file. (whole_file.h writes them.)
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 #include "hal/failure.h"
 #include "host/film/film_file.h"
 #include "host/film/intervals.h"
-#include "host/film/read_film.h"
+#include "host/animator/read_film.h"
 
 namespace mars::host {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "host/film/film.h"
+#include "host/animator/film.h"
 #include "node/film.h"
 
 namespace mars::host {

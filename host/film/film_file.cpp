@@ -7,7 +7,7 @@
 #include "hal/failure.h"
 #include "host/document/file.h"
 #include "host/sinks/checksum.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 
 namespace mars::host {
 namespace {

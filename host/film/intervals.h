@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "host/film/film.h"
+#include "host/animator/film.h"
 #include "node/film.h"
 
 namespace mars::host {

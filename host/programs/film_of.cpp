@@ -1,6 +1,6 @@
 #include "host/programs/film_of.h"
 
-#include "host/film/read_film.h"
+#include "host/animator/read_film.h"
 
 namespace mars::host {
 namespace {

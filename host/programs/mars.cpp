@@ -13,7 +13,7 @@
 #include "host/film/film_file.h"
 #include "host/launch/bench.h"
 #include "host/launch/launch.h"
-#include "host/model/patch_file.h"
+#include "host/modeler/patch_file.h"
 #include "host/options/command_line.h"
 #include "host/programs/film_of.h"
 #include "host/programs/node_job.h"

@@ -15,7 +15,7 @@
 #include "host/sinks/checksum.h"
 #include "host/sinks/frame_folder.h"
 #include "host/sinks/sink_pool.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 #include "host/trace/trace_file.h"
 #include "topology/machine.h"
 

@@ -7,7 +7,7 @@
 
 #include "hal/failure.h"
 #include "host/sinks/png_file.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 #include "node/film.h"
 
 namespace mars::host {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "hal/failure.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 #include "node/film.h"
 
 namespace mars::host {

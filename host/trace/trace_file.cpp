@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "hal/message_types.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 #include "host/trace/timeline.h"
 
 namespace mars::host {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "host/model/primitives.h"
-#include "host/model/teapot.h"
+#include "host/modeler/primitives.h"
+#include "host/modeler/teapot.h"
 
 namespace mars::test {
 namespace {

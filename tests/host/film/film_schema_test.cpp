@@ -6,8 +6,8 @@
 
 #include "host/document/file.h"
 #include "host/film/compile.h"
-#include "host/film/read_film.h"
-#include "host/model/read_model.h"
+#include "host/animator/read_film.h"
+#include "host/modeler/read_model.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/film/read_film.h"
+#include "host/animator/read_film.h"
 
 #include <gtest/gtest.h>
 

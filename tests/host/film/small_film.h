@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/film/compile.h"
-#include "host/film/read_film.h"
+#include "host/animator/read_film.h"
 
 namespace mars::host {
 

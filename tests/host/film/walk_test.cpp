@@ -10,7 +10,7 @@
 #include <string>
 
 #include "host/film/compile.h"
-#include "tests/host/model/surface.h"
+#include "tests/host/modeler/surface.h"
 
 namespace mars::host {
 namespace {

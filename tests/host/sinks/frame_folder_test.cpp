@@ -7,7 +7,7 @@
 
 #include "host/sinks/png_file.h"
 #include "host/sinks/verify.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 #include "tests/host/document/failure_of.h"
 #include "tests/host/sinks/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 #include "tests/host/document/failure_of.h"
 #include "tests/host/sinks/temporary_folder.h"
 

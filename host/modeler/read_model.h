@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/document/fields.h"
-#include "host/model/model.h"
+#include "host/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/model/loft.h"
+#include "host/modeler/loft.h"
 
 #include <algorithm>
 #include <array>

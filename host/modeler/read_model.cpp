@@ -1,4 +1,4 @@
-#include "host/model/read_model.h"
+#include "host/modeler/read_model.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include "host/model/body_shapes.h"
-#include "host/model/primitives.h"
-#include "host/model/teapot.h"
+#include "host/modeler/body_shapes.h"
+#include "host/modeler/primitives.h"
+#include "host/modeler/teapot.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/model/read_model.h"
+#include "host/modeler/read_model.h"
 
 #include <gtest/gtest.h>
 

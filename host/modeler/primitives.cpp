@@ -1,4 +1,4 @@
-#include "host/model/primitives.h"
+#include "host/modeler/primitives.h"
 
 #include <array>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "host/film/read_film.h"
+#include "host/animator/read_film.h"
 
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "host/film/read_keys.h"
-#include "host/model/read_model.h"
+#include "host/animator/read_keys.h"
+#include "host/modeler/read_model.h"
 #include "node/film.h"
 
 namespace mars::host {

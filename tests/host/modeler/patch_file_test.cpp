@@ -1,12 +1,12 @@
-#include "host/model/patch_file.h"
+#include "host/modeler/patch_file.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "host/model/read_model.h"
-#include "host/model/teapot.h"
+#include "host/modeler/read_model.h"
+#include "host/modeler/teapot.h"
 #include "tests/host/document/failure_of.h"
 
 namespace mars::host {

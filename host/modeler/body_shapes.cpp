@@ -1,9 +1,9 @@
-#include "host/model/body_shapes.h"
+#include "host/modeler/body_shapes.h"
 
 #include <cstddef>
 #include <utility>
 
-#include "host/model/loft.h"
+#include "host/modeler/loft.h"
 
 namespace mars::host {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/animator/figure.h"
-#include "host/model/model.h"
+#include "host/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,11 +1,11 @@
-#include "host/model/body_shapes.h"
+#include "host/modeler/body_shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "host/model/loft.h"
-#include "tests/host/model/surface.h"
+#include "host/modeler/loft.h"
+#include "tests/host/modeler/surface.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
-#include "host/model/primitives.h"
+#include "host/modeler/primitives.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "host/model/teapot.h"
-#include "tests/host/model/surface.h"
+#include "host/modeler/teapot.h"
+#include "tests/host/modeler/surface.h"
 
 namespace mars::host {
 namespace {

@@ -1,6 +1,6 @@
-#include "host/model/teapot.h"
+#include "host/modeler/teapot.h"
 
-#include "host/model/teapot_data.h"
+#include "host/modeler/teapot_data.h"
 
 namespace mars::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/model/model.h"
+#include "host/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>

@@ -1,4 +1,4 @@
-#include "host/model/model.h"
+#include "host/modeler/model.h"
 
 #include <algorithm>
 

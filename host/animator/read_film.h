@@ -6,7 +6,7 @@
 #include <span>
 
 #include "host/document/fields.h"
-#include "host/film/film.h"
+#include "host/animator/film.h"
 
 namespace mars::host {
 

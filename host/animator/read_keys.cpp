@@ -1,4 +1,4 @@
-#include "host/film/read_keys.h"
+#include "host/animator/read_keys.h"
 
 namespace mars::host {
 

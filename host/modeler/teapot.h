@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host/model/model.h"
+#include "host/modeler/model.h"
 
 namespace mars::host {
 

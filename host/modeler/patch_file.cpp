@@ -1,4 +1,4 @@
-#include "host/model/patch_file.h"
+#include "host/modeler/patch_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 #include "hal/failure.h"
 #include "host/document/fields.h"
 #include "host/document/file.h"
-#include "host/sinks/whole_file.h"
+#include "host/document/whole_file.h"
 
 namespace mars::host {
 namespace {

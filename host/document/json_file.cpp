@@ -1,0 +1,67 @@
+#include "host/document/json_file.h"
+
+#include "host/document/file.h"
+#include "host/document/whole_file.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::size_t kColumns = 110;
+constexpr std::size_t kIndent = 2;
+
+// On one line, or "" if that takes more than `room` columns.
+std::string on_one_line(const Json& json, std::size_t room) {
+  if (!json.is_structured()) return json.dump();
+  std::string line(1, json.is_array() ? '[' : '{');
+  for (auto item = json.begin(); item != json.end(); ++item) {
+    if (item != json.begin()) line += ", ";
+    if (json.is_object()) line += Json(item.key()).dump() + ": ";
+    const std::string value = line.size() < room ? on_one_line(*item, room - line.size()) : "";
+    if (value.empty()) return "";
+    line += value;
+  }
+  line += json.is_array() ? ']' : '}';
+  return line.size() <= room ? line : "";
+}
+
+// `before`: columns that stand before the value on its first line.
+void lay_out(const Json& json, std::size_t indent, std::size_t before, std::string& text) {
+  const std::size_t room = before < kColumns ? kColumns - before : 0;
+  if (const std::string line = on_one_line(json, room); !line.empty() || !json.is_structured()) {
+    text.append(line);
+    return;
+  }
+  text += json.is_array() ? "[" : "{";
+  const std::string margin(indent + kIndent, ' ');
+  for (auto item = json.begin(); item != json.end(); ++item) {
+    text += (item == json.begin() ? "\n" : ",\n") + margin;
+    const std::string key = json.is_object() ? Json(item.key()).dump() + ": " : "";
+    text += key;
+    lay_out(*item, indent + kIndent, margin.size() + key.size() + 1, text);
+  }
+  text += "\n" + std::string(indent, ' ') + (json.is_array() ? "]" : "}");
+}
+
+}  // namespace
+
+Json read_json(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  const Document checked(text, path.string());
+  return Json::parse(text);
+}
+
+std::string laid_out(const Json& json) {
+  std::string text;
+  lay_out(json, 0, 0, text);
+  return text + "\n";
+}
+
+void write_json(const std::filesystem::path& path, const Json& json,
+                const std::function<void(const Element&)>& check) {
+  const std::string text = laid_out(json);
+  const Document document(text, path.string());
+  check(document.root());
+  write_whole_file(path, text);
+}
+
+}  // namespace mars::host

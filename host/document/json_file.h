@@ -1,0 +1,27 @@
+// JSON files that our commands change: read, changed in memory, checked by the file's own reader, and only then
+// written, whole. What a person wrote keeps its order; it is laid out anew.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/document/document.h"
+
+namespace mars::host {
+
+using Json = nlohmann::ordered_json;
+
+// Refuses what read_document() refuses, with the line.
+Json read_json(const std::filesystem::path& path);
+
+// As a person would write it: a list or object that fits in 110 columns stands on one line.
+std::string laid_out(const Json& json);
+
+// Writes the file if `check` does not throw at what it would hold; else the file stays as it was. Failures name
+// the lines of the file as it would be.
+void write_json(const std::filesystem::path& path, const Json& json,
+                const std::function<void(const Element& root)>& check);
+
+}  // namespace mars::host

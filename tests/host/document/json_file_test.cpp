@@ -1,0 +1,66 @@
+// Files that commands change: laid out for people, written only if what reads them agrees.
+#include "host/document/json_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "hal/failure.h"
+#include "host/document/fields.h"
+#include "tests/host/document/failure_of.h"
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(JsonFile, WhatFitsStandsOnOneLine) {
+  const Json json = {{"name", "lamp \"a\""}, {"place", {0.1, -2.5, 1e-9}}, {"limits", Json::object()}};
+  EXPECT_EQ(laid_out(json), "{\"name\": \"lamp \\\"a\\\"\", \"place\": [0.1, -2.5, 1e-09], \"limits\": {}}\n");
+}
+
+TEST(JsonFile, WhatDoesNotFitIsIndentedAndKeepsItsOrder) {
+  const std::string word(60, 'w');
+  const Json json = {{"z", word}, {"a", {word, {{"k", 1}}, Json::array()}}};
+  EXPECT_EQ(laid_out(json), "{\n  \"z\": \"" + word + "\",\n  \"a\": [\"" + word + "\", {\"k\": 1}, []]\n}\n");
+  EXPECT_EQ(Json::parse(laid_out(json)), json);
+}
+
+TEST(JsonFile, NoLineIsLongerThanItMustBe) {
+  Json json = Json::array();
+  for (int i = 0; i < 60; ++i) json.push_back({{"frame", i}, {"pose", {{"knee", {0, i * 1.25, 0}}}}});
+  const std::string text = laid_out({{"keys", json}});
+  for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    EXPECT_LE(end - at, 110u);
+  EXPECT_EQ(Json::parse(text).at("keys"), json);
+}
+
+TEST(JsonFile, WhatIsRefusedLeavesTheFileAsItWas) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.json";
+  const auto accept = [](const Element&) {};
+  write_json(path, {{"a", 1}}, accept);
+  EXPECT_EQ(read_json(path), Json({{"a", 1}}));
+  const auto refuse = [](const Element& root) { root.find("a")->refuse("is two", "write one"); };
+  EXPECT_THROW(write_json(path, {{"a", 2}}, refuse), Failure);
+  EXPECT_EQ(content(path), "{\"a\": 1}\n");
+}
+
+TEST(JsonFile, ABrokenFileIsToldWithItsLine) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.json";
+  std::ofstream(path) << "{\n  \"a\": 1,\n  \"a\": 2\n}\n";
+  try {
+    read_json(path);
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_NE(reason_of(failure).find("a.json:3"), std::string::npos) << reason_of(failure);
+  }
+}
+
+}  // namespace
+}  // namespace mars::host
