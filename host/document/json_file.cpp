@@ -34,12 +34,13 @@ void lay_out(const Json& json, std::size_t indent, std::size_t before, std::stri
   text += json.is_array() ? "[" : "{";
   const std::string margin(indent + kIndent, ' ');
   for (auto item = json.begin(); item != json.end(); ++item) {
-    text += (item == json.begin() ? "\n" : ",\n") + margin;
-    const std::string key = json.is_object() ? Json(item.key()).dump() + ": " : "";
+    text += item == json.begin() ? "\n" : ",\n";
+    text += margin;
+    const std::string key = json.is_object() ? Json(item.key()).dump().append(": ") : "";
     text += key;
     lay_out(*item, indent + kIndent, margin.size() + key.size() + 1, text);
   }
-  text += "\n" + std::string(indent, ' ') + (json.is_array() ? "]" : "}");
+  text.append(1, '\n').append(indent, ' ').append(1, json.is_array() ? ']' : '}');
 }
 
 }  // namespace
