@@ -1,10 +1,15 @@
 #include "host/launch/diagnosis.h"
 
+#include <netdb.h>
 #include <signal.h>
+#include <sys/socket.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <regex>
+#include <set>
 
 #include "host/launch/mpi_words.h"
 
@@ -12,9 +17,13 @@ namespace mars::host {
 
 namespace {
 
-std::string join(const std::deque<std::string>& lines) {
+constexpr std::size_t kShownWords = 40;  // lines of what is not understood
+
+// The last `most` lines as one text.
+std::string join(const std::deque<std::string>& lines, std::size_t most) {
   std::string text;
-  for (const std::string& line : lines) text += line + "\n";
+  const auto skipped = lines.size() - std::min(most, lines.size());
+  for (auto line = lines.begin() + static_cast<std::ptrdiff_t>(skipped); line != lines.end(); ++line) text += *line + "\n";
   return text;
 }
 
@@ -64,12 +73,44 @@ std::optional<Failure> lost_rank(const std::string& words, const std::optional<B
                  remedy_for(signal));
 }
 
-// "ORTE has lost communication with a remote daemon. ... Remote daemon: [[6456,0],2] on node n3"
-std::optional<Failure> lost_machine(const std::string& words) {
-  static const std::regex form("lost communication with a remote daemon[^]*Remote daemon: \\S+ on node (\\S+)");
+// The machine's name, or the address itself where none is known.
+std::string name_of(const std::string& address) {
+  addrinfo numeric{}, *found = nullptr;
+  numeric.ai_flags = AI_NUMERICHOST;
+  if (getaddrinfo(address.c_str(), nullptr, &numeric, &found) != 0) return address;
+  char name[NI_MAXHOST] = "";
+  const int failed = getnameinfo(found->ai_addr, found->ai_addrlen, name, sizeof name, nullptr, 0, NI_NAMEREQD);
+  freeaddrinfo(found);
+  return failed == 0 ? name : address;
+}
+
+std::string machines_of(const Booted& booted) {
+  std::set<std::string> names;
+  for (const Booted::Node& node : booted.nodes) names.insert(node.host);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : " or ") + name;
+  return list;
+}
+
+// Which machine was lost, if the words tell of such a loss. Open MPI has three ways to say it:
+// "ORTE has lost communication with a remote daemon. ... Remote daemon: [[6456,0],2] on node n3";
+// where the daemon's ssh ends first "ORTE was unable to reliably start one or more daemons", long after they have
+// started; and a rank's "connect() to 10.77.0.14:1028 failed", which alone tells the machine then.
+std::optional<std::string> machine_lost(const std::string& words, const std::optional<Booted>& booted) {
+  static const std::regex daemon("lost communication with a remote daemon[^]*Remote daemon: \\S+ on node (\\S+)");
+  static const std::regex connection("connect\\(\\) to (\\S+):\\d+ failed");
   std::smatch match;
-  if (!std::regex_search(words, match, form)) return std::nullopt;
-  return Failure("nothing is heard of it any more", "machine " + match[1].str(),
+  if (std::regex_search(words, match, daemon)) return match[1].str();
+  if (!booted) return std::nullopt;
+  if (std::regex_search(words, match, connection)) return name_of(match[1].str());
+  if (words.find("unable to reliably start one or more daemons") != std::string::npos) return machines_of(*booted);
+  return std::nullopt;
+}
+
+std::optional<Failure> lost_machine(const std::string& words, const std::optional<Booted>& booted) {
+  const std::optional<std::string> machine = machine_lost(words, booted);
+  if (!machine) return std::nullopt;
+  return Failure("nothing is heard of it any more", "machine " + *machine,
                  "see whether it still runs and can be reached; --frames renders what is missing");
 }
 
@@ -89,7 +130,7 @@ Failure unknown(const Remains& remains) {
   const std::string how = remains.ending.code == 0
                               ? " ended before all frames were there"
                               : " ended with exit code " + std::to_string(remains.ending.code);
-  const std::string words = join(remains.last_words);
+  const std::string words = join(remains.last_words, kShownWords);
   return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
 }
 
@@ -110,9 +151,9 @@ Failure diagnose(const Remains& remains, const RenderOptions& options, const Adv
     return remains.booted ? failure : with_advice(failure, advice);
   };
   if (const auto own = own_words(remains.last_words)) return advised(*own);
-  const std::string words = join(remains.last_words);
+  const std::string words = join(remains.last_words, remains.last_words.size());
   if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);
-  if (const auto lost = lost_machine(words)) return *lost;
+  if (const auto lost = lost_machine(words, remains.booted)) return *lost;
   if (const auto known = meaning_of(words)) return *known;
   return advised(unknown(remains));
 }

@@ -17,7 +17,7 @@ namespace mars::host {
 
 namespace {
 
-constexpr std::size_t kLastWords = 40;  // lines
+constexpr std::size_t kLastWords = 400;  // lines: each rank may tell the same loss in its own dozen
 constexpr std::chrono::seconds kSlowStart{20};  // until a person is told that no node has answered
 constexpr std::chrono::seconds kLongestTrial{30};
 

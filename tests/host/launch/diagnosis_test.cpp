@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
+
 #include "tests/host/document/failure_of.h"
 
 namespace mars::host {
@@ -56,6 +58,27 @@ TEST(Diagnosis, OfALostMachine) {
                                  "  Remote daemon: [[6456,0],2] on node n3"})),
             "machine n3: nothing is heard of it any more (see whether it still runs and can be reached; "
             "--frames renders what is missing)");
+}
+
+// The ssh of a machine's daemon may end before the daemon is missed.
+TEST(Diagnosis, OfAMachineWhoseDaemonEndsFirst) {
+  Remains remains = failed_with({"ORTE was unable to reliably start one or more daemons.", "",
+                                 "  Message:    connect() to 127.0.0.1:1028 failed"});
+  EXPECT_TRUE(holds(message(remains), "cannot start on another machine")) << "nothing had booted";
+  remains.booted = Booted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n4", 2, "", "sse2"}, {2, "n4", 3, "", "sse2"}}};
+  EXPECT_TRUE(holds(message(remains), "machine localhost: nothing is heard of it any more"));
+  remains.last_words.back() = "  Message:    connect() to n4-ib0:1028 failed";
+  EXPECT_TRUE(holds(message(remains), "machine n4-ib0: nothing is heard of it any more")) << "no address";
+  remains.last_words.pop_back();
+  EXPECT_TRUE(holds(message(remains), "machine n1 or n4: nothing is heard of it any more"));
+}
+
+TEST(Diagnosis, ShowsTheLastOfManyWords) {
+  std::deque<std::string> words(300, "earlier");
+  words.push_back("at last");
+  const std::string told = message(failed_with(words));
+  EXPECT_TRUE(holds(told, "at last"));
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 41) << told;
 }
 
 TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {
