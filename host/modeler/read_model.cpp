@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
-#include "host/modeler/body_shapes.h"
-#include "host/modeler/primitives.h"
-#include "host/modeler/teapot.h"
+#include "host/modeler/shape_library.h"
 
 namespace mars::host {
 namespace {
@@ -34,44 +33,6 @@ constexpr const Keys& kMaterial = kKeys[4];
 
 constexpr Range kDegrees{-1e6, 1e6};
 constexpr double kLeastSine = 1e-3;  // between a joint's axes
-
-// A primitive: its option's key ("" for none), default and range, and its maker.
-struct Primitive {
-  std::string_view name;
-  std::string_view option;
-  double otherwise;
-  Range range;
-  std::vector<node::Patch> (*make)(double);
-};
-
-template <BodyPart part>
-std::vector<node::Patch> of_body(double) {
-  return make_body(part);
-}
-
-constexpr Primitive kPrimitives[] = {
-    {"box", "", 0, {}, [](double) { return make_box(); }},
-    {"sphere", "", 0, {}, [](double) { return make_sphere(); }},
-    {"cylinder", "", 0, {}, [](double) { return make_cylinder(); }},
-    {"cone", "top", 0, {0, 1}, make_cone},
-    {"torus", "tube", 0.125, {0.001, 0.2499}, make_torus},
-    {"teapot", "lid", 1.077, {0.1, 2}, make_teapot},
-    {"head", "", 0, {}, of_body<BodyPart::head>},
-    {"hair", "", 0, {}, of_body<BodyPart::hair>},
-    {"neck", "", 0, {}, of_body<BodyPart::neck>},
-    {"torso", "", 0, {}, of_body<BodyPart::torso>},
-    {"abdomen", "", 0, {}, of_body<BodyPart::abdomen>},
-    {"pelvis", "", 0, {}, of_body<BodyPart::pelvis>},
-    {"upper_arm", "", 0, {}, of_body<BodyPart::upper_arm>},
-    {"sleeve", "", 0, {}, of_body<BodyPart::sleeve>},
-    {"forearm", "", 0, {}, of_body<BodyPart::forearm>},
-    {"left_hand", "", 0, {}, of_body<BodyPart::left_hand>},
-    {"right_hand", "", 0, {}, of_body<BodyPart::right_hand>},
-    {"thigh", "", 0, {}, of_body<BodyPart::thigh>},
-    {"shin", "", 0, {}, of_body<BodyPart::shin>},
-    {"foot", "", 0, {}, of_body<BodyPart::foot>},
-    {"toes", "", 0, {}, of_body<BodyPart::toes>},
-};
 
 std::vector<std::string_view> names_of(const auto& items) {
   std::vector<std::string_view> names;
@@ -116,9 +77,7 @@ class ModelReader {
     require_kind(element, Kind::object);
     for (const Element item : element) {
       const std::string name = checked_name(item, item.key());
-      if (std::any_of(std::begin(kPrimitives), std::end(kPrimitives),
-                      [&](const Primitive& p) { return p.name == name; }))
-        item.refuse("has the name of a primitive", "choose another name");
+      if (find_library_shape(name)) item.refuse("has the name of a primitive", "choose another name");
       require_kind(item, Kind::list);
       if (item.size() == 0) item.refuse("has no patches", "give at least one, or take the shape out");
       Shape& shape = model_.shapes.emplace_back(Shape{name, {}});
@@ -128,36 +87,49 @@ class ModelReader {
     own_shapes_ = model_.shapes.size();
   }
 
-  // The shape that `fields` names: one of the model's own, or a primitive, made once for each value of its
+  // The shape that `fields` names: one of the model's own, or of the library, made once for each value of its
   // option.
   std::size_t read_shape(const Fields& fields) {
     const Element element = fields.required("shape");
     const std::string name = read_text(element);
-    const Primitive* primitive = std::find_if(std::begin(kPrimitives), std::end(kPrimitives),
-                                              [&](const Primitive& p) { return p.name == name; });
-    refuse_other_options(fields, primitive == std::end(kPrimitives) ? "" : primitive->option, name);
-    if (primitive == std::end(kPrimitives)) return find_own_shape(element, name);
-    const double option = primitive->option.empty()
-                              ? 0
-                              : fields.number(primitive->option, primitive->otherwise, primitive->range);
-    const auto [made, is_new] =
-        primitives_.try_emplace(name + " " + std::to_string(option), model_.shapes.size());
-    if (is_new) model_.shapes.push_back({name, primitive->make(option)});
+    const LibraryShape* known = find_library_shape(name);
+    refuse_other_options(fields, known ? known->option.key : "", name);
+    if (!known) return find_own_shape(element, name);
+    const OptionValues values = read_option(fields, *known);
+    const auto [made, is_new] = library_.try_emplace({known->name, values}, model_.shapes.size());
+    if (is_new) model_.shapes.push_back({name, known->make(values)});
     return made->second;
   }
 
+  static OptionValues read_option(const Fields& fields, const LibraryShape& shape) {
+    const ShapeOption& option = shape.option;
+    OptionValues values = shape.defaults();
+    const auto given = fields.find(option.key);
+    if (!given) return values;
+    const auto numbers = std::span(values).first(option.count);
+    if (option.count > 1 && given->kind() == Kind::list) {
+      require_size(*given, option.count);
+      std::size_t at = 0;
+      for (const Element item : *given) numbers[at++] = read_number(item, option.range);
+    } else {
+      std::ranges::fill(numbers, read_number(*given, option.range));
+    }
+    return values;
+  }
+
   std::size_t find_own_shape(const Element& element, const std::string& name) const {
-    for (std::size_t i = 0; i < own_shapes_; ++i)
+    std::vector<std::string_view> own;
+    for (std::size_t i = 0; i < own_shapes_; ++i) {
       if (model_.shapes[i].name == name) return i;
-    std::vector<std::string_view> names = names_of(kPrimitives);
-    for (std::size_t i = 0; i < own_shapes_; ++i) names.push_back(model_.shapes[i].name);
-    element.refuse("is '" + name + "', neither a primitive nor a shape of this model",
-                   did_you_mean(name, names, "give its patches in the model's shapes"));
+      own.push_back(model_.shapes[i].name);
+    }
+    element.refuse("is '" + name + "', which is no shape of the library or of this model",
+                   likely_shape(name, own));
   }
 
   static void refuse_other_options(const Fields& fields, std::string_view own, const std::string& shape) {
-    for (const Primitive& other : kPrimitives)
-      if (const auto option = fields.find(other.option); option && other.option != own)
+    for (const LibraryShape& other : shape_library())
+      if (const auto option = fields.find(other.option.key); option && other.option.key != own)
         option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape,
                        "take it out");
   }
@@ -290,8 +262,8 @@ class ModelReader {
   Model model_;
   std::size_t own_shapes_ = 0;  // those of the file come first
   std::unordered_set<std::string_view> material_names_;
-  std::unordered_map<std::string, std::size_t> primitives_;  // name and option: number of the shape
-  std::unordered_map<std::string, std::size_t> numbers_;     // of joints, as in the file
+  std::map<std::pair<std::string_view, OptionValues>, std::size_t> library_;  // numbers of shapes made
+  std::unordered_map<std::string, std::size_t> numbers_;  // of joints, as in the file
 };
 
 }  // namespace

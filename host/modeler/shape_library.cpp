@@ -1,0 +1,78 @@
+#include "host/modeler/shape_library.h"
+
+#include <algorithm>
+
+#include "host/modeler/body_shapes.h"
+#include "host/modeler/primitives.h"
+#include "host/modeler/teapot.h"
+
+namespace mars::host {
+namespace {
+
+constexpr ShapeOption kNothing{};
+constexpr ShapeOption kTop{"top", "radius of its upper end over that of its lower", 1, 0, {0, 1}};
+constexpr ShapeOption kTube{"tube", "radius of its tube over the width of the sbb", 1, 0.125, {0.001, 0.2499}};
+constexpr ShapeOption kLid{"lid", "how much wider its lid is than Newell's", 1, 1.077, {0.1, 2}};
+
+template <std::vector<node::Patch> (*make)()>
+std::vector<node::Patch> plain(const OptionValues&) {
+  return make();
+}
+
+template <std::vector<node::Patch> (*make)(double)>
+std::vector<node::Patch> varied(const OptionValues& values) {
+  return make(values[0]);
+}
+
+template <BodyPart part>
+std::vector<node::Patch> of_body(const OptionValues&) {
+  return make_body(part);
+}
+
+constexpr LibraryShape kLibrary[] = {
+    {"box", "six flat sides", kNothing, plain<make_box>},
+    {"sphere", "a ball", kNothing, plain<make_sphere>},
+    {"cylinder", "round about z, closed by flat ends", kNothing, plain<make_cylinder>},
+    {"cone", "pointed or blunt, round about z", kTop, varied<make_cone>},
+    {"torus", "a ring round about z", kTube, varied<make_torus>},
+    {"teapot", "Newell's, z up, its spout towards x", kLid, varied<make_teapot>},
+    {"head", "with nose, jaw and ears, from under the chin", kNothing, of_body<BodyPart::head>},
+    {"hair", "short, in the head's frame", kNothing, of_body<BodyPart::hair>},
+    {"neck", "broad at its foot", kNothing, of_body<BodyPart::neck>},
+    {"torso", "neckline to waist", kNothing, of_body<BodyPart::torso>},
+    {"abdomen", "waist to the shirt's hem", kNothing, of_body<BodyPart::abdomen>},
+    {"pelvis", "waist to crotch", kNothing, of_body<BodyPart::pelvis>},
+    {"upper_arm", "shoulder to elbow", kNothing, of_body<BodyPart::upper_arm>},
+    {"sleeve", "short, over an upper arm", kNothing, of_body<BodyPart::sleeve>},
+    {"forearm", "elbow to wrist", kNothing, of_body<BodyPart::forearm>},
+    {"left_hand", "five fingers, palm inward, thumb forward", kNothing, of_body<BodyPart::left_hand>},
+    {"right_hand", "five fingers, palm inward, thumb forward", kNothing, of_body<BodyPart::right_hand>},
+    {"thigh", "hip to knee", kNothing, of_body<BodyPart::thigh>},
+    {"shin", "knee to a trouser's hem", kNothing, of_body<BodyPart::shin>},
+    {"foot", "a shoe from heel to ball", kNothing, of_body<BodyPart::foot>},
+    {"toes", "the shoe's front", kNothing, of_body<BodyPart::toes>},
+};
+
+}  // namespace
+
+OptionValues LibraryShape::defaults() const {
+  OptionValues values{};
+  if (!option.key.empty()) std::fill_n(values.begin(), option.count, option.otherwise);
+  return values;
+}
+
+std::span<const LibraryShape> shape_library() { return kLibrary; }
+
+const LibraryShape* find_library_shape(std::string_view name) {
+  const auto found = std::find_if(std::begin(kLibrary), std::end(kLibrary),
+                                  [&](const LibraryShape& shape) { return shape.name == name; });
+  return found == std::end(kLibrary) ? nullptr : found;
+}
+
+std::string likely_shape(std::string_view wanted, std::span<const std::string_view> own) {
+  std::vector<std::string_view> names(own.begin(), own.end());
+  for (const LibraryShape& shape : kLibrary) names.push_back(shape.name);
+  return did_you_mean(wanted, names, "name a shape of the library, or define it in the model's shapes");
+}
+
+}  // namespace mars::host

@@ -1,0 +1,49 @@
+// The library of shapes that every model can name: primitives, Newell's teapot, parts of the human body. One
+// table for those who read models, list shapes, and check the published schema.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/document/fields.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+inline constexpr std::size_t kMostNumbers = 3;  // of an option
+
+// As many as the option's count, then zeros.
+using OptionValues = std::array<double, kMostNumbers>;
+
+// What may be varied in a shape, a key of its segment. Several numbers stand as a list; one number stands for
+// all of them.
+struct ShapeOption {
+  std::string_view key;  // "": there is nothing to vary
+  std::string_view what;
+  std::size_t count = 1;  // of numbers
+  double otherwise = 0;   // each number's default
+  Range range{};
+};
+
+struct LibraryShape {
+  std::string_view name;
+  std::string_view what;
+  ShapeOption option;
+  std::vector<node::Patch> (*make)(const OptionValues& values);
+
+  OptionValues defaults() const;
+};
+
+// In the order in which a person would list them.
+std::span<const LibraryShape> shape_library();
+
+// Null if there is none of this name.
+const LibraryShape* find_library_shape(std::string_view name);
+
+// The remedy for a name that is neither of the library nor of the model's `own` shapes.
+std::string likely_shape(std::string_view wanted, std::span<const std::string_view> own = {});
+
+}  // namespace mars::host
