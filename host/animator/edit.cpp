@@ -1,0 +1,136 @@
+#include "host/animator/edit.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "hal/failure.h"
+#include "host/document/fields.h"
+
+namespace mars::host {
+namespace {
+
+// Whole numbers without ".0", and no -0.
+Json written(double number) {
+  if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
+  return number;
+}
+
+Json written(const glm::dvec3& v) { return Json::array({written(v.x), written(v.y), written(v.z)}); }
+
+Json written(const Ease& ease) {
+  if (ease == kLinear) return "linear";
+  if (ease == kIn) return "in";
+  if (ease == kOut) return "out";
+  if (ease == kBoth) return "both";
+  return Json::array({written(ease.x1), written(ease.y1), written(ease.x2), written(ease.y2)});
+}
+
+// Sets a value before "ease", which stays last.
+void set(Json& key, const char* name, const Json& value) {
+  const bool moves = !key.contains(name) && key.contains("ease");
+  key[name] = value;
+  if (!moves) return;
+  const Json ease = key.at("ease");
+  key.erase("ease");
+  key["ease"] = ease;
+}
+
+using KeysByFrame = std::map<std::uint32_t, Json>;
+
+KeysByFrame keys_of(const Json& actor) {
+  KeysByFrame keys;
+  if (const auto found = actor.find("keys"); found != actor.end())
+    for (const Json& key : *found) keys.emplace(key.at("frame").get<std::uint32_t>(), key);
+  return keys;
+}
+
+Json& key_at(KeysByFrame& keys, std::uint32_t frame) {
+  return keys.try_emplace(frame, Json{{"frame", frame}}).first->second;
+}
+
+void put(KeysByFrame& keys, const ActorKey& key) {
+  Json& item = key_at(keys, key.frame);
+  if (key.place) set(item, "place", written(*key.place));
+  if (key.turn) set(item, "turn", written(*key.turn));
+  if (!key.pose.empty()) {
+    Json pose = item.value("pose", Json::object());
+    for (const auto& [joint, angles] : key.pose) pose[joint] = written(angles);
+    set(item, "pose", pose);
+  }
+  if (key.ease) item["ease"] = written(*key.ease);
+}
+
+bool any_keys(const KeysByFrame& keys, const char* name) {
+  for (const auto& [frame, key] : keys)
+    if (key.contains(name)) return true;
+  return false;
+}
+
+void move_still_vector(Json& actor, KeysByFrame& keys, const char* name) {
+  if (!actor.contains(name) || !any_keys(keys, name)) return;
+  Json& first = key_at(keys, 0);
+  if (!first.contains(name)) set(first, name, actor.at(name));
+  actor.erase(name);
+}
+
+void move_still_pose(Json& actor, KeysByFrame& keys) {
+  const auto still = actor.find("pose");
+  if (still == actor.end()) return;
+  std::map<std::string, bool> keyed;
+  for (const auto& [frame, key] : keys)
+    if (key.contains("pose"))
+      for (const auto& joint : key.at("pose").items()) keyed[joint.key()] = true;
+  Json left = Json::object(), moved = Json::object();
+  for (const auto& joint : still->items()) (keyed[joint.key()] ? moved : left)[joint.key()] = joint.value();
+  if (moved.empty()) return;
+  Json& first = key_at(keys, 0);
+  Json pose = first.value("pose", Json::object());
+  for (const auto& joint : moved.items())
+    if (!pose.contains(joint.key())) pose[joint.key()] = joint.value();
+  set(first, "pose", pose);
+  left.empty() ? void(actor.erase("pose")) : void(actor["pose"] = left);
+}
+
+}  // namespace
+
+Json& actor_of(Json& film, const std::string& actor) {
+  std::vector<std::string> names;
+  for (Json& each : film.at("actors")) {
+    names.push_back(each.at("name").get<std::string>());
+    if (names.back() == actor) return each;
+  }
+  throw Failure("is no actor of the film", "'" + actor + "'",
+                did_you_mean(actor, std::vector<std::string_view>(names.begin(), names.end()),
+                             "name one of its actors, or add it to the film"));
+}
+
+void put_keys(Json& film, const std::string& actor, std::span<const ActorKey> keys) {
+  Json& object = actor_of(film, actor);
+  if (object.contains("matrices"))
+    throw Failure("is moved by matrices, which have no keys", "actor '" + actor + "'",
+                  "take its matrices out of the film, or move another actor");
+  if (keys.empty()) return;
+  KeysByFrame all = keys_of(object);
+  for (const ActorKey& key : keys) put(all, key);
+  for (const char* name : {"place", "turn"}) move_still_vector(object, all, name);
+  move_still_pose(object, all);
+  Json list = Json::array();
+  for (auto& [frame, key] : all) list.push_back(std::move(key));
+  object["keys"] = std::move(list);
+}
+
+double rounded(double value) {
+  if (std::abs(value) < 1e-9) return 0;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return std::strtod(text, nullptr);
+}
+
+glm::dvec3 rounded(const glm::dvec3& value) {
+  return {rounded(value.x), rounded(value.y), rounded(value.z)};
+}
+
+}  // namespace mars::host

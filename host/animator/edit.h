@@ -1,0 +1,38 @@
+// Changes of a film file's keys, as values: nothing is read or written here, and nobody else knows how keys
+// stand in a film file. `film` is what read_film accepts; read_film checks the result, too (write_json).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "host/animator/ease.h"
+#include "host/document/json_file.h"
+
+namespace mars::host {
+
+// What an actor's keys hold at one frame. What is not set is not keyed there.
+struct ActorKey {
+  std::uint32_t frame = 0;
+  std::optional<glm::dvec3> place, turn;   // as in the film file: the world, degrees
+  std::map<std::string, glm::dvec3> pose;  // joint to its three turns, degrees
+  std::optional<Ease> ease;                // of all that is keyed there; none: as it was, or linear
+};
+
+// Puts the keys, in any order, into the actor's "keys": values of the same frame are replaced, others stay. A
+// still value of what is now keyed, beside the keys, becomes a key of frame 0, unless that frame is keyed.
+// Throws where the film has no such actor or matrices move it; the film is then as it was.
+void put_keys(Json& film, const std::string& actor, std::span<const ActorKey> keys);
+
+// The film's own object for the actor.
+Json& actor_of(Json& film, const std::string& actor);
+
+// To nine digits, and 0 where there is less than 1e-9: for computed values that a person will read. It may
+// round beyond a limit: clamp after it.
+double rounded(double value);
+glm::dvec3 rounded(const glm::dvec3& value);
+
+}  // namespace mars::host
