@@ -1,10 +1,16 @@
-// mars-node: a rank of an MPI job that renders. Takes no arguments: it does what the host says.
+// mars-node: a rank of an MPI job that renders. Takes no options: it does what the host says.
+#include <CLI/CLI.hpp>
+
 #include "hal/mpi/start.h"
+#include "host/options/command_line.h"
 #include "host/programs/node_job.h"
 
 int main(int argc, char** argv) {
-  return mars::hal::run_mpi(argc, argv, mars::hal::Role::node, [](int, char**) {
-    mars::host::run_node_job();
+  using namespace mars;
+  CLI::App app("A node of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node", "mars-node");
+  if (const auto code = host::read_command_line(app, argc, argv)) return *code;
+  return hal::run_mpi(argc, argv, hal::Role::node, [](int, char**) {
+    host::run_node_job();
     return 0;
   });
 }

@@ -5,7 +5,7 @@ import shutil
 import struct
 import subprocess
 
-from harness import EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main
+from harness import EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main, needs_mpi
 
 TEAPOT = EXAMPLES / "teapot.json"
 SMALL = ["--size", "96x54", "--nodes", 2, "--backend", "threads"]
@@ -39,6 +39,11 @@ class Commands(ProgramTest):
         for words in [["--help"], ["render", "--help"]]:
             self.assertIn("Exit codes: 0", self.succeed("mars", *words))
         self.assertIn("MARS_MEMORY", self.succeed("mars", "render", "--help"))
+
+    @needs_mpi
+    def test_programs_of_a_job_tell_what_they_are(self):
+        for program in ["mars-host", "mars-node", "mars-cube"]:
+            self.assertRegex(self.succeed(program, "--help"), "mpirun -n .*mars-")
 
     def test_version(self):
         self.assertRegex(self.succeed("mars", "--version"), r"^mars \d+\.\d+\.\d+\n$")
