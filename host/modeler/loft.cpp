@@ -56,67 +56,23 @@ glm::dvec3 mean(const std::vector<glm::dvec3>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double part) { return a + part * (b - a); }
-
-// Bezier points of a closed uniform cubic B-spline, three a span.
-std::vector<glm::dvec3> around_bezier(const std::vector<glm::dvec3>& points) {
-  const std::size_t count = points.size();
-  std::vector<glm::dvec3> bezier(3 * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3& next = points[(i + 1) % count];
-    bezier[3 * i + 1] = between(points[i], next, 1.0 / 3);
-    bezier[3 * i + 2] = between(points[i], next, 2.0 / 3);
-  }
-  for (std::size_t i = 0; i < count; ++i)
-    bezier[3 * i] = between(bezier[(3 * i + 3 * count - 1) % (3 * count)], bezier[3 * i + 1], 0.5);
-  return bezier;
-}
-
-// Bezier points of a cubic B-spline with knots 0, 0, 0, 0, 1, 2, ... and likewise at its end, by blossoms.
-std::vector<glm::dvec3> along_bezier(const std::vector<glm::dvec3>& points) {
-  const int spans = static_cast<int>(points.size()) - 3;
-  std::vector<glm::dvec3> bezier(static_cast<std::size_t>(3 * spans + 1));
-  for (int s = 0; s < spans; ++s) {
-    const double low = std::max(0, s - 1), high = std::min(spans, s + 2);
-    for (const int handle : {0, 1})
-      bezier[static_cast<std::size_t>(3 * s + 1 + handle)] =
-          between(points[static_cast<std::size_t>(s + 1)], points[static_cast<std::size_t>(s + 2)],
-                  (s + handle - low) / (high - low));
-  }
-  bezier.front() = points.front();
-  bezier.back() = points.back();
-  for (std::size_t knot = 3; knot + 1 < bezier.size(); knot += 3)
-    bezier[knot] = between(bezier[knot - 1], bezier[knot + 1], 0.5);
-  return bezier;
-}
-
-// Columns of control points, each from pole to pole.
-std::vector<std::vector<glm::dvec3>> columns(const Loft& loft) {
-  std::vector<std::vector<glm::dvec3>> columns(static_cast<std::size_t>(3 * loft.around));
-  const auto add_row = [&](const std::vector<glm::dvec3>& row) {
-    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(row[i]);
-  };
-  const auto pole = [&](const Ring& ring) {
-    return std::vector<glm::dvec3>(columns.size(), mean(control_points(ring, loft)));
-  };
-  add_row(pole(loft.rings.front()));
-  for (const Ring& ring : loft.rings) add_row(around_bezier(control_points(ring, loft)));
-  add_row(pole(loft.rings.back()));
-  return columns;
+// A row for each ring, and one at either end that is all its ring's middle.
+PointGrid control_net(const Loft& loft) {
+  PointGrid rows;
+  for (const Ring& ring : loft.rings) rows.push_back(control_points(ring, loft));
+  const auto pole = [](const std::vector<glm::dvec3>& row) { return std::vector(row.size(), mean(row)); };
+  rows.insert(rows.begin(), pole(rows.front()));
+  rows.push_back(pole(rows.back()));
+  return rows;
 }
 
 }  // namespace
 
 void add_loft(Net& net, const Loft& loft) {
-  std::vector<std::vector<glm::dvec3>> beziers;
-  for (const auto& column : columns(loft)) beziers.push_back(along_bezier(column));
-  for (std::size_t row = 0; row + 3 < beziers[0].size(); row += 3)
-    for (std::size_t column = 0; column < beziers.size(); column += 3) {
-      auto& patch = net.emplace_back();
-      for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t i = 0; i < 4; ++i)
-          patch[4 * j + i] = beziers[(column + i) % beziers.size()][row + j];
-    }
+  const PointGrid rows = control_net(loft);
+  const Net patches = bezier_patches(rows, uniform_direction(Ends::periodic, 3, rows[0].size()),
+                                     uniform_direction(Ends::clamped, 3, rows.size()));
+  net.insert(net.end(), patches.begin(), patches.end());
 }
 
 std::vector<node::Patch> fill_cube(const Net& net) {

@@ -4,11 +4,11 @@
 // smooth. Lengths in any unit: fill_cube scales into the unit cube at last.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include "host/modeler/bspline.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -53,8 +53,7 @@ struct Loft {
   double crowding = 0;
 };
 
-using Net = std::vector<std::array<glm::dvec3, 16>>;  // patches, in the table's unit
-
+// Adds patches in the table's unit.
 void add_loft(Net& net, const Loft& loft);
 
 // The patches scaled so that their control points fill the unit cube, axis by axis.

@@ -263,7 +263,7 @@ class ModelReader {
   std::size_t own_shapes_ = 0;  // those of the file come first
   std::unordered_set<std::string_view> material_names_;
   std::map<std::pair<std::string_view, OptionValues>, std::size_t> library_;  // numbers of shapes made
-  std::unordered_map<std::string, std::size_t> numbers_;  // of joints, as in the file
+  std::unordered_map<std::string, std::size_t> numbers_;                      // of joints, as in the file
 };
 
 }  // namespace

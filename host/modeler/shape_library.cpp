@@ -11,7 +11,8 @@ namespace {
 
 constexpr ShapeOption kNothing{};
 constexpr ShapeOption kTop{"top", "radius of its upper end over that of its lower", 1, 0, {0, 1}};
-constexpr ShapeOption kTube{"tube", "radius of its tube over the width of the sbb", 1, 0.125, {0.001, 0.2499}};
+constexpr ShapeOption kTube{
+    "tube", "radius of its tube over the width of the sbb", 1, 0.125, {0.001, 0.2499}};
 constexpr ShapeOption kLid{"lid", "how much wider its lid is than Newell's", 1, 1.077, {0.1, 2}};
 
 template <std::vector<node::Patch> (*make)()>
