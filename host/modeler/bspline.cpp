@@ -113,4 +113,13 @@ Net bezier_patches(const PointGrid& points, const SplineDirection& u, const Spli
   return net;
 }
 
+std::vector<node::Patch> rounded(const Net& net) {
+  std::vector<node::Patch> patches(net.size());
+  for (std::size_t number = 0; number < net.size(); ++number)
+    for (std::size_t i = 0; i < 16; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        patches[number].points[i][static_cast<std::size_t>(axis)] = static_cast<float>(net[number][i][axis]);
+  return patches;
+}
+
 }  // namespace mars::host

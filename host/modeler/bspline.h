@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "node/film.h"
+
 namespace mars::host {
 
 inline constexpr int kMostDegree = 3;
@@ -17,10 +19,10 @@ enum class Ends { clamped, open, periodic };
 
 // One direction of a surface, over n control points. `knots` never descend. Control point i works from knot i
 // to knot i + degree + 1.
-// Not periodic: n + degree + 1 knots, the surface lies from knot `degree` to knot n, which is greater; within, a
-// knot stands at most `degree` times. Periodic: n + 1 knots, the last is the first come round again, with point 0 following
-// point n - 1; a knot stands at most `degree` times, first and last counting as one.
-// n is at least degree + 1.
+// Not periodic: n + degree + 1 knots, the surface lies from knot `degree` to knot n, which is greater;
+// within, a knot stands at most `degree` times. Periodic: n + 1 knots, the last is the first come round
+// again, with point 0 following point n - 1; a knot stands at most `degree` times, first and last counting as
+// one. n is at least degree + 1.
 struct SplineDirection {
   int degree = kMostDegree;
   bool periodic = false;
@@ -39,5 +41,8 @@ using Net = std::vector<std::array<glm::dvec3, 16>>;
 
 // One patch for each pair of knot spans, u running first. Neighbours share their four points.
 Net bezier_patches(const PointGrid& points, const SplineDirection& u, const SplineDirection& v);
+
+// As nodes hold them: a coordinate within 0..1 moves by at most 2^-25.
+std::vector<node::Patch> rounded(const Net& net);
 
 }  // namespace mars::host

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 
 namespace mars::host {
 namespace {
@@ -78,18 +79,14 @@ void add_loft(Net& net, const Loft& loft) {
 std::vector<node::Patch> fill_cube(const Net& net) {
   glm::dvec3 least = net[0][0], greatest = net[0][0];
   for (const auto& patch : net)
-    for (const glm::dvec3& point : patch)
-      for (int axis = 0; axis < 3; ++axis) {
-        least[axis] = std::min(least[axis], point[axis]);
-        greatest[axis] = std::max(greatest[axis], point[axis]);
-      }
-  std::vector<node::Patch> patches(net.size());
-  for (std::size_t number = 0; number < net.size(); ++number)
-    for (std::size_t i = 0; i < 16; ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        patches[number].points[i][static_cast<std::size_t>(axis)] =
-            static_cast<float>((net[number][i][axis] - least[axis]) / (greatest[axis] - least[axis]));
-  return patches;
+    for (const glm::dvec3& point : patch) {
+      least = glm::min(least, point);
+      greatest = glm::max(greatest, point);
+    }
+  Net filling = net;
+  for (auto& patch : filling)
+    for (glm::dvec3& point : patch) point = (point - least) / (greatest - least);
+  return rounded(filling);
 }
 
 }  // namespace mars::host

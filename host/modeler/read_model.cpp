@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "host/modeler/read_bspline.h"
 #include "host/modeler/shape_library.h"
 
 namespace mars::host {
@@ -18,18 +19,23 @@ constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials"};
 constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
                                             "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
+constexpr std::string_view kSurfaceNames[] = {"bspline"};
 constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "top", "tube", "lid"};
 
 constexpr Keys kKeys[] = {{"model", kModelNames},
                           {"joint", kJointNames},
                           {"limits", kLimitsNames},
                           {"segment", kSegmentNames},
-                          {"material", kMaterialKeys}};
+                          {"material", kMaterialKeys},
+                          {"surface", kSurfaceNames},
+                          kBSplineKeys,
+                          kDirectionKeys};
 constexpr const Keys& kModel = kKeys[0];
 constexpr const Keys& kJoint = kKeys[1];
 constexpr const Keys& kLimits = kKeys[2];
 constexpr const Keys& kSegment = kKeys[3];
 constexpr const Keys& kMaterial = kKeys[4];
+constexpr const Keys& kSurface = kKeys[5];
 
 constexpr Range kDegrees{-1e6, 1e6};
 constexpr double kLeastSine = 1e-3;  // between a joint's axes
@@ -50,6 +56,17 @@ node::Patch read_patch(const Element& element) {
     ++number;
   }
   return patch;
+}
+
+// A shape of the model's own.
+std::vector<node::Patch> read_patches(const Element& element) {
+  if (element.kind() == Kind::object) return read_bspline(Fields(element, kSurface).required("bspline"));
+  require_kind(element, Kind::list);
+  if (element.size() == 0) element.refuse("has no patches", "give at least one, or take the shape out");
+  std::vector<node::Patch> patches;
+  patches.reserve(element.size());
+  for (const Element patch : element) patches.push_back(read_patch(patch));
+  return patches;
 }
 
 class ModelReader {
@@ -78,11 +95,7 @@ class ModelReader {
     for (const Element item : element) {
       const std::string name = checked_name(item, item.key());
       if (find_library_shape(name)) item.refuse("has the name of a primitive", "choose another name");
-      require_kind(item, Kind::list);
-      if (item.size() == 0) item.refuse("has no patches", "give at least one, or take the shape out");
-      Shape& shape = model_.shapes.emplace_back(Shape{name, {}});
-      shape.patches.reserve(item.size());
-      for (const Element patch : item) shape.patches.push_back(read_patch(patch));
+      model_.shapes.push_back({name, read_patches(item)});
     }
     own_shapes_ = model_.shapes.size();
   }

@@ -8,6 +8,7 @@
 #include "host/film/compile.h"
 #include "host/animator/read_film.h"
 #include "host/modeler/read_model.h"
+#include "host/modeler/shape_library.h"
 
 namespace mars::host {
 namespace {
@@ -37,6 +38,26 @@ void expect_same_keys(const std::string& name, std::span<const Keys> known) {
 TEST(Schema, NamesTheKeysOfAModel) { expect_same_keys("model", model_keys()); }
 
 TEST(Schema, NamesTheKeysOfAFilm) { expect_same_keys("film", film_keys()); }
+
+TEST(Schema, NamesTheLibrarysShapesAndTheirOptions) {
+  const Document schema = read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema/model.schema.json");
+  const Element definitions = *schema.root().find("$defs");
+  std::vector<std::string_view> named, known;
+  const Element names = *definitions.find("library")->find("enum");
+  for (const Element name : names) named.push_back(name.text());
+  for (const LibraryShape& shape : shape_library()) known.push_back(shape.name);
+  EXPECT_EQ(named, known);
+  const Element properties = *definitions.find("segment")->find("properties");
+  for (const LibraryShape& shape : shape_library()) {
+    const ShapeOption& option = shape.option;
+    if (option.key.empty()) continue;
+    const Element property = *properties.find(option.key);
+    const Element number = option.count == 1 ? property : *property.find("anyOf")->begin();
+    EXPECT_EQ(property.find("default")->number(), option.otherwise) << option.key;
+    EXPECT_EQ(number.find("minimum")->number(), option.range.lowest) << option.key;
+    EXPECT_EQ(number.find("maximum")->number(), option.range.highest) << option.key;
+  }
+}
 
 std::vector<fs::path> json_files(const char* folder) {
   std::vector<fs::path> files;

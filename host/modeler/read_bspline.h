@@ -1,0 +1,21 @@
+// B-spline surfaces of a model file (docs/model-format.md): {"points": rows along v of points along u, "u":
+// {...}, "v": {...}}, each direction with degree, ends and knots.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "host/document/fields.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+inline constexpr std::string_view kBSplineNames[] = {"points", "u", "v"};
+inline constexpr std::string_view kDirectionNames[] = {"degree", "ends", "knots"};
+inline constexpr Keys kBSplineKeys{"bspline", kBSplineNames};
+inline constexpr Keys kDirectionKeys{"direction", kDirectionNames};
+
+// The surface as patches, never none. Whatever does not fit is refused with its place and a remedy.
+std::vector<node::Patch> read_bspline(const Element& element);
+
+}  // namespace mars::host
