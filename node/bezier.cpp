@@ -132,15 +132,16 @@ bool mirrors(const EyeMatrix& matrix) {
   return m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1) < 0;
 }
 
+void to_eye(const EyeMatrix& matrix, const std::array<float, 3>& p, float (&out)[3]) {
+  for (int r = 0; r < 3; ++r) {
+    const float* m = matrix.m[r];
+    out[r] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
+  }
+}
+
 EyePatch to_eye(const EyeMatrix& matrix, const Patch& patch) {
   EyePatch out;
-  for (std::size_t i = 0; i < 16; ++i) {
-    const auto& p = patch.points[i];
-    for (int r = 0; r < 3; ++r) {
-      const float* m = matrix.m[r];
-      out.point[i][r] = m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
-    }
-  }
+  for (std::size_t i = 0; i < 16; ++i) to_eye(matrix, patch.points[i], out.point[i]);
   return out;
 }
 
@@ -203,11 +204,16 @@ Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& pro
 }
 
 bool unseen(const EyePatch& patch, const Projection& projection, float width, float height) {
+  return unseen(patch.point, 16, projection, width, height);
+}
+
+bool unseen(const float (*points)[3], int count, const Projection& projection, float width, float height) {
   // Half-spaces of places that cannot be drawn: nearer, farther, left, right, above, below, with a pixel's margin.
   bool all[6] = {true, true, true, true, true, true};
   const float left = projection.center[0] + 1, right = width + 1 - projection.center[0];
   const float above = projection.center[1] + 1, below = height + 1 - projection.center[1];
-  for (const auto& p : patch.point) {
+  for (int i = 0; i < count; ++i) {
+    const float* p = points[i];
     const float w = -p[2], x = projection.scale * p[0], y = -projection.scale * p[1];
     all[0] &= w < projection.near;
     all[1] &= w > projection.far;

@@ -39,6 +39,7 @@ EyeMatrix eye_matrix(const Matrix& world_to_eye, const Matrix& to_world);
 bool mirrors(const EyeMatrix& matrix);
 
 EyePatch to_eye(const EyeMatrix& matrix, const Patch& patch);
+void to_eye(const EyeMatrix& matrix, const std::array<float, 3>& place, float (&out)[3]);
 
 // Basis of `rate` steps, 1..kMaxRate; tables live as long as the program.
 const Basis& basis(int rate);
@@ -63,5 +64,7 @@ Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& pro
 
 // Whether the patch surely leaves no mark on a picture of width x height: its hull lies outside.
 bool unseen(const EyePatch& patch, const Projection& projection, float width, float height);
+// The same of anything within the hull of `count` points.
+bool unseen(const float (*points)[3], int count, const Projection& projection, float width, float height);
 
 }  // namespace mars::node

@@ -6,8 +6,8 @@
 namespace mars::node {
 namespace {
 
-constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1) + kVectorSlack;
-constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate + kVectorSlack;
+constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1);
+constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate;
 constexpr int kMostBatches = 2 * kMaxRate * (kMaxRate / static_cast<int>(kExamined) + 1) + 4 * kMaxRate;
 constexpr Side kSides[] = {Side::bottom, Side::right, Side::top, Side::left};
 
@@ -60,25 +60,7 @@ Row side_row(const EyePatch& patch, Side side) {
 
 }  // namespace
 
-Dicer::Dicer(const Kernels& kernels)
-    : kernels_(kernels),
-      numbers_(new float[6 * kMostVertices]),
-      places_(new std::int32_t[2 * kMostVertices]),
-      flags_(new std::uint8_t[kMostVertices]),
-      values_(new float[kMostVertices][kValues]),
-      corners_(new std::uint32_t[3 * kMostTriangles]()),
-      batches_(new Batch[kMostBatches]) {
-  for (int axis = 0; axis < 3; ++axis) {
-    vertices_.place[axis] = numbers_.get() + axis * kMostVertices;
-    vertices_.normal[axis] = numbers_.get() + (3 + axis) * kMostVertices;
-  }
-  vertices_.values = values_.get();
-  vertices_.x = places_.get();
-  vertices_.y = places_.get() + kMostVertices;
-  vertices_.outside = flags_.get();
-  const std::uint32_t* corners = corners_.get();
-  triangles_ = {corners, corners + kMostTriangles, corners + 2 * kMostTriangles, 0, batches_.get(), 0};
-}
+Dicer::Dicer(const Kernels& kernels) : Surface(kernels, kMostVertices, kMostTriangles, kMostBatches) {}
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
   const Rates wanted = rates(kernels_, patch, projection, fixed_rate);
@@ -86,7 +68,7 @@ void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_
   bool normals = evaluate_inside(patch);
   for (const Side side : kSides) normals &= evaluate_side(patch, side);
   if (!normals) mend_normals(patch);
-  reaches_outside_ = kernels_.project(projection, vertices_, vertex_count_);
+  project(projection);
   if (wanted != triangulated_) triangulate();
   triangulated_ = wanted;
 }
@@ -175,7 +157,7 @@ void Dicer::mend_normal(const EyePatch& patch, int vertex, float u, float v) {
 }
 
 void Dicer::triangulate() {
-  triangles_.count = triangles_.batch_count = 0;
+  clear_triangles();
   if (columns_ > 0) {
     fill_inside();
     for (const Side side : kSides) stitch(side_chain(side), inner_chain(side));
@@ -203,16 +185,6 @@ void Dicer::fill_inside() {
   }
 }
 
-// Cuts the triangles added since the last time into batches.
-void Dicer::end_batches(bool consecutive) {
-  std::uint32_t first = triangles_.batch_count == 0 ? 0 : batches_[triangles_.batch_count - 1].last;
-  while (first < triangles_.count) {
-    const std::uint32_t last = std::min(first + kExamined, triangles_.count);
-    batches_[triangles_.batch_count++] = {first, last, consecutive};
-    first = last;
-  }
-}
-
 // Triangles between two chains that run the same way, inner to the left of outer: at each step the chain whose
 // next vertex comes first goes on.
 void Dicer::stitch(const Chain& outer, const Chain& inner) {
@@ -230,13 +202,6 @@ void Dicer::stitch(const Chain& outer, const Chain& inner) {
       ++i;
     }
   }
-}
-
-void Dicer::add(std::int32_t a, std::int32_t b, std::int32_t c) {
-  const std::uint32_t k = triangles_.count++;
-  corners_[k] = static_cast<std::uint32_t>(a);
-  corners_[kMostTriangles + k] = static_cast<std::uint32_t>(b);
-  corners_[2 * kMostTriangles + k] = static_cast<std::uint32_t>(c);
 }
 
 Dicer::Chain Dicer::side_chain(Side side) const {

@@ -16,11 +16,12 @@ static_assert(std::endian::native == std::endian::little, "the film block is lit
 
 constexpr std::array<char, 8> kMagic = {'M', 'A', 'R', 'S', 'F', 'I', 'L', 'M'};
 constexpr std::size_t kAlignment = 64;
+constexpr std::size_t kSlack = kMeshSlack * sizeof(std::array<float, 3>);  // bytes behind every section
 constexpr double kLargest = 1e12;  // of any number in a film: squares and products stay far inside a float
 
 enum Section : std::size_t {
-  kSettings, kPatches, kShapes, kSegments, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges,
-  kIntervals, kMoving, kNames, kSections
+  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kShapes, kSegments, kMaterials, kMatrices,
+  kCameras, kLights, kLightTracks, kChanges, kIntervals, kMoving, kNames, kSections
 };
 
 struct Place {
@@ -55,15 +56,16 @@ void require(bool holds, const std::string& where, const char* what) {
 
 template <typename T>
 std::span<const T> section(std::span<const std::byte> block, const Place& place, const std::string& where) {
-  const bool inside = place.offset % kAlignment == 0 && place.offset <= block.size() &&
-                      place.count <= (block.size() - place.offset) / sizeof(T);
+  const std::size_t end = block.size() - kSlack;
+  const bool inside =
+      place.offset % kAlignment == 0 && place.offset <= end && place.count <= (end - place.offset) / sizeof(T);
   require(inside, where, "a section lies outside the file");
   return {reinterpret_cast<const T*>(block.data() + place.offset), static_cast<std::size_t>(place.count)};
 }
 
 Header read_header(std::span<const std::byte> block, const std::string& where) {
   Header header;
-  require(block.size() >= sizeof header, where, "it is too short");
+  require(block.size() >= sizeof header + kSlack, where, "it is too short");
   std::memcpy(&header, block.data(), sizeof header);
   require(header.magic == kMagic, where, "it does not begin as one");
   require(header.version == kFilmVersion, where, "it has another version");
@@ -93,6 +95,8 @@ bool sound(const Camera& camera) {
 
 bool sound(const Light& light) { return light.kind <= 1 && all_finite(light.vector) && all_finite(light.color); }
 
+bool sound(const std::array<float, 3>& vector) { return all_finite(vector); }
+
 bool sound(const Patch& patch) {
   return std::all_of(patch.points.begin(), patch.points.end(), [](const auto& p) { return all_finite(p); });
 }
@@ -100,6 +104,15 @@ bool sound(const Patch& patch) {
 template <typename T>
 bool all_sound(std::span<const T> items) {
   return std::all_of(items.begin(), items.end(), [](const T& item) { return sound(item); });
+}
+
+// Whether [first, first + count) lies within `size`.
+bool within(std::uint64_t first, std::uint64_t count, std::size_t size) { return first + count <= size; }
+
+bool inside(const std::array<float, 3>& place, const Meshlet& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!(box.low[axis] <= place[axis] && place[axis] <= box.high[axis])) return false;
+  return true;
 }
 
 bool sound(const FilmSettings& s) {
@@ -127,6 +140,10 @@ std::vector<std::byte> pack(const FilmData& film) {
   };
   add(kSettings, std::array{film.settings});
   add(kPatches, film.patches);
+  add(kMeshPlaces, film.mesh_places);
+  add(kMeshNormals, film.mesh_normals);
+  add(kMeshTriangles, film.mesh_triangles);
+  add(kMeshlets, film.meshlets);
   add(kShapes, film.shapes);
   add(kSegments, film.segments);
   add(kMaterials, film.materials);
@@ -138,7 +155,7 @@ std::vector<std::byte> pack(const FilmData& film) {
   add(kIntervals, film.intervals);
   add(kMoving, film.moving);
   add(kNames, film.names);
-  block.resize(aligned(block.size()));
+  block.resize(aligned(block.size() + kSlack));
   std::memcpy(block.data(), &header, sizeof header);
   return block;
 }
@@ -152,6 +169,10 @@ FilmView::FilmView(std::span<const std::byte> block, const std::string& where, b
   require(settings.size() == 1, where, "it has no settings");
   settings_ = settings.data();
   read(kPatches, patches_);
+  read(kMeshPlaces, mesh_places_);
+  read(kMeshNormals, mesh_normals_);
+  read(kMeshTriangles, mesh_triangles_);
+  read(kMeshlets, meshlets_);
   read(kShapes, shapes_);
   read(kSegments, segments_);
   read(kMaterials, materials_);
@@ -177,9 +198,11 @@ void FilmView::check_all(const std::string& where) const {
   require(sound(settings_->camera, changes_, cameras_.size()), where, "the camera's track is broken");
   for (const Track& track : light_tracks_)
     require(sound(track, changes_, lights_.size()), where, "a light's track is broken");
-  for (const Shape& shape : shapes_)
-    require(shape.first_patch <= patches_.size() && shape.patch_count <= patches_.size() - shape.first_patch, where,
-            "a shape has no such patches");
+  check_meshlets(where);
+  for (const Shape& shape : shapes_) {
+    require(within(shape.first_patch, shape.patch_count, patches_.size()), where, "a shape has no such patches");
+    require(within(shape.first_meshlet, shape.meshlet_count, meshlets_.size()), where, "a shape has no such meshlets");
+  }
   for (const Segment& segment : segments_) {
     require(segment.shape < shapes_.size(), where, "a segment has no such shape");
     require(segment.name < names_.size(), where, "a segment has no such name");
@@ -199,6 +222,24 @@ void FilmView::check_all(const std::string& where) const {
     require(ascending && (list.empty() || list.back() < segments_.size()), where, "an interval's movers are broken");
   }
   require(next == settings_->frames, where, "its intervals do not cover its frames");
+}
+
+void FilmView::check_meshlets(const std::string& where) const {
+  require(all_sound(mesh_places_) && all_sound(mesh_normals_), where, "a mesh is not finite");
+  require(mesh_places_.size() == mesh_normals_.size(), where, "a mesh lacks normals");
+  for (const Meshlet& m : meshlets_) {
+    require(m.vertex_count >= 1 && m.vertex_count <= kMeshletVertices && m.triangle_count >= 1 &&
+                m.triangle_count <= kMeshletTriangles,
+            where, "a meshlet is out of range");
+    require(within(m.first_vertex, m.vertex_count, mesh_places_.size()), where, "a meshlet has no such vertices");
+    require(within(m.first_triangle, m.triangle_count, mesh_triangles_.size()), where,
+            "a meshlet has no such triangles");
+    for (const auto& place : mesh_places_.subspan(m.first_vertex, m.vertex_count))
+      require(inside(place, m), where, "a meshlet leaves its box");
+    for (const MeshTriangle& triangle : mesh_triangles_.subspan(m.first_triangle, m.triangle_count))
+      for (const std::uint8_t corner : triangle)
+        require(corner < m.vertex_count, where, "a triangle has no such vertex");
+  }
 }
 
 std::span<const std::uint32_t> FilmView::moving(const Interval& interval) const {
@@ -228,7 +269,7 @@ const Camera& FilmView::camera_at(std::uint32_t frame) const {
 
 std::uint64_t FilmView::patch_instances() const {
   std::uint64_t patches = 0;
-  for (const Segment& segment : segments_) patches += shapes_[segment.shape].patch_count;
+  for (const Segment& segment : segments_) patches += shapes_[segment.shape].size();
   return patches;
 }
 

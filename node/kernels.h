@@ -121,6 +121,13 @@ struct Examined {
   alignas(64) float inverse[kExamined];
 };
 
+// From a mesh's own space to eye space. Normals go by the cofactors of the places' linear part, which is where the cross
+// product of two moved vectors points: the inverse's transpose but for its length, and turned where that mirrors.
+struct EyeMap {
+  float place[3][4];
+  float normal[3][3];
+};
+
 // screen x = center[0] + scale * x / w, y = center[1] - scale * y / w, w = -z, in pixels.
 struct Projection {
   float scale;
@@ -145,7 +152,7 @@ struct Shading {
   Projection projection;
 };
 
-// What a patch's triangles have in common.
+// What a patch's or a meshlet's triangles have in common.
 struct PatchIdentity {
   std::uint32_t patch;
   std::uint32_t look;
@@ -192,6 +199,9 @@ struct Kernels {
 
   // Vertices first..last - 1 of `row` at first/rate.. into out[at..]. Whether all have a normal.
   bool (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
+
+  // Vertices 0..count - 1 of a mesh, their normals of unit length or 0. Of both lists kVectorSlack more are read.
+  void (*move)(const EyeMap& map, const float (*places)[3], const float (*normals)[3], int count, const Vertices& out);
 
   // Whether any of the vertices is outside.
   bool (*project)(const Projection& projection, const Vertices& vertices, int count);

@@ -2,30 +2,41 @@
 
 namespace mars::node {
 
-PolygonMaker::PolygonMaker(const Kernels& kernels) : kernels_(kernels), dicer_(kernels) {}
+PolygonMaker::PolygonMaker(const Kernels& kernels) : kernels_(kernels), dicer_(kernels), placer_(kernels) {}
 
 void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work) {
   const FilmView& film = scene.film();
   SetUp set_up(kernels_, scene.projection(), scene.width(), scene.height());
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   const int fixed_rate = static_cast<int>(film.settings().dice);
+  const auto keep = [&](const Surface& surface, PatchIdentity& identity, std::uint32_t number) {
+    identity.patch = number;
+    set_up.add(surface, identity, out);
+    ++work.patches;
+    work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
+  };
   for (std::size_t s = 0; s < film.segments().size(); ++s) {
     if (scene.moves(s) != (part == Part::moving)) continue;
     const Shape& shape = film.shapes()[film.segments()[s].shape];
     const std::uint32_t first = scene.first_patch(s);
-    std::uint32_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
-    if (i >= shape.patch_count) continue;
+    std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
+    if (i >= shape.size()) continue;
     const EyeMatrix matrix = scene.matrix(s);
     const std::uint32_t look = scene.look(s);
     PatchIdentity identity{0, look, mirrors(matrix), film.materials()[look].sides == 1, part == Part::moving};
     for (; i < shape.patch_count; i += scatter.count) {
       const EyePatch patch = to_eye(matrix, film.patches()[shape.first_patch + i]);
       if (unseen(patch, scene.projection(), width, height)) continue;
-      identity.patch = first + i;
       dicer_.dice(patch, scene.projection(), fixed_rate);
-      set_up.add(dicer_, identity, out);
-      ++work.patches;
-      work.vertices += static_cast<std::uint64_t>(dicer_.vertex_count());
+      keep(dicer_, identity, first + static_cast<std::uint32_t>(i));
+    }
+    if (i >= shape.size()) continue;
+    const EyeMap map = eye_map(matrix);
+    for (; i < shape.size(); i += scatter.count) {
+      const Meshlet& meshlet = film.meshlets()[shape.first_meshlet + i - shape.patch_count];
+      if (unseen(matrix, meshlet, scene.projection(), width, height)) continue;
+      placer_.place(map, film, meshlet, scene.projection());
+      keep(placer_, identity, first + static_cast<std::uint32_t>(i));
     }
   }
 }

@@ -1,8 +1,9 @@
-// The dicing step: a node's share of the patches, scattered as i, i + P, i + 2P ..., becomes triangles, their
-// edge boxes counted line by line.
+// The dicing step: a node's share of the patches and meshlets, scattered as i, i + P, i + 2P ..., becomes triangles,
+// their edge boxes counted line by line.
 #pragma once
 
 #include "node/dice.h"
+#include "node/meshlets.h"
 #include "node/protocol.h"
 #include "node/scene.h"
 #include "node/setup.h"
@@ -11,7 +12,7 @@ namespace mars::node {
 
 enum class Part { stationary, moving };
 
-// Patches whose number is `index` modulo `count`.
+// Patches and meshlets whose number is `index` modulo `count`.
 struct Scatter {
   std::uint32_t index = 0;
   std::uint32_t count = 1;
@@ -21,13 +22,14 @@ class PolygonMaker {
  public:
   explicit PolygonMaker(const Kernels& kernels);
 
-  // Triangles of `part`'s patches at the scene's frame, in the order of polygon numbers. Counts what it did
+  // Triangles of `part`'s patches and meshlets at the scene's frame, in the order of polygon numbers. Counts what it did
   // into `work`.
   void make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work);
 
  private:
   const Kernels& kernels_;
   Dicer dicer_;
+  MeshletPlacer placer_;
 };
 
 }  // namespace mars::node

@@ -99,7 +99,7 @@ enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, dept
 
 // What one node did so far for one frame; the frame's last strip has it all.
 struct WorkCounts {
-  std::uint64_t patches;          // diced
+  std::uint64_t patches;          // diced, and meshlets
   std::uint64_t vertices;
   std::uint64_t triangles;        // made from its own patches, touching a sample
   std::uint64_t edge_boxes_diced; // of those triangles

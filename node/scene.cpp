@@ -34,24 +34,27 @@ Scene::Scene(const FilmView& film) : film_(film) {
   std::uint32_t next = 0;
   for (const Segment& segment : film.segments()) {
     first_patch_.push_back(next);
-    next += film.shapes()[segment.shape].patch_count;
+    next += static_cast<std::uint32_t>(film.shapes()[segment.shape].size());
   }
   bounds_.reserve(film.shapes().size());
-  for (const Shape& shape : film.shapes())
-    bounds_.push_back(bounds_of(film.patches().subspan(shape.first_patch, shape.patch_count)));
+  for (const Shape& shape : film.shapes()) bounds_.push_back(bounds_of(film, shape));
   moves_.resize(film.segments().size());
   lights_.resize(film.light_tracks().size());
 }
 
-Scene::Bounds Scene::bounds_of(std::span<const Patch> patches) {
+Scene::Bounds Scene::bounds_of(const FilmView& film, const Shape& shape) {
   constexpr float kFar = std::numeric_limits<float>::max();
   Bounds bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  for (const Patch& patch : patches)
-    for (const auto& point : patch.points)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        bounds.low[axis] = std::min(bounds.low[axis], point[axis]);
-        bounds.high[axis] = std::max(bounds.high[axis], point[axis]);
-      }
+  const auto take_in = [&](const std::array<float, 3>& low, const std::array<float, 3>& high) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds.low[axis] = std::min(bounds.low[axis], low[axis]);
+      bounds.high[axis] = std::max(bounds.high[axis], high[axis]);
+    }
+  };
+  for (const Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
+    for (const auto& point : patch.points) take_in(point, point);
+  for (const Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
+    take_in(meshlet.low, meshlet.high);
   return bounds;
 }
 

@@ -27,7 +27,7 @@ class Scene {
   std::span<const EyeLight> lights() const { return lights_; }
 
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
-  // Number of the segment's first patch among all of the film.
+  // Number of the segment's first patch or meshlet among all of the film.
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
   EyeMatrix matrix(std::size_t segment) const;
   std::uint32_t look(std::size_t segment) const;
@@ -36,12 +36,12 @@ class Scene {
   LineRange lines_of_movers(std::span<const std::uint32_t> frames) const;
 
  private:
-  // Corners of the box round a shape's control points.
+  // Corners of the box round a shape's control points and vertices.
   struct Bounds {
     float low[3];
     float high[3];
   };
-  static Bounds bounds_of(std::span<const Patch> patches);
+  static Bounds bounds_of(const FilmView& film, const Shape& shape);
   LineRange lines_of(std::size_t segment, std::uint32_t frame) const;
 
   FilmView film_;

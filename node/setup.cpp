@@ -109,10 +109,10 @@ std::size_t SetUps::room() const {
 SetUp::SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height)
     : kernels_(kernels), projection_(projection), width_(width), height_(height) {}
 
-void SetUp::add(const Dicer& diced, const PatchIdentity& identity, SetUps& out) {
-  if (diced.reaches_outside()) return add_plainly(diced, identity, out);
-  const Vertices& v = diced.vertices();
-  const Triangles& triangles = diced.triangles();
+void SetUp::add(const Surface& surface, const PatchIdentity& identity, SetUps& out) {
+  if (surface.reaches_outside()) return add_plainly(surface, identity, out);
+  const Vertices& v = surface.vertices();
+  const Triangles& triangles = surface.triangles();
   const Examination task{width_, height_, identity.one_sided, identity.mirrored};
   for (const Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
     kernels_.examine(task, v, triangles, batch, examined_);
@@ -141,9 +141,9 @@ void SetUp::add_batch(const Vertices& v, const Triangles& triangles, const Batch
   keep(rest);
 }
 
-void SetUp::add_plainly(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const {
-  for (std::uint32_t k = 0; k < diced.triangles().count; ++k)
-    add_one(diced.vertices(), diced.triangles()[k], identity, out);
+void SetUp::add_plainly(const Surface& surface, const PatchIdentity& identity, SetUps& out) const {
+  for (std::uint32_t k = 0; k < surface.triangles().count; ++k)
+    add_one(surface.vertices(), surface.triangles()[k], identity, out);
 }
 
 void SetUp::add_one(const Vertices& v, const Corner3& corners, const PatchIdentity& identity, SetUps& out) const {

@@ -1,4 +1,4 @@
-// A diced patch's triangles become set-ups: snapped, clipped where they must be (at near and far, and at a
+// A surface's triangles become set-ups: snapped, clipped where they must be (at near and far, and at a
 // guard band far outside the picture; a shared edge is cut at the same place by both its triangles), with
 // their plane equations and edge boxes. Those that touch no sample are dropped.
 //
@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-#include "node/dice.h"
+#include "node/surface.h"
 #include "node/edge_boxes.h"
 
 namespace mars::node {
@@ -35,9 +35,9 @@ class SetUp {
  public:
   SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height);
 
-  void add(const Dicer& diced, const PatchIdentity& identity, SetUps& out);
+  void add(const Surface& surface, const PatchIdentity& identity, SetUps& out);
   // The same without the sixteen at a time: the plain twin.
-  void add_plainly(const Dicer& diced, const PatchIdentity& identity, SetUps& out) const;
+  void add_plainly(const Surface& surface, const PatchIdentity& identity, SetUps& out) const;
 
  private:
   void add_one(const Vertices& vertices, const Corner3& corners, const PatchIdentity& identity, SetUps& out) const;

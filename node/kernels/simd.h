@@ -24,6 +24,7 @@ inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 Fineness survey(const SurveyWeights& weights, const float (*points)[3], const Projection& projection);
 bool evaluate(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
 bool project(const Projection& projection, const Vertices& vertices, int count);
+void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3], int count, const Vertices& out);
 void examine(const Examination& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,
              Examined& out);
 void set(const Vertices& vertices, const Corner3& corners, const ScreenShape& shape, const PatchIdentity& identity,

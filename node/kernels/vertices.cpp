@@ -1,4 +1,4 @@
-// Points and normals of a patch, and where they lie on the screen.
+// Points and normals of a patch or a mesh, and where they lie on the screen.
 #include <cstring>
 
 #include "node/kernels/simd.h"
@@ -56,6 +56,27 @@ bool evaluate(const Row& row, const Basis& basis, int first, int last, const Ver
     all &= hn::AllFalse(kFloats, hn::And(missing, hn::FirstN(kFloats, static_cast<std::size_t>(last - k))));
   }
   return all;
+}
+
+void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3], int count, const Vertices& out) {
+  for (int k = 0; k < count; k += kLanes) {
+    Floats p[3], n[3], turned[3];
+    hn::LoadInterleaved3(kFloats, places[k], p[0], p[1], p[2]);
+    hn::LoadInterleaved3(kFloats, normals[k], n[0], n[1], n[2]);
+    for (int r = 0; r < 3; ++r) {
+      const float* m = map.place[r];
+      const float* c = map.normal[r];
+      const Floats xy = hn::Add(hn::Mul(constant(m[0]), p[0]), hn::Mul(constant(m[1]), p[1]));
+      const Floats place = hn::Add(hn::Add(xy, hn::Mul(constant(m[2]), p[2])), constant(m[3]));
+      hn::StoreU(place, kFloats, out.place[r] + k);
+      turned[r] = hn::Add(hn::Add(hn::Mul(constant(c[0]), n[0]), hn::Mul(constant(c[1]), n[1])),
+                          hn::Mul(constant(c[2]), n[2]));
+    }
+    const Floats square = sum_of_squares(turned[0], turned[1], turned[2]);
+    const auto missing = hn::Not(hn::Gt(square, hn::Zero(kFloats)));
+    const Floats scale = hn::IfThenZeroElse(missing, hn::Div(constant(1.0f), hn::Sqrt(square)));
+    for (int r = 0; r < 3; ++r) hn::StoreU(hn::Mul(turned[r], scale), kFloats, out.normal[r] + k);
+  }
 }
 
 bool project(const Projection& p, const Vertices& v, int count) {

@@ -32,8 +32,8 @@ PlainVertex project(const Projection& p, const node::ClipVertex& eye) {
   return out;
 }
 
-PlainVertex vertex(const node::Dicer& diced, const Projection& projection, std::uint32_t number) {
-  const node::Vertices& v = diced.vertices();
+PlainVertex vertex(const node::Surface& surface, const Projection& projection, std::uint32_t number) {
+  const node::Vertices& v = surface.vertices();
   node::ClipVertex eye;
   for (int axis = 0; axis < 3; ++axis) {
     eye.place[axis] = v.place[axis][number];
@@ -119,13 +119,13 @@ void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const 
 
 }  // namespace
 
-std::vector<PlainTriangle> plain_set_up(const node::Dicer& diced, const Projection& projection,
+std::vector<PlainTriangle> plain_set_up(const node::Surface& surface, const Projection& projection,
                                         const node::PatchIdentity& identity) {
   std::vector<PlainTriangle> out;
-  for (std::uint32_t k = 0; k < diced.triangles().count; ++k) {
-    const node::Corner3 corners = diced.triangles()[k];
-    const PlainVertex t[3] = {vertex(diced, projection, corners.a), vertex(diced, projection, corners.b),
-                              vertex(diced, projection, corners.c)};
+  for (std::uint32_t k = 0; k < surface.triangles().count; ++k) {
+    const node::Corner3 corners = surface.triangles()[k];
+    const PlainVertex t[3] = {vertex(surface, projection, corners.a), vertex(surface, projection, corners.b),
+                              vertex(surface, projection, corners.c)};
     if (t[0].outside || t[1].outside || t[2].outside)
       add_clipped(t, projection, identity, k, out);
     else

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "node/dice.h"
+#include "node/surface.h"
 #include "node/setup.h"
 
 namespace mars::test {
@@ -19,7 +19,7 @@ struct PlainTriangle {
 };
 
 // All that are not turned away or flat, in order, whether they cover a sample or not.
-std::vector<PlainTriangle> plain_set_up(const node::Dicer& diced, const node::Projection& projection,
+std::vector<PlainTriangle> plain_set_up(const node::Surface& surface, const node::Projection& projection,
                                         const node::PatchIdentity& identity);
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.

@@ -37,7 +37,7 @@ class GuardedMemory {
 
 }  // namespace
 
-Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Dicer& diced,
+Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Surface& surface,
             const node::PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines,
             std::size_t bytes) {
   GuardedMemory memory(bytes);
@@ -47,9 +47,9 @@ Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Di
   node::SetUps out(memory.inside(), made.line_counts, wanted_lines.empty() ? all : wanted_lines);
   node::SetUp set_up(kernels, picture.projection, picture.width, picture.height);
   if (way == Way::at_a_time)
-    set_up.add(diced, identity, out);
+    set_up.add(surface, identity, out);
   else
-    set_up.add_plainly(diced, identity, out);
+    set_up.add_plainly(surface, identity, out);
   EXPECT_TRUE(memory.intact()) << kernels.name;
   made.triangles.assign(out.triangles().begin(), out.triangles().end());
   made.crossings.assign(out.crossings().rbegin(), out.crossings().rend());

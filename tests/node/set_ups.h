@@ -26,7 +26,7 @@ struct Picture {
 };
 
 // `bytes` of memory. Fails the test where anything outside it is written.
-Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Dicer& diced,
+Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Surface& surface,
             const node::PatchIdentity& identity, Way way = Way::at_a_time,
             const std::vector<std::uint8_t>& wanted_lines = {}, std::size_t bytes = 1 << 24);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "node/dice.h"
 #include "tests/node/patches.h"
 #include "tests/node/plain_set_up.h"
 #include "tests/node/set_ups.h"

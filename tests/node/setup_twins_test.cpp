@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "node/dice.h"
 #include "tests/node/kernel_sets.h"
 #include "tests/node/patches.h"
 #include "tests/node/plain_set_up.h"

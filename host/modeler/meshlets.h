@@ -1,0 +1,22 @@
+// A polygon mesh as nodes read it: triangles with the normals of their corners, cut into meshlets (node/film.h).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/modeler/mesh.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+struct Meshlets {
+  std::vector<std::array<float, 3>> places;
+  std::vector<std::array<float, 3>> normals;
+  std::vector<node::MeshTriangle> triangles;
+  std::vector<node::Meshlet> meshlets;
+};
+
+// Triangles that lie near each other are in one meshlet; a vertex is in every meshlet that has triangles there.
+Meshlets cut_meshlets(const Mesh& mesh);
+
+}  // namespace mars::host

@@ -1,0 +1,68 @@
+#include "host/modeler/read_mesh.h"
+
+#include <algorithm>
+#include <string>
+
+namespace mars::host {
+namespace {
+
+std::vector<Mesh::Place> read_places(const Element& list, Range range) {
+  require_kind(list, Kind::list);
+  std::vector<Mesh::Place> places;
+  places.reserve(list.size());
+  for (const Element item : list) {
+    const glm::dvec3 v = read_vector(item, range);
+    places.push_back({float(v.x), float(v.y), float(v.z)});
+  }
+  return places;
+}
+
+void check_face(const Element& element, const Mesh& mesh, std::span<const std::uint32_t> face) {
+  for (std::size_t i = 0; i < face.size(); ++i)
+    if (face[i] == face[(i + 1) % face.size()])
+      element.refuse("names vertex " + std::to_string(face[i]) + " twice in a row", "name it once");
+  std::vector<std::uint32_t> different(face.begin(), face.end());
+  std::sort(different.begin(), different.end());
+  if (std::unique(different.begin(), different.end()) - different.begin() < 3)
+    element.refuse("has fewer than 3 different vertices", "give each face at least 3, or take it out");
+  if (!split(mesh, face))
+    element.refuse("crosses itself", "name its vertices in the order of its outline, or split it into triangles");
+}
+
+void read_faces(const Element& list, Mesh& mesh) {
+  require_kind(list, Kind::list);
+  if (list.size() == 0) list.refuse("has no faces", "give at least one");
+  const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  for (const Element item : list) {
+    require_kind(item, Kind::list);
+    if (item.size() < 3 || item.size() > kMostCorners)
+      item.refuse("has " + std::to_string(item.size()) + " vertices", "write 3 to 4096 numbers of vertices");
+    for (const Element corner : item) mesh.corners.push_back(read_count(corner, 0, last));
+    mesh.ends.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+    check_face(item, mesh, mesh.face(mesh.ends.size() - 1));
+  }
+}
+
+void read_normals(const Element& list, Mesh& mesh) {
+  require_size(list, mesh.vertices.size());
+  mesh.normals = read_places(list, {-1e6, 1e6});
+}
+
+}  // namespace
+
+Mesh read_mesh(const Element& element) {
+  const Fields fields(element, kMeshKeys);
+  Mesh mesh;
+  const Element vertices = fields.required("vertices");
+  mesh.vertices = read_places(vertices, {0, 1});
+  if (mesh.vertices.size() < 3) vertices.refuse("has fewer than 3 vertices", "give at least 3");
+  read_faces(fields.required("faces"), mesh);
+  mesh.crease = fields.number("crease", kDefaultCrease, {0, 180});
+  if (const auto normals = fields.find("normals")) {
+    if (fields.find("crease")) normals->refuse("stands beside a crease", "take one of the two out");
+    read_normals(*normals, mesh);
+  }
+  return mesh;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,18 @@
+// Meshes in model files (docs/model-format.md): a shape's "mesh".
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "host/document/fields.h"
+#include "host/modeler/mesh.h"
+
+namespace mars::host {
+
+inline constexpr std::string_view kMeshNames[] = {"vertices", "faces", "crease", "normals"};
+inline constexpr Keys kMeshKeys{"mesh", kMeshNames};
+
+// Every number is checked: what is read can be cut into meshlets.
+Mesh read_mesh(const Element& element);
+
+}  // namespace mars::host
