@@ -2,10 +2,13 @@
 // (0, 0) to (1, 1) with the control points (x1, y1) and (x2, y2), x in time, as in CSS.
 #pragma once
 
+#include <optional>
+#include <utility>
+
 namespace mars::host {
 
 struct Ease {
-  double x1 = 0, y1 = 0, x2 = 1, y2 = 1;  // x1 and x2 in 0..1, so that time runs forward
+  double x1 = 0, y1 = 0, x2 = 1, y2 = 1;  // x1 and x2 in 0..1, so that time runs forward; y in -10..10
 
   bool operator==(const Ease&) const = default;
 };
@@ -17,5 +20,19 @@ inline constexpr Ease kBoth{0.42, 0, 0.58, 1};  // starts and ends slowly
 
 // `time` in 0..1; exactly 0 and 1 at the ends, exactly `time` where the curve is straight.
 double eased(const Ease& ease, double time);
+
+// The least and the greatest part of the way that the curve takes: beyond 0..1 if it swings.
+struct Extent {
+  double lowest = 0;
+  double highest = 1;
+};
+Extent extent_of(const Ease& ease);
+
+// The two halves of the curve, before and after `time` (inside 0..1), each as an ease of its own; none if
+// either would need numbers that a film file does not take.
+std::optional<std::pair<Ease, Ease>> split(const Ease& ease, double time);
+
+// An ease that first swings back by `anticipation` parts of the way and at last beyond by `overshoot`, each 0..1.
+Ease swinging(double anticipation, double overshoot);
 
 }  // namespace mars::host

@@ -3,14 +3,26 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "host/animator/angles.h"
 #include "host/document/fields.h"
 
 namespace mars::host {
 namespace {
 
-const Joint kFree{};  // how a whole figure turns
+constexpr int kSteps = 64;  // in which the way beyond a key is searched for a limit
+
+// How whole figures turn: freely, any number of times.
+Joint whole_figure() {
+  Joint joint;
+  joint.limits.fill({-1e6, 1e6});
+  return joint;
+}
+
+const Joint kFree = whole_figure();
 
 }  // namespace
+
+const Joint& free_joint() { return kFree; }
 
 glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose) {
   const glm::dvec3 z_axis = glm::normalize(glm::cross(joint.x_axis, joint.y_axis));
@@ -56,8 +68,7 @@ glm::dmat3 JointMotion::at(std::uint32_t frame) {
   return joint_->freedoms() == 1 ? orientation(*joint_, hinge_pose(stretch)) : between(stretch);
 }
 
-// One freedom: the angle itself goes from key to key, so that whole turns are possible; an ease that
-// overshoots stops at the limits.
+// One freedom: the angle itself goes from key to key, so that whole turns are possible.
 glm::dvec3 JointMotion::hinge_pose(const Stretch& stretch) const {
   const glm::dvec3& from = (*poses_)[stretch.from].value;
   glm::dvec3 pose = from + stretch.part * ((*poses_)[stretch.to].value - from);
@@ -71,9 +82,46 @@ glm::dmat3 JointMotion::between(const Stretch& stretch) {
     from_ = stretch.from;
     start_ = orientation(*joint_, (*poses_)[stretch.from].value);
     turn_ = turn_between(start_, orientation(*joint_, (*poses_)[stretch.to].value));
+    const Extent extent = extent_of((*poses_)[stretch.from].ease);
+    first_part_ = extent.lowest < 0 ? allowed(stretch, 0, extent.lowest) : 0;
+    last_part_ = extent.highest > 1 ? allowed(stretch, 1, extent.highest) : 1;
   }
   if (turn_.angle == 0) return start_;
-  return rotation(turn_.axis, stretch.part * turn_.angle) * start_;
+  return turned(std::clamp(stretch.part, first_part_, last_part_));
+}
+
+glm::dmat3 JointMotion::turned(double part) const { return rotation(turn_.axis, part * turn_.angle) * start_; }
+
+// From `key` (0 or 1) towards `wanted` parts of the way, as far as the limits allow.
+double JointMotion::allowed(const Stretch& stretch, double key, double wanted) const {
+  glm::dvec3 near = (*poses_)[key == 0 ? stretch.from : stretch.to].value;
+  double good = key;
+  for (int step = 1; step <= kSteps; ++step) {
+    double part = key + (wanted - key) * step / kSteps;
+    const glm::dvec3 pose = pose_of(*joint_, turned(part), near);
+    if (largest_excess(*joint_, pose) <= kAngleRounding) {
+      good = part;
+      near = pose;
+      continue;
+    }
+    for (int bit = 0; bit < 40; ++bit) {
+      const double middle = (good + part) / 2;
+      const bool fits = largest_excess(*joint_, pose_of(*joint_, turned(middle), near)) <= kAngleRounding;
+      (fits ? good : part) = middle;
+    }
+    break;
+  }
+  return good;
+}
+
+glm::dvec3 JointMotion::pose_at(std::uint32_t frame) {
+  if (poses_->empty()) return joint_->rest();
+  const Stretch stretch = stretch_at(*poses_, frame);
+  const glm::dvec3& from = (*poses_)[stretch.from].value;
+  const glm::dvec3& to = (*poses_)[stretch.to].value;
+  if (from == to) return from;
+  if (joint_->freedoms() == 1) return hinge_pose(stretch);
+  return pose_of(*joint_, between(stretch), from + stretch.part * (to - from));
 }
 
 Figure::Figure(const Model& model, const FigureMotion& motion)

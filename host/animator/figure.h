@@ -20,6 +20,9 @@ struct Axes {
   glm::dvec3 place{0, 0, 0};
 };
 
+// How a whole figure turns, by its "turn".
+const Joint& free_joint();
+
 // A joint's turn against its parent for a pose in degrees: Rot(x, a) Rot(y, b) Rot(z, c).
 glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose);
 
@@ -39,7 +42,7 @@ struct FigureMotion {
   std::vector<Channel<glm::dvec3>> pose;  // one a joint; without a key it rests
 };
 
-// A joint's turn over the frames. Keeps the turn between the two keys it was last asked about.
+// A joint's turn over the frames. An ease that overshoots stops at the joint's limits. Keeps the turn between the two keys it was last asked about.
 class JointMotion {
  public:
   // Both must outlive it. `poses` may be empty.
@@ -47,15 +50,22 @@ class JointMotion {
 
   glm::dmat3 at(std::uint32_t frame);
 
+  // The pose that gives it: on a key the key's own; between keys that of pose_of(), which may leave the limits
+  // of a joint with several freedoms.
+  glm::dvec3 pose_at(std::uint32_t frame);
+
  private:
   glm::dmat3 between(const Stretch& stretch);
   glm::dvec3 hinge_pose(const Stretch& stretch) const;
+  glm::dmat3 turned(double part) const;
+  double allowed(const Stretch& stretch, double key, double wanted) const;
 
   const Joint* joint_;
   const Channel<glm::dvec3>* poses_;
   std::size_t from_ = kNone;  // key at which the kept turn begins
   glm::dmat3 start_{1};
   Turn turn_{{1, 0, 0}, 0};
+  double first_part_ = 0, last_part_ = 1;  // how far beyond the keys the limits let it go
 };
 
 // Plays a figure: frame by frame, in any order.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "host/animator/channel.h"
 
 namespace mars::host {
@@ -35,6 +37,49 @@ TEST(Ease, RunsForward) {
 TEST(Ease, AnticipatesAndOvershoots) {
   EXPECT_LT(eased({0.5, -1, 0.5, 2}, 0.2), 0);
   EXPECT_GT(eased({0.5, -1, 0.5, 2}, 0.8), 1);
+}
+
+TEST(Ease, ItsHalvesTogetherAreTheWhole) {
+  for (const Ease& ease : {kLinear, kIn, kOut, kBoth, Ease{0.2, -0.4, 0.9, 1.1}})
+    for (const double cut : {0.25, 0.5, 0.8}) {
+      const auto halves = split(ease, cut);
+      ASSERT_TRUE(halves);
+      const double there = eased(ease, cut);
+      for (int i = 0; i <= 20; ++i) {
+        const double part = i / 20.0;
+        EXPECT_NEAR(there * eased(halves->first, part), eased(ease, cut * part), 1e-12);
+        EXPECT_NEAR(there + (1 - there) * eased(halves->second, part), eased(ease, cut + (1 - cut) * part), 1e-12);
+      }
+    }
+}
+
+TEST(Ease, WhereItIsBackAtTheStartItCannotBeSplit) {
+  const Ease ease{0.5, -1, 0.5, 2};
+  double low = 0.1, high = 0.5;
+  for (int bit = 0; bit < 53; ++bit) (eased(ease, (low + high) / 2) < 0 ? low : high) = (low + high) / 2;
+  EXPECT_FALSE(split(ease, high));
+}
+
+TEST(Ease, ItsExtentIsWhereItTurns) {
+  EXPECT_EQ(extent_of(kBoth).lowest, 0);
+  EXPECT_EQ(extent_of(kLinear).highest, 1);
+  const Ease ease{0.3, -0.7, 0.6, 1.4};
+  double lowest = 0, highest = 1;
+  for (int i = 0; i <= 100'000; ++i) {
+    lowest = std::min(lowest, eased(ease, i / 1e5));
+    highest = std::max(highest, eased(ease, i / 1e5));
+  }
+  EXPECT_NEAR(extent_of(ease).lowest, lowest, 1e-9);
+  EXPECT_NEAR(extent_of(ease).highest, highest, 1e-9);
+}
+
+TEST(Ease, SwingsAsFarAsWanted) {
+  for (const double back : {0.0, 0.1, 0.5, 1.0})
+    for (const double beyond : {0.0, 0.1, 0.5, 1.0}) {
+      const Extent extent = extent_of(swinging(back, beyond));
+      EXPECT_NEAR(extent.lowest, -back, 1e-9);
+      EXPECT_NEAR(extent.highest, 1 + beyond, 1e-9);
+    }
 }
 
 TEST(Channel, HoldsOutsideItsKeysAndIsExactOnThem) {

@@ -166,5 +166,49 @@ TEST(Figure, TellsWhatMoved) {
   EXPECT_FALSE(figure.move_to(8));
 }
 
+// A ball joint that keys take from 0 to 80 degrees about y and its limits stop at 90.
+struct Ball {
+  Joint joint;
+  Channel<glm::dvec3> poses;
+
+  explicit Ball(const Ease& ease) : poses{{0, {0, 0, 0}, ease}, {100, {0, 80, 0}, kLinear}} {
+    joint.limits = {{{-45, 45}, {-5, 90}, {-45, 45}}};
+  }
+};
+
+TEST(JointMotion, AnOvershootOfABallJointStopsAtItsLimits) {
+  Ball ball(swinging(0.5, 0.5));
+  JointMotion motion(ball.joint, ball.poses);
+  double lowest = 0, highest = 0;
+  for (std::uint32_t frame = 0; frame <= 100; ++frame) {
+    const glm::dvec3 pose = motion.pose_at(frame);
+    lowest = std::min(lowest, pose.y);
+    highest = std::max(highest, pose.y);
+  }
+  EXPECT_NEAR(lowest, -5, 1e-4);
+  EXPECT_NEAR(highest, 90, 1e-4);
+}
+
+TEST(JointMotion, WithinTheLimitsAnOvershootIsWhole) {
+  Ball ball(swinging(0.05, 0.1));
+  JointMotion motion(ball.joint, ball.poses);
+  double lowest = 0, highest = 0;
+  for (std::uint32_t frame = 0; frame <= 100; ++frame) {
+    lowest = std::min(lowest, motion.pose_at(frame).y);
+    highest = std::max(highest, motion.pose_at(frame).y);
+  }
+  EXPECT_NEAR(lowest, -4, 0.02);
+  EXPECT_NEAR(highest, 88, 0.02);
+}
+
+TEST(JointMotion, ItsPoseGivesItsOrientation) {
+  Ball ball(kBoth);
+  ball.poses[1].value = {40, 60, -30};
+  JointMotion motion(ball.joint, ball.poses), same(ball.joint, ball.poses);
+  for (std::uint32_t frame = 0; frame <= 100; ++frame)
+    EXPECT_LT(difference(orientation(ball.joint, motion.pose_at(frame)), same.at(frame)), 1e-12) << frame;
+  EXPECT_EQ(motion.pose_at(100), ball.poses[1].value);
+}
+
 }  // namespace
 }  // namespace mars::host
