@@ -57,6 +57,9 @@ PAIRS = [
     ("toes", "foot", (BALL[0], 0, BALL[1]), {"y": (-70, 40)}, "toes", "shoe"),
     ("toe-sole", "toes", (0, 0, 0), {}, "toe-sole", "rubber"),
 ]
+# What commands like walk call the joints of a side.
+LIMBS = [("hip", "thigh"), ("knee", "shin"), ("ankle", "foot"), ("toes", "toes"),
+         ("shoulder", "upper-arm"), ("elbow", "forearm"), ("wrist", "hand")]
 # Balls on the head: name, place of the left one, radii, how far turned to the side, material.
 FACE = [("eye", (0.0670, 0.0294, 0.0921), (0.0128, 0.0142, 0.0114), 0, "white"),
         ("iris", (0.0755, 0.0299, 0.0917), (0.0057, 0.0065, 0.0068), 0, "iris"),
@@ -109,7 +112,9 @@ def human(unit):
                            "limits": {},
                            "segment": {"shape": "sphere", "sbb": [scaled([-r for r in radii], unit), scaled(radii, unit)],
                                        "material": material}})
-    return {"materials": MATERIALS, "joints": joints}
+    limbs = {part: part for part in ("pelvis", "spine", "chest", "neck", "head")}
+    limbs |= {side: {limb: f"{side}-{name}" for limb, name in LIMBS} for side in ("left", "right")}
+    return {"materials": MATERIALS, "limbs": limbs, "joints": joints}
 
 
 # ---- Matrices: three rows; turns in degrees as in a pose.

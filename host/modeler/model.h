@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "host/modeler/limbs.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -71,6 +72,7 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Shape> shapes;
   std::vector<NamedMaterial> materials;
+  Limbs limbs;
 };
 
 inline constexpr node::Material kDefaultMaterial{{0.8f, 0.8f, 0.8f}, 0.10f, 0.65f, 0.45f, 32, 2};

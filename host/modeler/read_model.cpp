@@ -15,21 +15,23 @@
 namespace mars::host {
 namespace {
 
-constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials"};
+constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "limbs"};
 constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
                                             "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
 constexpr std::string_view kSurfaceNames[] = {"bspline"};
 constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "top", "tube", "lid"};
 
-constexpr Keys kKeys[] = {{"model", kModelNames},
+const Keys kKeys[] = {{"model", kModelNames},
                           {"joint", kJointNames},
                           {"limits", kLimitsNames},
                           {"segment", kSegmentNames},
                           {"material", kMaterialKeys},
                           {"surface", kSurfaceNames},
                           kBSplineKeys,
-                          kDirectionKeys};
+                          kDirectionKeys,
+                          limb_keys()[0],
+                          limb_keys()[1]};
 constexpr const Keys& kModel = kKeys[0];
 constexpr const Keys& kJoint = kKeys[1];
 constexpr const Keys& kLimits = kKeys[2];
@@ -79,6 +81,7 @@ class ModelReader {
     if (const auto materials = fields.find("materials")) read_materials(*materials);
     if (const auto shapes = fields.find("shapes")) read_shapes(*shapes);
     read_joints(fields.required("joints"));
+    if (const auto limbs = fields.find("limbs")) model_.limbs = read_limbs(*limbs, model_.joints);
     return std::move(model_);
   }
 
