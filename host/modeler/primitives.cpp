@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace mars::host {
 namespace {
@@ -45,11 +46,80 @@ std::vector<node::Patch> revolve(const std::vector<Flat>& profile) {
   return patches;
 }
 
+// A coordinate on a rounding of radius `radius` next to the wall at `wall` (-1 or 1; 0 for one that is about
+// the middle), `out` being the unit circle's own. Exact at the wall.
+double rounded_at(double wall, double radius, double out) { return wall + radius * (out - wall); }
+
+// Appends points first to last of the unit circle, as rounded next to these walls. What stands at the
+// profile's end is its first point.
+void arc_to(std::vector<Flat>& profile, std::size_t first, std::size_t last, Flat wall, Flat radius) {
+  const auto ring = circle();
+  for (std::size_t i = profile.empty() ? first : first + 1; i <= last; ++i) {
+    const Flat& point = ring[i % ring.size()];
+    profile.push_back({rounded_at(wall.x, radius.x, point.x), rounded_at(wall.y, radius.y, point.y)});
+  }
+}
+
 void line_to(std::vector<Flat>& profile, Flat end) {
   const Flat start = profile.back();
   for (const double part : {1.0 / 3, 2.0 / 3})
     profile.push_back({start.x + part * (end.x - start.x), start.y + part * (end.y - start.y)});
   profile.push_back(end);
+}
+
+// A rounded box is a sphere whose eighths are pulled apart to the corners of a box. Between them its turn
+// about z and its profile have straight pieces: points that are out as a sphere's, but move along a wall. At
+// the poles they are the sides of the flat faces below and above.
+struct Pulled {
+  Flat out;
+  Flat wall;
+};
+
+constexpr double kThirds[] = {-1, -1.0 / 3, 1.0 / 3, 1};
+
+// Four times a straight piece and two arcs, beginning at (1, 0).
+std::vector<Pulled> pulled_ring() {
+  constexpr Flat walls[] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  const auto ring = circle();
+  std::vector<Pulled> points;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const Flat &wall = walls[quarter], &out = ring[6 * quarter];
+    for (std::size_t k = 0; k < 3; ++k)
+      points.push_back(
+          {out, out.x == 0 ? Flat{wall.x * kThirds[k], wall.y} : Flat{wall.x, wall.y * kThirds[k]}});
+    for (std::size_t k = 0; k < 6; ++k) points.push_back({ring[6 * quarter + k], wall});
+  }
+  return points;
+}
+
+// From pole to pole; walls below and above.
+std::vector<Pulled> pulled_profile() {
+  const auto ring = circle();
+  std::vector<Pulled> points;
+  for (std::size_t k = 18; k < 24; ++k) points.push_back({ring[k], {0, -1}});
+  for (std::size_t k = 0; k < 3; ++k) points.push_back({ring[0], {0, kThirds[k]}});
+  for (std::size_t k = 0; k <= 6; ++k) points.push_back({ring[k], {0, 1}});
+  return points;
+}
+
+std::array<float, 3> rounded_point(const std::array<double, 3>& edge, const std::array<double, 3>& out,
+                                   const std::array<double, 3>& wall) {
+  std::array<float, 3> point;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    point[axis] = placed(rounded_at(wall[axis], 2 * edge[axis], out[axis]));
+  return point;
+}
+
+// Adds the patch of point(i, j), unless it has no extent in one direction.
+void add_patch(std::vector<node::Patch>& patches, const auto& point) {
+  node::Patch patch;
+  bool along_u = false, along_v = false;
+  for (std::size_t k = 0; k < 16; ++k) {
+    patch.points[k] = point(k % 4, k / 4);
+    along_u |= patch.points[k] != patch.points[k - k % 4];
+    along_v |= patch.points[k] != patch.points[k % 4];
+  }
+  if (along_u && along_v) patches.push_back(patch);
 }
 
 }  // namespace
@@ -73,9 +143,8 @@ std::vector<node::Patch> make_box() {
 }
 
 std::vector<node::Patch> make_sphere() {
-  const auto ring = circle();
-  std::vector<Flat> profile;  // from the south pole, a quarter turn back on the ring, to the north pole
-  for (std::size_t i = 18; i <= 30; ++i) profile.push_back(ring[i % ring.size()]);
+  std::vector<Flat> profile;  // from the south pole to the north pole
+  arc_to(profile, 18, 30, {0, 0}, {1, 1});
   return revolve(profile);
 }
 
@@ -90,14 +159,45 @@ std::vector<node::Patch> make_cone(double top) {
 }
 
 std::vector<node::Patch> make_torus(double tube) {
-  const auto ring = circle();
-  const double across = 2 * tube;  // in the profile's units
   std::vector<Flat> profile;
-  for (std::size_t i = 0; i <= ring.size(); ++i) {
-    const Flat& point = ring[i % ring.size()];
-    profile.push_back({1 - across + across * point.x, point.y});
-  }
+  arc_to(profile, 0, 24, {1, 0}, {2 * tube, 1});
   return revolve(profile);
+}
+
+std::vector<node::Patch> make_capsule(double ends) {
+  std::vector<Flat> profile;
+  arc_to(profile, 18, 24, {0, -1}, {1, 2 * ends});
+  if (ends < 0.5) line_to(profile, {1, 1 - 2 * ends});
+  arc_to(profile, 24, 30, {0, 1}, {1, 2 * ends});
+  return revolve(profile);
+}
+
+std::vector<node::Patch> make_disc(double rim) {
+  std::vector<Flat> profile = {{0, -1}};
+  line_to(profile, {1 - 2 * rim, -1});
+  arc_to(profile, 18, 30, {1, 0}, {2 * rim, 1});
+  line_to(profile, {0, 1});
+  return revolve(profile);
+}
+
+std::vector<node::Patch> make_rounded_box(const std::array<double, 3>& edge) {
+  const auto ring = pulled_ring();
+  const auto profile = pulled_profile();
+  std::vector<node::Patch> patches;
+  for (std::size_t curve = 0; curve + 3 < profile.size(); curve += 3)
+    for (std::size_t piece = 0; piece < ring.size(); piece += 3)
+      add_patch(patches, [&](std::size_t i, std::size_t j) {
+        const Pulled &around = ring[(piece + i) % ring.size()], &along = profile[curve + j];
+        const double out = along.out.x;
+        return rounded_point(edge, {out * around.out.x, out * around.out.y, along.out.y},
+                             {around.wall.x, around.wall.y, along.wall.y});
+      });
+  for (const double z : {-1, 1})
+    add_patch(patches, [&](std::size_t i, std::size_t j) {
+      if (z < 0) std::swap(i, j);
+      return rounded_point(edge, {0, 0, z}, {kThirds[i], kThirds[j], z});
+    });
+  return patches;
 }
 
 }  // namespace mars::host

@@ -20,7 +20,8 @@ constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axi
                                             "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
 constexpr std::string_view kSurfaceNames[] = {"bspline"};
-constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "top", "tube", "lid"};
+constexpr std::string_view kSegmentNames[] = {"shape", "sbb",  "material", "ends", "top",
+                                              "rim",   "tube", "edge",     "lid"};
 
 const Keys kKeys[] = {{"model", kModelNames},
                           {"joint", kJointNames},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/modeler/body_shapes.h"
+#include "host/modeler/limb_shapes.h"
 #include "host/modeler/primitives.h"
 #include "host/modeler/teapot.h"
 
@@ -13,7 +14,11 @@ constexpr ShapeOption kNothing{};
 constexpr ShapeOption kTop{"top", "radius of its upper end over that of its lower", 1, 0, {0, 1}};
 constexpr ShapeOption kTube{
     "tube", "radius of its tube over the width of the sbb", 1, 0.125, {0.001, 0.2499}};
-constexpr ShapeOption kLid{"lid", "how much wider its lid is than Newell's", 1, 1.077, {0.1, 2}};
+constexpr ShapeOption kEnds{"ends", "height of each round end over that of the sbb", 1, 0.25, {0.001, 0.5}};
+constexpr ShapeOption kRim{"rim", "radius of its rim over the width of the sbb", 1, 0.05, {0.001, 0.49}};
+constexpr ShapeOption kEdge{
+    "edge", "radius of its edges over the sbb's size, along each axis", 3, 0.1, {0.001, 0.5}};
+constexpr ShapeOption kLid{"lid", "how much wider its lid is than Newell's", 1, 1.077, {0.1, 1.5}};
 
 template <std::vector<node::Patch> (*make)()>
 std::vector<node::Patch> plain(const OptionValues&) {
@@ -32,11 +37,18 @@ std::vector<node::Patch> of_body(const OptionValues&) {
 
 constexpr LibraryShape kLibrary[] = {
     {"box", "six flat sides", kNothing, plain<make_box>},
+    {"rounded_box", "a box with round edges and corners", kEdge, make_rounded_box},
     {"sphere", "a ball", kNothing, plain<make_sphere>},
+    {"ellipsoid", "a sphere by the name it has in an sbb that is no cube", kNothing, plain<make_sphere>},
     {"cylinder", "round about z, closed by flat ends", kNothing, plain<make_cylinder>},
+    {"capsule", "a cylinder with round ends", kEnds, varied<make_capsule>},
     {"cone", "pointed or blunt, round about z", kTop, varied<make_cone>},
+    {"disc", "a flat round body with a round rim: a wheel, a coin", kRim, varied<make_disc>},
     {"torus", "a ring round about z", kTube, varied<make_torus>},
     {"teapot", "Newell's, z up, its spout towards x", kLid, varied<make_teapot>},
+    {"upper_limb", "an upper arm or thigh of any creature", kNothing, plain<make_upper_limb>},
+    {"lower_limb", "a forearm or shin of any creature", kNothing, plain<make_lower_limb>},
+    {"hand", "a mitten, left or right, thumb forward", kNothing, plain<make_hand>},
     {"head", "with nose, jaw and ears, from under the chin", kNothing, of_body<BodyPart::head>},
     {"hair", "short, in the head's frame", kNothing, of_body<BodyPart::hair>},
     {"neck", "broad at its foot", kNothing, of_body<BodyPart::neck>},

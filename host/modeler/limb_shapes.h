@@ -1,0 +1,16 @@
+// Limbs of any creature or puppet, lofted (loft.h), closed, filling the unit cube, hanging down: one round
+// length each, and a mitten that fits a left and a right arm. Ends at joints are round, as those of the
+// human's shapes.
+#pragma once
+
+#include <vector>
+
+#include "node/film.h"
+
+namespace mars::host {
+
+std::vector<node::Patch> make_upper_limb();  // an upper arm or a thigh
+std::vector<node::Patch> make_lower_limb();  // a forearm or a shin, its muscle behind
+std::vector<node::Patch> make_hand();        // a mitten, thumb forward, the same from left and right
+
+}  // namespace mars::host
