@@ -30,9 +30,8 @@ std::uint32_t pixel_of_color(const Color& color) {
   return pixel;
 }
 
-Drawing::Drawing(std::uint32_t width, std::uint32_t height, std::uint32_t pen)
+Drawing::Drawing(std::uint32_t width, std::uint32_t height)
     : image_{width, height, std::vector<std::uint32_t>(std::size_t{width} * height)},
-      pen_(pen),
       closest_(image_.pixels.size()) {}
 
 void Drawing::begin(const node::Camera& camera, const Color& background, double nearest, double farthest) {
@@ -49,7 +48,8 @@ void Drawing::look(const node::Camera& camera) {
   near_ = static_cast<float>(camera.near);
 }
 
-void Drawing::draw(const Lines& lines, const Placing& to_world, const Color& color) {
+void Drawing::draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke) {
+  stroke_ = stroke;
   const double scale = camera_.focal * image_.height / 2;
   for (std::size_t row = 0; row < 3; ++row) {
     const auto& eye = camera_.world_to_eye.m[row];
@@ -129,7 +129,7 @@ void Drawing::draw_line(Spot from, Spot to, std::uint32_t color) {
   for (std::int32_t i = first; i <= last; ++i, at += step, closeness += closer) {
     const std::int32_t across = at >> kFixed;
     std::size_t index = static_cast<std::size_t>(i) * along_stride + static_cast<std::size_t>(across) * across_stride;
-    const std::int32_t pens = std::min(static_cast<std::int32_t>(pen_), across_size - across);
+    const std::int32_t pens = std::min(static_cast<std::int32_t>(stroke_.line), across_size - across);
     for (std::int32_t pen = 0; pen < pens; ++pen, index += across_stride)
       if (closeness > closest_[index]) {
         closest_[index] = closeness;
@@ -144,11 +144,15 @@ void Drawing::draw_dot(const Spot& spot, std::uint32_t color) {
     return;
   color = dimmed(color, spot.closeness);
   color += (0xffffffu - color) >> 1 & 0x7f7f7fu;  // half way to white
-  const auto middle_x = static_cast<std::uint32_t>(spot.x), middle_y = static_cast<std::uint32_t>(spot.y);
   const float closeness = spot.closeness * 1.001f;  // over its own lines
-  for (std::uint32_t y = middle_y - std::min(middle_y, pen_); y <= std::min(middle_y + pen_, image_.height - 1); ++y)
-    for (std::uint32_t x = middle_x - std::min(middle_x, pen_); x <= std::min(middle_x + pen_, image_.width - 1); ++x)
-      plot(x, y, closeness, color);
+  const std::uint32_t before = (stroke_.dot - 1) / 2;
+  const auto from = [&](float middle) {
+    const auto at = static_cast<std::uint32_t>(middle);
+    return at - std::min(at, before);
+  };
+  const std::uint32_t left = from(spot.x), top = from(spot.y);
+  for (std::uint32_t y = top; y < std::min(top + stroke_.dot, image_.height); ++y)
+    for (std::uint32_t x = left; x < std::min(left + stroke_.dot, image_.width); ++x) plot(x, y, closeness, color);
 }
 
 void Drawing::plot(std::uint32_t x, std::uint32_t y, float closeness, std::uint32_t color) {

@@ -13,20 +13,23 @@ namespace mars::host {
 
 std::uint32_t pixel_of_color(const Color& color);
 
+struct Stroke {
+  std::uint32_t line = 1;  // pixels wide
+  std::uint32_t dot = 1;
+};
+
 class Drawing {
  public:
-  // `pen`: pixels a line is wide, at least 1; a dot is two pens and one pixel wide.
-  Drawing(std::uint32_t width, std::uint32_t height, std::uint32_t pen = 1);
+  Drawing(std::uint32_t width, std::uint32_t height);
 
   // An empty picture, seen by `camera`; lines are full bright at `nearest` and dim at `farthest` (distances along
   // its axis).
   void begin(const node::Camera& camera, const Color& background, double nearest, double farthest);
   // What follows is seen by another camera.
   void look(const node::Camera& camera);
-  void draw(const Lines& lines, const Placing& to_world, const Color& color);
+  void draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke = {});
 
   const Image& image() const { return image_; }
-  Image& image() { return image_; }
 
  private:
   // On the screen, pixels from the top left corner; `closeness` is 1 / distance along the camera's axis, 0 or less:
@@ -48,7 +51,7 @@ class Drawing {
   std::uint32_t dimmed(std::uint32_t color, float closeness) const;
 
   Image image_;
-  std::uint32_t pen_;
+  Stroke stroke_;
   std::vector<float> closest_;  // of each pixel; 0: nothing there
   std::vector<Spot> spots_;
   Placing to_screen_{};  // of the lines being drawn: x, y before the division and w

@@ -37,6 +37,12 @@ Lines ground_under(const Ball& ball) {
   return grid;
 }
 
+// Half way to the paper.
+Color dim(Color color) {
+  for (std::size_t i = 0; i < 3; ++i) color[i] = 0.5f * (color[i] + kPaper[i]);
+  return color;
+}
+
 double distance_along(const node::Camera& camera, const glm::dvec3& place) {
   const auto& row = camera.world_to_eye.m[2];
   return -(row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3]);
@@ -54,20 +60,28 @@ Color line_color(const Color& color) {
   return lifted;
 }
 
-FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(view.subject)) {}
+FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(view.subject)) {
+  for (const Part& part : view.parts[0]) moving_ = moving_ || part.motion.count > 1;
+}
 
-void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, bool ground) const {
+void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
+                       bool ground) const {
   const double middle = distance_along(camera, view_.subject.center);
   drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
-  if (ground) drawing.draw(grid_, kWorld, kGround);
-  for (const Part& part : view_.parts[static_cast<std::size_t>(as)])
-    drawing.draw(view_.lines[part.lines], view_.matrices[view_.value_at(part.motion, frame)],
-                 line_color(view_.colors[view_.value_at(part.look, frame)]));
-  if (ground) draw_axes(drawing, camera);
+  if (ground) drawing.draw(grid_, kWorld, kGround, {pen, 1});
+  const Stroke sticks{pen > 1 ? 2 * pen : pen, 3 * pen}, thin{pen, pen + 1};
+  for (const Part& part : view_.parts[static_cast<std::size_t>(as)]) {
+    Color color = line_color(view_.colors[view_.value_at(part.look, frame)]);
+    const bool scenery = moving_ && part.motion.count == 1;
+    if (scenery) color = dim(color);
+    drawing.draw(view_.lines[part.lines], view_.matrices[view_.value_at(part.motion, frame)], color,
+                 as == As::stick && !scenery ? sticks : thin);
+  }
+  if (ground) draw_axes(drawing, camera, pen);
 }
 
 // Each axis as a little stick near the lower left corner, before everything else.
-void FilmDrawing::draw_axes(Drawing& drawing, const node::Camera& camera) const {
+void FilmDrawing::draw_axes(Drawing& drawing, const node::Camera& camera, std::uint32_t pen) const {
   const auto width = static_cast<float>(drawing.image().width), height = static_cast<float>(drawing.image().height);
   node::Camera still = camera;
   for (auto& row : still.world_to_eye.m) row[3] = 0;
@@ -82,7 +96,7 @@ void FilmDrawing::draw_axes(Drawing& drawing, const node::Camera& camera) const 
     stick.points[3 + axis] = static_cast<float>(size);
     Color color{0.35f, 0.35f, 0.35f};
     color[axis] = 1;
-    drawing.draw(stick, kWorld, color);
+    drawing.draw(stick, kWorld, color, {pen, 1});
   }
 }
 

@@ -16,15 +16,17 @@ class FilmDrawing {
   // `view` must outlive it.
   explicit FilmDrawing(const View& view);
 
-  // Not As::surface. `ground`: a grid at height 0 beneath it all, and the world's axes in the corner (x red, y green,
+  // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at height 0 beneath it all, and the world's axes in the corner (x red, y green,
   // z blue).
-  void draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, bool ground) const;
+  void draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
+            bool ground) const;
 
  private:
-  void draw_axes(Drawing& drawing, const node::Camera& camera) const;
+  void draw_axes(Drawing& drawing, const node::Camera& camera, std::uint32_t pen) const;
 
   const View& view_;
   Lines grid_;
+  bool moving_ = false;  // anything in the film
 };
 
 // Half as wide and high, each pixel the mean of four: lines two pixels wide become smooth ones. Sizes are even.

@@ -55,8 +55,9 @@ Image FilmPictures::drawn(As as, std::uint32_t frame, Extent extent) {
   const std::uint32_t pen = look_.smooth ? 2 : 1;
   const Image* old = drawing_ ? &drawing_->image() : nullptr;
   if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
-    drawing_.emplace(pen * extent.width, pen * extent.height, pen);
-  lines_.draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), look_.ground);
+    drawing_.emplace(pen * extent.width, pen * extent.height);
+  lines_.draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen,
+              look_.ground);
   return look_.smooth ? halved(drawing_->image()) : drawing_->image();
 }
 
@@ -110,7 +111,7 @@ bool FilmPictures::look_from(From from) {
   return true;
 }
 
-bool FilmPictures::obey(const Key& key) {
+bool FilmPictures::obey(const KeyPress& key) {
   switch (key.special) {
     case Special::left: return turn(-kStep, 0);
     case Special::right: return turn(kStep, 0);

@@ -29,7 +29,7 @@ class FilmPictures : public Pictures {
   double rate() const override { return view_.rate; }
   Extent extent() const override { return {view_.width, view_.height}; }
   SharedImage picture(std::uint32_t frame, Extent extent) override;
-  bool obey(const Key& key) override;
+  bool obey(const KeyPress& key) override;
   std::string state() const override;
   std::string keys() const override;
 

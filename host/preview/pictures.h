@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "host/preview/key.h"
+#include "host/preview/key_press.h"
 #include "host/sinks/png_file.h"
 
 namespace mars::host {
@@ -32,7 +32,7 @@ class Pictures {
   virtual SharedImage picture(std::uint32_t frame, Extent extent) = 0;
 
   // A person's wish: true if it changes what is to be seen.
-  virtual bool obey(const Key&) { return false; }
+  virtual bool obey(const KeyPress&) { return false; }
   virtual std::string state() const { return ""; }  // in a few words, for a status line
   virtual std::string keys() const { return ""; }   // likewise, what obey() knows
 };

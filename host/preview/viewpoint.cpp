@@ -66,7 +66,7 @@ Film turntable(Model model, const std::string& source) {
   film.source = source;
   film.frames = kFrames;
   film.background = {0.12, 0.14, 0.20};
-  film.lights.push_back({true, constant(glm::dvec3(-0.4, -0.7, 0.8)), constant(glm::dvec3(1)), constant(1.0)});
+  film.lights.push_back({true, constant(glm::dvec3(0, 0, 1)), constant(glm::dvec3(1)), constant(1.2)});
   Actor actor;
   actor.name = "model";
   actor.model = 0;
@@ -85,9 +85,11 @@ Film turntable(Model model, const std::string& source) {
   orbit.height = 12;
   film.camera.at = constant(ball.center);
   film.camera.eye.clear();
+  film.lights.front().vector.clear();
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
     orbit.turn = 360.0 * frame / kFrames - 30;
     film.camera.eye.push_back({frame, ball.center + orbit.distance * outward(orbit), kLinear});
+    film.lights.front().vector.push_back({frame, outward({{}, orbit.turn - 35, 40}), kLinear});
   }
   film.camera.near = orbit.distance / 1000;
   film.camera.far = orbit.distance * 1000;
