@@ -57,19 +57,7 @@ bool read_number(std::string_view text, std::uint32_t& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-void read(const std::string& text, std::optional<PictureSize>& value) {
-  const std::size_t cross = std::min(text.find('x'), text.size());
-  PictureSize size{};
-  const bool numbers = cross < text.size() &&
-                       read_number(std::string_view(text).substr(0, cross), size.width) &&
-                       read_number(std::string_view(text).substr(cross + 1), size.height);
-  if (!numbers) throw Failure("'" + text + "' is not a size", "", "write width and height like 960x540");
-  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > node::kMaxSide) {
-    throw Failure(
-        "'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "", "");
-  }
-  value = size;
-}
+void read(const std::string& text, std::optional<PictureSize>& value) { value = read_picture_size(text); }
 
 // A number of at least one.
 struct Count {
@@ -237,6 +225,20 @@ void check_together(const RenderOptions& options) {
 }
 
 }  // namespace
+
+PictureSize read_picture_size(const std::string& text) {
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  PictureSize size{};
+  const bool numbers = cross < text.size() &&
+                       read_number(std::string_view(text).substr(0, cross), size.width) &&
+                       read_number(std::string_view(text).substr(cross + 1), size.height);
+  if (!numbers) throw Failure("'" + text + "' is not a size", "", "write width and height like 960x540");
+  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > node::kMaxSide) {
+    throw Failure(
+        "'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "", "");
+  }
+  return size;
+}
 
 void add_render_options(CLI::App& app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {

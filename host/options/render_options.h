@@ -31,6 +31,9 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
+// From "960x540". Throws Failure where that is no size.
+PictureSize read_picture_size(const std::string& text);
+
 struct RenderOptions {
   std::string film;         // FILM.json or FILM.mars
   std::string folder;       // for the frames; "" only without a sink

@@ -17,6 +17,7 @@
 #include "host/options/command_line.h"
 #include "host/programs/film_of.h"
 #include "host/programs/node_job.h"
+#include "host/programs/preview_command.h"
 #include "host/sinks/verify.h"
 
 namespace mars::host {
@@ -33,6 +34,8 @@ Commands:
   mars render FILM -o DIR          render a film to PNG files
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   what a film holds
+  mars preview FILM                play a film or a model in the terminal, before it is rendered
+  mars play DIR                    play rendered frames in the terminal
   mars verify DIR                  are all frames there, and whole?
   mars import FILE -o MODEL.json   a model from a patch file
   mars doctor                      what is in the way here, and what to do
@@ -164,6 +167,8 @@ int run(int argc, char** argv) {
   add_info(app, names);
   add_verify(app, names, code);
   add_import(app, names);
+  add_preview(app);
+  add_play(app);
   DoctorOptions doctor;
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;

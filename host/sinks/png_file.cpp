@@ -161,11 +161,11 @@ std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
   return bytes;
 }
 
-Image read_png(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_whole_file(path);
+Image read_png(const std::filesystem::path& path) { return decode_png(read_whole_file(path), path.string()); }
+
+Image decode_png(std::span<const std::byte> bytes, const std::string& name) {
   const auto torn = [&](const Reader& reader) {
-    return Failure(std::string("not a whole PNG picture: ") + reader.reason(), path.string(),
-                   "render it again");
+    return Failure(std::string("not a whole PNG picture: ") + reader.reason(), name, "render it again");
   };
   Source source{bytes.data(), bytes.data() + bytes.size()};
   Image image;

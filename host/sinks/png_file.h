@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace mars::host {
@@ -23,5 +24,7 @@ std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
 // Decodes an opaque PNG of any depth to 8 bits a channel. Throws Failure naming the file where it is missing,
 // torn or no PNG.
 Image read_png(const std::filesystem::path& path);
+// Likewise from a file's bytes; `name` stands for the file in failures.
+Image decode_png(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace mars::host

@@ -1,0 +1,64 @@
+// Lines into a picture: projected as the renderer projects (node/scene.cpp), clipped at the near plane and at the
+// picture's edges, one pen wide, nearer ones over farther ones, farther ones dimmer. One core, no allocation in
+// steady state.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/preview/view.h"
+#include "host/sinks/png_file.h"
+
+namespace mars::host {
+
+std::uint32_t pixel_of_color(const Color& color);
+
+struct Stroke {
+  std::uint32_t line = 1;  // pixels wide
+  std::uint32_t dot = 1;
+};
+
+class Drawing {
+ public:
+  Drawing(std::uint32_t width, std::uint32_t height);
+
+  // An empty picture, seen by `camera`; lines are full bright at `nearest` and dim at `farthest` (distances along
+  // its axis).
+  void begin(const node::Camera& camera, const Color& background, double nearest, double farthest);
+  // What follows is seen by another camera.
+  void look(const node::Camera& camera);
+  void draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke = {});
+
+  const Image& image() const { return image_; }
+
+ private:
+  // On the screen, pixels from the top left corner; `closeness` is 1 / distance along the camera's axis, 0 or less:
+  // nearer than its near plane.
+  struct Spot {
+    float x, y, closeness;
+  };
+  // Before the division: x' = x / w + center.
+  struct Place {
+    float x, y, w;
+  };
+
+  Place place_of(const float* point) const;
+  Spot project(const Place& place) const;
+  void join(const float* from, const float* to, const Color& color);
+  void draw_line(Spot from, Spot to, std::uint32_t color);
+  void draw_dot(const Spot& spot, std::uint32_t color);
+  void plot(std::uint32_t x, std::uint32_t y, float closeness, std::uint32_t color);
+  std::uint32_t dimmed(std::uint32_t color, float closeness) const;
+
+  Image image_;
+  Stroke stroke_;
+  std::vector<float> closest_;  // of each pixel; 0: nothing there
+  std::vector<Spot> spots_;
+  Placing to_screen_{};  // of the lines being drawn: x, y before the division and w
+  node::Camera camera_{};
+  float near_ = 0;
+  float nearest_ = 0, fade_ = 0;
+  std::uint32_t background_ = 0;
+};
+
+}  // namespace mars::host

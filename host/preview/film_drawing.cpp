@@ -1,0 +1,121 @@
+#include "host/preview/film_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mars::host {
+namespace {
+
+constexpr Placing kWorld{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+constexpr Color kGround{0.30f, 0.33f, 0.38f};
+
+// 1, 2 or 5 times a power of ten, such that about ten of them make `extent`.
+double grid_step(double extent) {
+  const double power = std::pow(10, std::floor(std::log10(extent / 10)));
+  for (const double times : {1.0, 2.0, 5.0})
+    if (times * power >= extent / 10) return times * power;
+  return 10 * power;
+}
+
+// Lines at z = 0 under the ball, to whole steps.
+Lines ground_under(const Ball& ball) {
+  Lines grid;
+  const double step = grid_step(2 * std::max(ball.radius, 1e-6));
+  const auto count = static_cast<int>(std::ceil(ball.radius / step));
+  const double x = std::round(ball.center.x / step) * step, y = std::round(ball.center.y / step) * step;
+  const auto add = [&](double px, double py) {
+    grid.points.insert(grid.points.end(), {static_cast<float>(x + px), static_cast<float>(y + py), 0.0f});
+  };
+  for (int i = -count; i <= count; ++i) {
+    const double at = i * step, end = count * step;
+    add(at, -end);
+    add(at, end);
+    add(-end, at);
+    add(end, at);
+  }
+  for (std::uint32_t point = 0; point < grid.points.size() / 3; ++point) grid.ends.push_back(point);
+  return grid;
+}
+
+// Half way to the paper.
+Color dim(Color color) {
+  for (std::size_t i = 0; i < 3; ++i) color[i] = 0.5f * (color[i] + kPaper[i]);
+  return color;
+}
+
+double distance_along(const node::Camera& camera, const glm::dvec3& place) {
+  const auto& row = camera.world_to_eye.m[2];
+  return -(row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3]);
+}
+
+}  // namespace
+
+Color line_color(const Color& color) {
+  constexpr float kDarkest = 0.62f;
+  const float brightest = std::max({color[0], color[1], color[2]});
+  if (brightest >= kDarkest) return color;
+  if (brightest < 0.05f) return {kDarkest, kDarkest, kDarkest};
+  Color lifted;
+  for (std::size_t i = 0; i < 3; ++i) lifted[i] = color[i] * kDarkest / brightest;
+  return lifted;
+}
+
+FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(view.subject)) {
+  for (const Part& part : view.parts[0]) moving_ = moving_ || part.motion.count > 1;
+}
+
+void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
+                       bool ground) const {
+  const double middle = distance_along(camera, view_.subject.center);
+  drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
+  if (ground) drawing.draw(grid_, kWorld, kGround, {pen, 1});
+  const Stroke sticks{pen > 1 ? 2 * pen : pen, 3 * pen}, thin{pen, pen + 1};
+  for (const Part& part : view_.parts[static_cast<std::size_t>(as)]) {
+    Color color = line_color(view_.colors[view_.value_at(part.look, frame)]);
+    const bool scenery = moving_ && part.motion.count == 1;
+    if (scenery) color = dim(color);
+    drawing.draw(view_.lines[part.lines], view_.matrices[view_.value_at(part.motion, frame)], color,
+                 as == As::stick && !scenery ? sticks : thin);
+  }
+  if (ground) draw_axes(drawing, camera, pen);
+}
+
+// Each axis as a little stick near the lower left corner, before everything else.
+void FilmDrawing::draw_axes(Drawing& drawing, const node::Camera& camera, std::uint32_t pen) const {
+  const auto width = static_cast<float>(drawing.image().width), height = static_cast<float>(drawing.image().height);
+  node::Camera still = camera;
+  for (auto& row : still.world_to_eye.m) row[3] = 0;
+  const double distance = 4 * camera.near, scale = camera.focal * height / 2 / distance;  // pixels a length there
+  const double size = 0.06 * height / scale, margin = 0.09 * height;
+  still.world_to_eye.m[0][3] = (margin - width / 2) / scale;
+  still.world_to_eye.m[1][3] = (margin - height / 2) / scale;
+  still.world_to_eye.m[2][3] = -distance;
+  drawing.look(still);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Lines stick{{0, 0, 0, 0, 0, 0}, {0, 1}, 0};
+    stick.points[3 + axis] = static_cast<float>(size);
+    Color color{0.35f, 0.35f, 0.35f};
+    color[axis] = 1;
+    drawing.draw(stick, kWorld, color, {pen, 1});
+  }
+}
+
+Image halved(const Image& image) {
+  Image half{image.width / 2, image.height / 2, {}};
+  half.pixels.reserve(std::size_t{half.width} * half.height);
+  for (std::size_t y = 0; y < half.height; ++y) {
+    const std::uint32_t* top = &image.pixels[2 * y * image.width];
+    const std::uint32_t* below = top + image.width;
+    for (std::size_t x = 0; x < 2 * std::size_t{half.width}; x += 2) {
+      std::uint32_t pixel = 0;
+      for (const int shift : {0, 8, 16}) {
+        const auto part = [&](std::uint32_t p) { return p >> shift & 0xff; };
+        pixel |= (part(top[x]) + part(top[x + 1]) + part(below[x]) + part(below[x + 1]) + 2) / 4 << shift;
+      }
+      half.pixels.push_back(pixel);
+    }
+  }
+  return half;
+}
+
+}  // namespace mars::host

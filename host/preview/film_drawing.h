@@ -1,0 +1,35 @@
+// A frame of a film as lines: one of the thesis's three representations, seen from anywhere.
+#pragma once
+
+#include "host/preview/drawing.h"
+#include "host/preview/view.h"
+
+namespace mars::host {
+
+inline constexpr Color kPaper{0.07f, 0.08f, 0.10f};
+
+// A colour as lines of it are drawn: bright enough to be seen on kPaper.
+Color line_color(const Color& color);
+
+class FilmDrawing {
+ public:
+  // `view` must outlive it.
+  explicit FilmDrawing(const View& view);
+
+  // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at height 0 beneath it all, and the world's axes in the corner (x red, y green,
+  // z blue).
+  void draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
+            bool ground) const;
+
+ private:
+  void draw_axes(Drawing& drawing, const node::Camera& camera, std::uint32_t pen) const;
+
+  const View& view_;
+  Lines grid_;
+  bool moving_ = false;  // anything in the film
+};
+
+// Half as wide and high, each pixel the mean of four: lines two pixels wide become smooth ones. Sizes are even.
+Image halved(const Image& image);
+
+}  // namespace mars::host

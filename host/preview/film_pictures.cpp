@@ -1,0 +1,150 @@
+#include "host/preview/film_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace mars::host {
+namespace {
+
+constexpr std::array<As, 4> kAll{As::stick, As::vertices, As::prisms, As::surface};
+constexpr double kStep = 10;     // degrees, of an arrow key
+constexpr double kZoom = 1.15;   // of a key
+
+const char* name_of(const std::optional<As>& as) {
+  if (!as) return "all four";
+  constexpr std::array<const char*, 4> names{"stick", "vertices", "prisms", "surface"};
+  return names[static_cast<std::size_t>(*as)];
+}
+
+void paste(const Image& from, Image& to, std::uint32_t x, std::uint32_t y) {
+  for (std::uint32_t line = 0; line < from.height; ++line)
+    std::copy_n(&from.pixels[std::size_t{line} * from.width], from.width,
+                &to.pixels[std::size_t{y + line} * to.width + x]);
+}
+
+}  // namespace
+
+FilmPictures::FilmPictures(const View& view, SurfaceSource& surface, const Look& look)
+    : view_(view), surface_(surface), lines_(view), look_(look) {}
+
+node::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
+  if (look_.from != From::camera || orbit_) {
+    Orbit orbit = orbit_ ? *orbit_ : orbit_from(look_.from, view_.subject, aspect);
+    orbit.distance /= zoom_;
+    return camera_of(orbit);
+  }
+  node::Camera camera = view_.camera_at(frame);
+  camera.focal *= zoom_;
+  return camera;
+}
+
+SharedImage FilmPictures::picture(std::uint32_t frame, Extent extent) {
+  frame_ = frame;
+  aspect_ = double(extent.width) / extent.height;
+  return look_.as ? one(*look_.as, frame, extent) : all(frame, extent);
+}
+
+SharedImage FilmPictures::one(As as, std::uint32_t frame, Extent extent) {
+  if (as == As::surface) return rendered(frame, extent);
+  return std::make_shared<const Image>(drawn(as, frame, extent));
+}
+
+Image FilmPictures::drawn(As as, std::uint32_t frame, Extent extent) {
+  const std::uint32_t pen = look_.smooth ? 2 : 1;
+  const Image* old = drawing_ ? &drawing_->image() : nullptr;
+  if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
+    drawing_.emplace(pen * extent.width, pen * extent.height);
+  lines_.draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen,
+              look_.ground);
+  return look_.smooth ? halved(drawing_->image()) : drawing_->image();
+}
+
+SharedImage FilmPictures::rendered(std::uint32_t frame, Extent extent) {
+  Aim aim{extent, std::nullopt};
+  if (look_.from != From::camera || orbit_ || zoom_ != 1) aim.camera = camera(frame, double(extent.width) / extent.height);
+  if (!aim_ || *aim_ != aim) {
+    std::vector<std::uint32_t> frames = look_.frames;
+    if (frames.empty()) {
+      frames.resize(view_.frames);
+      std::iota(frames.begin(), frames.end(), 0u);
+      std::rotate(frames.begin(), frames.begin() + frame, frames.end());
+    }
+    surface_.aim(extent, aim.camera, std::move(frames));
+    aim_ = aim;
+  }
+  return look_.wait ? surface_.wait_for(frame) : surface_.frame(frame);
+}
+
+// In a row where there is room, else two above two.
+SharedImage FilmPictures::all(std::uint32_t frame, Extent extent) {
+  const std::uint32_t columns = extent.width >= 2 * extent.height ? 4 : 2;
+  const Extent panel{std::max(extent.width / columns, 1u), std::max(extent.height * columns / 4, 1u)};
+  Image whole{columns * panel.width, 4 / columns * panel.height, {}};
+  whole.pixels.resize(std::size_t{whole.width} * whole.height);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const SharedImage part = one(kAll[i], frame, panel);
+    if (part) paste(*part, whole, i % columns * panel.width, i / columns * panel.height);
+  }
+  return std::make_shared<const Image>(std::move(whole));
+}
+
+Orbit& FilmPictures::orbit() {
+  if (!orbit_)
+    orbit_ = look_.from == From::camera ? orbit_near(view_.camera_at(frame_), view_.subject)
+                                        : orbit_from(look_.from, view_.subject, aspect_);
+  return *orbit_;
+}
+
+bool FilmPictures::turn(double degrees, double up) {
+  Orbit& at = orbit();
+  at.turn += degrees;
+  at.height = std::clamp(at.height + up, -90.0, 90.0);
+  return true;
+}
+
+bool FilmPictures::look_from(From from) {
+  look_.from = from;
+  orbit_.reset();
+  zoom_ = 1;
+  return true;
+}
+
+bool FilmPictures::obey(const KeyPress& key) {
+  switch (key.special) {
+    case Special::left: return turn(-kStep, 0);
+    case Special::right: return turn(kStep, 0);
+    case Special::up: return turn(0, kStep);
+    case Special::down: return turn(0, -kStep);
+    default: break;
+  }
+  switch (key.character) {
+    case '1': case '2': case '3': case '4':
+      look_.as = kAll[static_cast<std::size_t>(key.character - '1')];
+      return true;
+    case '5': look_.as.reset(); return true;
+    case 'c': return look_from(From::camera);
+    case 'f': return look_from(From::front);
+    case 's': return look_from(From::side);
+    case 't': return look_from(From::top);
+    case '+': case '=': zoom_ = std::min(zoom_ * kZoom, 1000.0); return true;
+    case '-': zoom_ = std::max(zoom_ / kZoom, 0.001); return true;
+    case 'g': look_.ground = !look_.ground; return true;
+    default: return false;
+  }
+}
+
+std::string FilmPictures::state() const {
+  constexpr std::array<const char*, 4> from{"camera", "front", "side", "top"};
+  std::string text = std::string(name_of(look_.as)) + ", " +
+                     (orbit_ ? "turned" : from[static_cast<std::size_t>(look_.from)]);
+  if (look_.as == As::stick && view_.sticks_of_prisms) text += ", sticks from prisms";
+  return text;
+}
+
+std::string FilmPictures::keys() const {
+  return "1 stick 2 vertices 3 prisms 4 surface 5 all  c camera f front s side t top  arrows turn + - zoom g ground";
+}
+
+}  // namespace mars::host

@@ -1,0 +1,67 @@
+// A film's pictures in one of its four representations, or all four side by side, seen from where one wishes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/preview/film_drawing.h"
+#include "host/preview/pictures.h"
+#include "host/preview/surface_source.h"
+#include "host/preview/viewpoint.h"
+
+namespace mars::host {
+
+struct Look {
+  std::optional<As> as = As::prisms;  // none: all four
+  From from = From::camera;
+  bool ground = true;
+  bool smooth = false;     // lines without steps, at four times the work
+  bool wait = false;       // for rendered frames
+  std::vector<std::uint32_t> frames;  // that will be asked for; empty: all of them
+};
+
+class FilmPictures : public Pictures {
+ public:
+  // Both must outlive it.
+  FilmPictures(const View& view, SurfaceSource& surface, const Look& look);
+
+  std::uint32_t frames() const override { return view_.frames; }
+  double rate() const override { return view_.rate; }
+  Extent extent() const override { return {view_.width, view_.height}; }
+  SharedImage picture(std::uint32_t frame, Extent extent) override;
+  bool obey(const KeyPress& key) override;
+  std::string state() const override;
+  std::string keys() const override;
+
+  // Where the film is seen from at a frame.
+  node::Camera camera(std::uint32_t frame, double aspect) const;
+
+ private:
+  struct Aim {
+    Extent extent;
+    std::optional<node::Camera> camera;
+
+    bool operator==(const Aim&) const = default;
+  };
+
+  Image drawn(As as, std::uint32_t frame, Extent extent);
+  SharedImage rendered(std::uint32_t frame, Extent extent);
+  SharedImage one(As as, std::uint32_t frame, Extent extent);
+  SharedImage all(std::uint32_t frame, Extent extent);
+  bool turn(double degrees, double up);
+  bool look_from(From from);
+  Orbit& orbit();
+
+  const View& view_;
+  SurfaceSource& surface_;
+  FilmDrawing lines_;
+  Look look_;
+  std::optional<Orbit> orbit_;  // where a person went from look_.from
+  double zoom_ = 1;
+  double aspect_ = 1;  // of the last picture
+  std::uint32_t frame_ = 0;
+  std::optional<Drawing> drawing_;
+  std::optional<Aim> aim_;
+};
+
+}  // namespace mars::host

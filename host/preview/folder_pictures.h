@@ -1,0 +1,29 @@
+// Rendered frames in a folder (host/sinks/frame_folder.h), as they are rendered or later.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "host/preview/pictures.h"
+#include "host/sinks/frame_folder.h"
+
+namespace mars::host {
+
+class FolderPictures : public Pictures {
+ public:
+  // Throws Failure where the folder has no manifest.
+  explicit FolderPictures(std::filesystem::path folder);
+
+  std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest_.frames.size()); }
+  double rate() const override { return manifest_.rate; }
+  Extent extent() const override { return {manifest_.width, manifest_.height}; }
+  // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
+  SharedImage picture(std::uint32_t place, Extent extent) override;
+  std::string state() const override { return folder_.string(); }
+
+ private:
+  std::filesystem::path folder_;
+  Manifest manifest_;
+};
+
+}  // namespace mars::host

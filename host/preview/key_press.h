@@ -1,0 +1,22 @@
+// A key that was pressed in a terminal: a character, or one of those that send several bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mars::host {
+
+enum class Special { none, up, down, left, right, home, end };
+
+struct KeyPress {
+  char character = 0;  // if `special` is none
+  Special special = Special::none;
+
+  bool operator==(const KeyPress&) const = default;
+};
+
+// The keys in what a terminal sent; sequences that are none of ours are left out. What is begun and not complete at
+// the end stays in `bytes`.
+std::vector<KeyPress> take_keys(std::string& bytes);
+
+}  // namespace mars::host

@@ -1,0 +1,19 @@
+// What a person asks to see: a film file, a compiled film, or a model file alone, told apart by what they hold.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "host/preview/view.h"
+
+namespace mars::host {
+
+struct Previewed {
+  CompiledFilm film;  // for the renderer
+  View view;          // for everything else
+};
+
+// A model becomes the film of a turn around it. Throws Failure as the readers do.
+Previewed load_previewed(const std::filesystem::path& path);
+
+}  // namespace mars::host

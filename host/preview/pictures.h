@@ -1,0 +1,46 @@
+// Where the pictures of a film come from, for who shows them one after the other: drawn, rendered, or read from a
+// folder.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "host/preview/key_press.h"
+#include "host/sinks/png_file.h"
+
+namespace mars::host {
+
+struct Extent {
+  std::uint32_t width;  // pixels
+  std::uint32_t height;
+
+  bool operator==(const Extent&) const = default;
+};
+
+using SharedImage = std::shared_ptr<const Image>;
+
+class Pictures {
+ public:
+  virtual ~Pictures() = default;
+
+  virtual std::uint32_t frames() const = 0;
+  virtual double rate() const = 0;    // frames a second
+  virtual Extent extent() const = 0;  // the film's own
+
+  // The frame at another size, of about the same shape. nullptr: it is not ready yet.
+  virtual SharedImage picture(std::uint32_t frame, Extent extent) = 0;
+
+  // A person's wish: true if it changes what is to be seen.
+  virtual bool obey(const KeyPress&) { return false; }
+  virtual std::string state() const { return ""; }  // in a few words, for a status line
+  virtual std::string keys() const { return ""; }   // likewise, what obey() knows
+};
+
+// The film's picture as large as fits into `room`, at least one pixel each way.
+Extent fitted(Extent film, Extent room);
+
+// By the mean of the pixels under each new one, or the nearest where it grows.
+Image scaled(const Image& image, Extent extent);
+
+}  // namespace mars::host

@@ -1,0 +1,136 @@
+#include "host/preview/shape_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace mars::host {
+namespace {
+
+using Point = std::array<float, 3>;
+
+struct PointHash {
+  std::size_t operator()(const Point& point) const {
+    std::size_t hash = 0;
+    for (const float coordinate : point)
+      hash = (hash ^ std::hash<float>()(coordinate)) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 32;
+  }
+};
+
+void add_point(Lines& lines, const glm::dvec3& point) {
+  for (int axis = 0; axis < 3; ++axis) lines.points.push_back(static_cast<float>(point[axis]));
+}
+
+class Net {
+ public:
+  void add(const node::Patch& patch) {
+    std::array<std::uint32_t, 16> numbers;
+    for (std::size_t i = 0; i < 16; ++i) numbers[i] = number_of(patch.points[i]);
+    for (std::size_t row = 0; row < 4; ++row)
+      for (std::size_t column = 0; column < 3; ++column) {
+        join(numbers[4 * row + column], numbers[4 * row + column + 1]);
+        join(numbers[4 * column + row], numbers[4 * (column + 1) + row]);
+      }
+  }
+
+  Lines take() {
+    lines_.dots = static_cast<std::uint32_t>(points_.size());
+    return std::move(lines_);
+  }
+
+ private:
+  std::uint32_t number_of(const Point& point) {
+    const auto [known, is_new] = points_.try_emplace(point, static_cast<std::uint32_t>(points_.size()));
+    if (is_new) lines_.points.insert(lines_.points.end(), point.begin(), point.end());
+    return known->second;
+  }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    if (a == b) return;
+    const std::uint64_t both = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    if (joined_.insert(both).second) lines_.ends.insert(lines_.ends.end(), {a, b});
+  }
+
+  Lines lines_;
+  std::unordered_map<Point, std::uint32_t, PointHash> points_;
+  std::unordered_set<std::uint64_t> joined_;
+};
+
+// The middle of the box's face that is farthest from the joint, in the unit cube.
+glm::dvec3 far_end(const Box& sbb) {
+  glm::dvec3 end(0.5);
+  double farthest = -1;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {sbb.min[axis], sbb.max[axis]})
+      if (std::abs(side) > farthest) {
+        farthest = std::abs(side);
+        end = glm::dvec3(0.5);
+        end[axis] = side == sbb.min[axis] ? 0 : 1;
+      }
+  return end;
+}
+
+// A place in the joint's frame, in the unit cube of its segment if it has one.
+glm::dvec3 in_own(const Joint& joint, const glm::dvec3& place) {
+  if (!joint.segment) return place;
+  const glm::dmat3 axes(joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis));
+  const Box& sbb = joint.segment->sbb;
+  return (glm::inverse(axes) * place - sbb.min) / (sbb.max - sbb.min);
+}
+
+// From the first point.
+void add_stick(Lines& lines, const glm::dvec3& end) {
+  lines.ends.insert(lines.ends.end(), {0, static_cast<std::uint32_t>(lines.points.size() / 3)});
+  add_point(lines, end);
+}
+
+}  // namespace
+
+Lines control_net(std::span<const node::Patch> patches) {
+  Net net;
+  for (const node::Patch& patch : patches) net.add(patch);
+  return net.take();
+}
+
+Lines cube_edges() {
+  Lines lines;
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    add_point(lines, glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2));
+    for (const std::uint32_t axis : {1u, 2u, 4u})
+      if ((corner & axis) == 0) lines.ends.insert(lines.ends.end(), {corner, corner | axis});
+  }
+  return lines;
+}
+
+Lines cube_axis(int axis) {
+  Lines lines;
+  for (const double side : {0.0, 1.0}) {
+    glm::dvec3 point(0.5);
+    point[axis] = side;
+    add_point(lines, point);
+  }
+  lines.ends = {0, 1};
+  lines.dots = 1;
+  return lines;
+}
+
+std::vector<Lines> sticks_of(const Model& model) {
+  std::vector<Lines> sticks(model.joints.size());
+  for (std::size_t number = 0; number < model.joints.size(); ++number) {
+    const Joint& joint = model.joints[number];
+    add_point(sticks[number], in_own(joint, {0, 0, 0}));
+    sticks[number].dots = 1;
+    if (joint.parent != kNone) add_stick(sticks[joint.parent], in_own(model.joints[joint.parent], joint.place));
+  }
+  for (std::size_t number = 0; number < model.joints.size(); ++number)
+    if (const auto& segment = model.joints[number].segment; segment && sticks[number].ends.empty())
+      add_stick(sticks[number], far_end(segment->sbb));
+  return sticks;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,26 @@
+// The lines of one thing in its own coordinates: a control net, a prism, a joint's sticks (thesis, figure 2.6).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/modeler/model.h"
+#include "host/preview/view.h"
+
+namespace mars::host {
+
+// The control points of patches, each once, joined along u and v; lines that patches share are drawn once, lines of
+// no length are left out. All points are dots.
+Lines control_net(std::span<const node::Patch> patches);
+
+// The 12 edges of the unit cube, which a T-matrix makes a segment's prism.
+Lines cube_edges();
+
+// The middle of the unit cube's low face to that of the high one along `axis`.
+Lines cube_axis(int axis);
+
+// Of each joint: from it (a dot) to each of its children; from the last of a limb to the far end of its segment. In
+// the unit cube of the joint's segment, or in the joint's own frame where it has none.
+std::vector<Lines> sticks_of(const Model& model);
+
+}  // namespace mars::host

@@ -1,0 +1,27 @@
+// Rendered frames for a viewer. Who renders is not the preview's business: only programs link host and nodes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/preview/pictures.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+class SurfaceSource {
+ public:
+  virtual ~SurfaceSource() = default;
+
+  // From now on renders these frames, in this order, at this size, seen by `camera` or else the film's; what was
+  // being rendered is dropped.
+  virtual void aim(Extent extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) = 0;
+
+  // nullptr: not rendered yet. Throws what ended the rendering.
+  virtual SharedImage frame(std::uint32_t number) = 0;
+  // Waits for it.
+  virtual SharedImage wait_for(std::uint32_t number) = 0;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,210 @@
+#include "host/preview/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+#include "host/animator/figure.h"
+#include "host/preview/shape_lines.h"
+
+namespace mars::host {
+namespace {
+
+constexpr Color kGrey{0.7f, 0.7f, 0.7f};  // of joints that no segment lends its colour
+
+template <typename Number>
+Placing placing(const std::array<std::array<Number, 4>, 3>& rows) {
+  Placing flat;
+  for (std::size_t i = 0; i < 12; ++i) flat[i] = static_cast<float>(rows[i / 4][i % 4]);
+  return flat;
+}
+
+Placing placing(const Axes& frame) {
+  Placing flat;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) flat[4 * row + column] = static_cast<float>(frame.turn[column][row]);
+    flat[4 * row + 3] = static_cast<float>(frame.place[row]);
+  }
+  return flat;
+}
+
+double column_length(const node::Matrix& matrix, std::size_t column) {
+  return std::hypot(matrix.m[0][column], matrix.m[1][column], matrix.m[2][column]);
+}
+
+// Grows to hold balls: exact in the box of their middles, generous with their radii.
+class Holder {
+ public:
+  void add(const node::Matrix& matrix) {
+    glm::dvec3 middle;
+    for (int r = 0; r < 3; ++r) {
+      const auto& row = matrix.m[static_cast<std::size_t>(r)];
+      middle[r] = 0.5 * (row[0] + row[1] + row[2]) + row[3];
+    }
+    low_ = glm::min(low_, middle);
+    high_ = glm::max(high_, middle);
+    radius_ = std::max(radius_, 0.5 * std::hypot(column_length(matrix, 0), column_length(matrix, 1),
+                                                 column_length(matrix, 2)));
+  }
+
+  bool empty() const { return low_.x > high_.x; }
+  Ball ball() const { return empty() ? Ball{{0, 0, 0}, 1} : Ball{0.5 * (low_ + high_), glm::length(high_ - low_) / 2 + radius_}; }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::max();
+  glm::dvec3 low_{kFar}, high_{-kFar};
+  double radius_ = 0;
+};
+
+class Maker {
+ public:
+  Maker(const CompiledFilm& film, const Film* source) : film_(film.view()), source_(source) {}
+
+  View make() {
+    take_values();
+    take_segments();
+    if (source_ != nullptr)
+      for (const Actor& actor : source_->actors) add_sticks(actor);
+    else
+      add_prism_axes();
+    find_balls();
+    return std::move(view_);
+  }
+
+ private:
+  void take_values() {
+    const node::FilmSettings& settings = film_.settings();
+    view_.frames = settings.frames;
+    view_.rate = settings.rate;
+    view_.width = settings.width;
+    view_.height = settings.height;
+    view_.background = settings.background;
+    view_.camera = settings.camera;
+    view_.cameras.assign(film_.cameras().begin(), film_.cameras().end());
+    view_.changes.assign(film_.changes().begin(), film_.changes().end());
+    for (const node::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix.m));
+    for (const node::Material& material : film_.materials()) view_.colors.push_back(material.color);
+  }
+
+  std::uint32_t add_lines(Lines lines) {
+    view_.lines.push_back(std::move(lines));
+    return static_cast<std::uint32_t>(view_.lines.size() - 1);
+  }
+
+  void take_segments() {
+    for (const node::Shape& shape : film_.shapes())
+      add_lines(control_net(film_.patches().subspan(shape.first_patch, shape.patch_count)));
+    const std::uint32_t cube = add_lines(cube_edges());
+    for (const node::Segment& segment : film_.segments()) {
+      parts(As::vertices).push_back({segment.shape, segment.motion, segment.look});
+      parts(As::prisms).push_back({cube, segment.motion, segment.look});
+    }
+  }
+
+  std::vector<Part>& parts(As as) { return view_.parts[static_cast<std::size_t>(as)]; }
+
+  const std::vector<std::uint32_t>& model_sticks(std::size_t model) {
+    if (model_sticks_.empty()) model_sticks_.resize(source_->models.size());
+    auto& numbers = model_sticks_[model];
+    if (numbers.empty())
+      for (Lines& lines : sticks_of(source_->models[model])) numbers.push_back(add_lines(std::move(lines)));
+    return numbers;
+  }
+
+  // The film's segments come actor by actor, joint by joint.
+  void add_sticks(const Actor& actor) {
+    const Model& model = source_->models[actor.model];
+    const std::vector<std::uint32_t>& lines = model_sticks(actor.model);
+    std::vector<std::size_t> bare;  // joints without a segment
+    std::vector<node::Track> looks;
+    for (std::size_t number = 0; number < model.joints.size(); ++number) {
+      const Joint& joint = model.joints[number];
+      if (joint.segment) {
+        const node::Segment& segment = film_.segments()[next_segment_++];
+        parts(As::stick).push_back({lines[number], segment.motion, segment.look});
+        looks.push_back(segment.look);
+      } else {
+        looks.push_back(joint.parent == kNone ? grey() : looks[joint.parent]);
+        if (actor.matrices.empty()) bare.push_back(number);
+      }
+    }
+    if (!bare.empty()) add_bare_joints(actor, bare, lines, looks);
+  }
+
+  node::Track grey() {
+    if (!grey_) {
+      grey_ = node::Track{static_cast<std::uint32_t>(view_.changes.size()), 1};
+      view_.changes.push_back({0, static_cast<std::uint32_t>(view_.colors.size())});
+      view_.colors.push_back(kGrey);
+    }
+    return *grey_;
+  }
+
+  // Where joints without segments stand, only what changes.
+  void add_bare_joints(const Actor& actor, const std::vector<std::size_t>& joints,
+                       const std::vector<std::uint32_t>& lines, const std::vector<node::Track>& looks) {
+    Figure figure(source_->models[actor.model], actor.motion);
+    std::vector<std::vector<node::Change>> changes(joints.size());
+    const std::uint32_t frames = figure.still() ? 1 : source_->frames;
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+      if (!figure.move_to(frame)) continue;
+      for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (!figure.moved(joints[i])) continue;
+        changes[i].push_back({frame, static_cast<std::uint32_t>(view_.matrices.size())});
+        view_.matrices.push_back(placing(figure.frame_of(joints[i])));
+      }
+    }
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const node::Track track{static_cast<std::uint32_t>(view_.changes.size()),
+                              static_cast<std::uint32_t>(changes[i].size())};
+      view_.changes.insert(view_.changes.end(), changes[i].begin(), changes[i].end());
+      parts(As::stick).push_back({lines[joints[i]], track, looks[joints[i]]});
+    }
+  }
+
+  void add_prism_axes() {
+    view_.sticks_of_prisms = true;
+    const std::array<std::uint32_t, 3> axes{add_lines(cube_axis(0)), add_lines(cube_axis(1)), add_lines(cube_axis(2))};
+    for (const node::Segment& segment : film_.segments()) {
+      const node::Matrix& matrix = film_.matrix_at(segment, 0);
+      std::size_t longest = 0;
+      for (const std::size_t axis : {1u, 2u})
+        if (column_length(matrix, axis) > column_length(matrix, longest)) longest = axis;
+      parts(As::stick).push_back({axes[longest], segment.motion, segment.look});
+    }
+  }
+
+  void find_balls() {
+    Holder all, moving;
+    for (const node::Segment& segment : film_.segments())
+      for (std::uint32_t i = 0; i < segment.motion.count; ++i) {
+        const node::Matrix& matrix = film_.matrices()[film_.changes()[segment.motion.first + i].value];
+        all.add(matrix);
+        if (segment.motion.count > 1) moving.add(matrix);
+      }
+    view_.whole = all.ball();
+    view_.subject = moving.empty() ? view_.whole : moving.ball();
+  }
+
+  const node::FilmView film_;
+  const Film* source_;
+  View view_;
+  std::vector<std::vector<std::uint32_t>> model_sticks_;  // of each model, by joint; made when asked
+  std::size_t next_segment_ = 0;
+  std::optional<node::Track> grey_;
+};
+
+}  // namespace
+
+std::uint32_t View::value_at(const node::Track& track, std::uint32_t frame) const {
+  const auto first = changes.begin() + track.first, last = first + track.count;
+  const auto after = std::upper_bound(first, last, frame,
+                                      [](std::uint32_t f, const node::Change& change) { return f < change.frame; });
+  return (after - 1)->value;
+}
+
+View view_of(const CompiledFilm& film, const Film* source) { return Maker(film, source).make(); }
+
+}  // namespace mars::host

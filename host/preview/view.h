@@ -1,0 +1,70 @@
+// What a viewer needs of a film, computed once: for each representation of thesis 2.4 the lines of every shape or
+// joint in coordinates of their own, and per frame the matrices that take them to the world, where they change.
+// Values only: arrays of numbers and of numbers of others, to draw from or to send to a browser as they are.
+//
+// Control vertices and prisms use the compiled film's T-matrices (from the unit cube) as they stand, by the same
+// numbers; so do the sticks of joints that have a segment, whose lines are therefore told in the unit cube too.
+// Only joints without a segment add matrices, behind the film's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "host/animator/film.h"
+#include "host/film/compile.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+enum class As { stick, vertices, prisms, surface };
+inline constexpr std::size_t kOfLines = 3;  // representations before `surface`, which the renderer draws
+
+struct Lines {
+  std::vector<float> points;         // x, y, z of each
+  std::vector<std::uint32_t> ends;   // two points a line
+  std::uint32_t dots = 0;            // so many points, from the first, are marked: joints, control vertices
+};
+
+// One instance of lines: numbers of `lines`, and tracks over `changes` of numbers of `matrices` and `colors`.
+struct Part {
+  std::uint32_t lines;
+  node::Track motion;
+  node::Track look;
+};
+
+// Affine map, row by row, as node::Matrix.
+using Placing = std::array<float, 12>;
+using Color = std::array<float, 3>;  // 0..1
+
+struct Ball {
+  glm::dvec3 center{0, 0, 0};
+  double radius = 0;
+};
+
+struct View {
+  std::uint32_t frames = 1;
+  double rate = 24;  // frames a second
+  std::uint32_t width = 0, height = 0;
+  Color background{};
+  std::vector<Lines> lines;
+  std::array<std::vector<Part>, kOfLines> parts;  // by As
+  std::vector<Placing> matrices;
+  std::vector<Color> colors;
+  std::vector<node::Camera> cameras;
+  std::vector<node::Change> changes;
+  node::Track camera{};  // numbers of `cameras`
+  Ball whole;            // holds every segment at every frame
+  Ball subject;          // likewise what moves, or everything where nothing does
+  bool sticks_of_prisms = false;  // a .mars file knows no joints: each stick is its prism's long axis
+
+  // The number that a track has at `frame`.
+  std::uint32_t value_at(const node::Track& track, std::uint32_t frame) const;
+  const node::Camera& camera_at(std::uint32_t frame) const { return cameras[value_at(camera, frame)]; }
+};
+
+// `source`: what `film` was compiled from, which alone knows the joints; nullptr where that is not at hand.
+View view_of(const CompiledFilm& film, const Film* source);
+
+}  // namespace mars::host

@@ -1,0 +1,117 @@
+#include "host/preview/viewpoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+namespace mars::host {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kFov = 30;     // vertical, degrees
+constexpr double kMargin = 1.08;
+
+const double kFocal = 1 / std::tan(kFov / 2 * kDegree);
+
+glm::dvec3 outward(const Orbit& orbit) {
+  const double turn = orbit.turn * kDegree, height = orbit.height * kDegree;
+  return {std::cos(height) * std::cos(turn), std::cos(height) * std::sin(turn), std::sin(height)};
+}
+
+}  // namespace
+
+Orbit orbit_from(From from, const Ball& subject, double aspect) {
+  Orbit orbit;
+  orbit.center = subject.center;
+  if (from != From::front) orbit.turn = -90;
+  if (from == From::top) orbit.height = 90;
+  const double half = std::atan(std::min(1.0, aspect) / kFocal);
+  orbit.distance = kMargin * std::max(subject.radius, 1e-6) / std::sin(half);
+  return orbit;
+}
+
+Orbit orbit_near(const node::Camera& camera, const Ball& subject) {
+  const auto& m = camera.world_to_eye.m;
+  glm::dvec3 eye(0);  // -R^T t
+  for (std::size_t row = 0; row < 3; ++row) eye -= m[row][3] * glm::dvec3(m[row][0], m[row][1], m[row][2]);
+  const glm::dvec3 out = eye - subject.center;
+  const double flat = std::hypot(out.x, out.y);
+  Orbit orbit;
+  orbit.center = subject.center;
+  orbit.turn = std::atan2(out.y, out.x) / kDegree;
+  orbit.height = std::atan2(out.z, flat) / kDegree;
+  // As large as the camera showed it.
+  orbit.distance = std::max(glm::length(out) * kFocal / camera.focal, 1e-6);
+  return orbit;
+}
+
+node::Camera camera_of(const Orbit& orbit) {
+  const double turn = orbit.turn * kDegree;
+  const glm::dvec3 out = outward(orbit), right(-std::sin(turn), std::cos(turn), 0);
+  const glm::dvec3 eye = orbit.center + orbit.distance * out;
+  const std::array<glm::dvec3, 3> axes{right, glm::cross(out, right), out};
+  node::Camera camera;
+  for (std::size_t row = 0; row < 3; ++row)
+    camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
+  camera.focal = kFocal;
+  camera.near = orbit.distance / 1000;
+  camera.far = orbit.distance * 1000;
+  return camera;
+}
+
+Film turntable(Model model, const std::string& source) {
+  constexpr std::uint32_t kFrames = 96;
+  Film film;
+  film.source = source;
+  film.frames = kFrames;
+  film.background = {0.12, 0.14, 0.20};
+  film.lights.push_back({true, constant(glm::dvec3(0, 0, 1)), constant(glm::dvec3(1)), constant(1.2)});
+  Actor actor;
+  actor.name = "model";
+  actor.model = 0;
+  actor.motion = {constant(glm::dvec3(0)), constant(glm::dvec3(0)), {}};
+  actor.motion.pose.resize(model.joints.size());
+  film.models.push_back(std::move(model));
+  film.actors.push_back(std::move(actor));
+  film.camera.eye = constant(glm::dvec3(1, 0, 0));
+  film.camera.at = constant(glm::dvec3(0));
+  film.camera.up = constant(glm::dvec3(0, 0, 1));
+  film.camera.fov = constant(kFov);
+  film.frames = 1;
+  const Ball ball = view_of(compile(film), &film).whole;  // its size is known when it is compiled
+  film.frames = kFrames;
+  Orbit orbit = orbit_from(From::front, ball, 1);
+  orbit.height = 12;
+  film.camera.at = constant(ball.center);
+  film.camera.eye.clear();
+  film.lights.front().vector.clear();
+  for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+    orbit.turn = 360.0 * frame / kFrames - 30;
+    film.camera.eye.push_back({frame, ball.center + orbit.distance * outward(orbit), kLinear});
+    film.lights.front().vector.push_back({frame, outward({{}, orbit.turn - 35, 40}), kLinear});
+  }
+  film.camera.near = orbit.distance / 1000;
+  film.camera.far = orbit.distance * 1000;
+  return film;
+}
+
+CompiledFilm as_seen(const CompiledFilm& film, std::array<std::uint32_t, 2> size, const node::Camera* camera) {
+  CompiledFilm seen = film;
+  const node::FilmView view = seen.view();
+  std::byte* const block = reinterpret_cast<std::byte*>(seen.lines.data());
+  const auto put = [&](const void* at, const void* value, std::size_t bytes) {
+    std::memcpy(block + (static_cast<const std::byte*>(at) - seen.block().data()), value, bytes);
+  };
+  node::FilmSettings settings = view.settings();
+  settings.width = size[0];
+  settings.height = size[1];
+  if (camera != nullptr) {
+    put(&view.cameras()[view.value_at(settings.camera, 0)], camera, sizeof *camera);
+    settings.camera.count = 1;
+  }
+  put(&view.settings(), &settings, sizeof settings);
+  return seen;
+}
+
+}  // namespace mars::host

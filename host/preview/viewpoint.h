@@ -1,0 +1,40 @@
+// Where a viewer stands: the film's own camera, or one that goes around what the film is about. World: z up; models
+// look along x, so "front" sees them from +x, "side" their right side from -y, "top" from above with x to the right.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "host/film/compile.h"
+#include "host/preview/view.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+enum class From { camera, front, side, top };
+
+// A camera that looks at `center` from the direction `turn` (degrees about z, 0 from +x, 90 from +y) and `height`
+// (degrees above the horizon, -90..90).
+struct Orbit {
+  glm::dvec3 center{0, 0, 0};
+  double turn = 0;
+  double height = 0;
+  double distance = 1;
+};
+
+// So far that the ball fills a picture of this shape (width / height). Not for From::camera.
+Orbit orbit_from(From from, const Ball& subject, double aspect);
+
+// The orbit nearest to where a camera stands.
+Orbit orbit_near(const node::Camera& camera, const Ball& subject);
+
+node::Camera camera_of(const Orbit& orbit);
+
+// A model's turntable: the film, `frames` long, of a camera going once around it.
+Film turntable(Model model, const std::string& source);
+
+// The film at another size and, if there is a camera, seen by it through all frames.
+CompiledFilm as_seen(const CompiledFilm& film, std::array<std::uint32_t, 2> size, const node::Camera* camera);
+
+}  // namespace mars::host

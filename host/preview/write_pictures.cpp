@@ -1,0 +1,69 @@
+#include "host/preview/write_pictures.h"
+
+#include <algorithm>
+
+#include "hal/failure.h"
+#include "host/document/whole_file.h"
+#include "host/preview/sheet.h"
+#include "host/preview/video.h"
+
+namespace mars::host {
+namespace {
+
+constexpr Extent kUsual{960, 540};
+constexpr Extent kUsualOnSheet{320, 180};
+
+bool is_picture(const WriteWishes& wishes) { return wishes.file.extension() == ".png"; }
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  write_whole_file(file, encode_png(image.width, image.height, image.pixels));
+}
+
+SharedImage ready(Pictures& pictures, std::uint32_t frame, Extent extent) {
+  SharedImage image = pictures.picture(frame, extent);
+  check(image != nullptr, "pictures to be written are ready");
+  return image;
+}
+
+void write_video(Pictures& pictures, const WriteWishes& wishes, const std::vector<std::uint32_t>& frames,
+                 Extent extent) {
+  SharedImage image = ready(pictures, frames.front(), extent);
+  Video video(wishes.file, {image->width, image->height}, pictures.rate() / wishes.every);
+  for (const std::uint32_t frame : frames) video.add(*(frame == frames.front() ? image : ready(pictures, frame, extent)));
+  video.finish();
+}
+
+}  // namespace
+
+void check_kind(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending != ".png" && ending != ".gif" && ending != ".mp4")
+    throw Failure("'" + file.string() + "' ends in none of .png, .gif and .mp4", "",
+                  "name a picture or contact sheet like sheet.png, or a video like film.mp4");
+}
+
+std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint32_t film_frames) {
+  const std::vector<std::uint32_t> asked = wishes.frames.value_or(FrameSet()).of_film(film_frames);
+  std::vector<std::uint32_t> frames;
+  for (std::size_t i = 0; i < asked.size(); i += wishes.every) frames.push_back(asked[i]);
+  if (!is_picture(wishes) || wishes.frames || wishes.every > 1 || frames.size() <= kSheetFrames) return frames;
+  std::vector<std::uint32_t> some;  // the first, the last, and evenly between
+  for (std::size_t i = 0; i < kSheetFrames; ++i) some.push_back(frames[i * (frames.size() - 1) / (kSheetFrames - 1)]);
+  return some;
+}
+
+Extent extent_to_write(const WriteWishes& wishes, Extent film, std::size_t frames) {
+  return wishes.extent.value_or(fitted(film, is_picture(wishes) && frames > 1 ? kUsualOnSheet : kUsual));
+}
+
+void write_pictures(Pictures& pictures, const WriteWishes& wishes) {
+  const std::vector<std::uint32_t> frames = frames_to_write(wishes, pictures.frames());
+  const Extent extent = extent_to_write(wishes, pictures.extent(), frames.size());
+  check_can_write(wishes.file);  // better now than after the last frame
+  if (!is_picture(wishes)) return write_video(pictures, wishes, frames, extent);
+  std::vector<SheetPicture> shown;
+  for (const std::uint32_t frame : frames) shown.push_back({frame, ready(pictures, frame, extent)});
+  write_png(wishes.file, shown.size() == 1 ? *shown.front().image : contact_sheet(shown, wishes.columns));
+}
+
+}  // namespace mars::host

@@ -1,0 +1,125 @@
+#include "host/programs/preview_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "hal/failure.h"
+#include "host/options/render_options.h"
+#include "host/preview/film_pictures.h"
+#include "host/preview/folder_pictures.h"
+#include "host/preview/load.h"
+#include "host/preview/write_pictures.h"
+#include "host/programs/surface_frames.h"
+
+namespace mars::host {
+namespace {
+
+struct Wishes {
+  std::string source;
+  WriteWishes write;
+  Look look;
+};
+
+// What makes no sense is the person's own mistake: told with the option's name, exit code 2.
+template <typename Take>
+std::function<void(const std::string&)> taking(const char* name, Take take) {
+  return [name, take](const std::string& text) {
+    try {
+      take(text);
+    } catch (const Failure& failure) {
+      throw CLI::ValidationError(name, failure.what());
+    }
+  };
+}
+
+void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
+  WriteWishes& write = wishes->write;
+  command
+      .add_option_function<std::string>("-o,--output", taking("--output", [wishes](const std::string& text) {
+                                          check_kind(text);
+                                          wishes->write.file = text;
+                                        }),
+                                        "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
+                                        "frame or a contact sheet. Example: -o sheet.png")
+      ->type_name("FILE");
+  command
+      .add_option_function<std::string>(
+          "--size", taking("--size", [wishes](const std::string& text) {
+            const PictureSize size = read_picture_size(text);
+            wishes->write.extent = Extent{size.width, size.height};
+          }),
+          "Pixels of each picture that is written; default: at most 960x540, on a sheet 320x180. Example: --size 480x270")
+      ->type_name("WxH");
+  command
+      .add_option_function<std::string>(
+          "--frames", taking("--frames", [wishes](const std::string& text) { wishes->write.frames.emplace(text); }),
+          "Frames that are written; default: all, on a sheet 12. Example: --frames 0-47")
+      ->type_name("LIST");
+  command.add_option("--every", write.every, "Of these only each Nth. Example: --every 8")
+      ->check(CLI::Range(1u, node::kMostFrames).description(""))
+      ->type_name("N");
+  command.add_option("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")
+      ->check(CLI::Range(1u, node::kMaxSide).description(""))
+      ->type_name("N");
+}
+
+// An option whose words stand for 0, 1, 2 ...
+void add_choice(CLI::App& command, const char* name, const std::vector<std::string>& words,
+                const std::function<void(std::size_t)>& take, const char* help) {
+  std::string type;
+  for (const std::string& word : words) type += (type.empty() ? "" : "|") + word;
+  command
+      .add_option_function<std::string>(
+          name,
+          [=](const std::string& text) {
+            take(static_cast<std::size_t>(std::find(words.begin(), words.end(), text) - words.begin()));
+          },
+          help)
+      ->check(CLI::IsMember(words).description(""))
+      ->type_name(type);
+}
+
+void preview(Wishes& wishes) {
+  const Previewed film = load_previewed(wishes.source);
+  SurfaceFrames surface(film.film);
+  const bool writes = !wishes.write.file.empty();
+  if (writes) wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
+  wishes.look.smooth = wishes.look.wait = writes;
+  FilmPictures pictures(film.view, surface, wishes.look);
+  if (writes) return write_pictures(pictures, wishes.write);
+}
+
+void play_folder(const Wishes& wishes) {
+  FolderPictures pictures(wishes.source);
+  if (!wishes.write.file.empty()) return write_pictures(pictures, wishes.write);
+}
+
+}  // namespace
+
+void add_preview(CLI::App& app) {
+  const auto wishes = std::make_shared<Wishes>();
+  CLI::App* command = app.add_subcommand("preview", "Play a film or a model in the terminal before it is rendered");
+  command->add_option("FILM", wishes->source, "A film (.json, .mars) or a model. Example: examples/demo.json")->required();
+  add_choice(*command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
+             [wishes](std::size_t number) {
+               wishes->look.as = number < 4 ? std::optional(static_cast<As>(number)) : std::nullopt;
+             },
+             "How models are shown first; default: prisms. Example: --as stick");
+  add_choice(*command, "--view", {"camera", "front", "side", "top"},
+             [wishes](std::size_t number) { wishes->look.from = static_cast<From>(number); },
+             "Where it is seen from first; default: the film's camera. Example: --view side");
+  add_output(*command, wishes);
+  command->callback([wishes] { preview(*wishes); });
+}
+
+void add_play(CLI::App& app) {
+  const auto wishes = std::make_shared<Wishes>();
+  CLI::App* command = app.add_subcommand("play", "Play rendered frames in the terminal");
+  command->add_option("DIR", wishes->source, "The folder given to mars render with -o. Example: build/demo")->required();
+  add_output(*command, wishes);
+  command->callback([wishes] { play_folder(*wishes); });
+}
+
+}  // namespace mars::host

@@ -1,0 +1,100 @@
+#include "host/programs/surface_frames.h"
+
+#include <algorithm>
+
+#include "hal/failure.h"
+#include "hal/threads/run_threads.h"
+#include "host/farm/farm.h"
+#include "host/preview/viewpoint.h"
+#include "host/programs/node_job.h"
+#include "host/sinks/png_file.h"
+#include "topology/machine.h"
+
+namespace mars::host {
+namespace {
+
+// Ends a rendering that is no longer wanted.
+struct Unwanted : std::exception {};
+
+}  // namespace
+
+class SurfaceFrames::Taker : public Sink {
+ public:
+  explicit Taker(SurfaceFrames& frames) : frames_(frames) {}
+
+  void take(const Frame& frame) override {
+    if (frames_.stopped_) throw Unwanted();
+    std::vector<std::byte> bytes = encode_png(frame.width, frame.height, frame.pixels);
+    const std::lock_guard lock(frames_.mutex_);
+    frames_.taken_[frame.number] = std::move(bytes);
+    frames_.changed_.notify_all();
+  }
+
+ private:
+  SurfaceFrames& frames_;
+};
+
+void SurfaceFrames::aim(Extent extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) {
+  stop();
+  taken_.clear();
+  failure_ = nullptr;
+  stopped_ = false;
+  const node::Camera* by = camera ? &*camera : nullptr;
+  renderer_ = std::thread([this, film = as_seen(film_, {extent.width, extent.height}, by), frames = std::move(frames)] {
+    try {
+      render(film, frames);
+    } catch (const Unwanted&) {
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+      changed_.notify_all();
+    }
+  });
+}
+
+// A farm takes ascending frames: those from the middle of a film on, then those before.
+void SurfaceFrames::render(const CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
+  const node::FilmSettings& settings = film.view().settings();
+  const auto processors = static_cast<std::uint32_t>(topology::Machine::here().processors());
+  for (auto first = frames.begin(); first != frames.end();) {
+    const auto end = std::is_sorted_until(first, frames.end());
+    FarmOptions farm;
+    farm.frames.assign(first, end);
+    Taker taker(*this);
+    hal::run_threads(
+        static_cast<int>(processors),
+        [&] {
+          SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2, pixel_of(settings.background)});
+          render_film(film.block(), farm, pool, {});
+        },
+        run_node_job);
+    first = end;
+  }
+}
+
+void SurfaceFrames::stop() {
+  stopped_ = true;
+  if (renderer_.joinable()) renderer_.join();
+}
+
+SharedImage SurfaceFrames::frame(std::uint32_t number) {
+  std::vector<std::byte> bytes;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = taken_.find(number);
+    if (found == taken_.end() && failure_) std::rethrow_exception(failure_);
+    if (found == taken_.end()) return nullptr;
+    bytes = found->second;
+  }
+  return std::make_shared<const Image>(decode_png(bytes, "a rendered frame"));
+}
+
+SharedImage SurfaceFrames::wait_for(std::uint32_t number) {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return taken_.contains(number) || failure_; });
+  }
+  return frame(number);
+}
+
+}  // namespace mars::host

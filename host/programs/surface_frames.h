@@ -1,0 +1,43 @@
+// Rendered frames for the previewer: host and nodes as threads of this process, in the background.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "host/film/compile.h"
+#include "host/preview/surface_source.h"
+
+namespace mars::host {
+
+class SurfaceFrames : public SurfaceSource {
+ public:
+  // `film` must outlive it.
+  explicit SurfaceFrames(const CompiledFilm& film) : film_(film) {}
+  ~SurfaceFrames() override { stop(); }
+
+  void aim(Extent extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) override;
+  SharedImage frame(std::uint32_t number) override;
+  SharedImage wait_for(std::uint32_t number) override;
+
+ private:
+  class Taker;
+
+  void stop();
+  void render(const CompiledFilm& film, const std::vector<std::uint32_t>& frames);
+
+  const CompiledFilm& film_;
+  std::thread renderer_;
+  std::atomic<bool> stopped_ = false;
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  std::map<std::uint32_t, std::vector<std::byte>> taken_;  // as PNG: a long film's pictures are many
+  std::exception_ptr failure_;
+};
+
+}  // namespace mars::host
