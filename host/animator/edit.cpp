@@ -7,26 +7,11 @@
 #include <vector>
 
 #include "hal/failure.h"
+#include "host/animator/written.h"
 #include "host/document/fields.h"
 
 namespace mars::host {
 namespace {
-
-// Whole numbers without ".0", and no -0.
-Json written(double number) {
-  if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
-  return number;
-}
-
-Json written(const glm::dvec3& v) { return Json::array({written(v.x), written(v.y), written(v.z)}); }
-
-Json written(const Ease& ease) {
-  if (ease == kLinear) return "linear";
-  if (ease == kIn) return "in";
-  if (ease == kOut) return "out";
-  if (ease == kBoth) return "both";
-  return Json::array({written(ease.x1), written(ease.y1), written(ease.x2), written(ease.y2)});
-}
 
 // Sets a value before "ease", which stays last.
 void set(Json& key, const char* name, const Json& value) {

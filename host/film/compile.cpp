@@ -10,6 +10,7 @@
 #include "hal/failure.h"
 #include "host/film/film_file.h"
 #include "host/film/intervals.h"
+#include "host/animator/direction.h"
 #include "host/animator/read_film.h"
 
 namespace mars::host {
@@ -49,20 +50,6 @@ class TrackWriter {
 };
 
 std::array<float, 3> floats(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
-
-// Along the great circle; half a turn goes about any axis across.
-glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame) {
-  const Stretch stretch = stretch_at(channel, frame);
-  const glm::dvec3& from = channel[stretch.from].value;
-  const glm::dvec3& to = channel[stretch.to].value;
-  if (from == to) return from;
-  const glm::dvec3 across = glm::cross(from, to);
-  const double sine = glm::length(across), angle = std::atan2(sine, glm::dot(from, to));
-  if (angle < 1e-12) return from;
-  const glm::dvec3 other = std::abs(from.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-  const glm::dvec3 axis = sine > 1e-12 ? across / sine : glm::normalize(glm::cross(from, other));
-  return rotation(axis, stretch.part * angle) * from;
-}
 
 std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size,
                                           const std::string& source) {

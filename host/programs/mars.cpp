@@ -15,6 +15,7 @@
 #include "host/launch/launch.h"
 #include "host/modeler/patch_file.h"
 #include "host/options/command_line.h"
+#include "host/programs/animate_command.h"
 #include "host/programs/film_of.h"
 #include "host/programs/node_job.h"
 #include "host/programs/preview_command.h"
@@ -37,6 +38,7 @@ Commands:
   mars preview FILM                play a film or a model in the terminal, before it is rendered
   mars play DIR                    play rendered frames in the terminal
   mars verify DIR                  are all frames there, and whole?
+  mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars import FILE -o MODEL.json   a model from a patch file
   mars doctor                      what is in the way here, and what to do
   mars bench NAME                  measure, where MARS was built from its sources
@@ -169,6 +171,7 @@ int run(int argc, char** argv) {
   add_import(app, names);
   add_preview(app);
   add_play(app);
+  add_animate(app, code);
   DoctorOptions doctor;
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;

@@ -1,0 +1,266 @@
+#include "host/animator/keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "hal/failure.h"
+#include "host/animator/edit.h"
+#include "host/animator/pose.h"
+#include "host/animator/written.h"
+#include "host/document/fields.h"
+#include "node/film.h"
+
+namespace mars::host {
+namespace {
+
+using node::kMostFrames;
+
+std::string words_of(FrameRange range) {
+  if (range.first == range.last) return "at frame " + std::to_string(range.first);
+  if (range.last >= kMostFrames) return "from frame " + std::to_string(range.first) + " on";
+  return "in frames " + std::to_string(range.first) + " to " + std::to_string(range.last);
+}
+
+std::string listed_frames(const std::set<std::uint32_t>& frames) {
+  std::string text;
+  for (const std::uint32_t frame : frames) {
+    if (text.size() > 60) return text + " ...";
+    text += (text.empty() ? "" : ", ") + std::to_string(frame);
+  }
+  return text;
+}
+
+void append(Remarks& remarks, const Remarks& more) { remarks.insert(remarks.end(), more.begin(), more.end()); }
+
+std::string name_of(const std::vector<Chosen>& chosen, const Film& meaning) {
+  return chosen.size() == 1 ? chosen[0].thing.name : meaning.source;
+}
+
+std::vector<std::string> left_out(const Film& meaning, const Choice& choice) {
+  std::vector<std::string> remarks;
+  for (const Actor& actor : meaning.actors)
+    if (choice.all && !actor.matrices.empty())
+      remarks.push_back("actor '" + actor.name + "' is moved by matrices and stays as it is");
+  return remarks;
+}
+
+// Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` tells
+// whether the choice names any key of the track; if none does, that is an error.
+template <typename Change>
+Remarks change_tracks(Json& film, const Film& meaning, const Choice& choice, const std::string& sought,
+                      Change change) {
+  std::vector<Chosen> chosen = choose(film, meaning, choice);
+  std::vector<Tracks> changed;
+  std::set<std::uint32_t> standing;
+  bool any = false;
+  for (const Chosen& one : chosen) {
+    Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
+    for (const std::string& part : one.parts) {
+      const auto track = tracks.find(part);
+      if (track == tracks.end()) continue;
+      for (const TrackKey& key : track->second) standing.insert(key.frame);
+      if (change(one, part, track->second)) any = true;
+    }
+  }
+  if (!any)
+    throw Failure("has no key " + sought, name_of(chosen, meaning),
+                  standing.empty() ? "it has no keys at all: make some with pose or key"
+                                   : "its keys stand at " + listed_frames(standing));
+  Remarks remarks = left_out(meaning, choice);
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i].thing, changed[i]));
+  return remarks;
+}
+
+// Takes the keys in the range out of the track.
+Track taken(Track& track, FrameRange range) {
+  Track keys;
+  for (const TrackKey& key : track)
+    if (range.holds(key.frame)) keys.push_back(key);
+  std::erase_if(track, [&](const TrackKey& key) { return range.holds(key.frame); });
+  return keys;
+}
+
+std::uint32_t frame_from(std::int64_t frame, const std::string& where) {
+  if (frame < 0 || frame > kMostFrames)
+    throw Failure("would have a key at frame " + std::to_string(frame), where,
+                  "keys stand at frames 0 to " + std::to_string(kMostFrames));
+  return static_cast<std::uint32_t>(frame);
+}
+
+Remarks displace(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
+                 bool keep) {
+  const std::int64_t by = std::int64_t{to} - range.first;
+  return change_tracks(film, meaning, choice, words_of(range),
+                       [&](const Chosen& one, const std::string&, Track& track) {
+                         const Track whole = track;
+                         const Track moved = taken(track, range);
+                         if (keep) track = whole;
+                         for (TrackKey key : moved) {
+                           key.frame = frame_from(key.frame + by, one.thing.name);
+                           key.changed = true;
+                           put_key(track, key);
+                         }
+                         return !moved.empty();
+                       });
+}
+
+// The frames of a track's keys by `map`, which never goes back. Two keys on one frame are an error.
+template <typename Map>
+void remap(Track& track, const std::string& thing, Map map) {
+  for (std::size_t i = track.size(); i-- > 0;) {
+    const std::uint32_t was = track[i].frame;
+    track[i].frame = frame_from(map(was), thing);
+    if (i + 1 < track.size() && track[i].frame >= track[i + 1].frame)
+      throw Failure("would lose keys: two would stand at frame " + std::to_string(track[i + 1].frame), thing,
+                    "move less, or delete the key at frame " + std::to_string(was) + " first");
+  }
+}
+
+Ease rounded(const Ease& ease) {
+  return {host::rounded(ease.x1), host::rounded(ease.y1), host::rounded(ease.x2), host::rounded(ease.y2)};
+}
+
+// Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
+void split_way(Track& track, std::uint32_t frame, Json value) {
+  const auto next = std::find_if(track.begin(), track.end(), [&](const TrackKey& k) { return k.frame >= frame; });
+  if (next != track.end() && next->frame == frame) {
+    next->value = std::move(value);
+    return;
+  }
+  TrackKey key{frame, std::move(value), kLinear, true};
+  if (next != track.begin() && next != track.end()) {
+    TrackKey& before = *std::prev(next);
+    const double time = double(frame - before.frame) / double(next->frame - before.frame);
+    if (const auto halves = split(before.ease, time)) {
+      before.ease = rounded(halves->first);
+      before.changed = true;
+      key.ease = rounded(halves->second);
+    }
+  }
+  put_key(track, std::move(key));
+}
+
+// The ease of the key item at the frame, of all parts: an item of a film file has only one.
+void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease) {
+  for (auto& [part, track] : tracks)
+    if (TrackKey* key = key_at(track, frame)) key->ease = ease;
+}
+
+glm::dvec3 vector_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+
+}  // namespace
+
+Remarks put(const Thing& thing, const Tracks& tracks) {
+  std::string gave_way;
+  for (const std::string& part : put_tracks(*thing.json, tracks)) gave_way += (gave_way.empty() ? "" : ", ") + part;
+  if (gave_way.empty()) return {};
+  return {thing.name + ": a key has one ease; that of what else is keyed there rules " + gave_way};
+}
+
+Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+                  const std::optional<Ease>& ease, Beyond beyond) {
+  std::vector<Chosen> chosen = choose(film, meaning, choice);
+  std::vector<Tracks> changed;
+  for (const Chosen& one : chosen) {
+    Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
+    for (const std::string& name : one.parts) {
+      const Part& part = one.thing.part(name);
+      if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
+      Json value = part.value_at(frame);
+      if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond));
+      split_way(tracks[name], frame, std::move(value));
+    }
+    if (ease) set_ease(tracks, frame, *ease);
+  }
+  Remarks remarks = left_out(meaning, choice);
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i].thing, changed[i]));
+  return remarks;
+}
+
+Remarks move_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
+  return displace(film, meaning, choice, range, to, false);
+}
+
+Remarks copy_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
+  return displace(film, meaning, choice, range, to, true);
+}
+
+Remarks delete_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
+  return change_tracks(film, meaning, choice, words_of(range),
+                       [&](const Chosen&, const std::string&, Track& track) { return !taken(track, range).empty(); });
+}
+
+Remarks ease_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
+  return change_tracks(film, meaning, choice, words_of(range),
+                       [&](const Chosen&, const std::string&, Track& track) {
+                         bool any = false;
+                         for (TrackKey& key : track)
+                           if (range.holds(key.frame)) {
+                             key.ease = ease;
+                             any = true;
+                           }
+                         return any;
+                       });
+}
+
+Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames) {
+  return change_tracks(
+      film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
+        const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
+        if (moves_there) {
+          const Part& part = one.thing.part(name);
+          Json value = part.value_at(frame);
+          if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused));
+          split_way(track, frame, std::move(value));
+        }
+        remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });
+        if (moves_there) {
+          TrackKey end = *key_at(track, frame);
+          end.frame = frame_from(std::int64_t{frame} + frames, one.thing.name);
+          put_key(track, end);
+        }
+        return true;
+      });
+}
+
+Remarks stretch(Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {
+  if (range.last <= range.first || !(factor > 0))
+    throw Failure("cannot be stretched " + shown(factor) + " times", "what is keyed " + words_of(range),
+                  "name two frames and a factor above 0, like 24-48 and 1.5");
+  const double length = double(range.last) - range.first;
+  const auto added = static_cast<std::int64_t>(std::llround(length * factor - length));
+  return change_tracks(film, meaning, choice, words_of({range.first, kMostFrames}),
+                       [&](const Chosen& one, const std::string&, Track& track) {
+                         remap(track, one.thing.name, [&](std::uint32_t f) -> std::int64_t {
+                           if (f <= range.first) return f;
+                           if (f >= range.last) return f + added;
+                           return range.first + std::llround((f - range.first) * (length + added) / length);
+                         });
+                         return track.back().frame > range.first;
+                       });
+}
+
+Remarks shift(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by) {
+  return change_tracks(film, meaning, choice, words_of({frame, kMostFrames}),
+                       [&](const Chosen& one, const std::string&, Track& track) {
+                         const bool any = track.back().frame >= frame;
+                         remap(track, one.thing.name, [&](std::uint32_t f) { return f + (f >= frame ? by : 0); });
+                         return any;
+                       });
+}
+
+std::uint32_t last_key(const Json& film) {
+  std::uint32_t last = 0;
+  const auto look = [&](const Json& thing) {
+    if (const auto keys = thing.find("keys"); keys != thing.end() && !keys->empty())
+      last = std::max(last, keys->back().at("frame").get<std::uint32_t>());
+  };
+  look(film.at("camera"));
+  for (const char* group : {"lights", "materials", "actors"})
+    if (const auto found = film.find(group); found != film.end())
+      for (const Json& thing : *found) look(thing);
+  return last;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,58 @@
+// Changes of a film file's keys by its parts: keys made, moved, copied, deleted, and their timing. All take the
+// film's JSON and what read_film made of it, change the JSON or throw (it is then as it was), and know no file.
+// They return remarks for the person, mostly none: what was left as it is, whose ease gave way.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/animator/things.h"
+#include "host/animator/tracks.h"
+
+namespace mars::host {
+
+using Remarks = std::vector<std::string>;
+
+// Both ends belong to it.
+struct FrameRange {
+  std::uint32_t first;
+  std::uint32_t last;
+
+  bool holds(std::uint32_t frame) const { return frame >= first && frame <= last; }
+};
+
+// What may be outside the limits of joints: refused, or turned to the nearest that they allow.
+enum class Beyond { refused, clamped };
+
+// Makes the tracks the thing's keys; remarks whose ease gave way.
+Remarks put(const Thing& thing, const Tracks& tracks);
+
+// Keys of the chosen parts as they are at the frame. Without an ease the film moves as before: the ease of the
+// way there is split. No keys for joints without freedom, nor where all is chosen for camera, lights and materials
+// without keys.
+Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+                  const std::optional<Ease>& ease, Beyond beyond);
+
+// The keys in the range go, or go also, to where its first frame is `to`; keys that stand there give way.
+Remarks move_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
+Remarks copy_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
+// A part without any key left is what it is without keys.
+Remarks delete_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range);
+
+// Timing: of all parts of a thing, or of all in the film.
+
+// The ease from the keys in the range, each to the next.
+Remarks ease_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease);
+// From `frame` on all stands still for so many frames; what follows is that much later.
+Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames);
+// The range takes `factor` times as long, to whole frames; what follows is that much later or earlier.
+Remarks stretch(Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor);
+// Keys at `frame` and later are `by` frames later or, if none are passed, earlier.
+Remarks shift(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by);
+
+// The last frame at which anything but matrices has a key; 0 if nothing has.
+std::uint32_t last_key(const Json& film);
+
+}  // namespace mars::host

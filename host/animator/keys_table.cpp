@@ -1,0 +1,99 @@
+#include "host/animator/keys_table.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "host/animator/tracks.h"
+#include "host/document/fields.h"
+
+namespace mars::host {
+namespace {
+
+struct Row {
+  std::uint32_t frame;
+  std::string part, value, ease;
+};
+
+std::string shown_value(const Part& part, const Json& value) {
+  if (!value.is_array()) return shown(value.get<double>());
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (part.joint && !part.joint->limits[axis].free()) continue;
+    if (!text.empty()) text += "  ";
+    constexpr const char* axes[] = {"x ", "y ", "z "};
+    text += (part.name == "color" ? "" : axes[axis]) + shown(value.at(axis).get<double>());
+  }
+  return text.empty() ? "rests" : text;
+}
+
+std::string shown_ease(const Json& key) {
+  const auto ease = key.find("ease");
+  if (ease == key.end()) return "";
+  if (ease->is_string()) return ease->get<std::string>();
+  std::string curve;
+  for (const Json& number : *ease) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%s%.3g", curve.empty() ? "" : ",", number.get<double>());
+    curve += digits;
+  }
+  return curve;
+}
+
+std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
+  std::vector<Row> rows;
+  const auto keys = chosen.thing.json->find("keys");
+  if (keys == chosen.thing.json->end()) return rows;
+  const Tracks tracks = tracks_of(*chosen.thing.json);
+  for (const Json& key : *keys) {
+    const std::uint32_t frame = key.at("frame");
+    if (!range.holds(frame)) continue;
+    for (const std::string& name : chosen.parts) {
+      const auto track = tracks.find(name);
+      if (track == tracks.end()) continue;
+      Track copy = track->second;
+      if (const TrackKey* found = key_at(copy, frame))
+        rows.push_back({frame, shown_part(name), shown_value(chosen.thing.part(name), found->value), shown_ease(key)});
+    }
+  }
+  return rows;
+}
+
+std::string table_of(const std::vector<Row>& rows) {
+  std::size_t parts = 4, values = 5;
+  for (const Row& row : rows) {
+    parts = std::max(parts, row.part.size());
+    values = std::max(values, row.value.size());
+  }
+  std::string text;
+  const auto add = [&](const std::string& frame, const Row& row) {
+    std::string line = std::string(7 - std::min<std::size_t>(7, frame.size()), ' ') + frame + "  " + row.part +
+                       std::string(parts - row.part.size() + 2, ' ') + row.value;
+    if (!row.ease.empty()) line += std::string(values - row.value.size() + 2, ' ') + row.ease;
+    text += line + "\n";
+  };
+  add("frame", {0, "part", "value", "ease"});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool again = i > 0 && rows[i - 1].frame == rows[i].frame;
+    Row row = rows[i];
+    if (again) row.ease.clear();
+    add(again ? "" : std::to_string(row.frame), row);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string keys_table(Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
+  std::string text, without;
+  for (const Chosen& chosen : choose(film, meaning, choice)) {
+    const std::vector<Row> rows = rows_of(chosen, range);
+    if (rows.empty())
+      without += (without.empty() ? "" : ", ") + chosen.thing.name;
+    else
+      text += chosen.thing.name + "\n" + table_of(rows);
+  }
+  if (!without.empty()) text += "no keys: " + without + "\n";
+  return text;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,32 @@
+// Posing: a figure, or the camera, set at one frame by what a person wants of its parts; the limits of joints are
+// held. The thesis's quadruple (model, segment, axis, angle) is one of these wishes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "host/animator/keys.h"
+
+namespace mars::host {
+
+// One part and its new numbers; what is none stays as it is at the frame.
+struct Wish {
+  std::string part;  // as a person names it: "elbow", "place", "fov"
+  std::array<std::optional<double>, 3> numbers;
+
+  // "elbow.y=90", "elbow=0,90,0", "place.z=1.5", "fov=30". Throws where it is none of these.
+  static Wish read(const std::string& text, const Thing& thing);
+};
+
+// The nearest pose within the limits. Throws, naming joint, axis, angle and range, if that is another than by
+// rounding and `beyond` refuses it.
+glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond);
+
+// Sets the thing (an actor, or "camera") at the frame, with an ease from there if given. A part without keys also
+// gets one at frame 0, as it was, so that it moves from there.
+Remarks pose(Json& film, const Film& meaning, const std::string& thing, std::span<const std::string> wishes,
+             std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
+
+}  // namespace mars::host

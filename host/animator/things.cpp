@@ -1,0 +1,148 @@
+#include "host/animator/things.h"
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+
+#include "hal/failure.h"
+#include "host/animator/angles.h"
+#include "host/animator/direction.h"
+#include "host/animator/edit.h"
+#include "host/animator/written.h"
+#include "host/document/fields.h"
+
+namespace mars::host {
+namespace {
+
+template <typename Value>
+Part plain(const char* name, const Channel<Value>& channel) {
+  return {name, nullptr, [&channel](std::uint32_t frame) {
+            const Stretch stretch = stretch_at(channel, frame);
+            if (stretch.from == stretch.to) return written(channel[stretch.from].value);
+            return written(rounded(value_at(channel, frame)));
+          }};
+}
+
+Part direction(const Channel<glm::dvec3>& channel) {
+  return {"direction", nullptr,
+          [&channel](std::uint32_t frame) { return written(rounded(direction_at(channel, frame))); }};
+}
+
+Part turning(const std::string& name, const Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
+  const auto motion = std::make_shared<JointMotion>(joint, poses);
+  return {name, limited ? &joint : nullptr, [motion, &poses](std::uint32_t frame) {
+            const glm::dvec3 pose = motion->pose_at(frame);
+            if (poses.empty()) return written(pose);
+            const Stretch stretch = stretch_at(poses, frame);
+            return written(stretch.from == stretch.to ? pose : rounded(pose));
+          }};
+}
+
+Thing camera_of(Json& film, const Film& meaning) {
+  const CameraMotion& camera = meaning.camera;
+  return {"camera",
+          &film.at("camera"),
+          false,
+          {plain("eye", camera.eye), plain("at", camera.at), plain("up", camera.up), plain("fov", camera.fov)}};
+}
+
+Thing light_of(Json& json, const LightMotion& light, std::size_t number) {
+  return {"light " + std::to_string(number),
+          &json,
+          false,
+          {light.directional ? direction(light.vector) : plain("place", light.vector), plain("color", light.color),
+           plain("intensity", light.intensity)}};
+}
+
+Thing material_of(Json& json, const MaterialMotion& material) {
+  return {"material '" + material.name + "'",
+          &json,
+          false,
+          {plain("color", material.color), plain("ambient", material.ambient), plain("diffuse", material.diffuse),
+           plain("specular", material.specular), plain("exponent", material.exponent)}};
+}
+
+Thing actor_of(Json& json, const Actor& actor, const Model& model) {
+  Thing thing{"actor '" + actor.name + "'", &json, true, {plain("place", actor.motion.place)}};
+  thing.parts.push_back(turning("turn", free_joint(), actor.motion.turn, false));
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    thing.parts.push_back(turning("/" + model.joints[i].name, model.joints[i], actor.motion.pose[i], true));
+  return thing;
+}
+
+std::vector<std::string> names_of(const Thing& thing) {
+  std::vector<std::string> names;
+  for (const Part& part : thing.parts) names.push_back(part.name);
+  return names;
+}
+
+Chosen whole(Thing thing) {
+  std::vector<std::string> parts = names_of(thing);
+  return {std::move(thing), std::move(parts)};
+}
+
+std::vector<Chosen> everything(Json& film, const Film& meaning) {
+  std::vector<Chosen> all = {whole(camera_of(film, meaning))};
+  if (const auto lights = film.find("lights"); lights != film.end())
+    for (std::size_t i = 0; i < lights->size(); ++i)
+      all.push_back(whole(light_of((*lights)[i], meaning.lights[i], i)));
+  for (const MaterialMotion& material : meaning.materials)
+    all.push_back(whole(material_of(film["materials"][material.name], material)));
+  for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
+    const Actor& actor = meaning.actors[i];
+    if (actor.matrices.empty())
+      all.push_back(whole(actor_of(film["actors"][i], actor, meaning.models[actor.model])));
+  }
+  return all;
+}
+
+[[noreturn]] void refuse_name(const std::string& name, const Film& meaning) {
+  std::vector<std::string_view> names = {"camera"};
+  for (const Actor& actor : meaning.actors) names.push_back(actor.name);
+  throw Failure("is no actor of the film, nor its camera", "'" + name + "'",
+                did_you_mean(name, names, "`mars animate FILM list` shows what has keys"));
+}
+
+Thing thing_named(Json& film, const Film& meaning, const std::string& name) {
+  for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
+    const Actor& actor = meaning.actors[i];
+    if (actor.name != name) continue;
+    if (!actor.matrices.empty())
+      throw Failure("is moved by matrices, which have no keys", "actor '" + name + "'",
+                    "change its matrices in the tool they came from");
+    return actor_of(film.at("actors")[i], actor, meaning.models[actor.model]);
+  }
+  if (name != "camera") refuse_name(name, meaning);
+  return camera_of(film, meaning);
+}
+
+}  // namespace
+
+const Part& Thing::part(const std::string& wanted) const {
+  const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == wanted; });
+  check(found != parts.end(), "a thing has the part it was asked for");
+  return *found;
+}
+
+std::string part_named(const Thing& thing, const std::string& name) {
+  for (const std::string& candidate : {name, "/" + name})
+    for (const Part& part : thing.parts)
+      if (part.name == candidate) return part.name;
+  std::vector<std::string> names;
+  for (const Part& part : thing.parts) names.push_back(part.name[0] == '/' ? part.name.substr(1) : part.name);
+  throw Failure("has no part '" + name + "'", thing.name,
+                did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
+                             thing.name == "camera" ? "its parts are: eye, at, up, fov"
+                                                    : "its parts are place, turn and the joints of its model"));
+}
+
+std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice) {
+  if (choice.all) return everything(film, meaning);
+  Chosen one = whole(thing_named(film, meaning, choice.thing));
+  if (choice.parts.empty()) return {std::move(one)};
+  one.parts.clear();
+  for (const std::string& name : choice.parts) one.parts.push_back(part_named(one.thing, name));
+  return {std::move(one)};
+}
+
+}  // namespace mars::host

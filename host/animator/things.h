@@ -1,0 +1,51 @@
+// What in a film has keys - camera, lights, materials, actors - with the parts of each and what they are at any
+// frame, joined to where it stands in the film file. And how a person chooses among them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/animator/film.h"
+#include "host/document/json_file.h"
+
+namespace mars::host {
+
+// A part of a thing that can change: "place", "eye"; a joint's pose is "/" and its name.
+struct Part {
+  std::string name;
+  const Joint* joint;                                // whose limits bound it; null: no joint
+  std::function<Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
+};
+
+struct Thing {
+  std::string name;  // for messages: "actor 'robot'", "camera", "light 2"
+  Json* json;
+  bool actor;
+  std::vector<Part> parts;  // of an actor: place, turn and all joints
+
+  const Part& part(const std::string& name) const;  // which it has
+};
+
+// Either everything in the film, or "camera" or an actor, and of it these parts: all if none are named. A joint
+// is named as in its model, or with a slash before it where it is called place or turn.
+struct Choice {
+  bool all = false;
+  std::string thing;
+  std::vector<std::string> parts;
+};
+
+struct Chosen {
+  Thing thing;
+  std::vector<std::string> parts;  // names of its parts
+};
+
+// `film` is what `meaning` was read from; both must outlive what is chosen. Throws where a name is unknown or an
+// actor is moved by matrices; those are left out where all is chosen.
+std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice);
+
+// The part's own name of what a person calls it: "elbow" is "/elbow".
+std::string part_named(const Thing& thing, const std::string& name);
+
+}  // namespace mars::host

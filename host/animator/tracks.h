@@ -1,0 +1,41 @@
+// The keys of one thing of a film file - camera, light, material or actor - taken apart into tracks, one a part
+// that changes, and put together again. A key of the file holds several parts and one ease for all of them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/animator/ease.h"
+#include "host/document/json_file.h"
+
+namespace mars::host {
+
+struct TrackKey {
+  std::uint32_t frame;
+  Json value;
+  Ease ease;             // to the next key of the part
+  bool changed = false;  // as opposed to what stands in the file
+};
+
+// By part: "place", "turn", "eye", ...; a joint's pose is "/" and its name. Frames ascend.
+using Track = std::vector<TrackKey>;
+using Tracks = std::map<std::string, Track>;
+
+Tracks tracks_of(const Json& thing);
+
+// Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame want several
+// eases, those that are not `changed` keep theirs. Returns whose ease gave way: "elbow at frame 24".
+std::vector<std::string> put_tracks(Json& thing, const Tracks& tracks);
+
+// The key at the frame; null if there is none.
+TrackKey* key_at(Track& track, std::uint32_t frame);
+
+// Puts a key in its place, instead of one at its frame.
+void put_key(Track& track, TrackKey key);
+
+// As people name a part: joints without the slash.
+std::string shown_part(const std::string& part);
+
+}  // namespace mars::host

@@ -1,0 +1,38 @@
+#include "host/animator/written.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace mars::host {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Ease>, 4> kNamed = {
+    {{"linear", kLinear}, {"in", kIn}, {"out", kOut}, {"both", kBoth}}};
+
+}  // namespace
+
+Json written(double number) {
+  if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
+  return number;
+}
+
+Json written(const glm::dvec3& v) { return Json::array({written(v.x), written(v.y), written(v.z)}); }
+
+Json written(const Ease& ease) {
+  for (const auto& [name, known] : kNamed)
+    if (ease == known) return name;
+  return Json::array({written(ease.x1), written(ease.y1), written(ease.x2), written(ease.y2)});
+}
+
+Ease ease_of(const Json& key) {
+  const auto found = key.find("ease");
+  if (found == key.end()) return kLinear;
+  if (found->is_array()) return {found->at(0), found->at(1), found->at(2), found->at(3)};
+  for (const auto& [name, known] : kNamed)
+    if (*found == name) return known;
+  return kLinear;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,18 @@
+// How values stand in a film file, and eases read back from it.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "host/animator/ease.h"
+#include "host/document/json_file.h"
+
+namespace mars::host {
+
+Json written(double number);  // whole numbers without ".0", and no -0
+Json written(const glm::dvec3& vector);
+Json written(const Ease& ease);  // by its name, if it has one
+
+// Of a key, as read_film accepts it.
+Ease ease_of(const Json& key);
+
+}  // namespace mars::host

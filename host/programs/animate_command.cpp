@@ -1,0 +1,294 @@
+#include "host/programs/animate_command.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <memory>
+
+#include "hal/failure.h"
+#include "host/animator/keys_table.h"
+#include "host/animator/pose.h"
+#include "host/animator/read_film.h"
+#include "host/animator/read_keys.h"
+#include "host/film/film_file.h"
+#include "node/film.h"
+
+namespace mars::host {
+namespace {
+
+constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
+  mars animate film.json list                                   what is keyed
+  mars animate film.json pose robot elbow.y=90 --frame 24       the elbow, at frame 24
+  mars animate film.json time robot --frame 0 --ease both       begin and end slowly
+docs/animating.md tells more.
+)";
+
+// What a person typed, of all the commands.
+struct Words {
+  std::string film, thing, frame, ease;
+  std::vector<std::string> parts;
+  bool all = false, clamp = false, lengthen = false;
+  std::uint32_t to = 0, hold = 0;
+  std::int64_t shift = 0;
+  double stretch = 0, anticipation = 0, overshoot = 0;
+
+  Choice choice() const { return {all, thing, parts}; }
+};
+
+std::uint32_t frame_of(const std::string& digits, const std::string& text) {
+  std::size_t used = 0;
+  unsigned long frame = node::kMostFrames + 1ul;
+  if (!digits.empty() && std::isdigit(static_cast<unsigned char>(digits[0])) && digits.size() < 9)
+    frame = std::stoul(digits, &used);
+  if (used != digits.size() || frame > node::kMostFrames)
+    throw Failure("is no frame", "'" + text + "'", "write a frame from 0 to 1000000, or a range: 24-48, or 24- to the end");
+  return static_cast<std::uint32_t>(frame);
+}
+
+FrameRange range_of(const std::string& text) {
+  const std::size_t dash = text.find('-');
+  const std::uint32_t first = frame_of(text.substr(0, dash), text);
+  if (dash == std::string::npos) return {first, first};
+  if (dash + 1 == text.size()) return {first, node::kMostFrames};
+  const std::uint32_t last = frame_of(text.substr(dash + 1), text);
+  if (last < first) throw Failure("ends before it begins", "'" + text + "'", "write the earlier frame first");
+  return {first, last};
+}
+
+std::uint32_t one_frame(const std::string& text) {
+  const FrameRange range = range_of(text);
+  if (range.first != range.last) throw Failure("is a range", "'" + text + "'", "name one frame here");
+  return range.first;
+}
+
+std::optional<Ease> ease_of_words(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const bool named = std::isalpha(static_cast<unsigned char>(text[0]));
+  const Document document(R"({"ease": )" + (named ? "\"" + text + "\"" : "[" + text + "]") + "}", "--ease");
+  constexpr std::string_view names[] = {"ease"};
+  return read_ease(Fields(document.root(), Keys{"option", names}));
+}
+
+struct FilmFile {
+  Json json;
+  Film film;
+};
+
+FilmFile open_film(const std::string& path) {
+  if (is_compiled_film(path))
+    throw Failure("is compiled: it has matrices, no keys", path, "name the film file that it was made from");
+  Film film = read_film(path);
+  return {read_json(path), std::move(film)};
+}
+
+// Changes the film file by `change`; it stays as it was where that fails or the result is no film.
+void edit(const Words& words, const std::function<Remarks(Json&, const Film&)>& change) {
+  FilmFile file = open_film(words.film);
+  const std::uint32_t before = last_key(file.json);
+  const Remarks remarks = change(file.json, file.film);
+  const std::uint32_t last = last_key(file.json);
+  if (words.lengthen && last >= file.film.frames) file.json["frames"] = last + 1;
+  const std::filesystem::path path = words.film;
+  write_json(path, file.json, [&](const Element& root) { read_film(root, path.parent_path()); });
+  for (const std::string& remark : remarks) std::cerr << "mars: " << remark << '\n';
+  if (!words.lengthen && last >= file.film.frames && last > before)
+    std::cerr << "mars: " << words.film << ": the last key, at frame " << last << ", lies behind the last of "
+              << file.film.frames << " frames (--lengthen makes the film long enough)\n";
+}
+
+// The options that several commands have.
+class Command {
+ public:
+  Command(CLI::App& animate, Words& words, const char* name, const char* purpose)
+      : app_(animate.add_subcommand(name, purpose)), words_(words) {}
+
+  Command& thing(const char* help) {
+    app_->add_option("ACTOR", words_.thing, help);
+    return *this;
+  }
+  Command& parts(const char* name, const char* help) {
+    app_->add_option(name, words_.parts, help);
+    return *this;
+  }
+  Command& all() {
+    app_->add_flag("--all", words_.all,
+                   "Instead of an actor: all that has keys, camera, lights and materials too. Example: --all");
+    return *this;
+  }
+  Command& frame(const char* help, const char* type) {
+    app_->add_option("-f,--frame", words_.frame, help)->required()->type_name(type);
+    return *this;
+  }
+  Command& ease(const char* help) {
+    app_->add_option("--ease", words_.ease, help)->type_name("EASE");
+    return *this;
+  }
+  Command& to(const char* help) {
+    app_->add_option("--to", words_.to, help)->required()->type_name("FRAME")->check(
+        CLI::Range(0u, node::kMostFrames).description(""));
+    return *this;
+  }
+  Command& clamp() {
+    app_->add_flag("--clamp", words_.clamp,
+                   "Where limits of a joint would be broken, take the nearest angle allowed. Example: --clamp");
+    return *this;
+  }
+  Command& lengthen() {
+    app_->add_flag("--lengthen", words_.lengthen,
+                   "Give the film as many frames as its last key needs. Example: --lengthen");
+    return *this;
+  }
+  void runs(const std::function<void()>& run) {
+    app_->callback([this_words = &words_, run] {
+      if (this_words->all && !this_words->thing.empty())
+        throw Failure("are given both", "--all and '" + this_words->thing + "'", "choose one of them");
+      run();
+    });
+  }
+  CLI::App* app() { return app_; }
+
+ private:
+  CLI::App* app_;
+  Words& words_;
+};
+
+constexpr const char* kThing = "An actor, or camera. Example: robot";
+constexpr const char* kParts =
+    "Only these of its joints, place and turn (camera: eye, at, up, fov). Example: elbow place";
+constexpr const char* kOneFrame = "The frame. Example: --frame 24";
+constexpr const char* kRange = "The frame, or a range of frames, both ends included. Example: --frame 24-48";
+constexpr const char* kEase =
+    "From this key to the next: linear, in, out, both or a curve. Example: --ease both or --ease 0.4,0,0.6,1";
+
+void require_thing(const Words& words) {
+  if (words.thing.empty() && !words.all)
+    throw Failure("is not told", "whose keys", "name an actor or camera, or say --all");
+}
+
+void add_pose(CLI::App& animate, Words& words) {
+  Command command(animate, words, "pose", "Set an actor's joints, place or turn, or the camera, at a frame");
+  command.thing(kThing)
+      .parts("PART=NUMBERS", "One axis or all three: degrees, or a place; what is not named stays as it is there. "
+                             "Example: elbow.y=90 place=2,0,0 turn.z=45")
+      .frame(kOneFrame, "FRAME")
+      .ease(kEase)
+      .clamp()
+      .lengthen();
+  command.app()->get_option("ACTOR")->required();
+  command.app()->get_option("PART=NUMBERS")->required();
+  command.runs([&words] {
+    edit(words, [&](Json& json, const Film& film) {
+      return pose(json, film, words.thing, words.parts, one_frame(words.frame), ease_of_words(words.ease),
+                  words.clamp ? Beyond::clamped : Beyond::refused);
+    });
+  });
+}
+
+void add_key(CLI::App& animate, Words& words) {
+  Command command(animate, words, "key", "Make keys as everything stands at a frame");
+  command.thing(kThing).parts("PART", kParts).all().frame(kOneFrame, "FRAME").ease(
+      "From this key to the next; without it the film moves as before. Example: --ease both");
+  command.clamp().lengthen().runs([&words] {
+    require_thing(words);
+    edit(words, [&](Json& json, const Film& film) {
+      return make_keys(json, film, words.choice(), one_frame(words.frame), ease_of_words(words.ease),
+                       words.clamp ? Beyond::clamped : Beyond::refused);
+    });
+  });
+}
+
+void add_displacing(CLI::App& animate, Words& words, const char* name, const char* purpose, bool keep) {
+  Command command(animate, words, name, purpose);
+  command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
+  command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, keep] {
+    require_thing(words);
+    edit(words, [&](Json& json, const Film& film) {
+      return (keep ? copy_keys : move_keys)(json, film, words.choice(), range_of(words.frame), words.to);
+    });
+  });
+}
+
+void add_delete(CLI::App& animate, Words& words) {
+  Command command(animate, words, "delete", "Delete keys");
+  command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
+    require_thing(words);
+    edit(words, [&](Json& json, const Film& film) {
+      return delete_keys(json, film, words.choice(), range_of(words.frame));
+    });
+  });
+}
+
+Remarks retime(const Words& words, CLI::App& command, Json& json, const Film& film) {
+  const FrameRange range = range_of(words.frame);
+  if (command.count("--hold")) return hold(json, film, words.choice(), one_frame(words.frame), words.hold);
+  if (command.count("--shift")) return shift(json, film, words.choice(), one_frame(words.frame), words.shift);
+  if (command.count("--stretch")) return stretch(json, film, words.choice(), range, words.stretch);
+  if (command.count("--ease")) return ease_keys(json, film, words.choice(), range, *ease_of_words(words.ease));
+  return ease_keys(json, film, words.choice(), range,
+                   swinging(words.anticipation / 100, words.overshoot / 100));
+}
+
+void add_time(CLI::App& animate, Words& words) {
+  Command command(animate, words, "time", "Change the timing of all parts of an actor or of the film");
+  command.thing(kThing).all().frame(kRange, "RANGE").ease(kEase);
+  CLI::App* app = command.app();
+  app->add_option("--hold", words.hold,
+                  "From the frame on stand still for N frames; what follows comes later. Example: --hold 12")
+      ->type_name("N")
+      ->check(CLI::Range(1u, node::kMostFrames).description(""));
+  app->add_option("--stretch", words.stretch,
+                  "The range takes so many times as long; what follows comes later. Example: --stretch 1.5")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.001, 1000.0).description(""));
+  app->add_option("--shift", words.shift,
+                  "Keys at the frame and after come N frames later, or earlier. Example: --shift -6")
+      ->type_name("N")
+      ->check(CLI::Range(-std::int64_t{node::kMostFrames}, std::int64_t{node::kMostFrames}).description(""));
+  for (const auto& [name, value, help] :
+       {std::tuple("--anticipate", &words.anticipation,
+                   "From the frame's keys first swing back, percent of the way. Example: --anticipate 15"),
+        std::tuple("--overshoot", &words.overshoot,
+                   "To the next keys swing beyond and back, percent of the way. Example: --overshoot 10")})
+    app->add_option(name, *value, help)->type_name("PERCENT")->check(CLI::Range(0.0, 100.0).description(""));
+  command.lengthen().runs([&words, app] {
+    require_thing(words);
+    int wishes = 0;
+    for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) wishes += app->count(name) > 0;
+    wishes += app->count("--anticipate") + app->count("--overshoot") > 0;
+    if (wishes != 1)
+      throw Failure(wishes == 0 ? "is not told" : "is told twice", "what to change of the timing",
+                    "say one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
+    edit(words, [&](Json& json, const Film& film) { return retime(words, *app, json, film); });
+  });
+}
+
+void add_list(CLI::App& animate, Words& words) {
+  Command command(animate, words, "list", "Show the keys in a table");
+  command.thing("An actor, or camera; default: all that has keys. Example: robot").parts("PART", kParts);
+  command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
+  command.runs([&words] {
+    FilmFile file = open_film(words.film);
+    const FrameRange range = words.frame.empty() ? FrameRange{0, node::kMostFrames} : range_of(words.frame);
+    std::cout << keys_table(file.json, file.film, {words.thing.empty(), words.thing, words.parts}, range);
+  });
+}
+
+}  // namespace
+
+void add_animate(CLI::App& app, int&) {
+  const auto words = std::make_shared<Words>();
+  CLI::App* animate = app.add_subcommand("animate", "Set, move, time, list and check the keys of a film");
+  animate->add_option("FILM", words->film, "The film file, changed in place. Example: film.json")->required();
+  animate->require_subcommand(1);
+  animate->footer(kFooter);
+  add_pose(*animate, *words);
+  add_key(*animate, *words);
+  add_displacing(*animate, *words, "move", "Move keys to other frames", false);
+  add_displacing(*animate, *words, "copy", "Copy keys to other frames", true);
+  add_delete(*animate, *words);
+  add_time(*animate, *words);
+  add_list(*animate, *words);
+  animate->parse_complete_callback([words] {});  // keeps what was typed
+}
+
+}  // namespace mars::host

@@ -1,0 +1,13 @@
+// `mars animate`: a film's keys set, moved, timed, listed and checked from a terminal.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace mars::host {
+
+// `code` becomes the exit code where it is not 0.
+void add_animate(CLI::App& app, int& code);
+
+}  // namespace mars::host
