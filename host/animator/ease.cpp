@@ -48,18 +48,18 @@ double eased(const Ease& ease, double time) {
   return curve(ease.y1, ease.y2, parameter_at(ease, time));
 }
 
-Extent extent_of(const Ease& ease) {
-  Extent extent;
+Swing swing_of(const Ease& ease) {
+  Swing swing;
   // Where the derivative (1 - s)^2 p1 + 2 (1 - s) s (p2 - p1) + s^2 (1 - p2) is nothing.
   const double p1 = ease.y1, p2 = ease.y2;
   const double a = 3 * p1 - 3 * p2 + 1, b = p2 - 2 * p1, c = p1, root = std::sqrt(std::max(b * b - a * c, 0.0));
   const double q = -(b + std::copysign(root, b));
   for (const double s : {q / a, c / q}) {
     if (!(s > 0 && s < 1)) continue;
-    extent.lowest = std::min(extent.lowest, curve(p1, p2, s));
-    extent.highest = std::max(extent.highest, curve(p1, p2, s));
+    swing.lowest = std::min(swing.lowest, curve(p1, p2, s));
+    swing.highest = std::max(swing.highest, curve(p1, p2, s));
   }
-  return extent;
+  return swing;
 }
 
 std::optional<std::pair<Ease, Ease>> split(const Ease& ease, double time) {
@@ -84,9 +84,9 @@ Ease swinging(double anticipation, double overshoot) {
       }
     };
     if (anticipation > 0)
-      settle(&Ease::y1, 0, -10, [&] { return extent_of(ease).lowest < -anticipation; });
+      settle(&Ease::y1, 0, -10, [&] { return swing_of(ease).lowest < -anticipation; });
     if (overshoot > 0)
-      settle(&Ease::y2, 1, 10, [&] { return extent_of(ease).highest > 1 + overshoot; });
+      settle(&Ease::y2, 1, 10, [&] { return swing_of(ease).highest > 1 + overshoot; });
   }
   return ease;
 }

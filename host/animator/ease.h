@@ -22,11 +22,11 @@ inline constexpr Ease kBoth{0.42, 0, 0.58, 1};  // starts and ends slowly
 double eased(const Ease& ease, double time);
 
 // The least and the greatest part of the way that the curve takes: beyond 0..1 if it swings.
-struct Extent {
+struct Swing {
   double lowest = 0;
   double highest = 1;
 };
-Extent extent_of(const Ease& ease);
+Swing swing_of(const Ease& ease);
 
 // The two halves of the curve, before and after `time` (inside 0..1), each as an ease of its own; none if
 // either would need numbers that a film file does not take.

@@ -46,12 +46,12 @@ Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
 }
 
 node::Matrix t_matrix(const Axes& frame, const Box& sbb) {
-  const glm::dvec3 extent = sbb.max - sbb.min;
+  const glm::dvec3 swing = sbb.max - sbb.min;
   const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
   node::Matrix matrix;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
-      matrix.m[row][column] = frame.turn[column][row] * extent[column];
+      matrix.m[row][column] = frame.turn[column][row] * swing[column];
     matrix.m[row][3] = origin[row];
   }
   return matrix;
@@ -82,9 +82,9 @@ glm::dmat3 JointMotion::between(const Stretch& stretch) {
     from_ = stretch.from;
     start_ = orientation(*joint_, (*poses_)[stretch.from].value);
     turn_ = turn_between(start_, orientation(*joint_, (*poses_)[stretch.to].value));
-    const Extent extent = extent_of((*poses_)[stretch.from].ease);
-    first_part_ = extent.lowest < 0 ? allowed(stretch, 0, extent.lowest) : 0;
-    last_part_ = extent.highest > 1 ? allowed(stretch, 1, extent.highest) : 1;
+    const Swing swing = swing_of((*poses_)[stretch.from].ease);
+    first_part_ = swing.lowest < 0 ? allowed(stretch, 0, swing.lowest) : 0;
+    last_part_ = swing.highest > 1 ? allowed(stretch, 1, swing.highest) : 1;
   }
   if (turn_.angle == 0) return start_;
   return turned(std::clamp(stretch.part, first_part_, last_part_));

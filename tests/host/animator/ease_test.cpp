@@ -61,24 +61,24 @@ TEST(Ease, WhereItIsBackAtTheStartItCannotBeSplit) {
 }
 
 TEST(Ease, ItsExtentIsWhereItTurns) {
-  EXPECT_EQ(extent_of(kBoth).lowest, 0);
-  EXPECT_EQ(extent_of(kLinear).highest, 1);
+  EXPECT_EQ(swing_of(kBoth).lowest, 0);
+  EXPECT_EQ(swing_of(kLinear).highest, 1);
   const Ease ease{0.3, -0.7, 0.6, 1.4};
   double lowest = 0, highest = 1;
   for (int i = 0; i <= 100'000; ++i) {
     lowest = std::min(lowest, eased(ease, i / 1e5));
     highest = std::max(highest, eased(ease, i / 1e5));
   }
-  EXPECT_NEAR(extent_of(ease).lowest, lowest, 1e-9);
-  EXPECT_NEAR(extent_of(ease).highest, highest, 1e-9);
+  EXPECT_NEAR(swing_of(ease).lowest, lowest, 1e-9);
+  EXPECT_NEAR(swing_of(ease).highest, highest, 1e-9);
 }
 
 TEST(Ease, SwingsAsFarAsWanted) {
   for (const double back : {0.0, 0.1, 0.5, 1.0})
     for (const double beyond : {0.0, 0.1, 0.5, 1.0}) {
-      const Extent extent = extent_of(swinging(back, beyond));
-      EXPECT_NEAR(extent.lowest, -back, 1e-9);
-      EXPECT_NEAR(extent.highest, 1 + beyond, 1e-9);
+      const Swing swing = swing_of(swinging(back, beyond));
+      EXPECT_NEAR(swing.lowest, -back, 1e-9);
+      EXPECT_NEAR(swing.highest, 1 + beyond, 1e-9);
     }
 }
 
