@@ -16,6 +16,7 @@
 #include "host/modeler/patch_file.h"
 #include "host/options/command_line.h"
 #include "host/programs/film_of.h"
+#include "host/programs/model_command.h"
 #include "host/programs/node_job.h"
 #include "host/programs/preview_command.h"
 #include "host/sinks/verify.h"
@@ -38,6 +39,7 @@ Commands:
   mars play DIR                    play rendered frames in the terminal
   mars verify DIR                  are all frames there, and whole?
   mars import FILE -o MODEL.json   a model from a patch file
+  mars model new MODEL.json        a model of your own, step by step
   mars doctor                      what is in the way here, and what to do
   mars bench NAME                  measure, where MARS was built from its sources
 
@@ -169,6 +171,7 @@ int run(int argc, char** argv) {
   add_import(app, names);
   add_preview(app);
   add_play(app);
+  add_model(app);
   DoctorOptions doctor;
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;
