@@ -24,12 +24,6 @@ const Joint kFree = whole_figure();
 
 const Joint& free_joint() { return kFree; }
 
-glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose) {
-  const glm::dvec3 z_axis = glm::normalize(glm::cross(joint.x_axis, joint.y_axis));
-  return rotation_by_degrees(joint.x_axis, pose.x) * rotation_by_degrees(joint.y_axis, pose.y) *
-         rotation_by_degrees(z_axis, pose.z);
-}
-
 std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose) {
   for (int axis = 0; axis < 3; ++axis) {
     const Limits& limits = joint.limits[axis];
@@ -38,23 +32,6 @@ std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& po
            shown(limits.lower) + " to " + shown(limits.upper);
   }
   return std::nullopt;
-}
-
-Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
-  const glm::dmat3 axes(joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis));
-  return {joint_frame.turn * axes, joint_frame.place};
-}
-
-node::Matrix t_matrix(const Axes& frame, const Box& sbb) {
-  const glm::dvec3 swing = sbb.max - sbb.min;
-  const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
-  node::Matrix matrix;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      matrix.m[row][column] = frame.turn[column][row] * swing[column];
-    matrix.m[row][3] = origin[row];
-  }
-  return matrix;
 }
 
 JointMotion::JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses)

@@ -10,30 +10,16 @@
 
 #include "host/animator/channel.h"
 #include "host/animator/rotation.h"
+#include "host/modeler/frames.h"
 #include "host/modeler/model.h"
 
 namespace mars::host {
 
-// Where a joint stands in the world: p' = turn p + place.
-struct Axes {
-  glm::dmat3 turn{1};
-  glm::dvec3 place{0, 0, 0};
-};
-
 // How a whole figure turns, by its "turn".
 const Joint& free_joint();
 
-// A joint's turn against its parent for a pose in degrees: Rot(x, a) Rot(y, b) Rot(z, c).
-glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose);
-
 // "turns 170 degrees about y, outside its limits 0 to 150", if the pose breaks a limit.
 std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose);
-
-// The base segment's box-scaled coordinates to the world: F [X Y Z].
-Axes segment_frame(const Axes& joint_frame, const Joint& joint);
-
-// The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
-node::Matrix t_matrix(const Axes& frame, const Box& sbb);
 
 // What an animator set for one figure.
 struct FigureMotion {

@@ -10,11 +10,6 @@ namespace {
 constexpr double kNothing = 1e-14;   // radians: less is rounding
 constexpr double kHalfTurn = 1e-12;  // sine below which the sign of a half turn's axis is rounding
 
-glm::dmat3 rotation_of(const glm::dvec3& n, double sine, double cosine) {
-  const glm::dmat3 cross(0, n.z, -n.y, -n.z, 0, n.x, n.y, -n.x, 0);
-  return cosine * glm::dmat3(1) + (1 - cosine) * glm::outerProduct(n, n) + sine * cross;
-}
-
 int largest(const glm::dvec3& vector) {
   const glm::dvec3 size = glm::abs(vector);
   if (size.x >= size.y && size.x >= size.z) return 0;
@@ -31,18 +26,6 @@ glm::dvec3 axis_near_half_turn(const glm::dmat3& turn, const glm::dvec3& sine_ax
 }
 
 }  // namespace
-
-glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
-  return rotation_of(axis, std::sin(angle), std::cos(angle));
-}
-
-glm::dmat3 rotation_by_degrees(const glm::dvec3& axis, double degrees) {
-  constexpr double sines[] = {0, 1, 0, -1};
-  int quarter = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarter);
-  if (rest == 0) return rotation_of(axis, sines[quarter & 3], sines[(quarter + 1) & 3]);
-  return rotation(axis, degrees * (3.14159265358979323846 / 180));
-}
 
 Turn turn_between(const glm::dmat3& first, const glm::dmat3& last) {
   const glm::dmat3 turn = last * glm::transpose(first);

@@ -1,16 +1,13 @@
-// Rotations as matrices (column vectors), and the one turn that takes an orientation to another (thesis 3.4).
+// The one turn that takes an orientation to another (thesis 3.4). Rotations are matrices for column vectors, made by
+// host/modeler/frames.h.
 #pragma once
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "host/modeler/frames.h"
+
 namespace mars::host {
-
-// About `axis`, a unit vector, by an angle in radians: cos I + (1 - cos) n n^T + sin N.
-glm::dmat3 rotation(const glm::dvec3& axis, double angle);
-
-// In degrees; quarter turns are exact.
-glm::dmat3 rotation_by_degrees(const glm::dvec3& axis, double degrees);
 
 struct Turn {
   glm::dvec3 axis;  // a unit vector, seen from outside both orientations

@@ -1,5 +1,9 @@
 #include "host/document/json_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include "host/document/file.h"
 #include "host/document/whole_file.h"
 
@@ -43,6 +47,23 @@ void lay_out(const Json& json, std::size_t indent, std::size_t before, std::stri
   text.append(1, '\n').append(indent, ' ').append(1, json.is_array() ? ']' : '}');
 }
 
+// Holds the lock of the folder that a file is in; its end, however the process ends, gives it back.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& file)
+      : folder_(open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ >= 0) flock(folder_, LOCK_EX);
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) close(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_;
+};
+
 }  // namespace
 
 Json read_json(const std::filesystem::path& path) {
@@ -63,6 +84,14 @@ void write_json(const std::filesystem::path& path, const Json& json,
   const Document document(text, path.string());
   check(document.root());
   write_whole_file(path, text);
+}
+
+void change_json(const std::filesystem::path& path, const std::function<void(Json&)>& change,
+                 const std::function<void(const Element&)>& check) {
+  const FolderLock lock(path);
+  Json json = read_json(path);
+  change(json);
+  write_json(path, json, check);
 }
 
 }  // namespace mars::host

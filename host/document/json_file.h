@@ -24,4 +24,9 @@ std::string laid_out(const Json& json);
 void write_json(const std::filesystem::path& path, const Json& json,
                 const std::function<void(const Element& root)>& check);
 
+// Reads, changes and writes the file, with `check` as above. Others that change files of its folder this way wait, so
+// that no change is lost, where the file system can lock.
+void change_json(const std::filesystem::path& path, const std::function<void(Json&)>& change,
+                 const std::function<void(const Element& root)>& check);
+
 }  // namespace mars::host

@@ -23,14 +23,23 @@ std::string line_of(const std::vector<std::string>& fields) {
   return line + "\n";
 }
 
+std::vector<const CLI::App*> commands_in(const CLI::App& app) { return app.get_subcommands({}); }
+
+// "JOINT...": an argument that takes any number of words.
+std::string name_of(const CLI::Option& option) {
+  const bool many = option.get_positional() && option.get_expected_max() == CLI::detail::expected_max_vector_size;
+  return option.get_name(false, true) + (many ? "..." : "");
+}
+
 std::string lines_of(const CLI::App& command, const std::string& name) {
   std::string text = line_of({"command", name, command.get_description()});
   for (const CLI::Option* each : command.get_options({})) {
-    text += line_of({each->get_positional() ? "argument" : "option", name, each->get_name(false, true),
+    if (each->get_group().empty()) continue;  // not for people
+    text += line_of({each->get_positional() ? "argument" : "option", name, name_of(*each),
                      each->get_type_size() == 0 ? "" : each->get_type_name(),
                      each->get_required() ? "required" : "optional", each->get_description()});
   }
-  for (const CLI::App* each : command.get_subcommands({}))
+  for (const CLI::App* each : commands_in(command))
     text += lines_of(*each, name + " " + each->get_name());
   return text;
 }
@@ -53,6 +62,12 @@ class Help : public CLI::Formatter {
     return wrapped(text.substr(0, example), 0, room()) + "\n" + wrapped(text.substr(example), 0, room());
   }
 
+  // "X Y Z" tells by itself how many words follow.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string type = option->get_type_name();
+    return type.find(' ') == std::string::npos ? Formatter::make_option_opts(option) : " " + type;
+  }
+
   std::string make_subcommand(const CLI::App* command) const override {
     std::ostringstream line;
     CLI::detail::format_help(line, command->get_name(), wrapped(command->get_description(), 0, room()),
@@ -66,8 +81,7 @@ class Help : public CLI::Formatter {
 
 std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
+  for (const CLI::App* command : commands_in(app)) names.push_back(command->get_name());
   return names;
 }
 
@@ -79,9 +93,9 @@ std::vector<std::string> options_of(const CLI::App& app) {
 }
 
 // What is wrong with the first word that the command it was given to does not know, and what could be meant.
-std::string misfit(const CLI::App& app) {
-  const std::vector<CLI::App*> given = app.get_subcommands();
-  const CLI::App& command = given.empty() || given.front()->remaining().empty() ? app : *given.front();
+std::string misfit(const CLI::App& command) {
+  const std::vector<CLI::App*> given = command.get_subcommands();
+  if (command.remaining().empty() && !given.empty()) return misfit(*given.front());
   const std::string word = command.remaining().front();
   const std::string name = word.substr(0, word.find('='));
   const bool option = word.starts_with('-');
@@ -91,27 +105,40 @@ std::string misfit(const CLI::App& app) {
   return "'" + name + "'" + what + (near.empty() ? "" : " (" + near + ")");
 }
 
+// Commands may be within commands: `mars model show`.
+void prepare(CLI::App& command, const std::shared_ptr<Help>& help) {
+  command.formatter(help);
+  command.get_help_ptr()->description("Print this help. Example: --help");
+  if (!commands_in(command).empty()) command.require_subcommand(0, 1);
+  for (CLI::App* each : command.get_subcommands({})) prepare(*each, help);
+}
+
+// Whether the command given only holds others and none of them is named.
+bool unfinished(const CLI::App& app) {
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  return given.empty() ? app.get_parent() != nullptr && !commands_in(app).empty() : unfinished(*given.front());
+}
+
 }  // namespace
 
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {
+  prepare(app, std::make_shared<Help>());
   if (argc == 2 && std::string_view(argv[1]) == "--list-options") {
     std::cout << option_list(app);
     return 0;
   }
-  const auto help = std::make_shared<Help>();
-  std::vector<CLI::App*> commands = app.get_subcommands([](const CLI::App*) { return true; });
-  commands.push_back(&app);
-  for (CLI::App* command : commands) {
-    command->formatter(help);
-    command->get_help_ptr()->description("Print this help. Example: --help");
-  }
   try {
     app.parse(argc, argv);
-    return std::nullopt;
-  } catch (const CLI::ExtrasError&) {
-    app.exit(CLI::ValidationError(misfit(app)), std::cout, std::cerr);
-    return kUsage;
+    if (!unfinished(app)) return std::nullopt;
+    std::cout << app.help();
+    return 0;
   } catch (const CLI::ParseError& error) {
+    // A word that is not known is told first: what is missing may be what it was meant for.
+    const bool misfits = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
+    if (misfits && app.remaining_size(true) > 0) {
+      app.exit(CLI::ValidationError(misfit(app)), std::cout, std::cerr);
+      return kUsage;
+    }
     return app.exit(error, std::cout, std::cerr) == 0 ? 0 : kUsage;
   }
 }

@@ -17,6 +17,7 @@
 #include "host/options/command_line.h"
 #include "host/programs/animate_command.h"
 #include "host/programs/film_of.h"
+#include "host/programs/model_command.h"
 #include "host/programs/node_job.h"
 #include "host/programs/preview_command.h"
 #include "host/sinks/verify.h"
@@ -40,6 +41,7 @@ Commands:
   mars verify DIR                  are all frames there, and whole?
   mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars import FILE -o MODEL.json   a model from a patch file
+  mars model new MODEL.json        a model of your own, step by step
   mars doctor                      what is in the way here, and what to do
   mars bench NAME                  measure, where MARS was built from its sources
 
@@ -172,6 +174,7 @@ int run(int argc, char** argv) {
   add_preview(app);
   add_play(app);
   add_animate(app, code);
+  add_model(app);
   DoctorOptions doctor;
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;

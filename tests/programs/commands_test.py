@@ -35,6 +35,23 @@ class Commands(ProgramTest):
             self.assertIn(f"mars {command} ", told)
             self.assertIn("Example: ", self.succeed("mars", command, "--help"))
 
+    def test_every_option_of_every_command_has_an_example(self):
+        rows = [row.split("\t") for row in self.succeed("mars", "--list-options").splitlines()]
+        of = {row[1] for row in rows if row[0] == "command"}
+        self.assertIn("mars model show", of)
+        for kind, command, name, *fields in rows:
+            if kind in ("argument", "option"):
+                self.assertIn(command, of)
+                self.assertIn("Example: ", fields[-1], f"{command} {name}")
+
+    def test_a_command_that_only_holds_others_tells_them(self):
+        self.assertIn("Usage: mars model ", self.succeed("mars", "model"))
+        self.assertIn("Usage: mars model show ", self.succeed("mars", "help", "model", "show"))
+        self.fail_clearly(2, "model", "shwo", "dog.json", says="'shwo' is not a command (did you mean 'show'?)")
+        self.fail_clearly(2, "modle", "show", says="'modle' is not a command (did you mean 'model'?)")
+        self.fail_clearly(2, "model", "show", "--hlep", says="'--hlep' is not an option (did you mean '--help'?)")
+        self.fail_clearly(2, "model", "show", says="MODEL is required")
+
     def test_help_tells_exit_codes_and_settings(self):
         for words in [["--help"], ["render", "--help"]]:
             self.assertIn("Exit codes: 0", self.succeed("mars", *words))

@@ -75,9 +75,11 @@ class Installed(Installation):
     def test_completes_commands_and_options(self):
         for program, rows in self.rows().items():
             commands = [row[1].split(" ") for row in rows if row[0] == "command"]
-            if len(commands) > 1:
-                self.assertEqual(sorted(self.complete(program, "")), sorted(words[1] for words in commands[1:]))
             for words in commands:
+                within = [each[-1] for each in commands if each[:-1] == words]
+                arguments = [row for row in rows if row[:2] == ["argument", " ".join(words)]]
+                if within and not arguments:
+                    self.assertEqual(self.complete(*words, ""), within)
                 names = [name for row in rows if row[:2] == ["option", " ".join(words)] for name in row[2].split(",")]
                 self.assertEqual(self.complete(*words, "-"), names)
 
@@ -91,6 +93,14 @@ class Installed(Installation):
                     self.assertEqual(self.complete(*row[1].split(" "), name, ""), row[3].split("|"))
                     self.assertEqual(self.complete(*row[1].split(" "), name, "=", ""), row[3].split("|"))
         self.assertGreater(some, 0)
+
+    def test_completes_commands_within_commands(self):
+        self.write("dog.json", "")
+        (self.folder / "notes.txt").touch()
+        self.assertEqual(self.complete("mars", "model", "sh"), ["show"])
+        self.assertEqual(self.complete("mars", "model", "show", ""), ["dog.json"])
+        self.assertEqual(self.complete("mars", "model", "show", "dog.json", ""), [])
+        self.assertEqual(self.complete("mars", "model", "show", "dog.json", "-"), ["-h", "--help"])
 
     def test_completes_films_and_folders(self):
         for name in ["a film.json", "film.mars", "film.txt"]:
@@ -107,6 +117,17 @@ class Installed(Installation):
             self.assertIn("--list-options", script.read_text())
             if shutil.which(shell):
                 self.succeed(shell, "-n", script)
+
+    @unittest.skipUnless(shutil.which("fish"), "needs fish")
+    def test_fish_completes_commands_within_commands(self):
+        script = self.prefix / "share/fish/vendor_completions.d/mars.fish"
+        self.write("dog.json", "")
+        for typed, offered in [("mars mod", ["model"]), ("mars model sh", ["show"]), ("mars model show d", ["dog.json"]),
+                               ("mars render --backend thr", ["threads"]), ("mars model show --h", ["--help"])]:
+            told = self.succeed("fish", "--no-config", "-c", f"source '{script}'; complete -C '{typed}'",
+                                env=dict(os.environ, PATH=f"{harness.PROGRAMS}:{os.environ['PATH']}",
+                                         HOME=str(self.folder)))
+            self.assertEqual([line.split("\t")[0] for line in told.splitlines()], offered, typed)
 
 
 @unittest.skipUnless((BUILD / "cluster/install/options").exists(), "built without manual")

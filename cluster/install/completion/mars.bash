@@ -5,6 +5,7 @@
 _mars_values() {
   case $1 in
     FILM) compgen -d -- "$2"; compgen -f -X '!*.json' -- "$2"; compgen -f -X '!*.mars' -- "$2" ;;
+    MODEL) compgen -d -- "$2"; compgen -f -X '!*.json' -- "$2" ;;
     FILE) compgen -f -- "$2" ;;
     DIR) compgen -d -- "$2" ;;
     *'|'*) compgen -W "${1//|/ }" -- "$2" ;;
@@ -12,37 +13,46 @@ _mars_values() {
 }
 
 _mars() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
-  if [ "$current" = = ]; then current=''
-  elif [ "$previous" = = ]; then previous=${COMP_WORDS[COMP_CWORD - 2]}
-  fi
-
-  # A program's own lines come first, then those of its commands: the command typed replaces what was found.
-  local kind of names value rest program='' command='' options='' commands='' argument='' asked=''
+  local kind of names value rest name program='' i word
+  local -A arguments=() options=() commands=() values=()  # of each command; values: of "COMMAND OPTION"
   while IFS=$'\t' read -r kind of names value rest; do
     case $kind in
       command)
-        if [ -z "$program" ]; then
-          program=$of command=$of
-        elif [ "$COMP_CWORD" -gt 1 ] && [ "$of" = "$program ${COMP_WORDS[1]}" ]; then
-          command=$of options='' commands='' argument='' asked=''
-        elif [ "$command" = "$program" ]; then
-          commands+=" ${of#"$program "}"
-        fi ;;
-      argument) [ "$of" != "$command" ] || argument=$names ;;
+        program=${program:-$of} arguments[$of]='' options[$of]='' commands[$of]=''
+        [ "$of" = "$program" ] || commands[${of% *}]+=" ${of##* }" ;;
+      argument) arguments[$of]+=" $names" ;;
       option)
-        [ "$of" = "$command" ] || continue
-        options+=" ${names//,/ }"
-        [[ ",$names," != *",$previous,"* || $value = - ]] || asked=$value ;;
+        options[$of]+=" ${names//,/ }"
+        for name in ${names//,/ }; do values["$of $name"]=${value#-}; done ;;
     esac
   done < <("${1/#\~/$HOME}" --list-options 2>/dev/null)
+  [ -n "$program" ] || return 0
 
-  if [ -z "$asked" ] && [[ $current != -* ]]; then asked=$argument; fi
-  case $asked in FILM | FILE | DIR) compopt -o filenames 2>/dev/null ;; esac
-  if [ -n "$asked" ]; then mapfile -t COMPREPLY < <(_mars_values "$asked" "$current")
-  elif [[ $current = -* ]]; then mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
-  else mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$current")
+  # What was typed before: which command, how many of its arguments, and how many values an option still takes.
+  local command=$program given=0 asked=()
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    word=${COMP_WORDS[i]}
+    if [ "$word" = = ]; then continue
+    elif [ ${#asked[@]} -gt 0 ]; then asked=("${asked[@]:1}")
+    elif [[ $word = -* ]]; then read -r -a asked <<< "${values["$command $word"]-}"
+    elif [[ " ${commands[$command]} " = *" $word "* ]]; then command+=" $word" given=0
+    else given=$((given + 1))
+    fi
+  done
+
+  local current=${COMP_WORDS[COMP_CWORD]} expected=(${arguments[$command]})
+  [ "$current" != = ] || current=''
+  if [ ${#asked[@]} -gt 0 ]; then value=${asked[0]}
+  elif [[ $current = -* ]]; then value='' names=${options[$command]}
+  else
+    [ "$given" -lt ${#expected[@]} ] || [[ ${expected[*]} != *... ]] || given=$((${#expected[@]} - 1))
+    value=${expected[given]-} names=${commands[$command]}
+    value=${value%...}
   fi
+  case $value in FILM | MODEL | FILE | DIR) compopt -o filenames 2>/dev/null ;; esac
+  mapfile -t COMPREPLY < <(
+    [ ${#asked[@]} -gt 0 ] || compgen -W "$names" -- "$current"
+    _mars_values "$value" "$current")
 }
 
 complete -F _mars mars mars-host mars-cube mars-threads

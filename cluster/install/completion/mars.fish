@@ -7,6 +7,8 @@ function __mars_values
         case FILM
             __fish_complete_suffix .mars
             __fish_complete_suffix .json
+        case MODEL
+            __fish_complete_suffix .json
         case FILE
             __fish_complete_path (commandline -ct)
         case DIR
@@ -16,50 +18,57 @@ function __mars_values
     end
 end
 
+# The rows of --list-options of one kind that belong to a command.
+function __mars_rows --argument-names kind command
+    string match -- $kind\t$command\t'*' $__mars_list
+end
+
 function __mars
     set -l words (commandline -opc)
     type -q $words[1]; or return
-    set -l program
-    set -l command
-    set -l options
-    set -l commands
-    set -l argument
-    set -l asked
-    for row in ($words[1] --list-options 2>/dev/null)
-        set -l fields (string split \t -- $row)
-        switch $fields[1]
-            case command
-                if test -z "$program"
-                    set program $fields[2]
-                    set command $program
-                else if test "$fields[2]" = "$program $words[2]"
-                    set command $fields[2]
-                    set options
-                    set commands
-                    set argument
-                    set asked
-                else if test "$command" = "$program"
-                    set -a commands (string replace "$program " '' -- $fields[2])\t$fields[3]
-                end
-            case argument
-                test "$fields[2]" = "$command"; and set argument $fields[3]
-            case option
-                test "$fields[2]" = "$command"; or continue
-                set -l help (string replace -r ' Example: .*' '' -- $fields[6])
-                for name in (string split , -- $fields[3])
-                    set -a options $name\t$help
-                    test "$name" = "$words[-1]"; and test "$fields[4]" != -; and set asked $fields[4]
-                end
+    set -g __mars_list ($words[1] --list-options 2>/dev/null)
+    set -l command (string split \t -- $__mars_list[1])[2]
+    set -l given 0 # arguments of the command
+    set -l asked # values that the last option still takes
+    for word in $words[2..-1]
+        if set -q asked[1]
+            set -e asked[1]
+        else if string match -q -- '-*' $word
+            for row in (__mars_rows option $command)
+                set -l fields (string split \t -- $row)
+                contains -- $word (string split , -- $fields[3]); and test "$fields[4]" != -
+                and set asked (string split ' ' -- $fields[4])
+            end
+        else if string match -q -- command\t"$command $word"\t'*' $__mars_list
+            set command "$command $word"
+            set given 0
+        else
+            set given (math $given + 1)
         end
     end
     if set -q asked[1]
-        __mars_values $asked
+        __mars_values $asked[1]
     else if string match -q -- '-*' (commandline -ct)
-        printf '%s\n' $options
-    else if set -q commands[1]
-        printf '%s\n' $commands
+        for row in (__mars_rows option $command)
+            set -l fields (string split \t -- $row)
+            set -l help (string replace -r ' Example: .*' '' -- $fields[6])
+            printf "%s\t$help\n" (string split , -- $fields[3])
+        end
     else
-        __mars_values $argument
+        for row in (__mars_rows command "$command *")
+            set -l fields (string split \t -- $row)
+            set -l name (string replace "$command " '' -- $fields[2])
+            string match -q '* *' -- $name; or printf '%s\t%s\n' $name $fields[3]
+        end
+        set -l arguments
+        for row in (__mars_rows argument $command)
+            set -a arguments (string split \t -- $row)[3]
+        end
+        if set -q arguments[1]
+            set -l at (math min $given + 1, (count $arguments))
+            test $at -gt $given; or string match -q '*...' -- $arguments[$at]
+            and __mars_values (string replace ... '' -- $arguments[$at])
+        end
     end
 end
 

@@ -37,7 +37,13 @@ function option(names, type,    i, count, each, line) {
   return line
 }
 
-FILENAME == ARGV[1] && $1 == "command" { commands[++command_count] = $2; purpose[$2] = $3 }
+FILENAME == ARGV[1] && $1 == "command" {
+  commands[++command_count] = $2
+  purpose[$2] = $3
+  within = $2
+  sub(/ [^ ]*$/, "", within)
+  holds[within]++
+}
 FILENAME == ARGV[1] && $1 == "argument" {
   synopsis[$2] = synopsis[$2] " Ar " $3
   items[$2] = items[$2] ".It Ar " $3 "\n" help($6)
@@ -65,14 +71,15 @@ function subsections(program,    i, name, text) {
   for (i = 1; i <= command_count; i++) {
     name = commands[i]
     if (index(name, program " ") != 1 || name == program " render") continue
-    text = text ".Ss " name "\n" synopsis_of(program, name) help(purpose[name]) list(items[name]) "\n"
+    text = text ".Ss " name "\n" synopsis_of(program, name) help(purpose[name])
+    if (items[name] != "") text = text list(items[name]) "\n"
   }
   sub(/\n$/, "", text)
   return text
 }
 
 function synopsis_of(program, name) {
-  return ".Nm Cm " substr(name, length(program) + 2) (optional[name] ? " Oo Ar options Oc" : "") synopsis[name] "\n.Pp\n"
+  return ".Nm Cm " substr(name, length(program) + 2) (optional[name] ? " Oo Ar options Oc" : "") synopsis[name] (holds[name] ? " Ar command" : "") "\n.Pp\n"
 }
 
 /^@OPTIONS / { gsub(/^@OPTIONS |@$/, ""); print ".Sh OPTIONS\n" list(items[$0]); next }

@@ -1,0 +1,147 @@
+#include "host/modeler/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "host/document/fields.h"
+#include "host/modeler/frames.h"
+
+namespace mars::host {
+namespace {
+
+constexpr double kSquare = 1e-3;  // degrees from a right angle that are rounding
+
+using Row = std::vector<std::string>;
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[100];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+double without_rounding(double number) { return std::abs(number) < 1e-9 ? 0 : number; }
+
+// "0.5 x 1 x 2", to four digits.
+std::string size_text(const glm::dvec3& size) {
+  return formatted("%.4g x %.4g x %.4g", size.x, size.y, size.z);
+}
+
+std::string axes_of(const Joint& joint) {
+  if (skew_of(joint) != 0) return formatted("skewed, %.4g degrees", skew_of(joint));
+  const bool own = joint.x_axis != Joint().x_axis || joint.y_axis != Joint().y_axis;
+  return own ? "its own" : "-";
+}
+
+Row row_of(const Model& model, const Joint& joint, std::size_t depth) {
+  Row row{std::string(2 * depth, ' ') + joint.name, turns_of(joint), axes_of(joint), "-", "-", "-", "-"};
+  if (!joint.segment) return row;
+  const Shape& shape = model.shapes[joint.segment->shape];
+  row[3] = shape.name;
+  row[4] = std::to_string(shape.patches.size());
+  row[5] = size_text(joint.segment->sbb.max - joint.segment->sbb.min);
+  if (!joint.segment->material.empty()) row[6] = joint.segment->material;
+  return row;
+}
+
+// Joints as a person thinks of them: each followed by all that hangs on it.
+class Tree {
+ public:
+  explicit Tree(const Model& model) : model_(model), children_(model.joints.size()) {
+    for (std::size_t number = 0; number < model.joints.size(); ++number)
+      if (const std::size_t parent = model.joints[number].parent; parent != kNone) children_[parent].push_back(number);
+  }
+
+  std::vector<Row> rows() const {
+    std::vector<Row> rows{{"joint", "turns", "axes", "shape", "patches", "sbb", "material"}};
+    std::vector<std::pair<std::size_t, std::size_t>> waiting;  // joints and their depths, the next one last
+    for (std::size_t number = model_.joints.size(); number-- > 0;)
+      if (model_.joints[number].parent == kNone) waiting.emplace_back(number, 0);
+    while (!waiting.empty()) {
+      const auto [number, depth] = waiting.back();
+      waiting.pop_back();
+      rows.push_back(row_of(model_, model_.joints[number], depth));
+      for (auto child = children_[number].rbegin(); child != children_[number].rend(); ++child)
+        waiting.emplace_back(*child, depth + 1);
+    }
+    return rows;
+  }
+
+ private:
+  const Model& model_;
+  std::vector<std::vector<std::size_t>> children_;
+};
+
+std::string laid_out(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string head_of(const Model& model) {
+  std::size_t freedoms = 0, segments = 0, patches = 0, stored = 0;
+  for (const Joint& joint : model.joints) {
+    freedoms += static_cast<std::size_t>(joint.freedoms());
+    if (!joint.segment) continue;
+    ++segments;
+    patches += model.shapes[joint.segment->shape].patches.size();
+  }
+  for (const Shape& shape : model.shapes) stored += shape.patches.size();
+  std::string text = "joints    " + formatted("%zu with %zu freedoms\n", model.joints.size(), freedoms);
+  text += "segments  " + formatted("%zu of %zu shapes\n", segments, model.shapes.size());
+  text += "patches   " + formatted("%zu, %zu of them stored\n", patches, stored);
+  if (const auto bounds = rest_bounds(model))
+    text += "at rest   " + size_text(bounds->max - bounds->min) +
+            formatted(", z from %.4g to %.4g\n", without_rounding(bounds->min.z), without_rounding(bounds->max.z));
+  return text;
+}
+
+std::string materials_of(const Model& model) {
+  if (model.materials.empty()) return "";
+  std::vector<Row> rows{{"material", "color", "ambient", "diffuse", "specular", "exponent", "sides"}};
+  for (const NamedMaterial& each : model.materials) {
+    const node::Material& material = each.material;
+    const auto number = [](double value) { return formatted("%.4g", value); };
+    const auto& color = material.color;
+    rows.push_back({each.name, number(color[0]) + " " + number(color[1]) + " " + number(color[2]),
+                    number(material.ambient), number(material.diffuse), number(material.specular),
+                    number(material.exponent), std::to_string(material.sides)});
+  }
+  return "\n" + laid_out(rows);
+}
+
+}  // namespace
+
+double skew_of(const Joint& joint) {
+  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / 3.14159265358979323846;
+  return std::abs(angle - 90) < kSquare ? 0 : angle;
+}
+
+std::string turns_of(const Joint& joint) {
+  std::string text;
+  bool all_round = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Limits& limits = joint.limits[axis];
+    all_round = all_round && limits.lower == -180 && limits.upper == 180;
+    if (!limits.free() && limits.lower == 0) continue;
+    text += text.empty() ? "" : ", ";
+    text += "xyz"[axis];
+    text += limits.free() ? " " + shown(limits.lower) + ".." + shown(limits.upper) : " at " + shown(limits.lower);
+  }
+  return all_round ? "free" : text.empty() ? "fixed" : text;
+}
+
+std::string describe_model(const Model& model) {
+  return head_of(model) + "\n" + laid_out(Tree(model).rows()) + materials_of(model);
+}
+
+}  // namespace mars::host

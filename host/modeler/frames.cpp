@@ -1,0 +1,113 @@
+#include "host/modeler/frames.h"
+
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace mars::host {
+namespace {
+
+constexpr int kSteps = 8;  // of a patch's sides, where its surface is measured
+
+glm::dmat3 rotation_of(const glm::dvec3& n, double sine, double cosine) {
+  const glm::dmat3 cross(0, n.z, -n.y, -n.z, 0, n.x, n.y, -n.x, 0);
+  return cosine * glm::dmat3(1) + (1 - cosine) * glm::outerProduct(n, n) + sine * cross;
+}
+
+std::array<double, 4> bernstein(double t) {
+  const double s = 1 - t;
+  return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+}
+
+glm::dvec3 point_of(const node::Patch& patch, double u, double v) {
+  const auto along_u = bernstein(u), along_v = bernstein(v);
+  glm::dvec3 point(0);
+  for (std::size_t j = 0; j < 4; ++j)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& control = patch.points[4 * j + i];
+      point += along_u[i] * along_v[j] * glm::dvec3(control[0], control[1], control[2]);
+    }
+  return point;
+}
+
+std::vector<glm::dvec3> surface_points(const Shape& shape) {
+  std::vector<glm::dvec3> points;
+  for (const node::Patch& patch : shape.patches)
+    for (int j = 0; j <= kSteps; ++j)
+      for (int i = 0; i <= kSteps; ++i) points.push_back(point_of(patch, double(i) / kSteps, double(j) / kSteps));
+  return points;
+}
+
+}  // namespace
+
+glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
+  return rotation_of(axis, std::sin(angle), std::cos(angle));
+}
+
+glm::dmat3 rotation_by_degrees(const glm::dvec3& axis, double degrees) {
+  constexpr double sines[] = {0, 1, 0, -1};
+  int quarter = 0;
+  const double rest = std::remquo(degrees, 90.0, &quarter);
+  if (rest == 0) return rotation_of(axis, sines[quarter & 3], sines[(quarter + 1) & 3]);
+  return rotation(axis, degrees * (3.14159265358979323846 / 180));
+}
+
+glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose) {
+  const glm::dvec3 z_axis = glm::normalize(glm::cross(joint.x_axis, joint.y_axis));
+  return rotation_by_degrees(joint.x_axis, pose.x) * rotation_by_degrees(joint.y_axis, pose.y) *
+         rotation_by_degrees(z_axis, pose.z);
+}
+
+glm::dmat3 segment_axes(const Joint& joint) {
+  return {joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis)};
+}
+
+Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
+  return {joint_frame.turn * segment_axes(joint), joint_frame.place};
+}
+
+node::Matrix t_matrix(const Axes& frame, const Box& sbb) {
+  const glm::dvec3 extent = sbb.max - sbb.min;
+  const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
+  node::Matrix matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      matrix.m[row][column] = frame.turn[column][row] * extent[column];
+    matrix.m[row][3] = origin[row];
+  }
+  return matrix;
+}
+
+std::vector<Axes> rest_frames(const Model& model) {
+  std::vector<Axes> frames;
+  for (const Joint& joint : model.joints) {
+    const Axes parent = joint.parent == kNone ? Axes{} : frames[joint.parent];
+    frames.push_back(
+        {parent.turn * orientation(joint, joint.rest()), parent.turn * joint.place + parent.place});
+  }
+  return frames;
+}
+
+std::optional<Box> rest_bounds(const Model& model) {
+  const std::vector<Axes> frames = rest_frames(model);
+  std::vector<std::vector<glm::dvec3>> points;
+  for (const Shape& shape : model.shapes) points.push_back(surface_points(shape));
+  std::optional<Box> bounds;
+  for (std::size_t number = 0; number < frames.size(); ++number) {
+    const Joint& joint = model.joints[number];
+    if (!joint.segment) continue;
+    const Axes frame = segment_frame(frames[number], joint);
+    const Box& sbb = joint.segment->sbb;
+    for (const glm::dvec3& point : points[joint.segment->shape]) {
+      const glm::dvec3 at = frame.turn * (sbb.min + point * (sbb.max - sbb.min)) + frame.place;
+      if (!bounds) bounds = Box{at, at};
+      bounds->min = glm::min(bounds->min, at);
+      bounds->max = glm::max(bounds->max, at);
+    }
+  }
+  return bounds;
+}
+
+}  // namespace mars::host

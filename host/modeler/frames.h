@@ -1,0 +1,44 @@
+// Where joints and base segments stand: the one place where a pose becomes a frame and a frame a T-matrix
+// (model.h has the formulas).
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "host/modeler/model.h"
+
+namespace mars::host {
+
+// Where a joint stands in the world: p' = turn p + place.
+struct Axes {
+  glm::dmat3 turn{1};
+  glm::dvec3 place{0, 0, 0};
+};
+
+// About `axis`, a unit vector, by an angle in radians: cos I + (1 - cos) n n^T + sin N.
+glm::dmat3 rotation(const glm::dvec3& axis, double angle);
+
+// In degrees; quarter turns are exact.
+glm::dmat3 rotation_by_degrees(const glm::dvec3& axis, double degrees);
+
+// A joint's turn against its parent for a pose in degrees: Rot(x, a) Rot(y, b) Rot(z, c).
+glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose);
+
+// [X Y Z]: the axes of the base segment, skewed or not.
+glm::dmat3 segment_axes(const Joint& joint);
+
+// The base segment's box-scaled coordinates to the world: F [X Y Z].
+Axes segment_frame(const Axes& joint_frame, const Joint& joint);
+
+// The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
+node::Matrix t_matrix(const Axes& frame, const Box& sbb);
+
+// Of every joint, in the model's own frame, with all joints at rest.
+std::vector<Axes> rest_frames(const Model& model);
+
+// The least box around all surfaces at rest, true to a thousandth; none: no joint has a segment.
+std::optional<Box> rest_bounds(const Model& model);
+
+}  // namespace mars::host
