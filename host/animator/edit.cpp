@@ -107,6 +107,25 @@ void put_keys(Json& film, const std::string& actor, std::span<const ActorKey> ke
   object["keys"] = std::move(list);
 }
 
+void clear_keys(Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like) {
+  Json& object = actor_of(film, actor);
+  if (!object.contains("keys")) return;
+  Json left = Json::array();
+  for (Json& key : object["keys"]) {
+    if (const auto frame = key.at("frame").get<std::uint32_t>(); frame >= first && frame <= last) {
+      if (like.place) key.erase("place");
+      if (like.turn) key.erase("turn");
+      if (const auto pose = key.find("pose"); pose != key.end()) {
+        for (const auto& [joint, angles] : like.pose) pose->erase(joint);
+        if (pose->empty()) key.erase("pose");
+      }
+      if (!key.contains("place") && !key.contains("turn") && !key.contains("pose")) continue;
+    }
+    left.push_back(std::move(key));
+  }
+  object["keys"] = std::move(left);
+}
+
 double rounded(double value) {
   if (std::abs(value) < 1e-9) return 0;
   char text[32];

@@ -27,6 +27,10 @@ struct ActorKey {
 // Throws where the film has no such actor or matrices move it; the film is then as it was.
 void put_keys(Json& film, const std::string& actor, std::span<const ActorKey> keys);
 
+// Takes out what the actor's keys of frames `first` to `last` hold of the same kinds as `like`: place, turn, and its
+// joints' poses.
+void clear_keys(Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like);
+
 // The film's own object for the actor.
 Json& actor_of(Json& film, const std::string& actor);
 

@@ -1,0 +1,179 @@
+#include "host/animator/motion/action.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "hal/failure.h"
+#include "host/animator/motion/gesture.h"
+#include "host/animator/motion/kinematic.h"
+#include "host/animator/motion/sitting.h"
+#include "host/animator/motion/steps.h"
+#include "host/animator/read_film.h"
+
+namespace mars::host {
+namespace {
+
+constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
+
+constexpr Parameter kWalk[] = {
+    {"steps", "N", "so many steps, and one that brings the feet together; default: 4, or as many as the way needs", "6"},
+    {"distance", "D", "so far; default: as far as the steps go", "3.5"},
+    {"to", "X Y", "to a place of the floor; the figure turns to it first", "2 -1"},
+    {"turn", "DEGREES", "along a bow that turns so far, to the left; default: straight on", "90"},
+    {"step-length", "D", "default: 0.62 of the leg", "0.7"},
+    kPace,
+    {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right", "left"},
+    {"arm-swing", "N", "times an ordinary walk's, 0 to 3; default: 1", "1.5"},
+    {"bounce", "N", "up and down, times an ordinary walk's, 0 to 3; default: 1", "0.5"},
+    {"knee-lift", "N", "of the swinging leg, times an ordinary walk's, 0 to 3; default: 1", "1.4"},
+    {"lean", "DEGREES", "of the trunk, forward; default: 0", "8"}};
+constexpr Parameter kTurn[] = {
+    {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
+constexpr Parameter kSit[] = {
+    {"seat-height", "H", "of the seat over the floor; default: so that the thighs are level", "0.45"},
+    {"back", "D", "how far behind the feet the hips go; default: so that the shins stand upright", "0.4"},
+    {"seconds", "S", "default: 1.6", "2"}};
+constexpr Parameter kStand[] = {{"seconds", "S", "default: 1.6", "2"}};
+constexpr Parameter kNod[] = {{"times", "N", "default: 2", "3"},
+                              {"depth", "DEGREES", "default: 24", "15"},
+                              {"seconds", "S", "of one nod; default: 0.6", "0.8"}};
+constexpr Parameter kWave[] = {{"hand", "SIDE", "left or right; default: right", "left"},
+                               {"times", "N", "default: 3", "5"},
+                               {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
+constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"};
+constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
+constexpr Parameter kThrow[] = {
+    kVelocity,
+    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre", "0 0 -28"},
+    kSpinning,
+    {"seconds", "S", "default: 1", "1.5"}};
+constexpr Parameter kBounce[] = {
+    kVelocity,
+    {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28"},
+    {"floor", "Z", "height of the floor, which the figure's lowest point meets; default: 0", "0.5"},
+    {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
+    {"friction", "N", "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},
+    kSpinning,
+    {"seconds", "S", "default: until it lies", "3"}};
+constexpr Parameter kSpin[] = {{"axis", "AXIS", "of the world: x, y or z; default: z", "x"},
+                               {"degrees", "DEGREES", "default: 360", "-720"},
+                               {"seconds", "S", "default: 2", "4"}};
+constexpr Parameter kGo[] = {{"to", "X Y Z", "the actor's place then; needed", "2 0 0"},
+                             {"seconds", "S", "default: 1", "2"},
+                             {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
+
+constexpr Action kActions[] = {
+    {"walk", "Walk: some steps, a distance, to a place, or along a bow", kWalk, walk},
+    {"turn", "Turn on the spot, by stepping", kTurn, turn},
+    {"sit", "Sit down on a seat behind", kSit, sit},
+    {"stand", "Stand up from sitting", kStand, stand},
+    {"nod", "Nod with head and neck", kNod, nod},
+    {"wave", "Raise a hand, wave and lower it", kWave, wave},
+    {"throw", "Fly with a velocity and an acceleration", kThrow, fling},
+    {"bounce", "Fall and bounce on a floor until at rest", kBounce, bounce},
+    {"spin", "Spin evenly about an axis of the world", kSpin, spin},
+    {"go", "Go straight to a place", kGo, go},
+};
+
+std::uint32_t last_key_of(const Actor& actor) {
+  std::uint32_t last = 0;
+  const auto look = [&](const auto& channel) {
+    if (!channel.empty()) last = std::max(last, channel.back().frame);
+  };
+  look(actor.motion.place);
+  look(actor.motion.turn);
+  for (const auto& pose : actor.motion.pose) look(pose);
+  return last;
+}
+
+// Everything that the keys hold, as one key.
+ActorKey all_of(std::span<const ActorKey> keys) {
+  ActorKey all;
+  for (const ActorKey& key : keys) {
+    if (key.place) all.place = key.place;
+    if (key.turn) all.turn = key.turn;
+    all.pose.insert(key.pose.begin(), key.pose.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::size_t Parameter::count() const {
+  return 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
+}
+
+void Wishes::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
+  throw Failure("'" + std::string(name) + "' " + what, where_, remedy);
+}
+
+double Wishes::parsed(std::string_view name, const std::string& text, Range range) const {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
+  if (value < range.lowest || value > range.highest)
+    refuse(name, "is " + text, "give a number from " + shown(range.lowest) + " to " + shown(range.highest));
+  return value;
+}
+
+std::optional<double> Wishes::number(std::string_view name, Range range) const {
+  const auto found = values_.find(std::string(name));
+  if (found == values_.end()) return std::nullopt;
+  return parsed(name, found->second.at(0), range);
+}
+
+double Wishes::number(std::string_view name, double otherwise, Range range) const {
+  return number(name, range).value_or(otherwise);
+}
+
+std::uint32_t Wishes::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
+  const double value = number(name, otherwise, {1, double(highest)});
+  if (value != std::floor(value)) refuse(name, "is " + shown(value), "give a whole number");
+  return static_cast<std::uint32_t>(value);
+}
+
+std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
+  const auto found = values_.find(std::string(name));
+  if (found == values_.end()) return std::nullopt;
+  glm::dvec3 vector(0);
+  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i) vector[int(i)] = parsed(name, found->second[i], {});
+  return vector;
+}
+
+std::size_t Wishes::choice(std::string_view name, std::size_t otherwise, std::span<const std::string_view> choices) const {
+  const auto found = values_.find(std::string(name));
+  if (found == values_.end()) return otherwise;
+  const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
+  if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
+  std::string all;
+  for (const std::string_view each : choices) all += (all.empty() ? "" : ", ") + std::string(each);
+  refuse(name, "is '" + found->second.at(0) + "'", did_you_mean(found->second.at(0), choices, "one of " + all));
+}
+
+std::span<const Action> actions() { return kActions; }
+
+const Action* find_action(std::string_view name) {
+  const auto found = std::find_if(std::begin(kActions), std::end(kActions), [&](const Action& a) { return a.name == name; });
+  return found == std::end(kActions) ? nullptr : found;
+}
+
+Performed perform(Json& json, const std::filesystem::path& path, const std::string& name, const Action& action,
+                  std::optional<std::uint32_t> at, const Wishes& wishes) {
+  actor_of(json, name);  // refuses what is no actor
+  const Document document(laid_out(json), path.string());
+  const Film film = read_film(document.root(), path.parent_path());
+  const Actor& actor = *std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == name; });
+  if (!actor.matrices.empty())
+    throw Failure("is moved by matrices", "actor '" + name + "'", "take its matrices out of the film, or name another actor");
+  const Scene scene{film, actor, at ? *at : last_key_of(actor), wishes};
+  const Motion motion = action.perform(scene);
+  if (!motion.keys.empty() && motion.last > scene.at) clear_keys(json, name, scene.at + 1, motion.last, all_of(motion.keys));
+  put_keys(json, name, motion.keys);
+  return {scene.at, motion.last, motion.told};
+}
+
+}  // namespace mars::host

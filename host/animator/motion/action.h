@@ -1,0 +1,91 @@
+// The actions that a command or a line of a script starts: walk, turn, sit ... Each is an entry of one table, with
+// its parameters, from which command line, scripts and help come.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/animator/edit.h"
+#include "host/animator/film.h"
+#include "host/document/fields.h"
+
+namespace mars::host {
+
+struct Parameter {
+  std::string_view name;     // "step-length"; an option --step-length, in scripts a word before its values
+  std::string_view value;    // what follows, for help: "N", "X Y"; as many words as values
+  std::string_view meaning;  // with what it is otherwise
+  std::string_view example;  // its values
+
+  std::size_t count() const;  // of values
+};
+
+// What a person asks of an action: parameter to its values, as they were typed.
+class Wishes {
+ public:
+  using Values = std::map<std::string, std::vector<std::string>>;
+
+  // `where` names the action for messages: "walk", or "play.script:7: walk".
+  Wishes(Values values, std::string where) : values_(std::move(values)), where_(std::move(where)) {}
+
+  bool has(std::string_view name) const { return values_.contains(std::string(name)); }
+  std::optional<double> number(std::string_view name, Range range) const;
+  double number(std::string_view name, double otherwise, Range range) const;
+  std::uint32_t count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const;
+  std::optional<glm::dvec3> vector(std::string_view name) const;  // of two or three numbers, z then 0
+  std::size_t choice(std::string_view name, std::size_t otherwise, std::span<const std::string_view> choices) const;
+
+  const std::string& where() const { return where_; }
+  [[noreturn]] void refuse(std::string_view name, const std::string& what, const std::string& remedy) const;
+
+ private:
+  double parsed(std::string_view name, const std::string& text, Range range) const;
+
+  Values values_;
+  std::string where_;
+};
+
+// Who acts, and from which frame on.
+struct Scene {
+  const Film& film;
+  const Actor& actor;
+  std::uint32_t at;
+  const Wishes& wishes;
+
+  const Model& model() const { return film.models[actor.model]; }
+  double frames(double seconds) const { return seconds * film.rate; }
+};
+
+// What comes of it. All earlier keys of what it drives, after the first frame and up to the last, make way.
+struct Motion {
+  std::vector<ActorKey> keys;
+  std::uint32_t last = 0;   // frame
+  std::string told;         // more for the person who asked: "the seat is ..."; "" if nothing
+};
+
+struct Action {
+  std::string_view name;
+  std::string_view purpose;
+  std::span<const Parameter> parameters;
+  Motion (*perform)(const Scene& scene);
+};
+
+std::span<const Action> actions();
+const Action* find_action(std::string_view name);
+
+struct Performed {
+  std::uint32_t first, last;  // frames
+  std::string told;
+};
+
+// Has an actor of the film do something; the film is made longer where it ends before that does. Without `at` the
+// action begins at the actor's last key.
+Performed perform(Json& film, const std::filesystem::path& folder, const std::string& actor, const Action& action,
+                  std::optional<std::uint32_t> at, const Wishes& wishes);
+
+}  // namespace mars::host

@@ -1,0 +1,200 @@
+#include "host/animator/motion/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+namespace {
+
+constexpr int kGrid = 4;            // points along each side of a patch, of which a sole's shape is known
+constexpr double kStrikes = -15;    // degrees of pitch at which the heel is what touches
+constexpr double kLeaves = 25;      // and the tip of a foot without toes
+
+glm::dvec3 patch_point(const node::Patch& patch, double u, double v) {
+  const auto weights = [](double t) {
+    const double r = 1 - t;
+    return std::array{r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t};
+  };
+  const auto a = weights(u), b = weights(v);
+  glm::dvec3 point(0);
+  for (std::size_t i = 0; i < 16; ++i)
+    for (int axis = 0; axis < 3; ++axis) point[axis] += a[i % 4] * b[i / 4] * patch.points[i][axis];
+  return point;
+}
+
+// Points of a joint's segment, in the world.
+void add_points(const Model& model, const Posture& posture, std::size_t number, std::vector<glm::dvec3>& points) {
+  const Joint& joint = model.joints[number];
+  if (!joint.segment) return;
+  const Axes frame = segment_frame(frame_in(model, posture, number), joint);
+  const Box& box = joint.segment->sbb;
+  for (const node::Patch& patch : model.shapes[joint.segment->shape].patches)
+    for (int i = 0; i < kGrid; ++i)
+      for (int j = 0; j < kGrid; ++j) {
+        const glm::dvec3 p = patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1));
+        points.push_back(frame.turn * (box.min + p * (box.max - box.min)) + frame.place);
+      }
+}
+
+bool is_below(const Model& model, std::size_t joint, std::size_t ancestor) {
+  while (joint != kNone && joint != ancestor) joint = model.joints[joint].parent;
+  return ancestor != kNone && joint == ancestor;
+}
+
+double lowest(std::span<const glm::dvec3> points, const glm::dmat3& turn, const glm::dvec3& from) {
+  double least = 0;
+  for (const glm::dvec3& point : points) least = std::min(least, (turn * point + from).z);
+  return least;
+}
+
+glm::dvec3 lowest_point(const Sole& sole, double pitch) {
+  const glm::dmat3 turn = canonical_turn(0, pitch, 0);
+  glm::dvec3 least(0);
+  for (const glm::dvec3& point : sole.foot)
+    if ((turn * point).z < (turn * least).z) least = point;
+  return {least.x, 0, least.z};
+}
+
+Sole sole_of(const Model& model, const Posture& drawn, const glm::dmat3& axes, std::size_t ankle, std::size_t toes) {
+  std::vector<glm::dvec3> foot, front;
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+    if (is_below(model, joint, ankle))
+      add_points(model, drawn, joint, is_below(model, joint, toes) ? front : foot);
+  const glm::dmat3 back = glm::transpose(axes);
+  const glm::dvec3 origin = frame_in(model, drawn, ankle).place;
+  Sole sole;
+  for (const glm::dvec3& point : foot) sole.foot.push_back(back * (point - origin));
+  sole.bend = toes == kNone ? glm::dvec3(0) : back * (frame_in(model, drawn, toes).place - origin);
+  for (const glm::dvec3& point : front) sole.toes.push_back(back * (point - origin) - sole.bend);
+  sole.heel = lowest_point(sole, kStrikes);
+  sole.ball = toes == kNone ? lowest_point(sole, kLeaves) : glm::dvec3(sole.bend.x, 0, sole.bend.z);
+  return sole;
+}
+
+// The model's own axes where the limbs are within a few degrees of them: most figures stand along them.
+glm::dmat3 nearly_square(const glm::dmat3& axes) {
+  glm::dmat3 square;
+  for (int column = 0; column < 3; ++column) square[column] = glm::round(axes[column]);
+  for (int column = 0; column < 3; ++column)
+    if (glm::distance(square[column], axes[column]) > 0.1) return axes;
+  return square;
+}
+
+[[noreturn]] void fail_limb(const std::string& actor, const std::string& command, const std::string& limb) {
+  throw Failure("its model names no " + limb + ", which '" + command + "' needs", "actor '" + actor + "'",
+                "add it to the model's limbs: docs/model-format.md");
+}
+
+}  // namespace
+
+glm::dmat3 canonical_turn(double a, double b, double c) {
+  return rotation_by_degrees({1, 0, 0}, a) * rotation_by_degrees({0, 1, 0}, b) * rotation_by_degrees({0, 0, 1}, c);
+}
+
+glm::dmat3 canonical_turn(const glm::dvec3& degrees) { return canonical_turn(degrees.x, degrees.y, degrees.z); }
+
+glm::dvec3 canonical_degrees(const glm::dmat3& m) {
+  return glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(std::clamp(m[2][0], -1.0, 1.0)),
+                                 std::atan2(-m[1][0], m[0][0])));
+}
+
+double Sole::height(double pitch, double bent) const {
+  const glm::dmat3 turn = canonical_turn(0, pitch, 0);
+  return -std::min(lowest(foot, turn, {0, 0, 0}), lowest(toes, turn * canonical_turn(0, bent, 0), turn * bend));
+}
+
+bool Body::planar() const {
+  return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) { return model->joints[leg.hip].freedoms() < 2; });
+}
+
+std::vector<std::size_t> Body::joints() const {
+  std::vector<std::size_t> all(model->limbs.trunk.begin(), model->limbs.trunk.end());
+  for (const auto& side : model->limbs.sides) all.insert(all.end(), side.begin(), side.end());
+  std::erase(all, kNone);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+double Body::heading_of(const Posture& posture) const {
+  const glm::dvec3 forward = (actor_turn(posture) * axes)[0];
+  return glm::degrees(std::atan2(forward.y, forward.x));
+}
+
+glm::dmat3 Body::turn_of(const Posture& posture, std::size_t joint) const {
+  return frame_in(*model, posture, joint).turn * axes;
+}
+
+double Body::floor_under(const Posture& posture) const {
+  double least = 1e300;
+  for (const Leg& leg : legs) {
+    const Axes foot = frame_in(*model, posture, leg.ankle);
+    least = std::min(least, foot.place.z + lowest(leg.sole.foot, foot.turn * axes, {0, 0, 0}));
+    if (leg.toes == kNone) continue;
+    const Axes toes = frame_in(*model, posture, leg.toes);
+    for (const glm::dvec3& point : leg.sole.toes)
+      least = std::min(least, (toes.turn * axes * point + toes.place).z);
+  }
+  return least;
+}
+
+double lowest_of(const Model& model, const Posture& posture) {
+  std::vector<glm::dvec3> points;
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) add_points(model, posture, joint, points);
+  double least = points.empty() ? posture.place.z : points[0].z;
+  for (const glm::dvec3& point : points) least = std::min(least, point.z);
+  return least;
+}
+
+Body body_of(const Model& model, const std::string& actor, const std::string& command) {
+  Body body{&model, actor, glm::dmat3(1), model.limbs.of(Trunk::pelvis), {}, 0};
+  const Posture drawn = drawn_posture(model);
+  std::array<glm::dvec3, 2> hips;
+  for (const Side side : kSides) {
+    hips[index_of(side)] = frame_in(model, drawn, needed(body, Limb::hip, side, command)).place;
+    needed(body, Limb::ankle, side, command);
+  }
+  if (body.pelvis == kNone) body.pelvis = model.joints[model.limbs.of(Limb::hip, Side::left)].parent;
+  if (body.pelvis == kNone) fail_limb(actor, command, "pelvis");
+  const glm::dvec3 pelvis = frame_in(model, drawn, body.pelvis).place;
+  const glm::dvec3 left = glm::normalize(hips[0] - hips[1]);
+  const glm::dvec3 legs = frame_in(model, drawn, model.limbs.of(Limb::ankle, Side::left)).place - hips[0];
+  const glm::dvec3 up = glm::normalize(glm::dot(legs, left) * left - legs);
+  body.axes = nearly_square({glm::cross(left, up), left, up});
+  const glm::dmat3 back = glm::transpose(body.axes);
+  for (const Side side : kSides) {
+    Leg& leg = body.legs[index_of(side)];
+    leg = {model.limbs.of(Limb::hip, side), model.limbs.of(Limb::knee, side), model.limbs.of(Limb::ankle, side),
+           model.limbs.of(Limb::toes, side), 0, 0, 0, {}};
+    const glm::dvec3 hip = hips[index_of(side)], ankle = frame_in(model, drawn, leg.ankle).place;
+    const glm::dvec3 knee = leg.knee == kNone ? ankle : frame_in(model, drawn, leg.knee).place;
+    leg.thigh = glm::distance(hip, knee);
+    leg.shin = glm::distance(knee, ankle);
+    leg.aside = (back * (hip - pelvis)).y;
+    leg.sole = sole_of(model, drawn, body.axes, leg.ankle, leg.toes);
+  }
+  const double drawn_ankle = (back * (pelvis - frame_in(model, drawn, body.legs[0].ankle).place)).z;
+  body.height = drawn_ankle + body.legs[0].sole.height(0, 0);
+  return body;
+}
+
+std::size_t needed(const Body& body, Trunk part, const std::string& command) {
+  const std::size_t joint = body.find(part);
+  if (joint == kNone) fail_limb(body.name, command, std::string(kTrunkNames[static_cast<std::size_t>(part)]));
+  return joint;
+}
+
+std::size_t needed(const Body& body, Limb limb, Side side, const std::string& command) {
+  const std::size_t joint = body.find(limb, side);
+  if (joint == kNone)
+    fail_limb(body.name, command, std::string(side == Side::left ? "left " : "right ") +
+                                      std::string(kLimbNames[static_cast<std::size_t>(limb)]));
+  return joint;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,81 @@
+// A figure whose model names its limbs: what is forward, how long its legs are, what its soles are like. Commands
+// are written once, for a body along x with y to its left and z up ("canonical"), and drive any figure.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/animator/motion/posture.h"
+
+namespace mars::host {
+
+inline constexpr Side kSides[] = {Side::left, Side::right};
+constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
+constexpr Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
+constexpr double sign_of(Side side) { return side == Side::left ? 1 : -1; }
+
+// Rot(x, a) Rot(y, b) Rot(z, c), degrees: about forward, left and up. Positive y nods, positive z turns left.
+glm::dmat3 canonical_turn(double a, double b, double c);
+glm::dmat3 canonical_turn(const glm::dvec3& degrees);
+// The other way round: degrees.
+glm::dvec3 canonical_degrees(const glm::dmat3& turn);
+
+// The foot's underside, canonical, from the ankle; toes from the joint that bends them.
+struct Sole {
+  std::vector<glm::dvec3> foot, toes;
+  glm::dvec3 bend;                  // of the toes, from the ankle
+  glm::dvec3 heel, ball;            // on what the foot comes down, and on what it leaves
+
+  // How high the ankle is over the floor when the foot, pitched with its toes down by so many degrees and the
+  // toes bent against it, touches it.
+  double height(double pitch, double bent) const;
+};
+
+struct Leg {
+  std::size_t hip, knee, ankle, toes;  // knee and toes may be kNone
+  double thigh, shin;                  // lengths; a leg of one piece is all thigh
+  double aside;                        // of the hip from the pelvis' middle
+  Sole sole;
+
+  double length() const { return thigh + shin; }
+};
+
+struct Body {
+  const Model* model;
+  std::string name;     // of the actor, for messages
+  glm::dmat3 axes;      // forward, left, up in the model's own frame
+  std::size_t pelvis;   // named, or the joint that carries the hips
+  std::array<Leg, 2> legs;
+  double height;        // of the pelvis over the floor as drawn, where it stands
+
+  const Leg& leg(Side side) const { return legs[index_of(side)]; }
+  double leg_length() const { return legs[0].length(); }
+  bool planar() const;  // legs swing forward and back alone
+  bool stiff() const { return legs[0].knee == kNone; }
+
+  std::size_t find(Trunk part) const { return model->limbs.of(part); }
+  std::size_t find(Limb limb, Side side) const { return model->limbs.of(limb, side); }
+  // All joints that are limbs, in the model's order.
+  std::vector<std::size_t> joints() const;
+  const std::string& joint_name(std::size_t joint) const { return model->joints[joint].name; }
+
+  double heading_of(const Posture& posture) const;  // degrees from x to y
+  // A joint's orientation in the world, canonical.
+  glm::dmat3 turn_of(const Posture& posture, std::size_t joint) const;
+  // Of the posture's lower sole.
+  double floor_under(const Posture& posture) const;
+};
+
+// The least z of all segments in the world.
+double lowest_of(const Model& model, const Posture& posture);
+
+// Throws Failure where limbs that every command needs are not named.
+Body body_of(const Model& model, const std::string& actor, const std::string& command);
+
+// The joint, or a Failure that names the limb as in "limbs.left.shoulder".
+std::size_t needed(const Body& body, Trunk part, const std::string& command);
+std::size_t needed(const Body& body, Limb limb, Side side, const std::string& command);
+
+}  // namespace mars::host

@@ -1,0 +1,30 @@
+// Smooth curves through points: Hermite's cubics.
+#pragma once
+
+#include <array>
+#include <span>
+
+namespace mars::host {
+
+using CurvePoint = std::array<double, 2>;  // x, y
+
+// Between (x0, y0) and (x1, y1) with the slopes m0 and m1.
+inline double hermite(const CurvePoint& p0, const CurvePoint& p1, double m0, double m1, double x) {
+  const double h = p1[0] - p0[0], t = (x - p0[0]) / h;
+  return ((2 * t - 3) * t * t + 1) * p0[1] + ((t - 2) * t + 1) * t * h * m0 + (3 - 2 * t) * t * t * p1[1] +
+         (t - 1) * t * t * h * m1;
+}
+
+// Through all points, two at least, x ascending; inner slopes are those from neighbour to neighbour.
+inline double curve_through(std::span<const CurvePoint> points, double first_slope, double last_slope, double x) {
+  const auto slope = [&](std::size_t i) {
+    if (i == 0) return first_slope;
+    if (i + 1 == points.size()) return last_slope;
+    return (points[i + 1][1] - points[i - 1][1]) / (points[i + 1][0] - points[i - 1][0]);
+  };
+  std::size_t i = 0;
+  while (i + 2 < points.size() && x > points[i + 1][0]) ++i;
+  return hermite(points[i], points[i + 1], slope(i), slope(i + 1), x);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,62 @@
+// Steps: from a plan of footprints and times to a stance at every moment. Walking and turning are plans of steps.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "host/animator/motion/stance.h"
+
+namespace mars::host {
+
+// Where an ankle is when its foot stands flat.
+struct Footprint {
+  glm::dvec2 place;
+  double heading;  // degrees
+};
+
+struct Step {
+  Side side;
+  Footprint to;
+  double off;   // frames from the start: the foot leaves the floor
+  double land;  // and is down again
+};
+
+// Through which the pelvis goes.
+struct Waypoint {
+  double time;           // frames from the start
+  glm::dvec2 place;
+  double heading;        // degrees, not wrapped: more than a turn is more than a turn
+  glm::dvec2 velocity;   // per frame
+};
+
+struct Style {
+  double arm_swing = 1;  // shares of an ordinary walk's
+  double bounce = 1;
+  double knee_lift = 1;
+  double lean = 0;       // degrees, forward, beyond an ordinary walk's
+};
+
+struct Gait {
+  std::vector<Step> steps;      // in the order of landing
+  std::vector<Waypoint> way;    // from 0 to the end
+  double period;                // frames from landing to landing
+  double stride;                // a step's length over the leg's, for how much the body swings
+  Style style;
+
+  double end() const { return way.back().time; }
+};
+
+// The postures of frames 0 to the gait's end, from `start` on. `doing` and `remedy` are for failures.
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait, std::uint32_t first_frame,
+                                 const std::string& doing, const std::string& remedy);
+
+// Share of a period for which a foot is off the floor.
+double swing_share(const Body& body);
+
+// How a body stands at ease: arms hanging, trunk upright.
+std::map<std::size_t, glm::dmat3> at_ease(const Body& body);
+
+// From 0 to 1 as x goes from `from` to `to`, starting and ending slowly.
+double smooth(double from, double to, double x);
+
+}  // namespace mars::host

@@ -1,0 +1,11 @@
+// Gestures: what a figure does with its head or an arm where it stands or sits.
+#pragma once
+
+#include "host/animator/motion/action.h"
+
+namespace mars::host {
+
+Motion nod(const Scene& scene);
+Motion wave(const Scene& scene);
+
+}  // namespace mars::host

@@ -1,0 +1,133 @@
+#include "host/animator/motion/glide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "host/animator/motion/gait.h"
+
+namespace mars::host {
+namespace {
+
+constexpr double kLegTolerance = 0.03, kTolerance = 0.3;  // degrees
+constexpr double kPlaceTolerance = 2e-4;                  // of the leg's length
+constexpr int kLongest = 48;                              // frames from key to key at most
+
+double rounded_to(double value, double digit) { return rounded(std::round(value / digit) * digit); }
+
+glm::dvec3 rounded_to(const glm::dvec3& v, double digit) {
+  return {rounded_to(v.x, digit), rounded_to(v.y, digit), rounded_to(v.z, digit)};
+}
+
+// A power of ten that is small against the figure.
+double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4))); }
+
+glm::dvec3 within(const Joint& joint, glm::dvec3 pose) {
+  for (int axis = 0; axis < 3; ++axis)
+    pose[axis] = std::clamp(pose[axis], joint.limits[axis].lower, joint.limits[axis].upper);
+  return pose;
+}
+
+double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
+
+class Keying {
+ public:
+  Keying(std::span<const Posture> postures, std::uint32_t first) : postures_(postures), keys_(postures.size()) {
+    for (std::size_t i = 0; i < keys_.size(); ++i) keys_[i].frame = first + std::uint32_t(i);
+  }
+
+  template <typename Value, typename Put>
+  void add_turns(const Joint& joint, double tolerance, Value value, Put put) {
+    std::vector<glm::dvec3> values;
+    for (const Posture& posture : postures_) values.push_back(within(joint, rounded_to(value(posture), 0.01)));
+    choose_keys(values.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
+      return strays(joint, values[a], values[b], share(a, b, at), values[at], tolerance);
+    }, [&](std::size_t at) { put(keys_[at], values[at]); });
+  }
+
+  void add_places(double digit, double tolerance) {
+    choose_keys(postures_.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
+      const glm::dvec3 way = glm::mix(postures_[a].place, postures_[b].place, share(a, b, at));
+      return glm::distance(way, postures_[at].place) > tolerance;
+    }, [&](std::size_t at) { keys_[at].place = rounded_to(postures_[at].place, digit); });
+  }
+
+  std::vector<ActorKey> take() {
+    std::erase_if(keys_, [](const ActorKey& key) { return !key.place && !key.turn && key.pose.empty(); });
+    for (ActorKey& key : keys_) key.ease = kLinear;
+    return std::move(keys_);
+  }
+
+ private:
+  std::span<const Posture> postures_;
+  std::vector<ActorKey> keys_;
+};
+
+bool carries_legs(const Body& body, std::size_t joint) {
+  for (const Leg& leg : body.legs)
+    for (const std::size_t part : {body.pelvis, leg.hip, leg.knee, leg.ankle, leg.toes})
+      if (part == joint) return true;
+  return false;
+}
+
+}  // namespace
+
+void choose_keys(std::size_t count, const std::function<bool(std::size_t, std::size_t, std::size_t)>& strays,
+                 const std::function<void(std::size_t)>& put) {
+  std::size_t from = 0;
+  put(0);
+  while (from + 1 < count) {
+    std::size_t to = from + 1;
+    const auto holds = [&](std::size_t last) {
+      for (std::size_t at = from + 1; at < last; ++at)
+        if (strays(from, last, at)) return false;
+      return true;
+    };
+    while (to + 1 < count && to + 1 - from <= kLongest && holds(to + 1)) ++to;
+    put(to);
+    from = to;
+  }
+}
+
+bool strays(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, double part, const glm::dvec3& is,
+            double tolerance) {
+  if (a == b) return glm::distance(a, is) > tolerance;
+  if (joint.freedoms() == 1) return glm::distance(a + part * (b - a), is) > tolerance;
+  const glm::dmat3 start = orientation(joint, a);
+  const Turn turn = turn_between(start, orientation(joint, b));
+  const glm::dmat3 shown = rotation(turn.axis, part * turn.angle) * start;
+  return glm::degrees(turn_between(shown, orientation(joint, is)).angle) > tolerance;
+}
+
+void begin_at(const Model& model, const Posture& start, double frames, std::vector<Posture>& postures) {
+  const Posture first = postures.front();
+  const auto off = [](const glm::dvec3& a, const glm::dvec3& b) { return a - b; };
+  for (std::size_t at = 0; at < postures.size() && double(at) < frames; ++at) {
+    const double left = 1 - smooth(0, frames, double(at));
+    Posture& posture = postures[at];
+    posture.place += left * off(start.place, first.place);
+    for (std::size_t joint = 0; joint < posture.pose.size(); ++joint)
+      posture.pose[joint] = within(model.joints[joint],
+                                   posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
+  }
+}
+
+std::vector<ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints, std::span<const Posture> postures,
+                              std::uint32_t first) {
+  Keying keying(postures, first);
+  keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
+  keying.add_turns(Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
+                   [](ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
+  for (const std::size_t number : joints) {
+    const Joint& joint = body.model->joints[number];
+    if (joint.freedoms() == 0) continue;
+    keying.add_turns(joint, carries_legs(body, number) ? kLegTolerance : kTolerance,
+                     [&](const Posture& p) { return p.pose[number]; },
+                     [&](ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
+  }
+  return keying.take();
+}
+
+}  // namespace mars::host

@@ -1,0 +1,32 @@
+// A figure at one moment, in the numbers that a film's keys hold, and where its joints then stand.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "host/animator/figure.h"
+
+namespace mars::host {
+
+struct Posture {
+  glm::dvec3 place{0, 0, 0};     // of the actor, in the world
+  glm::dvec3 turn{0, 0, 0};      // of the actor, degrees as a free joint's pose
+  std::vector<glm::dvec3> pose;  // one a joint, degrees
+};
+
+// All joints at zero, in the model's own frame, limits or not: the figure as its places draw it.
+Posture drawn_posture(const Model& model);
+
+// What the film shows at a frame.
+Posture posture_at(const Model& model, const FigureMotion& motion, std::uint32_t frame);
+
+glm::dmat3 actor_turn(const Posture& posture);
+
+// Where a joint stands in the world, turned as the posture says.
+Axes frame_in(const Model& model, const Posture& posture, std::size_t joint);
+// The same before its own turn: its parent's frame, moved to the joint's place.
+Axes socket_in(const Model& model, const Posture& posture, std::size_t joint);
+
+}  // namespace mars::host

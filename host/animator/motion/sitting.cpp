@@ -1,0 +1,204 @@
+#include "host/animator/motion/sitting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "hal/failure.h"
+#include "host/animator/motion/gait.h"
+#include "host/animator/motion/glide.h"
+#include "host/animator/motion/reach.h"
+
+namespace mars::host {
+namespace {
+
+constexpr double kSeconds = 1.6;
+constexpr double kLean = 44;          // degrees of the trunk, so that its weight stays over the feet
+constexpr double kUpright = 0.8;      // of its height: what is lower sits
+constexpr double kHandAlong = 0.62;   // of the thigh, where a hand lies
+constexpr const char* kRemedy = "choose another seat-height, or widen the joint's limits in its model";
+
+glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.heading); }
+
+// How far a joint's own segment reaches from it, drawn, along a canonical direction.
+double extent(const Body& body, std::size_t number, const glm::dvec3& direction) {
+  const Joint& joint = body.model->joints[number];
+  if (!joint.segment) return 0;
+  double most = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Box& box = joint.segment->sbb;
+    const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                           corner & 4 ? box.max.z : box.min.z);
+    most = std::max(most, glm::dot(glm::transpose(body.axes) * segment_frame({}, joint).turn * point, direction));
+  }
+  return most;
+}
+
+// Of the hips over the seat: what is between them, of the pelvis and of the thighs as they lie.
+double cushion(const Body& body, double hips_below_pelvis) {
+  return std::max(extent(body, body.pelvis, {0, 0, -1}) - hips_below_pelvis, extent(body, body.legs[0].hip, {-1, 0, 0}));
+}
+
+class Chair {
+ public:
+  Chair(const Scene& scene, const char* command)
+      : scene_(scene), command_(command), body_(body_of(scene.model(), scene.actor.name, command)),
+        start_(posture_at(scene.model(), scene.actor.motion, scene.at)), from_(stance_of(body_, start_)),
+        floor_(body_.floor_under(start_)),
+        frames_(static_cast<int>(std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
+    if (body_.stiff()) needed(body_, Limb::knee, Side::left, command);
+    drop_ = from_.pelvis.z - hip_middle().z;
+  }
+
+  bool upright() const { return from_.pelvis.z - floor_ >= kUpright * body_.height; }
+  const Body& body() const { return body_; }
+  const Stance& from() const { return from_; }
+  double floor() const { return floor_; }
+  double hip_drop() const { return drop_; }
+
+  // From where it is to a place of the pelvis; `back` and `down` say how much of the way is done.
+  Motion move(const glm::dvec3& pelvis, double leans_at, const std::function<double(double)>& across,
+              const std::function<double(double)>& down, const Posture& arms) {
+    std::vector<Posture> postures;
+    Posture posture = start_;
+    for (int frame = 0; frame <= frames_; ++frame) {
+      const double u = double(frame) / frames_;
+      Stance stance = from_;
+      stance.pelvis = glm::mix(from_.pelvis, pelvis, glm::dvec3(across(u), across(u), down(u)));
+      stance.pelvis.z = std::min(stance.pelvis.z, highest(stance));
+      const double lean = kLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
+      stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
+      bend(stance, lean);
+      take_stance(body_, stance, posture, std::string(command_) + " at frame " + std::to_string(scene_.at + frame), kRemedy);
+      move_arms(arms, u, posture);
+      postures.push_back(posture);
+    }
+    begin_at(*body_.model, start_, frames_ / 2.0, postures);
+    return {keys_of(body_, body_.joints(), postures, scene_.at), scene_.at + std::uint32_t(frames_), ""};
+  }
+
+  // Arms as they are in the end: `start_` with turns of joints.
+  Posture with_arms(const std::map<std::size_t, glm::dmat3>& turns) const {
+    Posture posture = start_;
+    for (const auto& [joint, turn] : turns) posture.pose[joint] = numbers_for(body_, joint, turn, posture.pose[joint]);
+    return posture;
+  }
+
+  // Hands on thighs, for a figure that sits at `pelvis`.
+  Posture with_hands_on_thighs(const glm::dvec3& pelvis) const {
+    Posture posture = with_arms(at_ease(body_));
+    Stance stance = from_;
+    stance.pelvis = pelvis;
+    stance.tilt = {0, 0, 0};
+    take_stance(body_, stance, posture, std::string(command_), kRemedy);
+    for (const Side side : kSides) {
+      const std::size_t shoulder = body_.find(Limb::shoulder, side), elbow = body_.find(Limb::elbow, side),
+                        wrist = body_.find(Limb::wrist, side);
+      if (shoulder == kNone || elbow == kNone || wrist == kNone) continue;
+      posture.pose[shoulder] = numbers_for(body_, shoulder, hanging_shoulder(body_, side, {sign_of(side) * 10, -15, 0}), posture.pose[shoulder]);
+      posture.pose[elbow] = numbers_for(body_, elbow, hanging_elbow(body_, side, {0, -60, 0}), posture.pose[elbow]);
+      const Leg& leg = body_.leg(side);
+      const glm::dvec3 hip = frame_in(*body_.model, posture, leg.hip).place;
+      const glm::dvec3 knee = frame_in(*body_.model, posture, leg.knee).place;
+      const double thick = extent(body_, leg.hip, {1, 0, 0}) * 0.8 + extent(body_, wrist, {0, -sign_of(side), 0});
+      const std::size_t joints[] = {shoulder, elbow};
+      const Goal goals[] = {{.joint = wrist, .place = glm::mix(hip, knee, kHandAlong) + glm::dvec3(0, 0, thick)}};
+      reach(*body_.model, posture, joints, goals);
+      // The palm lies down as far as the wrist turns.
+      posture.pose[wrist] = numbers_for(body_, wrist, hanging_elbow(body_, side, {-sign_of(side) * 30, 0, 0}), posture.pose[wrist]);
+    }
+    return posture;
+  }
+
+ private:
+  glm::dvec3 hip_middle() const {
+    return 0.5 * (frame_in(*body_.model, start_, body_.legs[0].hip).place + frame_in(*body_.model, start_, body_.legs[1].hip).place);
+  }
+
+  // Of the pelvis, so that both legs reach their feet.
+  double highest(const Stance& stance) const {
+    double least = 1e300;
+    for (const Side side : kSides) {
+      const glm::dvec3 hip = stance.pelvis + facing(stance) * glm::dvec3(0, body_.leg(side).aside, -drop_);
+      const glm::dvec3& ankle = stance.feet[index_of(side)].ankle;
+      const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y), reach = 0.9995 * body_.leg(side).length();
+      least = std::min(least, ankle.z + std::sqrt(std::max(0.0, reach * reach - far * far)) + drop_);
+    }
+    return least;
+  }
+
+  void bend(Stance& stance, double lean) const {
+    const auto add = [&](Trunk part, double share) {
+      if (const std::size_t joint = body_.find(part); joint != kNone) stance.turns[joint] = canonical_turn(0, share * lean, 0);
+    };
+    add(Trunk::spine, 0.3);
+    add(Trunk::chest, 0.25);
+    add(Trunk::neck, -0.3);
+    add(Trunk::head, -0.3);
+  }
+
+  void move_arms(const Posture& arms, double u, Posture& posture) const {
+    for (const Side side : kSides)
+      for (const Limb limb : {Limb::shoulder, Limb::elbow, Limb::wrist})
+        if (const std::size_t joint = body_.find(limb, side); joint != kNone)
+          posture.pose[joint] = glm::mix(start_.pose[joint], arms.pose[joint], smooth(0.1, 0.95, u));
+  }
+
+  const Scene& scene_;
+  const char* command_;
+  Body body_;
+  Posture start_;
+  Stance from_;
+  double floor_;
+  int frames_;
+  double drop_;  // of the hips below the pelvis
+};
+
+glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ankle + stance.feet[1].ankle); }
+
+[[noreturn]] void fail(const Scene& scene, const char* what, const char* command, const char* remedy) {
+  throw Failure(what + (" at frame " + std::to_string(scene.at)), "actor '" + scene.actor.name + "', " + command, remedy);
+}
+
+}  // namespace
+
+Motion sit(const Scene& scene) {
+  Chair chair(scene, "sit");
+  if (!chair.upright()) fail(scene, "does not stand", "sit", "let it stand up first, by the action stand");
+  const Leg& leg = chair.body().legs[0];
+  const glm::dvec3 ankle = between_feet(chair.from());
+  const double soft = cushion(chair.body(), chair.hip_drop()), level = ankle.z + leg.shin;
+  const auto wanted = scene.wishes.number("seat-height", {0, kFarthest});
+  const double hips = wanted ? chair.floor() + *wanted + soft : level;
+  if (std::abs(hips - level) > leg.thigh)
+    scene.wishes.refuse("seat-height", "is " + shown(*wanted) + ", out of this figure's reach",
+                        "its thighs are level at " + shown(rounded(level - soft - chair.floor())));
+  const double back = std::sqrt(leg.thigh * leg.thigh - (hips - level) * (hips - level));
+  const glm::dvec3 behind = facing(chair.from()) * glm::dvec3(-scene.wishes.number("back", back, {0, kFarthest}), 0, 0);
+  const glm::dvec3 pelvis(ankle.x + behind.x, ankle.y + behind.y, hips + chair.hip_drop());
+  Motion motion = chair.move(pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
+                             chair.with_hands_on_thighs(pelvis));
+  motion.told = "sits at " + shown(std::round(pelvis.x * 1e4) / 1e4) + " " + shown(std::round(pelvis.y * 1e4) / 1e4) +
+                ", on a seat of height " + shown(std::round((hips - soft - chair.floor()) * 1e4) / 1e4);
+  return motion;
+}
+
+Motion stand(const Scene& scene) {
+  Chair chair(scene, "stand");
+  if (chair.upright()) fail(scene, "stands already", "stand", "let it sit down first, by the action sit");
+  const glm::dvec3 middle = between_feet(chair.from());
+  const Body& body = chair.body();
+  const Posture drawn = drawn_posture(*body.model);
+  const glm::dvec3 ahead = glm::transpose(body.axes) * (frame_in(*body.model, drawn, body.legs[0].ankle).place -
+                                                        frame_in(*body.model, drawn, body.pelvis).place);
+  const glm::dvec3 pelvis = glm::dvec3(middle.x, middle.y, chair.floor() + body.height) -
+                            facing(chair.from()) * glm::dvec3(ahead.x, 0, 0);
+  return chair.move(pelvis, 0.4, [](double u) { return smooth(0.05, 0.95, u); }, [](double u) { return smooth(0.15, 1, u); },
+                    chair.with_arms(at_ease(body)));
+}
+
+}  // namespace mars::host

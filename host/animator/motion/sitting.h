@@ -1,0 +1,11 @@
+// Sitting down on a seat and standing up again; feet stay where they are.
+#pragma once
+
+#include "host/animator/motion/action.h"
+
+namespace mars::host {
+
+Motion sit(const Scene& scene);
+Motion stand(const Scene& scene);
+
+}  // namespace mars::host

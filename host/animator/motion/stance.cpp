@@ -1,0 +1,222 @@
+#include "host/animator/motion/stance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <vector>
+
+#include "hal/failure.h"
+#include "host/animator/motion/reach.h"
+
+namespace mars::host {
+namespace {
+
+constexpr double kNearEnough = 0.003;  // of the leg's length: how far a standing foot may be from where it should
+constexpr double kFlatEnough = 3;      // degrees
+constexpr double kTurnWeight = 0.3;    // of the leg's length, for a radian of the foot's turn
+constexpr double kKneeWeight = 0.1;    // and of the knee's
+constexpr double kKneeShare = 0.7;     // of the foot's heading against the pelvis, to which the knee points
+constexpr double kAtLimit = 1e-3;      // degrees
+
+glm::dmat3 heading_turn(double degrees) { return rotation_by_degrees({0, 0, 1}, degrees); }
+
+// The smallest turn that takes a direction to straight down.
+glm::dmat3 to_hang(const Body& body, Limb from, Limb to, Side side) {
+  const Posture drawn = drawn_posture(*body.model);
+  const std::size_t upper = body.find(from, side), lower = body.find(to, side);
+  if (lower == kNone) return glm::dmat3(1);
+  const glm::dvec3 along = glm::normalize(glm::transpose(body.axes) * (frame_in(*body.model, drawn, lower).place -
+                                                                       frame_in(*body.model, drawn, upper).place));
+  const glm::dvec3 down(0, 0, -1), axis = glm::cross(along, down);
+  const double sine = glm::length(axis);
+  return sine < 0.1 ? glm::dmat3(1) : rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
+}
+
+void turn_actor(const Body& body, double heading, Posture& posture) {
+  const double more = std::remainder(heading - body.heading_of(posture), 360.0);
+  if (posture.turn.x == 0 && posture.turn.y == 0)
+    posture.turn.z += more;
+  else
+    posture.turn = canonical_degrees(heading_turn(more) * actor_turn(posture));
+}
+
+void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
+  turn_actor(body, stance.heading, posture);
+  const std::size_t joints[] = {body.pelvis};
+  const Goal goals[] = {{.joint = body.pelvis,
+                         .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
+  reach(*body.model, posture, joints, goals);
+  posture.place += stance.pelvis - frame_in(*body.model, posture, body.pelvis).place;
+}
+
+// About which of the knee's axes it bends, and the direction of its axis in its own frame, to the left.
+struct Hinge {
+  int axis;
+  double sign;  // of the number that bends the shin back
+  glm::dvec3 direction;
+};
+
+Hinge hinge_of(const Body& body, const Leg& leg) {
+  const Joint& knee = body.model->joints[leg.knee];
+  const glm::dvec3 axes[] = {knee.x_axis, knee.y_axis, glm::normalize(glm::cross(knee.x_axis, knee.y_axis))};
+  Hinge best{1, 1, body.axes[1]};
+  double most = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = glm::dot(axes[axis], body.axes[1]);
+    if (!knee.limits[axis].free() || std::abs(along) <= most) continue;
+    most = std::abs(along);
+    best = {axis, along < 0 ? -1.0 : 1.0, along < 0 ? -axes[axis] : axes[axis]};
+  }
+  return best;
+}
+
+// A leg that is straight does not know which way to bend: the knee begins where the hip's distance wants it.
+void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double distance, Posture& posture) {
+  const double cosine = (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);
+  const double bend = 180 - glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  const Limits& limits = body.model->joints[leg.knee].limits[hinge.axis];
+  const double forward = hinge.sign * bend, now = std::clamp(forward, limits.lower, limits.upper);
+  const double backward = std::clamp(-forward, limits.lower, limits.upper);
+  // A knee that bends only the other way, as a bird's heel does, bends so.
+  posture.pose[leg.knee][hinge.axis] = std::abs(now) >= std::abs(backward) ? now : backward;
+}
+
+std::string limit_in_the_way(const Body& body, const Posture& posture, std::span<const std::size_t> joints) {
+  std::string all;
+  for (const std::size_t number : joints) {
+    const Joint& joint = body.model->joints[number];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = posture.pose[number][axis];
+      const Limits& limits = joint.limits[axis];
+      if (value > limits.lower + kAtLimit && value < limits.upper - kAtLimit) continue;
+      if (!limits.free() && axis == 2 && joint.freedoms() > 0) continue;  // few joints twist: never the cause
+      const std::string what = limits.free() ? "is at its limit of " + shown(value) + " degrees about " + "xyz"[axis]
+                                             : std::string("cannot turn about ") + "xyz"[axis];
+      all += (all.empty() ? "'" : ", '") + joint.name + "' " + what;
+    }
+  }
+  return all;
+}
+
+class LegReach {
+ public:
+  LegReach(const Body& body, Side side, const Stance& stance, Posture& posture)
+      : body_(body), leg_(body.leg(side)), side_(side), foot_(stance.feet[index_of(side)]), stance_(stance),
+        posture_(posture) {}
+
+  // A leg of one piece that swings goes in the foot's direction as far as it goes.
+  void solve() {
+    const glm::dvec3 hip = frame_in(*body_.model, posture_, leg_.hip).place;
+    glm::dvec3 to = foot_.ankle;
+    if (leg_.knee == kNone && !foot_.stands) to = hip + leg_.length() * glm::normalize(to - hip);
+    const glm::dmat3 turn = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0) * glm::transpose(body_.axes);
+    std::vector<Goal> goals{{.joint = leg_.ankle, .place = to, .turn = turn, .turn_weight = kTurnWeight * leg_.length()}};
+    std::vector<std::size_t> leg{leg_.hip};
+    if (leg_.knee != kNone) add_knee(hip, to, leg, goals);
+    std::vector<std::size_t> all = leg;
+    all.push_back(leg_.ankle);
+    reach(*body_.model, posture_, all, goals);
+    // Where not everything can be had, the foot's place comes first.
+    goals[0].turn.reset();
+    if (error_of(to) > kNearEnough * leg_.length() / 10) reach(*body_.model, posture_, leg, std::span(goals).first(1));
+    const std::size_t ankle[] = {leg_.ankle};
+    const Goal flat[] = {{.joint = leg_.ankle, .turn = turn}};
+    reach(*body_.model, posture_, ankle, flat);
+    if (leg_.toes != kNone)
+      posture_.pose[leg_.toes] = numbers_for(body_, leg_.toes, canonical_turn(0, foot_.bent, 0), posture_.pose[leg_.toes]);
+  }
+
+  void require_footing(const std::string& doing, const std::string& remedy) const {
+    if (!foot_.stands) return;
+    const std::string whose = side_ == Side::left ? "left" : "right";
+    const double far = error_of(foot_.ankle);
+    std::vector<std::size_t> joints{leg_.hip};
+    if (leg_.knee != kNone) joints.push_back(leg_.knee);
+    if (far > kNearEnough * leg_.length()) {
+      const std::string limit = limit_in_the_way(body_, posture_, joints);
+      fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit, doing, remedy);
+    }
+    const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
+    const double off = turn_between(body_.turn_of(posture_, leg_.ankle), wanted).angle;
+    if (glm::degrees(off) > kFlatEnough) {
+      joints.assign(1, leg_.ankle);
+      joints.push_back(leg_.hip);
+      fail("its " + whose + " foot cannot stand on its sole", limit_in_the_way(body_, posture_, joints), doing, remedy);
+    }
+  }
+
+ private:
+  void add_knee(const glm::dvec3& hip, const glm::dvec3& to, std::vector<std::size_t>& leg, std::vector<Goal>& goals) {
+    const Hinge hinge = hinge_of(body_, leg_);
+    bend_knee(body_, leg_, hinge, glm::distance(hip, to), posture_);
+    leg.push_back(leg_.knee);
+    const double knees = stance_.heading + stance_.tilt.z +
+                         kKneeShare * std::remainder(foot_.heading - stance_.heading - stance_.tilt.z, 360.0);
+    goals.push_back({.joint = leg_.knee, .turn_weight = kKneeWeight * leg_.length(), .direction = hinge.direction,
+                     .across = heading_turn(knees)[0]});
+  }
+
+  double error_of(const glm::dvec3& to) const {
+    return glm::distance(frame_in(*body_.model, posture_, leg_.ankle).place, to);
+  }
+
+  [[noreturn]] void fail(const std::string& what, const std::string& why, const std::string& doing,
+                         const std::string& remedy) const {
+    throw Failure(what + ": " + why, "actor '" + body_.name + "', " + doing, remedy);
+  }
+
+  const Body& body_;
+  const Leg& leg_;
+  Side side_;
+  const Foot& foot_;
+  const Stance& stance_;
+  Posture& posture_;
+};
+
+}  // namespace
+
+Stance stance_of(const Body& body, const Posture& posture) {
+  Stance stance;
+  stance.heading = body.heading_of(posture);
+  stance.pelvis = frame_in(*body.model, posture, body.pelvis).place;
+  const glm::dmat3 facing = heading_turn(-stance.heading);
+  stance.tilt = canonical_degrees(facing * body.turn_of(posture, body.pelvis));
+  for (const Side side : kSides) {
+    const Leg& leg = body.leg(side);
+    const glm::dmat3 turn = body.turn_of(posture, leg.ankle);
+    Foot& foot = stance.feet[index_of(side)];
+    foot.ankle = frame_in(*body.model, posture, leg.ankle).place;
+    foot.heading = glm::degrees(std::atan2(turn[0].y, turn[0].x));
+    foot.pitch = -glm::degrees(std::asin(std::clamp(turn[0].z, -1.0, 1.0)));
+  }
+  return stance;
+}
+
+glm::dmat3 hanging_shoulder(const Body& body, Side side, const glm::dvec3& degrees) {
+  return canonical_turn(degrees) * to_hang(body, Limb::shoulder, Limb::elbow, side);
+}
+
+glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees) {
+  const glm::dmat3 hang = to_hang(body, Limb::shoulder, Limb::elbow, side);
+  return glm::transpose(hang) * canonical_turn(degrees) * hang;
+}
+
+glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& turn, const glm::dvec3& near) {
+  return nearest_turns(body.model->joints[joint], body.axes * turn * glm::transpose(body.axes), near);
+}
+
+void take_stance(const Body& body, const Stance& stance, Posture& posture, const std::string& doing,
+                 const std::string& remedy) {
+  place_pelvis(body, stance, posture);
+  for (const auto& [joint, turn] : stance.turns)
+    posture.pose[joint] = numbers_for(body, joint, turn, posture.pose[joint]);
+  for (const Side side : kSides) {
+    LegReach leg(body, side, stance, posture);
+    leg.solve();
+    leg.require_footing(doing, remedy);
+  }
+}
+
+}  // namespace mars::host

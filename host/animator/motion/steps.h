@@ -1,0 +1,11 @@
+// Walking and turning (thesis 3.2.2, 3.2.4): plans of steps for a gait.
+#pragma once
+
+#include "host/animator/motion/action.h"
+
+namespace mars::host {
+
+Motion walk(const Scene& scene);
+Motion turn(const Scene& scene);
+
+}  // namespace mars::host
