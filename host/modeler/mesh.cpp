@@ -114,6 +114,14 @@ std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::uint32_
   return sum;
 }
 
+bool turned_inside(const Mesh& mesh, std::span<const std::uint32_t> face) {
+  const auto area = area_vector(mesh, face);
+  double sum = 0;
+  for (const std::uint32_t number : face)
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += area[axis] * mesh.normals[number][axis];
+  return sum < 0;
+}
+
 std::optional<std::vector<Mesh::Triangle>> split(const Mesh& mesh, std::span<const std::uint32_t> face) {
   if (face.size() == 3) return std::vector<Mesh::Triangle>{{0, 1, 2}};
   return EarClipper(flattened(mesh, face)).run();

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "host/modeler/mesh.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -37,10 +38,11 @@ struct Box {
   glm::dvec3 max{1, 1, 1};
 };
 
-// Patches in the unit cube, shared by all segments that name them.
+// Patches or a mesh in the unit cube, shared by all segments that name them.
 struct Shape {
   std::string name;
   std::vector<node::Patch> patches;
+  std::optional<Mesh> mesh{};
 };
 
 struct Segment {

@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "host/modeler/read_mesh.h"
 #include "host/modeler/shape_library.h"
 
 namespace mars::host {
@@ -18,18 +19,22 @@ constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials"};
 constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
                                             "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
+constexpr std::string_view kShapeNames[] = {"mesh"};
 constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "top", "tube", "lid"};
 
 constexpr Keys kKeys[] = {{"model", kModelNames},
                           {"joint", kJointNames},
                           {"limits", kLimitsNames},
                           {"segment", kSegmentNames},
-                          {"material", kMaterialKeys}};
+                          {"material", kMaterialKeys},
+                          {"shape", kShapeNames},
+                          kMeshKeys};
 constexpr const Keys& kModel = kKeys[0];
 constexpr const Keys& kJoint = kKeys[1];
 constexpr const Keys& kLimits = kKeys[2];
 constexpr const Keys& kSegment = kKeys[3];
 constexpr const Keys& kMaterial = kKeys[4];
+constexpr const Keys& kShape = kKeys[5];
 
 constexpr Range kDegrees{-1e6, 1e6};
 constexpr double kLeastSine = 1e-3;  // between a joint's axes
@@ -50,6 +55,15 @@ node::Patch read_patch(const Element& element) {
     ++number;
   }
   return patch;
+}
+
+std::vector<node::Patch> read_patches(const Element& list) {
+  require_kind(list, Kind::list);
+  if (list.size() == 0) list.refuse("has no patches", "give at least one, or take the shape out");
+  std::vector<node::Patch> patches;
+  patches.reserve(list.size());
+  for (const Element patch : list) patches.push_back(read_patch(patch));
+  return patches;
 }
 
 class ModelReader {
@@ -78,11 +92,11 @@ class ModelReader {
     for (const Element item : element) {
       const std::string name = checked_name(item, item.key());
       if (find_library_shape(name)) item.refuse("has the name of a primitive", "choose another name");
-      require_kind(item, Kind::list);
-      if (item.size() == 0) item.refuse("has no patches", "give at least one, or take the shape out");
       Shape& shape = model_.shapes.emplace_back(Shape{name, {}});
-      shape.patches.reserve(item.size());
-      for (const Element patch : item) shape.patches.push_back(read_patch(patch));
+      if (item.kind() == Kind::object)
+        shape.mesh = read_mesh(Fields(item, kShape).required("mesh"));
+      else
+        shape.patches = read_patches(item);
     }
     own_shapes_ = model_.shapes.size();
   }
