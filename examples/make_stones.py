@@ -25,12 +25,23 @@ def smooth_noise(x, y):
     return near * (1 - v) + far * v
 
 
+def matt(*color):
+    return {"color": color, "ambient": 0.2, "diffuse": 0.8, "specular": 0}
+
+
+MATERIALS = {
+    "grass": matt(0.42, 0.58, 0.30), "stone": matt(0.60, 0.58, 0.56), "plaster": matt(0.92, 0.86, 0.74),
+    "tile": matt(0.70, 0.30, 0.22), "pebble": {"color": [0.46, 0.52, 0.60], "ambient": 0.2, "diffuse": 0.7, "specular": 0.5},
+    "gold": {"color": [0.92, 0.70, 0.22], "ambient": 0.2, "diffuse": 0.7, "specular": 0.5, "exponent": 12}}
+
+
 def mesh_model(name, vertices, faces, material, crease):
     """A model of one joint that shows the mesh as large as its vertices say."""
     low, high = ([f(v[axis] for v in vertices) for axis in range(3)] for f in (min, max))
     unit = [[round((v[axis] - low[axis]) / (high[axis] - low[axis]), 5) for axis in range(3)] for v in vertices]
     sbb = [[round(x, 4) for x in corner] for corner in (low, high)]
-    return {"shapes": {name: {"mesh": {"vertices": unit, "faces": faces, "crease": crease}}},
+    return {"materials": {material: MATERIALS[material]},
+            "shapes": {name: {"mesh": {"vertices": unit, "faces": faces, "crease": crease}}},
             "joints": [{"name": name, "segment": {"shape": name, "sbb": sbb, "material": material}}]}
 
 
@@ -150,11 +161,8 @@ def house():
     gable = [(-1.55, -1.05, 0), (-0.05, -1.05, 0), (-0.8, -1.05, 0.75), (-1.55, 1.45, 0), (-0.05, 1.45, 0), (-0.8, 1.45, 0.75)]
     roof = mesh_model("roof", gable, [[0, 1, 2], [4, 3, 5], [1, 4, 5, 2], [3, 0, 2, 5], [0, 3, 4, 1]], "tile", 30)
     roof["joints"][0].update(parent="walls", place=[0, 0, 1])
-    return {"shapes": walls["shapes"] | roof["shapes"], "joints": walls["joints"] + roof["joints"]}
-
-
-def matt(*color):
-    return {"color": color, "ambient": 0.2, "diffuse": 0.8, "specular": 0}
+    return {"materials": walls["materials"] | roof["materials"], "shapes": walls["shapes"] | roof["shapes"],
+            "joints": walls["joints"] + roof["joints"]}
 
 
 def film():
@@ -165,11 +173,7 @@ def film():
         "camera": {"eye": [0.5, -11, 4.4], "at": [0, 0.6, 0.9], "fov": 36},
         "lights": [{"direction": [0.6, -0.6, 0.7], "color": [1, 0.94, 0.84]},
                    {"direction": [-0.8, -0.3, 0.4], "color": [0.5, 0.6, 0.9], "intensity": 0.35}],
-        "materials": {"grass": matt(0.42, 0.58, 0.30), "stone": matt(0.60, 0.58, 0.56), "plaster": matt(0.92, 0.86, 0.74),
-                      "tile": matt(0.70, 0.30, 0.22),
-                      "pebble": {"color": [0.46, 0.52, 0.60], "ambient": 0.2, "diffuse": 0.7, "specular": 0.5},
-                      "gold": {"color": [0.92, 0.70, 0.22], "ambient": 0.2, "diffuse": 0.7, "specular": 0.5, "exponent": 12},
-                      "ball": {"color": [0.72, 0.28, 0.32], "specular": 0.5}},
+        "materials": {"ball": {"color": [0.72, 0.28, 0.32], "specular": 0.5}},
         "models": {name: f"models/{name}.json" for name in ("landscape", "rock", "pebble", "star", "house")} | {
             "ball": {"joints": [{"name": "ball", "segment": {"shape": "sphere", "sbb": [[-0.55, -0.55, 0], [0.55, 0.55, 1.1]],
                                                             "material": "ball"}}]}},
