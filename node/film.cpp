@@ -228,6 +228,7 @@ void FilmView::check_meshlets(const std::string& where) const {
   require(all_sound(mesh_places_) && all_sound(mesh_normals_), where, "a mesh is not finite");
   require(mesh_places_.size() == mesh_normals_.size(), where, "a mesh lacks normals");
   for (const Meshlet& m : meshlets_) {
+    require(sound(m.low) && sound(m.high), where, "a meshlet's box is not finite");
     require(m.vertex_count >= 1 && m.vertex_count <= kMeshletVertices && m.triangle_count >= 1 &&
                 m.triangle_count <= kMeshletTriangles,
             where, "a meshlet is out of range");

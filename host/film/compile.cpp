@@ -11,6 +11,7 @@
 #include "host/film/film_file.h"
 #include "host/film/intervals.h"
 #include "host/animator/direction.h"
+#include "host/film/shape_writer.h"
 #include "host/animator/read_film.h"
 
 namespace mars::host {
@@ -192,22 +193,10 @@ class Compiler {
          "add it to the film's materials");
   }
 
-  // Shapes with the same patches, bit for bit, are one shape of the compiled film.
-  std::uint32_t add_shape(const Shape& shape) {
-    const std::string_view bits(reinterpret_cast<const char*>(shape.patches.data()),
-                                shape.patches.size() * sizeof(node::Patch));
-    const auto [known, is_new] = shapes_.try_emplace(bits, data_.shapes.size());
-    if (is_new) {
-      data_.shapes.push_back({std::uint32_t(data_.patches.size()), std::uint32_t(shape.patches.size())});
-      data_.patches.insert(data_.patches.end(), shape.patches.begin(), shape.patches.end());
-    }
-    return known->second;
-  }
-
   const std::vector<std::uint32_t>& shapes_of(std::size_t model) {
     auto& numbers = model_shapes_.try_emplace(model).first->second;
     if (numbers.empty())
-      for (const Shape& shape : film_.models[model].shapes) numbers.push_back(add_shape(shape));
+      for (const Shape& shape : film_.models[model].shapes) numbers.push_back(shapes_.add(shape));
     return numbers;
   }
 
@@ -264,19 +253,12 @@ class Compiler {
     for (const Writing& writing : writings)
       data_.segments[writing.segment].motion =
           TrackWriter<node::Matrix>::append_changes(data_.changes, writing.changes);
-    const std::uint64_t patches = patches_of(film_.models[actor.model]);
-    instances_ += patches;
+    for (const Writing& writing : writings)
+      instances_ += data_.shapes[data_.segments[writing.segment].shape].size();
     joints_ += film_.models[actor.model].joints.size();
     if (instances_ > std::numeric_limits<std::uint32_t>::max() ||
         joints_ > std::numeric_limits<std::uint32_t>::max())
-      fail("have more than 4294967295 patches", "actors", "use fewer actors");
-  }
-
-  static std::uint64_t patches_of(const Model& model) {
-    std::uint64_t patches = 0;
-    for (const Joint& joint : model.joints)
-      if (joint.segment) patches += model.shapes[joint.segment->shape].patches.size();
-    return patches;
+      fail("have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
   }
 
   void play(const Actor& actor, std::vector<Writing>& writings) {
@@ -336,11 +318,11 @@ class Compiler {
   const Film& film_;
   const CompileOptions& options_;
   node::FilmData data_;
+  ShapeWriter shapes_{data_};
   std::unordered_map<std::string_view, const MaterialMotion*> film_materials_;
   std::unordered_map<std::string, node::Track> looks_;
-  std::unordered_map<std::string_view, std::uint32_t> shapes_;  // by the bits of their patches
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> model_shapes_;
-  std::uint64_t instances_ = 0;  // patches of all segments
+  std::uint64_t instances_ = 0;  // patches and meshlets of all segments
   std::uint64_t joints_ = 0;     // of all actors
 };
 

@@ -16,6 +16,25 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
+// Patches as they are rendered and stored; the same of meshes, where there are any.
+std::string polygons_of(const node::FilmView& film) {
+  std::uint64_t patches = 0, triangles = 0;
+  for (const node::Segment& segment : film.segments()) {
+    const node::Shape& shape = film.shapes()[segment.shape];
+    patches += shape.patch_count;
+    for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
+      triangles += meshlet.triangle_count;
+  }
+  const auto line = [](const char* what, std::uint64_t rendered, std::size_t stored) {
+    return formatted("%-11s %llu, %zu of them stored\n", what, static_cast<unsigned long long>(rendered), stored);
+  };
+  std::string text = line("patches", patches, film.patches().size());
+  if (!film.meshlets().empty())
+    text += line("triangles", triangles, film.mesh_triangles().size()) +
+            formatted("pieces      %zu, of up to %u triangles\n", film.meshlets().size(), node::kMeshletTriangles);
+  return text;
+}
+
 std::string table_of(const node::FilmView& film) {
   std::string table = "  first frame   frames   moving segments\n";
   std::size_t row = 0;
@@ -41,8 +60,7 @@ std::string describe(const CompiledFilm& film) {
                              : formatted("dicing      %u x %u\n", settings.dice, settings.dice);
   text += formatted("actors      %u with %u joints\n", film.actors, film.joints);
   text += formatted("segments    %zu of %zu shapes\n", view.segments().size(), view.shapes().size());
-  text += formatted("patches     %llu, %zu of them stored\n",
-                    static_cast<unsigned long long>(view.patch_instances()), view.patches().size());
+  text += polygons_of(view);
   text += formatted("lights      %zu\n", view.light_tracks().size());
   text += formatted("matrices    %zu\n", view.matrices().size());
   text += formatted("bytes       %zu\n", film.block().size());

@@ -16,7 +16,7 @@ class Cutter {
  public:
   explicit Cutter(const node::FilmData& film) : film_(film), global_(film.settings.frames, false) {
     for (const node::Segment& segment : film.segments) {
-      weights_.push_back(film.shapes[segment.shape].patch_count);
+      weights_.push_back(double(film.shapes[segment.shape].size()));
       all_ += weights_.back();
     }
     mark_global(film.settings.camera);
@@ -147,7 +147,7 @@ class Cutter {
 
   const node::FilmData& film_;
   std::vector<char> global_;     // frames at which camera or a light changes
-  std::vector<double> weights_;  // patches of each segment
+  std::vector<double> weights_;  // patches and meshlets of each segment
   double all_ = 0;
 };
 

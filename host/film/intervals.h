@@ -1,6 +1,6 @@
 // Render intervals: cuts a film's frames, and lists for each interval the segments that move in it.
 //
-// What an interval costs, counted in patches rendered: its first frame all patches of the film and the
+// What an interval costs, counted in patches (and meshlets) rendered: its first frame all patches of the film and the
 // exchange of CZB (pixels / kPixelsPerPatch); each other frame the patches of the segments that change
 // anywhere in the interval after its first frame, or all if camera or a light does. `automatic` finds the
 // cuts of least cost by dynamic programming over the frames, with intervals of at most kLongest frames:

@@ -15,6 +15,38 @@ double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
 }
 
+struct Areas {
+  std::array<double, 3> sum{};  // of the vectors of a fan's triangles, twice their areas long
+  double apart = 0;             // of their lengths
+};
+
+Areas areas_of(const Mesh& mesh, std::span<const std::uint32_t> face) {
+  Areas areas;
+  const Mesh::Place& origin = mesh.vertices[face[0]];
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    double a[3], b[3], square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      a[axis] = double{mesh.vertices[face[i]][axis]} - origin[axis];
+      b[axis] = double{mesh.vertices[face[i + 1]][axis]} - origin[axis];
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
+      const double part = a[next] * b[last] - a[last] * b[next];
+      areas.sum[axis] += part;
+      square += part * part;
+    }
+    areas.apart += std::sqrt(square);
+  }
+  return areas;
+}
+
+// Whether what the outline goes round one way it goes round the other way too, as a bow tie does.
+bool cancels(const Areas& areas) {
+  double square = 0;
+  for (const double part : areas.sum) square += part * part;
+  return std::sqrt(square) < 1e-9 * areas.apart;
+}
+
 // The face as seen from where its normal points, along the axis that the normal is nearest to.
 std::vector<Point> flattened(const Mesh& mesh, std::span<const std::uint32_t> face) {
   const auto normal = area_vector(mesh, face);
@@ -98,24 +130,20 @@ class EarClipper {
 }  // namespace
 
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::uint32_t> face) {
-  std::array<double, 3> sum{};
-  const Mesh::Place& origin = mesh.vertices[face[0]];
-  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    double a[3], b[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      a[axis] = double{mesh.vertices[face[i]][axis]} - origin[axis];
-      b[axis] = double{mesh.vertices[face[i + 1]][axis]} - origin[axis];
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
-      sum[axis] += a[next] * b[last] - a[last] * b[next];
-    }
-  }
-  return sum;
+  return areas_of(mesh, face).sum;
+}
+
+bool turned_inside(const Mesh& mesh, std::span<const std::uint32_t> face) {
+  const auto area = area_vector(mesh, face);
+  double sum = 0;
+  for (const std::uint32_t number : face)
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += area[axis] * mesh.normals[number][axis];
+  return sum < 0;
 }
 
 std::optional<std::vector<Mesh::Triangle>> split(const Mesh& mesh, std::span<const std::uint32_t> face) {
   if (face.size() == 3) return std::vector<Mesh::Triangle>{{0, 1, 2}};
+  if (cancels(areas_of(mesh, face))) return std::nullopt;
   return EarClipper(flattened(mesh, face)).run();
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "host/modeler/limbs.h"
+#include "host/modeler/mesh.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -38,10 +39,11 @@ struct Box {
   glm::dvec3 max{1, 1, 1};
 };
 
-// Patches in the unit cube, shared by all segments that name them.
+// Patches or a mesh in the unit cube, shared by all segments that name them.
 struct Shape {
   std::string name;
   std::vector<node::Patch> patches;
+  std::optional<Mesh> mesh{};
 };
 
 struct Segment {
@@ -72,7 +74,7 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Shape> shapes;
   std::vector<NamedMaterial> materials;
-  Limbs limbs;
+  Limbs limbs{};
 };
 
 inline constexpr node::Material kDefaultMaterial{{0.8f, 0.8f, 0.8f}, 0.10f, 0.65f, 0.45f, 32, 2};

@@ -43,9 +43,14 @@ void read_faces(const Element& list, Mesh& mesh) {
   }
 }
 
-void read_normals(const Element& list, Mesh& mesh) {
+void read_normals(const Element& list, const Element& faces, Mesh& mesh) {
   require_size(list, mesh.vertices.size());
   mesh.normals = read_places(list, {-1e6, 1e6});
+  std::size_t number = 0;
+  for (const Element face : faces)
+    if (turned_inside(mesh, mesh.face(number++)))
+      face.refuse("has normals that point to its inside",
+                  "name its vertices counter-clockwise as seen from outside, or turn the normals");
 }
 
 }  // namespace
@@ -56,11 +61,12 @@ Mesh read_mesh(const Element& element) {
   const Element vertices = fields.required("vertices");
   mesh.vertices = read_places(vertices, {0, 1});
   if (mesh.vertices.size() < 3) vertices.refuse("has fewer than 3 vertices", "give at least 3");
-  read_faces(fields.required("faces"), mesh);
+  const Element faces = fields.required("faces");
+  read_faces(faces, mesh);
   mesh.crease = fields.number("crease", kDefaultCrease, {0, 180});
   if (const auto normals = fields.find("normals")) {
     if (fields.find("crease")) normals->refuse("stands beside a crease", "take one of the two out");
-    read_normals(*normals, mesh);
+    read_normals(*normals, faces, mesh);
   }
   return mesh;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/modeler/read_bspline.h"
+#include "host/modeler/read_mesh.h"
 #include "host/modeler/shape_library.h"
 
 namespace mars::host {
@@ -19,7 +20,7 @@ constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "li
 constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
                                             "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
-constexpr std::string_view kSurfaceNames[] = {"bspline"};
+constexpr std::string_view kSurfaceNames[] = {"bspline", "mesh"};
 constexpr std::string_view kSegmentNames[] = {"shape", "sbb",  "material", "ends", "top",
                                               "rim",   "tube", "edge",     "lid"};
 
@@ -31,6 +32,7 @@ const Keys kKeys[] = {{"model", kModelNames},
                           {"surface", kSurfaceNames},
                           kBSplineKeys,
                           kDirectionKeys,
+                          kMeshKeys,
                           limb_keys()[0],
                           limb_keys()[1]};
 constexpr const Keys& kModel = kKeys[0];
@@ -61,15 +63,23 @@ node::Patch read_patch(const Element& element) {
   return patch;
 }
 
-// A shape of the model's own.
-std::vector<node::Patch> read_patches(const Element& element) {
-  if (element.kind() == Kind::object) return read_bspline(Fields(element, kSurface).required("bspline"));
-  require_kind(element, Kind::list);
-  if (element.size() == 0) element.refuse("has no patches", "give at least one, or take the shape out");
+std::vector<node::Patch> read_patches(const Element& list) {
+  require_kind(list, Kind::list);
+  if (list.size() == 0) list.refuse("has no patches", "give at least one, or take the shape out");
   std::vector<node::Patch> patches;
-  patches.reserve(element.size());
-  for (const Element patch : element) patches.push_back(read_patch(patch));
+  patches.reserve(list.size());
+  for (const Element patch : list) patches.push_back(read_patch(patch));
   return patches;
+}
+
+Shape read_own_shape(const std::string& name, const Element& element) {
+  if (element.kind() != Kind::object) return {name, read_patches(element), {}};
+  const Fields fields(element, kSurface);
+  const auto bspline = fields.find("bspline"), mesh = fields.find("mesh");
+  if (bspline.has_value() == mesh.has_value())
+    element.refuse(mesh ? "is both a bspline and a mesh" : "is neither a bspline nor a mesh", "give it one of them");
+  if (mesh) return {name, {}, read_mesh(*mesh)};
+  return {name, read_bspline(*bspline), {}};
 }
 
 class ModelReader {
@@ -99,7 +109,7 @@ class ModelReader {
     for (const Element item : element) {
       const std::string name = checked_name(item, item.key());
       if (find_library_shape(name)) item.refuse("has the name of a primitive", "choose another name");
-      model_.shapes.push_back({name, read_patches(item)});
+      model_.shapes.push_back(read_own_shape(name, item));
     }
     own_shapes_ = model_.shapes.size();
   }

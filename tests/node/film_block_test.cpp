@@ -32,6 +32,10 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
     const FilmView view(block, "film", trusted);
     EXPECT_EQ(std::memcmp(&film.settings, &view.settings(), sizeof film.settings), 0);
     expect_same(film.patches, view.patches());
+    expect_same(film.mesh_places, view.mesh_places());
+    expect_same(film.mesh_normals, view.mesh_normals());
+    expect_same(film.mesh_triangles, view.mesh_triangles());
+    expect_same(film.meshlets, view.meshlets());
     expect_same(film.shapes, view.shapes());
     expect_same(film.segments, view.segments());
     expect_same(film.materials, view.materials());
@@ -49,7 +53,7 @@ TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
   const FilmView film(block, "film");
   EXPECT_EQ(film.name(film.segments()[0]), "base");
   EXPECT_EQ(film.name(film.segments()[1]), "arm");
-  EXPECT_EQ(film.patch_instances(), 3u);
+  EXPECT_EQ(film.patch_instances(), 5u);
   for (std::uint32_t frame = 0; frame < 3; ++frame) {
     EXPECT_EQ(film.matrix_at(film.segments()[0], frame), moved(0));
     EXPECT_EQ(film.matrix_at(film.segments()[1], frame), moved(frame));
@@ -106,6 +110,9 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
                    {{"background", [=](FilmData& f) { f.settings.background[2] = b; }},
                     {"rate", [=](FilmData& f) { f.settings.rate = b; }},
                     {"patch", [=](FilmData& f) { f.patches[2].points[15][2] = b; }},
+                    {"vertex", [=](FilmData& f) { f.mesh_places[6][1] = b; }},
+                    {"normal", [=](FilmData& f) { f.mesh_normals[0][2] = b; }},
+                    {"box", [=](FilmData& f) { f.meshlets[1].low[1] = b; }},
                     {"color", [=](FilmData& f) { f.materials[1].color[1] = b; }},
                     {"ambient", [=](FilmData& f) { f.materials[1].ambient = b; }},
                     {"diffuse", [=](FilmData& f) { f.materials[1].diffuse = b; }},
@@ -127,6 +134,30 @@ TEST(FilmBlock, RefusesBrokenIndices) {
       {"a shape begins beyond the patches", [](FilmData& f) { f.shapes[1].first_patch = 4; }},
       {"a shape ends beyond the patches", [](FilmData& f) { f.shapes[0].patch_count = 4; }},
       {"a shape wraps round", [](FilmData& f) { f.shapes[1].patch_count = 0xffffffff; }},
+      {"a shape begins beyond the meshlets", [](FilmData& f) { f.shapes[1].first_meshlet = 1; }},
+      {"a shape ends beyond the meshlets", [](FilmData& f) { f.shapes[1].meshlet_count = 3; }},
+      {"a shape's meshlets wrap round", [](FilmData& f) { f.shapes[0] = {0, 2, 2, 0xffffffff}; }},
+      {"a meshlet begins beyond the vertices", [](FilmData& f) { f.meshlets[1].first_vertex = 5; }},
+      {"a meshlet ends beyond the vertices", [](FilmData& f) { f.meshlets[1].vertex_count = 4; }},
+      {"a meshlet begins beyond the triangles", [](FilmData& f) { f.meshlets[1].first_triangle = 3; }},
+      {"a meshlet ends beyond the triangles", [](FilmData& f) { f.meshlets[0].triangle_count = 4; }},
+      {"a meshlet has no vertices", [](FilmData& f) { f.meshlets[0].vertex_count = 0; }},
+      {"a meshlet has no triangles", [](FilmData& f) { f.meshlets[0].triangle_count = 0; }},
+      {"a meshlet has too many vertices",
+       [](FilmData& f) {
+         f.mesh_places.resize(300);
+         f.mesh_normals.resize(300);
+         f.meshlets[0] = {7, node::kMeshletVertices + 1, 0, 1, {0, 0, 0}, {0, 0, 0}};
+       }},
+      {"a meshlet has too many triangles",
+       [](FilmData& f) {
+         f.mesh_triangles.resize(300);
+         f.meshlets[0].triangle_count = node::kMeshletTriangles + 1;
+       }},
+      {"a triangle has no such vertex", [](FilmData& f) { f.mesh_triangles[1][2] = 4; }},
+      {"a vertex leaves its meshlet's box", [](FilmData& f) { f.mesh_places[3][2] = 0.6f; }},
+      {"a meshlet's box is upside down", [](FilmData& f) { std::swap(f.meshlets[0].low, f.meshlets[0].high); }},
+      {"a vertex has no normal", [](FilmData& f) { f.mesh_normals.pop_back(); }},
       {"a segment has no shape", [](FilmData& f) { f.segments[1].shape = 2; }},
       {"a segment has no name", [](FilmData& f) { f.segments[1].name = 9; }},
       {"names do not end", [](FilmData& f) { f.names.back() = 'x'; }},

@@ -5,6 +5,7 @@
 
 #include "hal/failure.h"
 #include "node/film.h"
+#include "node/meshlets.h"
 #include "node/scene.h"
 #include "tests/node/patches.h"
 #include "tests/node/small_film.h"
@@ -20,6 +21,7 @@ std::uint64_t walk(const FilmView& film) {
   std::uint64_t sum = film.patch_instances();
   const std::uint32_t last = film.settings().frames - 1;
   node::Scene scene(film);
+  static node::MeshletPlacer placer(node::best_kernels(""));
   for (std::uint32_t i = 0; i < film.intervals().size(); ++i) {
     scene.set_interval(i);
     for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {
@@ -33,6 +35,10 @@ std::uint64_t walk(const FilmView& film) {
     const node::Shape& shape = film.shapes()[segment.shape];
     for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
       sum += patch.points[15][2] > 0;
+    for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
+      placer.place(node::eye_map(node::EyeMatrix{}), film, meshlet, scene.projection());
+      sum += static_cast<std::uint64_t>(placer.vertex_count());
+    }
   }
   return sum;
 }
@@ -84,7 +90,7 @@ TEST(FilmDamage, DamagedHeaderIsRefused) {
   }
   for (const std::uint64_t bad :
        {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
-    for (std::size_t at = 16; at < 16 + 13 * 16; at += 16) {  // each section's offset
+    for (std::size_t at = 16; at < 16 + 17 * 16; at += 16) {  // each section's offset
       Block block = whole;
       std::memcpy(&block[at], &bad, sizeof bad);
       EXPECT_FALSE(taken(block)) << "offset " << bad << " of section " << at / 16 - 1;

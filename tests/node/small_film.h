@@ -16,12 +16,16 @@ inline node::Patch flat_patch() {
 
 inline node::Matrix moved(double x) { return {{{{1, 0, 0, x}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}; }
 
-// Three frames, two segments of which the second moves, one light that changes.
+// Three frames, two segments of which the second, partly a mesh, moves, one light that changes.
 inline node::FilmData small_film() {
   node::FilmData film;
   film.settings = {64, 48, 3, 0, {0.1f, 0.2f, 0.3f}, 24, {0, 1}};
   film.patches.assign(3, flat_patch());
-  film.shapes = {{0, 2}, {2, 1}};
+  film.mesh_places = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  film.mesh_normals.assign(7, {0, 0, 1});
+  film.mesh_triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}};
+  film.meshlets = {{0, 4, 0, 2, {0, 0, 0}, {1, 1, 0.5f}}, {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}}};
+  film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}};
   film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}};
   film.materials = {{{1, 0, 0}, 0.1f, 0.6f, 0.3f, 20, 2}, {{0, 1, 0}, 0.1f, 0.6f, 0.3f, 2.5f, 1}};
   film.matrices = {moved(0), moved(1), moved(2)};

@@ -167,7 +167,7 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   Counted counted, keyframe;
   run_counted(film_, {nodes}, counted);
   std::uint64_t moving_patches = 0;
-  for (const std::uint32_t s : film_.moving) moving_patches += film_.shapes[film_.segments[s].shape].patch_count;
+  for (const std::uint32_t s : film_.moving) moving_patches += film_.shapes[film_.segments[s].shape].size();
   std::set<std::int32_t> artists;
   const auto inbetweens = of_kind(counted, FrameKind::inbetween);
   EXPECT_EQ(inbetweens.size(), kFrames - 1u);

@@ -19,6 +19,17 @@ Vec3 unit(const Vec3& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
+// A flat ball, which one meshlet does not hold, and a smooth one that moves, is squeezed, and is seen from outside only.
+void add_meshes(FilmMaker& maker, std::uint32_t still_look, std::uint32_t moving_look, std::uint32_t frames) {
+  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(9, 0))), still_look, {placed({0.4, -4, 0.2}, 1.7, 0.2)});
+  std::vector<node::Matrix> motion;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    motion.push_back(placed({-3.4 + 0.19 * f, -3.6, 0.4 + 0.05 * f}, 2, 0.21 * f));
+    for (auto& row : motion.back().m) row[1] *= 0.6;
+  }
+  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(14, 180))), moving_look, motion);
+}
+
 void add_crowd(FilmMaker& maker, bool moving) {
   const std::uint32_t frames = moving ? maker.film.settings.frames : 1;
   const std::uint32_t shapes[] = {maker.add_shape(host::make_teapot(1.077)), maker.add_shape(host::make_sphere()),
@@ -35,6 +46,7 @@ void add_crowd(FilmMaker& maker, bool moving) {
       motion.push_back(placed({place[0] + 0.21 * f, place[1] + 0.07 * f, place[2]}, 2.4, 0.3 * i + 0.17 * f));
     maker.add_segment(shapes[i % 6], looks[i % 3], motion);
   }
+  add_meshes(maker, looks[0], looks[2], frames);
 }
 
 void add_lights(FilmMaker& maker) {
@@ -59,6 +71,35 @@ node::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near, d
   return camera;
 }
 
+host::Mesh mesh_ball(std::uint32_t rows, double crease) {
+  host::Mesh mesh;
+  mesh.crease = crease;
+  const std::uint32_t around = 2 * rows;
+  const auto add = [&](double polar, double turn) {
+    const double out = 0.5 * std::sin(polar);
+    mesh.vertices.push_back({static_cast<float>(0.5 + out * std::cos(turn)), static_cast<float>(0.5 + out * std::sin(turn)),
+                             static_cast<float>(0.5 - 0.5 * std::cos(polar))});
+  };
+  for (std::uint32_t row = 0; row <= rows; ++row)
+    for (std::uint32_t k = 0; k < around; ++k)
+      add(std::numbers::pi * (row + 1) / (rows + 2), 2 * std::numbers::pi * k / around);
+  add(0, 0);
+  add(std::numbers::pi, 0);
+  const auto face = [&](std::initializer_list<std::uint32_t> corners) {
+    mesh.corners.insert(mesh.corners.end(), corners);
+    mesh.ends.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  };
+  const std::uint32_t bottom = (rows + 1) * around, last = rows * around;
+  for (std::uint32_t k = 0; k < around; ++k) {
+    const std::uint32_t next = (k + 1) % around;
+    for (std::uint32_t row = 0; row < last; row += around)
+      face({row + k, row + next, row + around + next, row + around + k});
+    face({bottom, next, k});
+    face({bottom + 1, last + k, last + next});
+  }
+  return mesh;
+}
+
 FilmMaker::FilmMaker(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
   film.settings = {width, height, frames, 0, kMagenta, 24, {}};
   film.names = {'b', 'o', 'd', 'y', '\0'};
@@ -67,6 +108,21 @@ FilmMaker::FilmMaker(std::uint32_t width, std::uint32_t height, std::uint32_t fr
 std::uint32_t FilmMaker::add_shape(const std::vector<node::Patch>& patches) {
   film.shapes.push_back({static_cast<std::uint32_t>(film.patches.size()), static_cast<std::uint32_t>(patches.size())});
   film.patches.insert(film.patches.end(), patches.begin(), patches.end());
+  return static_cast<std::uint32_t>(film.shapes.size() - 1);
+}
+
+std::uint32_t FilmMaker::add_shape(const host::Meshlets& mesh) {
+  const auto append = [](auto& items, const auto& more) { items.insert(items.end(), more.begin(), more.end()); };
+  const auto first = static_cast<std::uint32_t>(film.meshlets.size());
+  for (node::Meshlet meshlet : mesh.meshlets) {
+    meshlet.first_vertex += static_cast<std::uint32_t>(film.mesh_places.size());
+    meshlet.first_triangle += static_cast<std::uint32_t>(film.mesh_triangles.size());
+    film.meshlets.push_back(meshlet);
+  }
+  append(film.mesh_places, mesh.places);
+  append(film.mesh_normals, mesh.normals);
+  append(film.mesh_triangles, mesh.triangles);
+  film.shapes.push_back({0, 0, first, static_cast<std::uint32_t>(mesh.meshlets.size())});
   return static_cast<std::uint32_t>(film.shapes.size() - 1);
 }
 

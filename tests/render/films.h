@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/modeler/meshlets.h"
 #include "node/film.h"
 
 namespace mars::test {
@@ -19,11 +20,15 @@ node::Matrix placed(const Vec3& place, double size, double angle = 0);
 // A camera at `eye` that looks at `at`, z up, `fov` degrees vertically.
 node::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near = 0.05, double far = 1000);
 
+// A closed ball in the unit cube: so many rows of quads between two rows of triangles. `crease` as in model files.
+host::Mesh mesh_ball(std::uint32_t rows, double crease);
+
 class FilmMaker {
  public:
   FilmMaker(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 
   std::uint32_t add_shape(const std::vector<node::Patch>& patches);
+  std::uint32_t add_shape(const host::Meshlets& mesh);
   std::uint32_t add_material(const node::Material& material);
   // One matrix (stands still) or one a frame (only changes are kept).
   void add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<node::Matrix>& motion);

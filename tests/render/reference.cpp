@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "node/dice.h"
+#include "node/meshlets.h"
 #include "node/scene.h"
 
 namespace mars::test {
@@ -28,20 +29,32 @@ auto order(const Reference& reference, std::size_t triangle) {
   return std::make_tuple(bool{reference.moving[triangle]}, reference.triangles[triangle].record.patch, triangle);
 }
 
-// The triangles of all patches of the segment, seen or not.
-void add_segment(const node::Scene& scene, std::size_t segment, node::Dicer& dicer, Reference& reference) {
+struct Surfaces {
+  node::Dicer dicer{node::best_kernels("sse2")};
+  node::MeshletPlacer placer{node::best_kernels("sse2")};
+};
+
+// The triangles of all patches and meshlets of the segment, seen or not.
+void add_segment(const node::Scene& scene, std::size_t segment, Surfaces& surfaces, Reference& reference) {
   const node::FilmView& film = scene.film();
   const node::Shape& shape = film.shapes()[film.segments()[segment].shape];
   const node::EyeMatrix matrix = scene.matrix(segment);
   const std::uint32_t look = scene.look(segment);
-  for (std::uint32_t i = 0; i < shape.patch_count; ++i) {
-    dicer.dice(node::to_eye(matrix, film.patches()[shape.first_patch + i]), scene.projection(),
-               static_cast<int>(film.settings().dice));
-    const node::PatchIdentity identity{scene.first_patch(segment) + i, look, node::mirrors(matrix),
-                                       film.materials()[look].sides == 1, scene.moves(segment)};
-    const auto made = plain_set_up(dicer, scene.projection(), identity);
+  node::PatchIdentity identity{scene.first_patch(segment), look, node::mirrors(matrix),
+                               film.materials()[look].sides == 1, scene.moves(segment)};
+  const auto add = [&](const node::Surface& surface) {
+    const auto made = plain_set_up(surface, scene.projection(), identity);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
     reference.moving.resize(reference.triangles.size(), identity.moving);
+    ++identity.patch;
+  };
+  for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
+    surfaces.dicer.dice(node::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
+    add(surfaces.dicer);
+  }
+  for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
+    surfaces.placer.place(node::eye_map(matrix), film, meshlet, scene.projection());
+    add(surfaces.placer);
   }
 }
 
@@ -77,10 +90,10 @@ Reference draw_reference(const node::FilmView& film, std::uint32_t frame) {
   node::Scene scene(film);
   scene.set_interval(interval_of(film, frame));
   scene.set_frame(frame);
-  node::Dicer dicer(node::best_kernels("sse2"));
+  Surfaces surfaces;
   Reference reference;
   reference.width = film.settings().width;
-  for (std::size_t s = 0; s < film.segments().size(); ++s) add_segment(scene, s, dicer, reference);
+  for (std::size_t s = 0; s < film.segments().size(); ++s) add_segment(scene, s, surfaces, reference);
   reference.samples.resize(std::size_t{reference.width} * film.settings().height);
   for (std::size_t i = reference.triangles.size(); i-- > 0;) draw(reference, i, scene.width(), scene.height());
   return reference;

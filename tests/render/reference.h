@@ -1,6 +1,6 @@
 // The plain twin of the renderer: every triangle against every sample of its box, exact integers for coverage,
 // the rule of ties written out, Phong's formula in double precision. It shares with the nodes what defines the
-// polygons (dicing, clipping) and nothing of how they are set up, drawn, divided or sent.
+// polygons (dicing, placing of meshlets, clipping) and nothing of how they are set up, drawn, divided or sent.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,55 @@
+#include "host/film/shape_writer.h"
+
+#include <limits>
+
+#include "hal/failure.h"
+#include "host/modeler/meshlets.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();  // of vertices or triangles of all meshes
+
+template <typename Item>
+void append(std::vector<Item>& items, const std::vector<Item>& more) {
+  items.insert(items.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::uint32_t ShapeWriter::add(const Shape& shape) {
+  return shape.mesh ? add_mesh(*shape.mesh) : add_patches(shape.patches);
+}
+
+std::uint32_t ShapeWriter::add_patches(const std::vector<node::Patch>& patches) {
+  const std::string_view bits(reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(node::Patch));
+  const auto [known, is_new] = of_patches_.try_emplace(bits, film_.shapes.size());
+  if (is_new) {
+    film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(patches.size())});
+    append(film_.patches, patches);
+  }
+  return known->second;
+}
+
+std::uint32_t ShapeWriter::add_mesh(const Mesh& mesh) {
+  for (const auto& [known, number] : of_meshes_)
+    if (*known == mesh) return number;
+  Meshlets cut = cut_meshlets(mesh);
+  const std::size_t vertices = film_.mesh_places.size(), triangles = film_.mesh_triangles.size();
+  if (vertices + cut.places.size() > kMost || triangles + cut.triangles.size() > kMost)
+    throw Failure("have more than 4294967295 vertices or triangles", "meshes", "use fewer or smaller meshes");
+  for (node::Meshlet& meshlet : cut.meshlets) {
+    meshlet.first_vertex += static_cast<std::uint32_t>(vertices);
+    meshlet.first_triangle += static_cast<std::uint32_t>(triangles);
+  }
+  const auto number = static_cast<std::uint32_t>(film_.shapes.size());
+  film_.shapes.push_back({0, 0, std::uint32_t(film_.meshlets.size()), std::uint32_t(cut.meshlets.size())});
+  append(film_.mesh_places, cut.places);
+  append(film_.mesh_normals, cut.normals);
+  append(film_.mesh_triangles, cut.triangles);
+  append(film_.meshlets, cut.meshlets);
+  of_meshes_.emplace_back(&mesh, number);
+  return number;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,32 @@
+// Shapes as a compiled film has them: each kind of patches or mesh once, however many models have it.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "host/modeler/model.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+class ShapeWriter {
+ public:
+  // Appends to `film`'s shapes and what they are made of.
+  explicit ShapeWriter(node::FilmData& film) : film_(film) {}
+
+  // The number of the shape with these patches or this mesh, bit for bit. `shape` must stay where it is.
+  std::uint32_t add(const Shape& shape);
+
+ private:
+  std::uint32_t add_patches(const std::vector<node::Patch>& patches);
+  std::uint32_t add_mesh(const Mesh& mesh);
+
+  node::FilmData& film_;
+  std::unordered_map<std::string_view, std::uint32_t> of_patches_;  // by their bits
+  std::vector<std::pair<const Mesh*, std::uint32_t>> of_meshes_;
+};
+
+}  // namespace mars::host
