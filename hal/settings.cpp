@@ -76,6 +76,13 @@ Settings read_settings() {
   return settings;
 }
 
+TerminalKind terminal_kind() {
+  const char* name = std::getenv("TERM");
+  const char* colors = std::getenv("COLORTERM");
+  const std::string_view words = colors == nullptr ? "" : colors;
+  return {name == nullptr ? "" : name, words == "truecolor" || words == "24bit"};
+}
+
 std::vector<std::string> unknown_settings() {
   std::vector<std::string> lines;
   for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {

@@ -26,6 +26,13 @@ struct Settings {
 // Throws a Failure that names the variable and what it may be.
 Settings read_settings();
 
+// What the environment says of the terminal.
+struct TerminalKind {
+  std::string name;       // TERM; "": none
+  bool colors24 = false;  // COLORTERM: every colour
+};
+TerminalKind terminal_kind();
+
 // A line about each MARS_* variable that is not in the table, with the nearest name that is.
 std::vector<std::string> unknown_settings();
 

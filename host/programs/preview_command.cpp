@@ -6,10 +6,12 @@
 #include <memory>
 
 #include "hal/failure.h"
+#include "hal/settings.h"
 #include "host/options/render_options.h"
 #include "host/preview/film_pictures.h"
 #include "host/preview/folder_pictures.h"
 #include "host/preview/load.h"
+#include "host/preview/player.h"
 #include "host/preview/write_pictures.h"
 #include "host/programs/surface_frames.h"
 
@@ -20,6 +22,7 @@ struct Wishes {
   std::string source;
   WriteWishes write;
   Look look;
+  Graphics graphics = Graphics::automatic;
 };
 
 // What makes no sense is the person's own mistake: told with the option's name, exit code 2.
@@ -81,6 +84,28 @@ void add_choice(CLI::App& command, const char* name, const std::vector<std::stri
       ->type_name(type);
 }
 
+void add_graphics(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
+  add_choice(command, "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
+             [wishes](std::size_t number) { wishes->graphics = static_cast<Graphics>(number); },
+             "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
+             "default: asked of the terminal. Example: --graphics blocks");
+}
+
+Terminal open_terminal(const Wishes& wishes) {
+  const hal::TerminalKind kind = hal::terminal_kind();
+  return Terminal(wishes.graphics, kind.name, kind.colors24);
+}
+
+// Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
+void play_in_terminal(Pictures& pictures, const Wishes& wishes) {
+  int ended_by = 0;
+  {
+    Terminal terminal = open_terminal(wishes);
+    ended_by = play(pictures, terminal);
+  }
+  if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
+}
+
 void preview(Wishes& wishes) {
   const Previewed film = load_previewed(wishes.source);
   SurfaceFrames surface(film.film);
@@ -89,11 +114,13 @@ void preview(Wishes& wishes) {
   wishes.look.smooth = wishes.look.wait = writes;
   FilmPictures pictures(film.view, surface, wishes.look);
   if (writes) return write_pictures(pictures, wishes.write);
+  play_in_terminal(pictures, wishes);
 }
 
 void play_folder(const Wishes& wishes) {
   FolderPictures pictures(wishes.source);
   if (!wishes.write.file.empty()) return write_pictures(pictures, wishes.write);
+  play_in_terminal(pictures, wishes);
 }
 
 }  // namespace
@@ -110,6 +137,7 @@ void add_preview(CLI::App& app) {
   add_choice(*command, "--view", {"camera", "front", "side", "top"},
              [wishes](std::size_t number) { wishes->look.from = static_cast<From>(number); },
              "Where it is seen from first; default: the film's camera. Example: --view side");
+  add_graphics(*command, wishes);
   add_output(*command, wishes);
   command->callback([wishes] { preview(*wishes); });
 }
@@ -118,6 +146,7 @@ void add_play(CLI::App& app) {
   const auto wishes = std::make_shared<Wishes>();
   CLI::App* command = app.add_subcommand("play", "Play rendered frames in the terminal");
   command->add_option("DIR", wishes->source, "The folder given to mars render with -o. Example: build/demo")->required();
+  add_graphics(*command, wishes);
   add_output(*command, wishes);
   command->callback([wishes] { play_folder(*wishes); });
 }

@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <span>
+
+#include "host/preview/terminal_picture.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::size_t kChunk = 4096;  // bytes of text at a time, as the protocol wants
+
+std::string base64(std::span<const std::byte> bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u; };
+    const std::uint32_t three = at(0) << 16 | at(1) << 8 | at(2);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+class Kitty : public TerminalPicture {
+ public:
+  Extent room(const Terminal& terminal, std::uint32_t lines) const override {
+    const Extent cells = terminal.cells(), cell = terminal.cell();
+    return {cells.width * cell.width, (cells.height > lines ? cells.height - lines : 1) * cell.height};
+  }
+
+  const std::string& shown(const Image& image) override {
+    const std::string picture = base64(encode_png(image.width, image.height, image.pixels));
+    const int before = number_;
+    number_ = 3 - number_;
+    text_ = "\x1b[?2026h\x1b[H";
+    for (std::size_t at = 0; at < picture.size(); at += kChunk) {
+      text_ += at == 0 ? "\x1b_Ga=T,f=100,C=1,q=2,i=" + std::to_string(number_) + "," : "\x1b_Gq=2,";
+      text_ += at + kChunk < picture.size() ? "m=1;" : "m=0;";
+      text_.append(picture, at, kChunk);
+      text_ += "\x1b\\";
+    }
+    text_ += "\x1b_Ga=d,d=I,q=2,i=" + std::to_string(before) + "\x1b\\\x1b[?2026l";
+    return text_;
+  }
+
+ private:
+  int number_ = 1;  // of the picture that stands: 1 or 2
+  std::string text_;
+};
+
+}  // namespace
+
+std::unique_ptr<TerminalPicture> make_kitty() { return std::make_unique<Kitty>(); }
+
+}  // namespace mars::host

@@ -1,0 +1,12 @@
+// Plays pictures in the terminal at their rate: those that cannot be shown in time are left out, so that time is always
+// right. Obeys keys.
+#pragma once
+
+#include "host/preview/terminal.h"
+
+namespace mars::host {
+
+// Until a person ends it. Returns the signal that ended it, 0: none.
+int play(Pictures& pictures, Terminal& terminal);
+
+}  // namespace mars::host

@@ -1,0 +1,63 @@
+// The terminal a person sits at: taken over while this lives, and given back as it was however it ends (an error, a
+// signal, a suspension). Signals that end, stop or resize us come in as events, so nothing happens behind anyone's back.
+#pragma once
+
+#include <signal.h>
+#include <termios.h>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/preview/key_press.h"
+#include "host/preview/pictures.h"
+
+namespace mars::host {
+
+// How pictures are shown, best first: the terminal's own graphics, or two pixels a character in colours.
+enum class Graphics { automatic, kitty, sixel, blocks, blocks256 };
+
+struct TerminalEvents {
+  std::vector<KeyPress> keys;
+  bool redraw = false;  // resized, or back from a suspension: the screen is empty
+  int ended_by = 0;     // a signal that wants us to end
+};
+
+class Terminal {
+ public:
+  // Throws Failure where standard input or output is no terminal, or one that cannot place text. `colors24`: what the
+  // environment says of its colours.
+  Terminal(Graphics wanted, const std::string& kind, bool colors24);
+  ~Terminal();
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  Graphics graphics() const { return graphics_; }
+  Extent cells() const { return cells_; }
+  Extent cell() const { return cell_; }  // pixels of one, where graphics have pixels
+  void write(std::string_view bytes);
+
+  // What happens within `time`; returns as soon as something does.
+  TerminalEvents wait(std::chrono::nanoseconds time);
+
+ private:
+  void take_signals();
+  void ask(bool colors24);
+  void enter();
+  void leave();
+  void suspend();
+  void measure();
+  std::string answers(std::string_view questions);
+
+  Graphics graphics_;
+  Extent cells_{80, 24};
+  Extent cell_{10, 20};
+  termios before_{};
+  sigset_t signals_before_{};
+  int signals_ = -1;  // a signalfd
+  bool entered_ = false;
+  std::string unread_;  // of a key that is not complete
+};
+
+}  // namespace mars::host
