@@ -69,7 +69,9 @@ void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const node:
   const double middle = distance_along(camera, view_.subject.center);
   drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
   if (ground) drawing.draw(grid_, kWorld, kGround, {pen, 1});
-  const Stroke sticks{pen > 1 ? 2 * pen : pen, 3 * pen}, thin{pen, pen + 1};
+  const bool small = drawing.image().height < 200 * pen;  // a terminal's characters: dots would hide all else
+  const Stroke sticks{pen > 1 && !small ? 2 * pen : pen, small ? pen + 1 : 3 * pen};
+  const Stroke thin{pen, small ? 1 : pen + 1};
   for (const Part& part : view_.parts[static_cast<std::size_t>(as)]) {
     Color color = line_color(view_.colors[view_.value_at(part.look, frame)]);
     const bool scenery = moving_ && part.motion.count == 1;

@@ -42,6 +42,7 @@ node::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
 
 SharedImage FilmPictures::picture(std::uint32_t frame, Extent extent) {
   frame_ = frame;
+  complete_ = true;
   aspect_ = double(extent.width) / extent.height;
   return look_.as ? one(*look_.as, frame, extent) : all(frame, extent);
 }
@@ -74,7 +75,9 @@ SharedImage FilmPictures::rendered(std::uint32_t frame, Extent extent) {
     surface_.aim(extent, aim.camera, std::move(frames));
     aim_ = aim;
   }
-  return look_.wait ? surface_.wait_for(frame) : surface_.frame(frame);
+  const SharedImage image = look_.wait ? surface_.wait_for(frame) : surface_.frame(frame);
+  complete_ = image != nullptr;
+  return image;
 }
 
 // In a row where there is room, else two above two.

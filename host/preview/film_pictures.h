@@ -29,6 +29,7 @@ class FilmPictures : public Pictures {
   double rate() const override { return view_.rate; }
   Extent extent() const override { return {view_.width, view_.height}; }
   SharedImage picture(std::uint32_t frame, Extent extent) override;
+  bool complete() const override { return complete_; }
   bool obey(const KeyPress& key) override;
   std::string state() const override;
   std::string keys() const override;
@@ -58,6 +59,7 @@ class FilmPictures : public Pictures {
   Look look_;
   std::optional<Orbit> orbit_;  // where a person went from look_.from
   double zoom_ = 1;
+  bool complete_ = true;
   double aspect_ = 1;  // of the last picture
   std::uint32_t frame_ = 0;
   std::optional<Drawing> drawing_;

@@ -31,6 +31,9 @@ class Pictures {
   // The frame at another size, of about the same shape. nullptr: it is not ready yet.
   virtual SharedImage picture(std::uint32_t frame, Extent extent) = 0;
 
+  // Whether nothing of the last picture is still to come.
+  virtual bool complete() const { return true; }
+
   // A person's wish: true if it changes what is to be seen.
   virtual bool obey(const KeyPress&) { return false; }
   virtual std::string state() const { return ""; }  // in a few words, for a status line

@@ -61,7 +61,7 @@ class Player {
     Extent room = picture_->room(terminal_, help_ ? 3 : 1);
     room = {std::min(room.width, kLargest.width), std::min(room.height, kLargest.height)};
     const SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), room));
-    missing_ = image == nullptr;
+    missing_ = !pictures_.complete();
     if (image && Extent{image->width, image->height} != extent_) {
       if (shown_) terminal_.write("\x1b[2J");
       picture_->forget();

@@ -91,17 +91,13 @@ void add_graphics(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
              "default: asked of the terminal. Example: --graphics blocks");
 }
 
-Terminal open_terminal(const Wishes& wishes) {
-  const hal::TerminalKind kind = hal::terminal_kind();
-  return Terminal(wishes.graphics, kind.name, kind.colors24);
-}
-
 // Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
-void play_in_terminal(Pictures& pictures, const Wishes& wishes) {
+void play_in_terminal(const Wishes& wishes, const std::function<int(Terminal&)>& play_in) {
   int ended_by = 0;
   {
-    Terminal terminal = open_terminal(wishes);
-    ended_by = play(pictures, terminal);
+    const hal::TerminalKind kind = hal::terminal_kind();
+    Terminal terminal(wishes.graphics, kind.name, kind.colors24);
+    ended_by = play_in(terminal);
   }
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
 }
@@ -109,18 +105,23 @@ void play_in_terminal(Pictures& pictures, const Wishes& wishes) {
 void preview(Wishes& wishes) {
   const Previewed film = load_previewed(wishes.source);
   SurfaceFrames surface(film.film);
-  const bool writes = !wishes.write.file.empty();
-  if (writes) wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
-  wishes.look.smooth = wishes.look.wait = writes;
-  FilmPictures pictures(film.view, surface, wishes.look);
-  if (writes) return write_pictures(pictures, wishes.write);
-  play_in_terminal(pictures, wishes);
+  if (!wishes.write.file.empty()) {
+    wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
+    wishes.look.smooth = wishes.look.wait = true;
+    FilmPictures pictures(film.view, surface, wishes.look);
+    return write_pictures(pictures, wishes.write);
+  }
+  play_in_terminal(wishes, [&](Terminal& terminal) {
+    wishes.look.smooth = terminal.graphics() >= Graphics::blocks;  // few pixels: they cost little, and need it most
+    FilmPictures pictures(film.view, surface, wishes.look);
+    return play(pictures, terminal);
+  });
 }
 
 void play_folder(const Wishes& wishes) {
   FolderPictures pictures(wishes.source);
   if (!wishes.write.file.empty()) return write_pictures(pictures, wishes.write);
-  play_in_terminal(pictures, wishes);
+  play_in_terminal(wishes, [&](Terminal& terminal) { return play(pictures, terminal); });
 }
 
 }  // namespace
