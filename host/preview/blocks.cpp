@@ -35,8 +35,8 @@ class Blocks : public TerminalPicture {
     }
   }
 
-  Extent room(const Terminal& terminal, std::uint32_t lines) const override {
-    const Extent cells = terminal.cells();
+  PictureSize room(const Terminal& terminal, std::uint32_t lines) const override {
+    const PictureSize cells = terminal.cells();
     return {cells.width, 2 * (cells.height > lines ? cells.height - lines : 1)};
   }
 

@@ -40,19 +40,19 @@ node::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
   return camera;
 }
 
-SharedImage FilmPictures::picture(std::uint32_t frame, Extent extent) {
+SharedImage FilmPictures::picture(std::uint32_t frame, PictureSize extent) {
   frame_ = frame;
   complete_ = true;
   aspect_ = double(extent.width) / extent.height;
   return look_.as ? one(*look_.as, frame, extent) : all(frame, extent);
 }
 
-SharedImage FilmPictures::one(As as, std::uint32_t frame, Extent extent) {
+SharedImage FilmPictures::one(As as, std::uint32_t frame, PictureSize extent) {
   if (as == As::surface) return rendered(frame, extent);
   return std::make_shared<const Image>(drawn(as, frame, extent));
 }
 
-Image FilmPictures::drawn(As as, std::uint32_t frame, Extent extent) {
+Image FilmPictures::drawn(As as, std::uint32_t frame, PictureSize extent) {
   const std::uint32_t pen = look_.smooth ? 2 : 1;
   const Image* old = drawing_ ? &drawing_->image() : nullptr;
   if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
@@ -62,7 +62,7 @@ Image FilmPictures::drawn(As as, std::uint32_t frame, Extent extent) {
   return look_.smooth ? halved(drawing_->image()) : drawing_->image();
 }
 
-SharedImage FilmPictures::rendered(std::uint32_t frame, Extent extent) {
+SharedImage FilmPictures::rendered(std::uint32_t frame, PictureSize extent) {
   Aim aim{extent, std::nullopt};
   if (look_.from != From::camera || orbit_ || zoom_ != 1) aim.camera = camera(frame, double(extent.width) / extent.height);
   if (!aim_ || *aim_ != aim) {
@@ -81,9 +81,9 @@ SharedImage FilmPictures::rendered(std::uint32_t frame, Extent extent) {
 }
 
 // In a row where there is room, else two above two.
-SharedImage FilmPictures::all(std::uint32_t frame, Extent extent) {
+SharedImage FilmPictures::all(std::uint32_t frame, PictureSize extent) {
   const std::uint32_t columns = extent.width >= 2 * extent.height ? 4 : 2;
-  const Extent panel{std::max(extent.width / columns, 1u), std::max(extent.height * columns / 4, 1u)};
+  const PictureSize panel{std::max(extent.width / columns, 1u), std::max(extent.height * columns / 4, 1u)};
   Image whole{columns * panel.width, 4 / columns * panel.height, {}};
   whole.pixels.resize(std::size_t{whole.width} * whole.height);
   for (std::uint32_t i = 0; i < 4; ++i) {

@@ -27,8 +27,8 @@ class FilmPictures : public Pictures {
 
   std::uint32_t frames() const override { return view_.frames; }
   double rate() const override { return view_.rate; }
-  Extent extent() const override { return {view_.width, view_.height}; }
-  SharedImage picture(std::uint32_t frame, Extent extent) override;
+  PictureSize extent() const override { return {view_.width, view_.height}; }
+  SharedImage picture(std::uint32_t frame, PictureSize extent) override;
   bool complete() const override { return complete_; }
   bool obey(const KeyPress& key) override;
   std::string state() const override;
@@ -39,16 +39,16 @@ class FilmPictures : public Pictures {
 
  private:
   struct Aim {
-    Extent extent;
+    PictureSize extent;
     std::optional<node::Camera> camera;
 
     bool operator==(const Aim&) const = default;
   };
 
-  Image drawn(As as, std::uint32_t frame, Extent extent);
-  SharedImage rendered(std::uint32_t frame, Extent extent);
-  SharedImage one(As as, std::uint32_t frame, Extent extent);
-  SharedImage all(std::uint32_t frame, Extent extent);
+  Image drawn(As as, std::uint32_t frame, PictureSize extent);
+  SharedImage rendered(std::uint32_t frame, PictureSize extent);
+  SharedImage one(As as, std::uint32_t frame, PictureSize extent);
+  SharedImage all(std::uint32_t frame, PictureSize extent);
   bool turn(double degrees, double up);
   bool look_from(From from);
   Orbit& orbit();

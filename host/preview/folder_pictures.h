@@ -16,9 +16,9 @@ class FolderPictures : public Pictures {
 
   std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest_.frames.size()); }
   double rate() const override { return manifest_.rate; }
-  Extent extent() const override { return {manifest_.width, manifest_.height}; }
+  PictureSize extent() const override { return {manifest_.width, manifest_.height}; }
   // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
-  SharedImage picture(std::uint32_t place, Extent extent) override;
+  SharedImage picture(std::uint32_t place, PictureSize extent) override;
   std::string state() const override { return folder_.string(); }
 
  private:

@@ -22,8 +22,8 @@ std::string base64(std::span<const std::byte> bytes) {
 
 class Kitty : public TerminalPicture {
  public:
-  Extent room(const Terminal& terminal, std::uint32_t lines) const override {
-    const Extent cells = terminal.cells(), cell = terminal.cell();
+  PictureSize room(const Terminal& terminal, std::uint32_t lines) const override {
+    const PictureSize cells = terminal.cells(), cell = terminal.cell();
     return {cells.width * cell.width, (cells.height > lines ? cells.height - lines : 1) * cell.height};
   }
 

@@ -6,7 +6,7 @@
 
 namespace mars::host {
 
-Extent fitted(Extent film, Extent room) {
+PictureSize fitted(PictureSize film, PictureSize room) {
   const double scale = std::min(double(room.width) / film.width, double(room.height) / film.height);
   const auto side = [&](std::uint32_t length, std::uint32_t most) {
     return std::clamp(static_cast<std::uint32_t>(std::lround(scale * length)), 1u, std::max(most, 1u));
@@ -14,8 +14,8 @@ Extent fitted(Extent film, Extent room) {
   return {side(film.width, room.width), side(film.height, room.height)};
 }
 
-Image scaled(const Image& image, Extent extent) {
-  if (Extent{image.width, image.height} == extent) return image;
+Image scaled(const Image& image, PictureSize extent) {
+  if (PictureSize{image.width, image.height} == extent) return image;
   Image out{extent.width, extent.height, {}};
   out.pixels.reserve(std::size_t{out.width} * out.height);
   // Of each new column or row, the first old one under it and the one behind its last.

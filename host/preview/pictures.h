@@ -6,17 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "host/options/render_options.h"
 #include "host/preview/key_press.h"
 #include "host/sinks/png_file.h"
 
 namespace mars::host {
-
-struct Extent {
-  std::uint32_t width;  // pixels
-  std::uint32_t height;
-
-  bool operator==(const Extent&) const = default;
-};
 
 using SharedImage = std::shared_ptr<const Image>;
 
@@ -26,10 +20,10 @@ class Pictures {
 
   virtual std::uint32_t frames() const = 0;
   virtual double rate() const = 0;    // frames a second
-  virtual Extent extent() const = 0;  // the film's own
+  virtual PictureSize extent() const = 0;  // the film's own
 
   // The frame at another size, of about the same shape. nullptr: it is not ready yet.
-  virtual SharedImage picture(std::uint32_t frame, Extent extent) = 0;
+  virtual SharedImage picture(std::uint32_t frame, PictureSize extent) = 0;
 
   // Whether nothing of the last picture is still to come.
   virtual bool complete() const { return true; }
@@ -41,9 +35,9 @@ class Pictures {
 };
 
 // The film's picture as large as fits into `room`, at least one pixel each way.
-Extent fitted(Extent film, Extent room);
+PictureSize fitted(PictureSize film, PictureSize room);
 
 // By the mean of the pixels under each new one, or the nearest where it grows.
-Image scaled(const Image& image, Extent extent);
+Image scaled(const Image& image, PictureSize extent);
 
 }  // namespace mars::host

@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Extent kLargest{1280, 720};  // pixels, of terminals that have many
+constexpr PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
 constexpr std::string_view kOwnKeys = " space pause  , . step  [ ] speed  l loop  h help  q quit";
 
 class Player {
@@ -58,11 +58,11 @@ class Player {
   void show() {
     const std::uint32_t now = frame();
     if (shown_ && now == shown_frame_ && !missing_) return;
-    Extent room = picture_->room(terminal_, help_ ? 3 : 1);
+    PictureSize room = picture_->room(terminal_, help_ ? 3 : 1);
     room = {std::min(room.width, kLargest.width), std::min(room.height, kLargest.height)};
     const SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), room));
     missing_ = !pictures_.complete();
-    if (image && Extent{image->width, image->height} != extent_) {
+    if (image && PictureSize{image->width, image->height} != extent_) {
       if (shown_) terminal_.write("\x1b[2J");
       picture_->forget();
       extent_ = {image->width, image->height};
@@ -138,7 +138,7 @@ class Player {
   bool shown_ = false;    // what is due stands on the screen
   bool missing_ = false;  // it was not ready
   std::uint32_t shown_frame_ = 0;
-  Extent extent_{0, 0};
+  PictureSize extent_{0, 0};
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -36,6 +37,13 @@ class Net {
         join(numbers[4 * row + column], numbers[4 * row + column + 1]);
         join(numbers[4 * column + row], numbers[4 * (column + 1) + row]);
       }
+  }
+
+  void add(std::span<const Point> vertices, std::span<const node::MeshTriangle> triangles) {
+    std::vector<std::uint32_t> numbers;
+    for (const Point& vertex : vertices) numbers.push_back(number_of(vertex));
+    for (const node::MeshTriangle& corners : triangles)
+      for (std::size_t i = 0; i < 3; ++i) join(numbers[corners[i]], numbers[corners[(i + 1) % 3]]);
   }
 
   Lines take() {
@@ -91,9 +99,12 @@ void add_stick(Lines& lines, const glm::dvec3& end) {
 
 }  // namespace
 
-Lines control_net(std::span<const node::Patch> patches) {
+Lines control_net(const node::FilmView& film, const node::Shape& shape) {
   Net net;
-  for (const node::Patch& patch : patches) net.add(patch);
+  for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) net.add(patch);
+  for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
+    net.add(film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count),
+            film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
   return net.take();
 }
 

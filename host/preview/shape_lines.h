@@ -1,7 +1,6 @@
 // The lines of one thing in its own coordinates: a control net, a prism, a joint's sticks (thesis, figure 2.6).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "host/modeler/model.h"
@@ -9,9 +8,9 @@
 
 namespace mars::host {
 
-// The control points of patches, each once, joined along u and v; lines that patches share are drawn once, lines of
-// no length are left out. All points are dots.
-Lines control_net(std::span<const node::Patch> patches);
+// The control points of a shape's patches, joined along u and v, and the vertices of its meshes, joined along edges.
+// Each point and each line once; lines of no length are left out. All points are dots.
+Lines control_net(const node::FilmView& film, const node::Shape& shape);
 
 // The 12 edges of the unit cube, which a T-matrix makes a segment's prism.
 Lines cube_edges();

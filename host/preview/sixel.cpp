@@ -68,8 +68,8 @@ class Palette {
 class Sixel : public TerminalPicture {
  public:
   // One line less than there is: a picture that reaches the last one would scroll.
-  Extent room(const Terminal& terminal, std::uint32_t lines) const override {
-    const Extent cells = terminal.cells(), cell = terminal.cell();
+  PictureSize room(const Terminal& terminal, std::uint32_t lines) const override {
+    const PictureSize cells = terminal.cells(), cell = terminal.cell();
     return {cells.width * cell.width, (cells.height > lines + 1 ? cells.height - lines - 1 : 1) * cell.height};
   }
 

@@ -34,8 +34,8 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   Graphics graphics() const { return graphics_; }
-  Extent cells() const { return cells_; }
-  Extent cell() const { return cell_; }  // pixels of one, where graphics have pixels
+  PictureSize cells() const { return cells_; }
+  PictureSize cell() const { return cell_; }  // pixels of one, where graphics have pixels
   void write(std::string_view bytes);
 
   // What happens within `time`; returns as soon as something does.
@@ -51,8 +51,8 @@ class Terminal {
   std::string answers(std::string_view questions);
 
   Graphics graphics_;
-  Extent cells_{80, 24};
-  Extent cell_{10, 20};
+  PictureSize cells_{80, 24};
+  PictureSize cell_{10, 20};
   termios before_{};
   sigset_t signals_before_{};
   int signals_ = -1;  // a signalfd

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kOutput = 3;  // of ffmpeg
 
-std::vector<std::string> command(bool gif, Extent extent, double rate) {
+std::vector<std::string> command(bool gif, PictureSize extent, double rate) {
   std::array<char, 40> number{};
   std::to_chars(number.data(), number.data() + number.size() - 1, rate);
   std::vector<std::string> words{"ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb0", "-s",
@@ -52,7 +52,7 @@ std::string content_of(int file) {
 
 }  // namespace
 
-Video::Video(std::filesystem::path path, Extent extent, double rate) : path_(std::move(path)) {
+Video::Video(std::filesystem::path path, PictureSize extent, double rate) : path_(std::move(path)) {
   check_can_write(path_);  // better now than after the last frame
   try {
     start(extent, rate);
@@ -62,7 +62,7 @@ Video::Video(std::filesystem::path path, Extent extent, double rate) : path_(std
   }
 }
 
-void Video::start(Extent extent, double rate) {
+void Video::start(PictureSize extent, double rate) {
   output_ = memfd_create("video", MFD_CLOEXEC);
   errors_ = memfd_create("errors", MFD_CLOEXEC);
   int ends[2] = {-1, -1};

@@ -14,7 +14,7 @@ class Video {
  public:
   // Of `rate` pictures a second. The file's ending says which kind: .gif or .mp4. Throws Failure where ffmpeg is
   // missing or the file cannot be written.
-  Video(std::filesystem::path path, Extent extent, double rate);
+  Video(std::filesystem::path path, PictureSize extent, double rate);
   ~Video();
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
@@ -23,7 +23,7 @@ class Video {
   void finish();
 
  private:
-  void start(Extent extent, double rate);
+  void start(PictureSize extent, double rate);
   void end();
   [[noreturn]] void fail();
 

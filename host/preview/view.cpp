@@ -94,8 +94,7 @@ class Maker {
   }
 
   void take_segments() {
-    for (const node::Shape& shape : film_.shapes())
-      add_lines(control_net(film_.patches().subspan(shape.first_patch, shape.patch_count)));
+    for (const node::Shape& shape : film_.shapes()) add_lines(control_net(film_, shape));
     const std::uint32_t cube = add_lines(cube_edges());
     for (const node::Segment& segment : film_.segments()) {
       parts(As::vertices).push_back({segment.shape, segment.motion, segment.look});

@@ -10,8 +10,8 @@
 namespace mars::host {
 namespace {
 
-constexpr Extent kUsual{960, 540};
-constexpr Extent kUsualOnSheet{320, 180};
+constexpr PictureSize kUsual{960, 540};
+constexpr PictureSize kUsualOnSheet{320, 180};
 
 bool is_picture(const WriteWishes& wishes) { return wishes.file.extension() == ".png"; }
 
@@ -19,14 +19,14 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   write_whole_file(file, encode_png(image.width, image.height, image.pixels));
 }
 
-SharedImage ready(Pictures& pictures, std::uint32_t frame, Extent extent) {
+SharedImage ready(Pictures& pictures, std::uint32_t frame, PictureSize extent) {
   SharedImage image = pictures.picture(frame, extent);
   check(image != nullptr, "pictures to be written are ready");
   return image;
 }
 
 void write_video(Pictures& pictures, const WriteWishes& wishes, const std::vector<std::uint32_t>& frames,
-                 Extent extent) {
+                 PictureSize extent) {
   SharedImage image = ready(pictures, frames.front(), extent);
   Video video(wishes.file, {image->width, image->height}, pictures.rate() / wishes.every);
   for (const std::uint32_t frame : frames) video.add(*(frame == frames.front() ? image : ready(pictures, frame, extent)));
@@ -52,13 +52,13 @@ std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint3
   return some;
 }
 
-Extent extent_to_write(const WriteWishes& wishes, Extent film, std::size_t frames) {
+PictureSize extent_to_write(const WriteWishes& wishes, PictureSize film, std::size_t frames) {
   return wishes.extent.value_or(fitted(film, is_picture(wishes) && frames > 1 ? kUsualOnSheet : kUsual));
 }
 
 void write_pictures(Pictures& pictures, const WriteWishes& wishes) {
   const std::vector<std::uint32_t> frames = frames_to_write(wishes, pictures.frames());
-  const Extent extent = extent_to_write(wishes, pictures.extent(), frames.size());
+  const PictureSize extent = extent_to_write(wishes, pictures.extent(), frames.size());
   check_can_write(wishes.file);  // better now than after the last frame
   if (!is_picture(wishes)) return write_video(pictures, wishes, frames, extent);
   std::vector<SheetPicture> shown;

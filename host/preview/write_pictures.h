@@ -16,7 +16,7 @@ struct WriteWishes {
   std::optional<FrameSet> frames;  // none: all, or for a sheet kSheetFrames at most
   std::uint32_t every = 1;         // of these, each so manieth
   std::uint32_t columns = 0;       // of a sheet; 0: about as many as rows
-  std::optional<Extent> extent;    // of each picture; none: as the film's shape fits into what is usual
+  std::optional<PictureSize> extent;    // of each picture; none: as the film's shape fits into what is usual
 };
 
 inline constexpr std::uint32_t kSheetFrames = 12;
@@ -26,7 +26,7 @@ void check_kind(const std::filesystem::path& file);
 
 // What is written of so many frames, ascending.
 std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint32_t film_frames);
-Extent extent_to_write(const WriteWishes& wishes, Extent film, std::size_t frames);
+PictureSize extent_to_write(const WriteWishes& wishes, PictureSize film, std::size_t frames);
 
 // `pictures` must have every picture ready.
 void write_pictures(Pictures& pictures, const WriteWishes& wishes);

@@ -51,7 +51,7 @@ void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
       .add_option_function<std::string>(
           "--size", taking("--size", [wishes](const std::string& text) {
             const PictureSize size = read_picture_size(text);
-            wishes->write.extent = Extent{size.width, size.height};
+            wishes->write.extent = PictureSize{size.width, size.height};
           }),
           "Pixels of each picture that is written; default: at most 960x540, on a sheet 320x180. Example: --size 480x270")
       ->type_name("WxH");

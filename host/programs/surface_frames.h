@@ -20,7 +20,7 @@ class SurfaceFrames : public SurfaceSource {
   explicit SurfaceFrames(const CompiledFilm& film) : film_(film) {}
   ~SurfaceFrames() override { stop(); }
 
-  void aim(Extent extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) override;
+  void aim(PictureSize extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) override;
   SharedImage frame(std::uint32_t number) override;
   SharedImage wait_for(std::uint32_t number) override;
 
