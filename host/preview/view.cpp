@@ -30,8 +30,15 @@ Placing placing(const Axes& frame) {
   return flat;
 }
 
-double column_length(const node::Matrix& matrix, std::size_t column) {
-  return std::hypot(matrix.m[0][column], matrix.m[1][column], matrix.m[2][column]);
+glm::dvec3 column_of(const node::Matrix& matrix, std::size_t column) {
+  return {matrix.m[0][column], matrix.m[1][column], matrix.m[2][column]};
+}
+
+// From the middle of a prism, which may be sheared, to its farthest corner.
+double radius_of(const node::Matrix& matrix) {
+  const glm::dvec3 x = column_of(matrix, 0), y = column_of(matrix, 1), z = column_of(matrix, 2);
+  return 0.5 * std::max(std::max(glm::length(x + y + z), glm::length(x + y - z)),
+                        std::max(glm::length(x - y + z), glm::length(x - y - z)));
 }
 
 // Grows to hold balls: exact in the box of their middles, generous with their radii.
@@ -45,8 +52,7 @@ class Holder {
     }
     low_ = glm::min(low_, middle);
     high_ = glm::max(high_, middle);
-    radius_ = std::max(radius_, 0.5 * std::hypot(column_length(matrix, 0), column_length(matrix, 1),
-                                                 column_length(matrix, 2)));
+    radius_ = std::max(radius_, radius_of(matrix));
   }
 
   bool empty() const { return low_.x > high_.x; }
@@ -170,7 +176,7 @@ class Maker {
       const node::Matrix& matrix = film_.matrix_at(segment, 0);
       std::size_t longest = 0;
       for (const std::size_t axis : {1u, 2u})
-        if (column_length(matrix, axis) > column_length(matrix, longest)) longest = axis;
+        if (glm::length(column_of(matrix, axis)) > glm::length(column_of(matrix, longest))) longest = axis;
       parts(As::stick).push_back({axes[longest], segment.motion, segment.look});
     }
   }

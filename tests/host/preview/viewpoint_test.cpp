@@ -1,0 +1,144 @@
+// Where the viewer stands and what it then sees.
+#include "host/preview/viewpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "host/animator/read_film.h"
+#include "host/preview/film_pictures.h"
+
+namespace mars::host {
+namespace {
+
+// In the eye's frame: x to the right, y up, -z ahead.
+glm::dvec3 seen(const node::Camera& camera, const glm::dvec3& place) {
+  glm::dvec3 at;
+  for (int r = 0; r < 3; ++r) {
+    const auto& row = camera.world_to_eye.m[static_cast<std::size_t>(r)];
+    at[r] = row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3];
+  }
+  return at;
+}
+
+void expect_near(const glm::dvec3& is, const glm::dvec3& should) { EXPECT_LT(glm::length(is - should), 1e-9); }
+
+const Ball kBall{{1, 2, 3}, 2};
+
+TEST(Viewpoint, FrontSideAndTop) {
+  const auto from = [](From which, const glm::dvec3& offset) {
+    const Orbit orbit = orbit_from(which, kBall, 1.5);
+    return seen(camera_of(orbit), kBall.center + offset) + glm::dvec3(0, 0, orbit.distance);
+  };
+  expect_near(from(From::front, {1, 0, 0}), {0, 0, 1});  // towards the eye
+  expect_near(from(From::front, {0, 1, 0}), {1, 0, 0});  // its left hand is to the right
+  expect_near(from(From::front, {0, 0, 1}), {0, 1, 0});
+  expect_near(from(From::side, {1, 0, 0}), {1, 0, 0});
+  expect_near(from(From::side, {0, 0, 1}), {0, 1, 0});
+  expect_near(from(From::top, {1, 0, 0}), {1, 0, 0});
+  expect_near(from(From::top, {0, 1, 0}), {0, 1, 0});
+}
+
+TEST(Viewpoint, TheSubjectFillsThePictureAndNoMore) {
+  for (const double aspect : {0.5, 1.0, 2.0}) {
+    const Orbit orbit = orbit_from(From::front, kBall, aspect);
+    const node::Camera camera = camera_of(orbit);
+    // The ball's outline, of half the angle asin(r / d), in units of half the picture's shorter side.
+    const double angle = std::asin(kBall.radius / orbit.distance);
+    const double part = camera.focal * std::tan(angle) / std::min(1.0, aspect);
+    EXPECT_LT(part, 1);
+    EXPECT_GT(part, 0.85);
+  }
+}
+
+TEST(Viewpoint, TurningBeginsWhereTheCameraStands) {
+  Orbit orbit{kBall.center, 33, 21, 17};
+  const Orbit near = orbit_near(camera_of(orbit), kBall);
+  expect_near(near.center, orbit.center);
+  EXPECT_NEAR(near.turn, 33, 1e-9);
+  EXPECT_NEAR(near.height, 21, 1e-9);
+  EXPECT_NEAR(near.distance, 17, 1e-9);
+}
+
+constexpr const char* kFilm = R"({
+  "frames": 3, "camera": {"keys": [{"frame": 0, "eye": [0, -6, 3]}, {"frame": 2, "eye": [4, -6, 3]}], "at": [0, 0, 0]},
+  "models": {"box": {"joints": [{"name": "side", "segment": {"shape": "box"}}]}},
+  "actors": [{"name": "box", "model": "box", "keys": [{"frame": 0}, {"frame": 2, "turn": [0, 0, 90]}]}]
+})";
+
+TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
+  const Film source = read_film(Document(kFilm, "film").root(), {});
+  const CompiledFilm film = compile(source);
+  const node::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
+  const CompiledFilm other = as_seen(film, {64, 36}, &camera);
+  node::FilmView(other.block(), "seen");  // throws unless all is sound
+  EXPECT_EQ(other.view().settings().width, 64u);
+  for (std::uint32_t frame = 0; frame < 3; ++frame) EXPECT_EQ(other.view().camera_at(frame), camera);
+  const CompiledFilm same = as_seen(film, {64, 36}, nullptr);
+  for (std::uint32_t frame = 0; frame < 3; ++frame)
+    EXPECT_EQ(same.view().camera_at(frame), film.view().camera_at(frame));
+  EXPECT_EQ(std::memcmp(film.view().matrices().data(), other.view().matrices().data(),
+                        film.view().matrices().size_bytes()), 0);
+}
+
+// Keeps what it is asked.
+struct Asked : SurfaceSource {
+  void aim(PictureSize, const std::optional<node::Camera>& by, std::vector<std::uint32_t> wanted) override {
+    ++aims;
+    camera = by;
+    frames = std::move(wanted);
+  }
+  SharedImage frame(std::uint32_t) override { return nullptr; }
+  SharedImage wait_for(std::uint32_t) override { return nullptr; }
+
+  int aims = 0;
+  std::optional<node::Camera> camera;
+  std::vector<std::uint32_t> frames;
+};
+
+TEST(FilmPictures, KeysChangeWhatIsSeen) {
+  const Film source = read_film(Document(kFilm, "film").root(), {});
+  const View view = view_of(compile(source), &source);
+  Asked asked;
+  FilmPictures pictures(view, asked, {});
+  const auto key = [&](char character) { return pictures.obey({character, Special::none}); };
+  EXPECT_EQ(pictures.state(), "prisms, camera");
+  EXPECT_EQ(pictures.camera(2, 1), view.camera_at(2));
+  EXPECT_TRUE(key('1'));
+  EXPECT_TRUE(key('t'));
+  EXPECT_EQ(pictures.state(), "stick, top");
+  EXPECT_EQ(pictures.camera(0, 2), camera_of(orbit_from(From::top, view.subject, 2)));
+  EXPECT_TRUE(pictures.obey({0, Special::left}));
+  EXPECT_EQ(pictures.state(), "stick, turned");
+  EXPECT_TRUE(key('c'));
+  EXPECT_TRUE(key('+'));
+  EXPECT_GT(pictures.camera(0, 1).focal, view.camera_at(0).focal);
+  EXPECT_FALSE(key('x'));
+}
+
+TEST(FilmPictures, RendererIsAimedOnceAView) {
+  const Film source = read_film(Document(kFilm, "film").root(), {});
+  const View view = view_of(compile(source), &source);
+  Asked asked;
+  FilmPictures pictures(view, asked, {});
+  pictures.obey({'4', Special::none});
+  EXPECT_EQ(pictures.picture(1, {64, 36}), nullptr);
+  EXPECT_FALSE(pictures.complete());
+  EXPECT_EQ(asked.frames, (std::vector<std::uint32_t>{1, 2, 0}));
+  EXPECT_FALSE(asked.camera.has_value());
+  pictures.picture(2, {64, 36});
+  EXPECT_EQ(asked.aims, 1);
+  pictures.obey({'f', Special::none});
+  pictures.picture(2, {64, 36});
+  EXPECT_EQ(asked.aims, 2);
+  EXPECT_TRUE(asked.camera.has_value());
+  pictures.picture(2, {32, 18});
+  EXPECT_EQ(asked.aims, 3);
+  pictures.obey({'3', Special::none});
+  EXPECT_NE(pictures.picture(2, {32, 18}), nullptr);
+  EXPECT_TRUE(pictures.complete());
+}
+
+}  // namespace
+}  // namespace mars::host
