@@ -147,7 +147,8 @@ std::string FilmPictures::state() const {
 }
 
 std::string FilmPictures::keys() const {
-  return " 1 stick 2 vertices 3 prisms 4 surface 5 all  c camera f front s side t top  arrows turn + - zoom g ground";
+  return " 1 stick  2 vertices  3 prisms  4 surface  5 all four  g ground\n"
+         " c camera  f front  s side  t top  arrows turn  + - zoom\n";
 }
 
 }  // namespace mars::host

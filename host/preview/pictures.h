@@ -31,7 +31,7 @@ class Pictures {
   // A person's wish: true if it changes what is to be seen.
   virtual bool obey(const KeyPress&) { return false; }
   virtual std::string state() const { return ""; }  // in a few words, for a status line
-  virtual std::string keys() const { return ""; }   // likewise, what obey() knows
+  virtual std::string keys() const { return ""; }   // what obey() knows, in lines of 80 characters at most
 };
 
 // The film's picture as large as fits into `room`, at least one pixel each way.

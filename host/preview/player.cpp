@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "host/preview/terminal_picture.h"
 
@@ -13,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
-constexpr std::string_view kOwnKeys = " space pause  , . step  [ ] speed  l loop  h help  q quit";
+constexpr std::string_view kOwnKeys = " space pause  , . step  home end  [ ] speed  l loop  h help  q quit";
 
 class Player {
  public:
@@ -58,7 +59,7 @@ class Player {
   void show() {
     const std::uint32_t now = frame();
     if (shown_ && now == shown_frame_ && !missing_) return;
-    PictureSize room = picture_->room(terminal_, help_ ? 3 : 1);
+    PictureSize room = picture_->room(terminal_, 1 + static_cast<std::uint32_t>(help().size()));
     room = {std::min(room.width, kLargest.width), std::min(room.height, kLargest.height)};
     const SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), room));
     missing_ = !pictures_.complete();
@@ -79,11 +80,19 @@ class Player {
                   pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
     std::string status = numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit");
     const std::uint32_t lines = terminal_.cells().height;
-    if (help_) {
-      write_line(lines - 2, pictures_.keys());
-      write_line(lines - 1, std::string(kOwnKeys));
-    }
+    const std::vector<std::string> help = this->help();
+    for (std::uint32_t i = 0; i < help.size() && i + 1 < lines; ++i)
+      write_line(lines - i - 1, help[help.size() - 1 - i]);
     write_line(lines, status);
+  }
+
+  // The lines above the status.
+  std::vector<std::string> help() const {
+    std::vector<std::string> lines;
+    if (!help_) return lines;
+    std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
+    for (std::string line; std::getline(keys, line);) lines.push_back(line);
+    return lines;
   }
 
   void write_line(std::uint32_t line, std::string text) {

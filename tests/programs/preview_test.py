@@ -1,0 +1,347 @@
+"""`mars preview` and `mars play`: as a person sees them in a terminal (a pseudo terminal that the test reads), and the
+pictures, sheets and videos they write."""
+
+import fcntl
+import json
+import os
+import pty
+import re
+import select
+import shutil
+import signal
+import struct
+import subprocess
+import termios
+import time
+import unittest
+import zlib
+
+import harness
+from harness import EXAMPLES, ENVIRONMENT, SECONDS, ProgramTest, intact, main
+
+HUMAN = EXAMPLES / "models/human.json"
+ARM = EXAMPLES / "robot-arm.json"
+ENTER, LEAVE = b"\x1b[?1049h", b"\x1b[?1049l"
+needs_ffmpeg = unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "no ffmpeg here")
+
+
+def size_of(png):
+    return struct.unpack(">II", png.read_bytes()[16:24])
+
+
+def pixels_of(png):
+    """Rows of bytes, three a pixel, of a PNG file as MARS writes them: filtered by the row above."""
+    data, at, packed = png.read_bytes(), 8, b""
+    width, height = size_of(png)
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + length] if kind == b"IDAT" else b""
+        at += 12 + length
+    raw, rows, above = zlib.decompress(packed), [], bytes(3 * width)
+    for y in range(height):
+        row = raw[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
+        assert row[0] in (0, 2), row[0]
+        above = bytes(a + b & 255 for a, b in zip(row[1:], above)) if row[0] == 2 else row[1:]
+        rows.append(above)
+    return rows
+
+
+class Screen:
+    """mars in a terminal of its own, of 80 x 24 characters, whose answers to questions are `answers`."""
+
+    def __init__(self, folder, *words, answers=b"\x1b[?62;22c", **variables):
+        self.master, slave = pty.openpty()
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        self.slave = slave
+        self.before = termios.tcgetattr(slave)
+        environment = {**ENVIRONMENT, "TERM": "xterm-256color", "COLORTERM": "truecolor", **variables}
+        self.process = subprocess.Popen([str(harness.PROGRAMS / "mars"), *map(str, words)], stdin=slave, stdout=slave,
+                                        stderr=slave, env=environment, cwd=folder, start_new_session=True,
+                                        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+        self.seen, self.answers = b"", answers
+
+    def read(self, seconds):
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0 and select.select([self.master], [], [], left)[0]:
+            more = os.read(self.master, 1 << 16)
+            self.seen += more
+            if b"\x1b[c" in more:
+                os.write(self.master, self.answers)
+            return True
+        return False
+
+    def wait_for(self, what, since=0):
+        """Until `what`, a pattern, was shown after `since`; gives the match."""
+        end = time.monotonic() + SECONDS
+        while not (found := re.compile(what, re.S).search(self.seen, since)):
+            assert time.monotonic() < end, f"never shown: {what} in {self.seen[-600:]}"
+            self.read(0.1)
+        return found
+
+    def press(self, keys, what):
+        since = len(self.seen)
+        os.write(self.master, keys)
+        return self.wait_for(what, since)
+
+    def end(self):
+        """What it ends with, once it is gone and all it said is read."""
+        end = time.monotonic() + SECONDS
+        while self.process.poll() is None and time.monotonic() < end:
+            self.read(0.05)
+        while self.read(0.1):
+            pass
+        return self.process.wait(timeout=1)
+
+    def given_back(self):
+        """Whether the terminal is as it was."""
+        return (termios.tcgetattr(self.slave) == self.before and self.seen.count(ENTER) == self.seen.count(LEAVE) > 0
+                and self.seen.rindex(LEAVE) > self.seen.rindex(ENTER) and self.seen.rindex(b"\x1b[?25h") > 0)
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        os.close(self.master)
+        os.close(self.slave)
+
+
+class InATerminal(ProgramTest):
+    def preview(self, *words, **more):
+        screen = Screen(self.folder, *words, **more)
+        self.addCleanup(screen.close)
+        return screen
+
+    def test_plays_at_the_films_rate(self):
+        film = harness.spinning_teapot(240, [64, 36])
+        screen = self.preview("preview", self.write("film.json", film))
+        first = int(screen.wait_for(rb"(\d+)/239  24 frames/s  prisms, camera").group(1))
+        begun = time.monotonic()
+        while time.monotonic() - begun < 2:
+            screen.read(0.05)
+        last = int(re.findall(rb"(\d+)/239 ", screen.seen)[-1])
+        self.assertAlmostEqual(last - first, 24 * (time.monotonic() - begun), delta=12)
+        self.assertIn("▀".encode(), screen.seen)
+        self.assertIn(b"\x1b[38;2;", screen.seen)
+
+    def test_obeys_keys(self):
+        screen = self.preview("preview", ARM)
+        screen.wait_for(b"prisms, camera")
+        screen.press(b"1", b"stick, camera")
+        screen.press(b"2", b"vertices, camera")
+        paused = screen.press(b" ", rb" (\d+)/\d+  24 frames/s  paused")
+        screen.press(b".", rb" %d/" % (int(paused.group(1)) + 1))
+        screen.press(b",", rb" %d/" % int(paused.group(1)))
+        screen.press(b"]", b"48 frames/s")
+        screen.press(b"[", b"24 frames/s")
+        screen.press(b"f", b"vertices, front")
+        screen.press(b"s", b"vertices, side")
+        screen.press(b"t", b"vertices, top")
+        screen.press(b"\x1b[A", b"vertices, turned")
+        screen.press(b"c", b"vertices, camera")
+        screen.press(b"l", b"once")
+        screen.press(b"h", b"arrows turn.*space pause")
+        screen.press(b"\x1b[H", b" 0/")
+        screen.press(b"\x1b[F", rb" (\d+)/\1 ")
+        os.write(screen.master, b"q")
+        self.assertEqual(screen.end(), 0)
+        self.assertTrue(screen.given_back())
+
+    def test_shows_the_rendered_surface(self):
+        screen = self.preview("preview", ARM, "--as", "surface")
+        screen.wait_for(rb"surface, camera  h help")  # and no word of rendering
+        screen.press(b"\x1b[C", rb"surface, turned  rendering")
+        screen.wait_for(rb"surface, turned  h help", len(screen.seen))
+        os.write(screen.master, b"q")
+        self.assertEqual(screen.end(), 0)
+
+    def test_gives_the_terminal_back_however_it_ends(self):
+        for number, code in [(signal.SIGINT, 0), (signal.SIGTERM, -signal.SIGTERM), (signal.SIGHUP, -signal.SIGHUP)]:
+            with self.subTest(number):
+                screen = self.preview("preview", ARM)
+                screen.wait_for(b"prisms")
+                screen.process.send_signal(number)
+                self.assertEqual(screen.end(), code)
+                self.assertTrue(screen.given_back())
+        screen = self.preview("preview", ARM)
+        screen.wait_for(b"prisms")
+        os.write(screen.master, b"\x03")  # Ctrl-C
+        self.assertEqual(screen.end(), 0)
+        self.assertTrue(screen.given_back())
+
+    def test_gives_the_terminal_back_after_a_failure(self):
+        frames = self.rendered(6)
+        (frames / "frame-0003.png").write_bytes(b"torn")
+        screen = self.preview("play", frames)
+        self.assertEqual(screen.end(), 1)
+        self.assertTrue(screen.given_back())
+        self.assertIn(b"frame-0003.png: not a whole PNG picture", screen.seen[screen.seen.rindex(LEAVE):])
+
+    def test_suspends_and_resumes(self):
+        screen = self.preview("preview", ARM)
+        screen.wait_for(b"prisms")
+        screen.process.send_signal(signal.SIGTSTP)
+        harness.wait_until(lambda: self.stopped(screen.process.pid), SECONDS, "not stopped")
+        while screen.read(0.1):
+            pass
+        self.assertTrue(screen.given_back())
+        since = len(screen.seen)
+        screen.process.send_signal(signal.SIGCONT)
+        screen.wait_for(re.escape(ENTER) + b".*prisms", since)
+        os.write(screen.master, b"q")
+        self.assertEqual(screen.end(), 0)
+        self.assertTrue(screen.given_back())
+
+    @staticmethod
+    def stopped(process):
+        with open(f"/proc/{process}/stat") as stat:
+            return stat.read().rpartition(")")[2].split()[0] == "T"
+
+    def test_follows_the_windows_size(self):
+        screen = self.preview("preview", ARM)
+        screen.wait_for(rb"\x1b\[24;1H")
+        fcntl.ioctl(screen.slave, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 120, 0, 0))
+        screen.wait_for(rb"\x1b\[40;1H")
+        fcntl.ioctl(screen.slave, termios.TIOCSWINSZ, struct.pack("HHHH", 2, 3, 0, 0))
+        screen.wait_for(rb"\x1b\[2;1H")
+        os.write(screen.master, b"q")
+        self.assertEqual(screen.end(), 0)
+
+    def test_uses_the_terminals_graphics(self):
+        for answers, shown in [(b"\x1b_Gi=31;OK\x1b\\\x1b[?62c", rb"\x1b_Ga=T,f=100"),
+                               (b"\x1b[?62;4;6c", rb"\x1bP0;1q"),
+                               (b"", rb"\x1b\[48;2;")]:  # a terminal that does not answer
+            with self.subTest(answers):
+                self.preview("preview", ARM, answers=answers).wait_for(shown)
+        self.preview("preview", ARM, COLORTERM="").wait_for(rb"\x1b\[48;5;")
+        self.preview("preview", ARM, "--graphics", "sixel").wait_for(rb"\x1bP0;1q")
+
+    def test_a_dumb_terminal_is_refused(self):
+        screen = self.preview("preview", ARM, TERM="dumb")
+        self.assertEqual(screen.end(), 1)
+        self.assertIn(b"-o film.gif", screen.seen)
+
+    def rendered(self, frames):
+        self.succeed("mars", "render", ARM, "-o", "frames", "--frames", f"0-{frames - 1}", "--size", "96x54",
+                     "--backend", "threads", "-q")
+        return self.folder / "frames"
+
+    def test_plays_rendered_frames(self):
+        screen = self.preview("play", self.rendered(6))
+        screen.wait_for(rb"5/5  \d+ frames/s")
+        os.write(screen.master, b"q")
+        self.assertEqual(screen.end(), 0)
+
+
+class Written(ProgramTest):
+    def test_one_picture(self):
+        for shown in ["stick", "vertices", "prisms", "surface", "all"]:
+            self.succeed("mars", "preview", HUMAN, "--as", shown, "--frames", "5", "--size", "200x160", "-o", "one.png")
+            self.assertTrue(intact(self.folder / "one.png"))
+            self.assertEqual(size_of(self.folder / "one.png"), (200, 160))
+            colours = {row[i:i + 3] for row in pixels_of(self.folder / "one.png") for i in range(0, len(row), 3)}
+            self.assertGreater(len(colours), 20, shown)
+
+    def test_the_surface_is_the_renderers(self):
+        self.succeed("mars", "preview", ARM, "--as", "surface", "--frames", "7", "--size", "160x90", "-o", "one.png")
+        self.succeed("mars", "render", ARM, "--frames", "7", "--size", "160x90", "-o", "out", "--backend", "threads", "-q")
+        self.assertEqual(pixels_of(self.folder / "one.png"), pixels_of(self.folder / "out/frame-0007.png"))
+
+    def test_views_differ(self):
+        pictures = set()
+        for view in ["camera", "front", "side", "top"]:
+            self.succeed("mars", "preview", ARM, "--frames", "0", "--view", view, "--size", "80x60", "-o", "view.png")
+            pictures.add((self.folder / "view.png").read_bytes())
+        self.assertEqual(len(pictures), 4)
+
+    def test_contact_sheet(self):
+        self.succeed("mars", "preview", ARM, "--frames", "0-11", "--every", "2", "--columns", "3", "--size", "64x36", "-o",
+                     "sheet.png")
+        self.assertEqual(size_of(self.folder / "sheet.png"), (6 + 3 * 70, 6 + 2 * 54))
+        self.succeed("mars", "preview", ARM, "--as", "stick", "-o", "twelve.png")
+        width, height = size_of(self.folder / "twelve.png")
+        self.assertEqual((width - 6) // 326 * ((height - 6) // 198), 12)
+
+    def test_compiled_film(self):
+        self.succeed("mars", "compile", ARM, "-o", "film.mars")
+        for source in [ARM, "film.mars"]:
+            self.succeed("mars", "preview", source, "--frames", "3", "--size", "96x54", "-o", f"{len(str(source))}.png")
+        self.assertEqual(len({path.read_bytes() for path in self.folder.glob("*.png")}), 1)
+        self.succeed("mars", "preview", "film.mars", "--as", "stick", "-o", "stick.png")
+
+    def probe(self, file):
+        told = self.run_program("ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                                "stream=codec_name,width,height,nb_read_frames,r_frame_rate", "-of", "json", file)
+        return json.loads(told.stdout)["streams"][0]
+
+    @needs_ffmpeg
+    def test_videos(self):
+        for name, codec in [("film.gif", "gif"), ("film.mp4", None)]:
+            self.succeed("mars", "preview", ARM, "--frames", "0-11", "--size", "95x53", "-o", name)
+            stream = self.probe(name)
+            self.assertEqual(int(stream["nb_read_frames"]), 12)
+            self.assertEqual((stream["width"], stream["height"]), (95, 53) if codec else (96, 54))
+            if codec:
+                self.assertEqual(stream["codec_name"], codec)
+            else:
+                self.assertEqual(stream["r_frame_rate"], "24/1")
+
+    @needs_ffmpeg
+    def test_every_second_picture_takes_twice_its_time(self):
+        self.succeed("mars", "preview", ARM, "--frames", "0-11", "--every", "2", "--size", "96x54", "-o", "film.mp4")
+        self.assertEqual(self.probe("film.mp4")["r_frame_rate"], "12/1")
+
+    @needs_ffmpeg
+    def test_rendered_frames(self):
+        self.succeed("mars", "render", ARM, "-o", "out", "--frames", "3-8", "--size", "96x54", "--backend", "threads", "-q")
+        self.succeed("mars", "play", "out", "-o", "film.gif")
+        self.assertEqual(int(self.probe("film.gif")["nb_read_frames"]), 6)
+        self.succeed("mars", "play", "out", "-o", "sheet.png", "--size", "48x27")
+        self.succeed("mars", "play", "out", "-o", "one.png", "--frames", "2", "--size", "96x54")
+        self.assertEqual(pixels_of(self.folder / "one.png"), pixels_of(self.folder / "out/frame-0005.png"))
+
+
+class Refused(ProgramTest):
+    def test_where_there_is_no_terminal(self):
+        self.fail_clearly(1, "preview", ARM, says="write a file instead: -o sheet.png")
+        self.fail_clearly(1, "play", self.folder, says="no folder of frames")
+
+    def test_bad_wishes(self):
+        for words, says in [(("--as", "wire"), "wire"), (("--view", "back"), "back"), (("--size", "0x5"), "0x5"),
+                            (("-o", "film.avi"), "ends in none of .png, .gif and .mp4"), (("--every", "0"), "0"),
+                            (("--graphics", "x"), "x"), (("--frames", "a"), "a"), (("--columns", "-1"), "-1")]:
+            self.fail_clearly(2, "preview", ARM, *words, says=says)
+
+    def test_bad_films(self):
+        self.fail_clearly(1, "preview", "none.json", "-o", "a.png", says="none.json")
+        self.fail_clearly(1, "preview", self.write("a.json", "[1]"), "-o", "a.png", says="a.json")
+        self.fail_clearly(1, "preview", self.write("b.json", {"joints": [{"nam": "a"}]}), "-o", "a.png", says="nam")
+        self.fail_clearly(1, "preview", ARM, "--frames", "5000", "-o", "a.png", says="5000")
+        self.assertEqual(list(self.folder.glob("*.png*")), [])
+
+    def test_places_that_cannot_be_written(self):
+        for name in ["none/a.png", "none/a.gif"]:
+            self.fail_clearly(1, "preview", ARM, "--frames", "0-1", "-o", name, says="none/a")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_without_ffmpeg(self):
+        (self.folder / "bin").mkdir()
+        self.fail_clearly(1, "preview", ARM, "-o", "film.mp4", says="needs the program ffmpeg",
+                          env={**ENVIRONMENT, "PATH": str(self.folder / "bin")})
+        self.assertEqual(list(self.folder.glob("film*")), [])
+
+    def test_an_ffmpeg_that_fails(self):
+        ffmpeg = self.folder / "ffmpeg"
+        ffmpeg.write_text("#!/bin/sh\necho no such encoder >&2\nexit 3\n")
+        ffmpeg.chmod(0o755)
+        (self.folder / "film.mp4").write_text("kept")
+        self.fail_clearly(1, "preview", ARM, "-o", "film.mp4", says="no such encoder",
+                          env={**ENVIRONMENT, "PATH": f"{self.folder}:/usr/bin:/bin"})
+        self.assertEqual((self.folder / "film.mp4").read_text(), "kept")
+
+    def test_a_sheet_that_is_too_large(self):
+        self.fail_clearly(1, "preview", ARM, "--frames", "0-", "--columns", "60", "--size", "960x540", "--as", "stick",
+                          "-o", "a.png", says="--every")
+
+
+if __name__ == "__main__":
+    main()
