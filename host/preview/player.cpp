@@ -81,8 +81,8 @@ class Player {
     std::string status = numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit");
     const std::uint32_t lines = terminal_.cells().height;
     const std::vector<std::string> help = this->help();
-    for (std::uint32_t i = 0; i < help.size() && i + 1 < lines; ++i)
-      write_line(lines - i - 1, help[help.size() - 1 - i]);
+    for (std::uint32_t i = 0; i < help.size(); ++i)
+      if (lines + i > help.size()) write_line(lines + i - static_cast<std::uint32_t>(help.size()), help[i]);
     write_line(lines, status);
   }
 
