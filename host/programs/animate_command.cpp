@@ -6,11 +6,13 @@
 #include <memory>
 
 #include "hal/failure.h"
+#include "host/animator/check.h"
 #include "host/animator/keys_table.h"
 #include "host/animator/pose.h"
 #include "host/animator/read_film.h"
 #include "host/animator/read_keys.h"
 #include "host/film/film_file.h"
+#include "host/options/command_line.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -273,9 +275,19 @@ void add_list(CLI::App& animate, Words& words) {
   });
 }
 
+void add_check(CLI::App& animate, Words& words, int& code) {
+  Command command(animate, words, "check", "Tell what is wrong: limits left between keys, keys behind the end and more");
+  command.runs([&words, &code] {
+    const Findings findings = check_film(open_film(words.film).film);
+    for (const std::string& line : findings.lines) std::cout << line << '\n';
+    if (findings.lines.empty()) std::cout << words.film << ": all joints stay within their limits; nothing to mend\n";
+    if (findings.trouble) code = kFailed;
+  });
+}
+
 }  // namespace
 
-void add_animate(CLI::App& app, int&) {
+void add_animate(CLI::App& app, int& code) {
   const auto words = std::make_shared<Words>();
   CLI::App* animate = app.add_subcommand("animate", "Set, move, time, list and check the keys of a film");
   animate->add_option("FILM", words->film, "The film file, changed in place. Example: film.json")->required();
@@ -288,6 +300,7 @@ void add_animate(CLI::App& app, int&) {
   add_delete(*animate, *words);
   add_time(*animate, *words);
   add_list(*animate, *words);
+  add_check(*animate, *words, code);
   animate->parse_complete_callback([words] {});  // keeps what was typed
 }
 

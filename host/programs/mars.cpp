@@ -7,6 +7,8 @@
 
 #include "hal/failure.h"
 #include "hal/settings.h"
+#include "host/animator/check.h"
+#include "host/animator/read_film.h"
 #include "host/doctor/doctor.h"
 #include "host/film/compile.h"
 #include "host/film/describe.h"
@@ -74,6 +76,13 @@ int verify(const std::string& folder) {
   return 0;
 }
 
+// A film file's joints that leave their limits between keys; a .mars file has no keys.
+std::string remark_on(const std::string& path) {
+  if (is_compiled_film(path)) return "";
+  const std::string remark = limits_remark(read_film(path));
+  return remark.empty() ? "" : "remark      " + remark + "\n";
+}
+
 void add_render(CLI::App& app, RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
   add_render_options(*command, options, Program::mars);
@@ -93,7 +102,7 @@ void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
 void add_info(CLI::App& app, Names& names) {
   CLI::App* command = app.add_subcommand("info", "Tell what a film holds");
   command->add_option("FILM", names.from, "A .json or .mars file. Example: examples/demo.json")->required();
-  command->callback([&] { std::cout << describe(load_film(names.from)); });
+  command->callback([&] { std::cout << describe(load_film(names.from)) << remark_on(names.from); });
 }
 
 void add_verify(CLI::App& app, Names& names, int& code) {

@@ -22,7 +22,7 @@ Joint joint_at(std::size_t parent, const glm::dvec3& place) {
 
 // Upper arm, fore arm and hand, each one long in x, at rest.
 struct Arm {
-  Model model{{joint_at(kNone, {0, 0, 0}), joint_at(0, {1, 0, 0}), joint_at(1, {1, 0, 0})}, {}, {}};
+  Model model{{joint_at(kNone, {0, 0, 0}), joint_at(0, {1, 0, 0}), joint_at(1, {1, 0, 0})}, {}, {}, {}};
   FigureMotion motion{constant(glm::dvec3(0)), constant(glm::dvec3(0)), std::vector<Channel<glm::dvec3>>(3)};
 
   void key(std::size_t joint, std::uint32_t frame, const glm::dvec3& pose, const Ease& ease = kLinear) {
