@@ -271,11 +271,9 @@ Json plain_vector(const glm::dvec3& vector) {
   return {plain_number(vector.x), plain_number(vector.y), plain_number(vector.z)};
 }
 
-Json new_model(const std::string& joint, const JointChange& change) {
-  Json model = {{"joints", Json::array()}};
-  add_joint(model, joint, change);
-  return model;
-}
+void put_in_order(Json& joint) { put_in_order(joint, kJointOrder); }
+
+Json empty_model() { return {{"joints", Json::array()}}; }
 
 Json derived_model(const std::string& from) { return {{"from", from}, {"proportions", Json::object()}}; }
 

@@ -45,8 +45,8 @@ struct MaterialChange {
   bool any() const { return color || ambient || diffuse || specular || exponent || sides; }
 };
 
-// A model of one joint.
-Json new_model(const std::string& joint, const JointChange& change);
+// A model without joints, to which the first is added at once.
+Json empty_model();
 // A model that is made from another file by proportions.
 Json derived_model(const std::string& from);
 
@@ -62,6 +62,9 @@ void add_material(Json& model, const std::string& name, const MaterialChange& ch
 void set_material(Json& model, const std::string& name, const MaterialChange& change,
                   const std::optional<std::string>& new_name);
 void remove_material(Json& model, const std::string& name);
+
+// The keys of a joint in the order in which people read them.
+void put_in_order(Json& joint);
 
 // A number as a person would write it: 2, not 2.0; ten digits.
 Json plain_number(double number);

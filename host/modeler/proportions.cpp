@@ -158,9 +158,9 @@ void scale_model(Json& json, const Model& model, const Proportions& proportions)
     const auto number = static_cast<std::size_t>(std::ranges::find_if(model.joints, named) - model.joints.begin());
     const Joint &from = model.joints[number], &to = scaled.joints[number];
     if (to.place != from.place) joint["place"] = plain_vector(to.place);
-    if (!to.segment || (to.segment->sbb.min == from.segment->sbb.min && to.segment->sbb.max == from.segment->sbb.max))
-      continue;
-    joint["segment"]["sbb"] = {plain_vector(to.segment->sbb.min), plain_vector(to.segment->sbb.max)};
+    put_in_order(joint);
+    if (to.segment && !(to.segment->sbb == from.segment->sbb))
+      joint["segment"]["sbb"] = {plain_vector(to.segment->sbb.min), plain_vector(to.segment->sbb.max)};
   }
 }
 

@@ -74,7 +74,7 @@ class Review {
     if (far <= 0.25 * glm::length(sbb.max - sbb.min)) return false;
     const bool mirrored = outside(sbb, -place) == 0;
     if (!mirrored) return false;
-    doubts_.push_back(of(joint) + "is placed " + shown4(far) + " outside the segment of '" + parent.name +
+    doubts_.push_back(of(joint) + "is placed " + short_text(far) + " outside the segment of '" + parent.name +
                       "', whose sbb lies on the other side: mirror that sbb or the place");
     return true;
   }
@@ -87,24 +87,27 @@ class Review {
     if (ancestor == kNone) return;
     const double gap = gap_between(*bounds_[number], *bounds_[ancestor]);
     if (gap > kApart * size_)
-      doubts_.push_back(of(joint) + "has its segment " + shown4(gap) + " away from that of '" +
+      doubts_.push_back(of(joint) + "has its segment " + short_text(gap) + " away from that of '" +
                         model_.joints[ancestor].name + "' at rest: move its place or its sbb, if they shall touch");
   }
 
+  // A joint alone beside a figure may have lost its parent; a floor of tiles, where none carries another, has not.
   void doubt_roots() {
-    const Joint* first = nullptr;
-    for (std::size_t number = 0; number < model_.joints.size(); ++number) {
-      const Joint& joint = model_.joints[number];
-      if (joint.parent != kNone) continue;
-      if (first && children_[number] == 0)
-        doubts_.push_back(of(joint) + "hangs on nothing, as '" + first->name + "' does; give it a parent if it belongs to it");
-      if (!first) first = &joint;
-    }
+    const auto carries = [&](std::size_t number) { return children_[number] > 0; };
+    std::size_t root = 0;
+    while (root < children_.size() && !carries(root)) ++root;
+    if (root == children_.size()) return;
+    while (model_.joints[root].parent != kNone) root = model_.joints[root].parent;
+    for (std::size_t number = 0; number < children_.size(); ++number)
+      if (model_.joints[number].parent == kNone && !carries(number))
+        doubts_.push_back(of(model_.joints[number]) + "hangs on nothing, beside '" + model_.joints[root].name +
+                          "'; give it a parent if it belongs to it");
   }
 
   void doubt_freedom() {
-    const bool any = std::ranges::any_of(model_.joints, [](const Joint& joint) { return joint.freedoms() > 0; });
-    if (!any && model_.joints.size() > 1)
+    const auto turns = [](const Joint& joint) { return joint.freedoms() > 0; };
+    const auto hangs = [](const Joint& joint) { return joint.parent != kNone; };
+    if (std::ranges::any_of(model_.joints, hangs) && std::ranges::none_of(model_.joints, turns))
       doubts_.push_back("no joint can turn: give those that shall some limits");
   }
 
@@ -130,7 +133,7 @@ class Review {
     if (shapes.empty()) doubts_.push_back("no joint has a segment: nothing is seen");
   }
 
-  static std::string shown4(double number) {
+  static std::string short_text(double number) {
     char text[24];
     std::snprintf(text, sizeof text, "%.3g", number);
     return text;
