@@ -40,6 +40,10 @@ std::vector<glm::dvec3> surface_points(const Shape& shape) {
   return points;
 }
 
+void grow(std::optional<Box>& box, const Box& by) {
+  box = box ? Box{glm::min(box->min, by.min), glm::max(box->max, by.max)} : by;
+}
+
 }  // namespace
 
 glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
@@ -90,11 +94,11 @@ std::vector<Axes> rest_frames(const Model& model) {
   return frames;
 }
 
-std::optional<Box> rest_bounds(const Model& model) {
+std::vector<std::optional<Box>> segment_rest_bounds(const Model& model) {
   const std::vector<Axes> frames = rest_frames(model);
   std::vector<std::vector<glm::dvec3>> points;
   for (const Shape& shape : model.shapes) points.push_back(surface_points(shape));
-  std::optional<Box> bounds;
+  std::vector<std::optional<Box>> bounds(frames.size());
   for (std::size_t number = 0; number < frames.size(); ++number) {
     const Joint& joint = model.joints[number];
     if (!joint.segment) continue;
@@ -102,12 +106,17 @@ std::optional<Box> rest_bounds(const Model& model) {
     const Box& sbb = joint.segment->sbb;
     for (const glm::dvec3& point : points[joint.segment->shape]) {
       const glm::dvec3 at = frame.turn * (sbb.min + point * (sbb.max - sbb.min)) + frame.place;
-      if (!bounds) bounds = Box{at, at};
-      bounds->min = glm::min(bounds->min, at);
-      bounds->max = glm::max(bounds->max, at);
+      grow(bounds[number], {at, at});
     }
   }
   return bounds;
+}
+
+std::optional<Box> rest_bounds(const Model& model) {
+  std::optional<Box> all;
+  for (const auto& bounds : segment_rest_bounds(model))
+    if (bounds) grow(all, *bounds);
+  return all;
 }
 
 }  // namespace mars::host

@@ -38,7 +38,10 @@ node::Matrix t_matrix(const Axes& frame, const Box& sbb);
 // Of every joint, in the model's own frame, with all joints at rest.
 std::vector<Axes> rest_frames(const Model& model);
 
-// The least box around all surfaces at rest, true to a thousandth; none: no joint has a segment.
+// The least boxes around each joint's surface at rest, true to a thousandth; none where a joint has no segment.
+std::vector<std::optional<Box>> segment_rest_bounds(const Model& model);
+
+// The least box around all of them; none: no joint has a segment.
 std::optional<Box> rest_bounds(const Model& model);
 
 }  // namespace mars::host

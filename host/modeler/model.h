@@ -37,6 +37,8 @@ struct Limits {
 struct Box {
   glm::dvec3 min{0, 0, 0};
   glm::dvec3 max{1, 1, 1};
+
+  bool operator==(const Box&) const = default;
 };
 
 // Patches or a mesh in the unit cube, shared by all segments that name them.

@@ -9,6 +9,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "hal/failure.h"
+#include "host/modeler/proportions.h"
 #include "host/modeler/read_bspline.h"
 #include "host/modeler/read_mesh.h"
 #include "host/modeler/shape_library.h"
@@ -16,7 +18,7 @@
 namespace mars::host {
 namespace {
 
-constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "limbs"};
+constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "limbs", "from", "proportions"};
 constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
                                             "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
@@ -34,7 +36,8 @@ const Keys kKeys[] = {{"model", kModelNames},
                           kDirectionKeys,
                           kMeshKeys,
                           limb_keys()[0],
-                          limb_keys()[1]};
+                          limb_keys()[1],
+                          proportions_keys()[0]};
 constexpr const Keys& kModel = kKeys[0];
 constexpr const Keys& kJoint = kKeys[1];
 constexpr const Keys& kLimits = kKeys[2];
@@ -84,11 +87,15 @@ Shape read_own_shape(const std::string& name, const Element& element) {
 
 class ModelReader {
  public:
-  explicit ModelReader(std::span<const std::string_view> film_materials)
-      : material_names_(film_materials.begin(), film_materials.end()) {}
+  // `sources`: the files that are being read, each derived from the next.
+  ModelReader(std::span<const std::string_view> film_materials, const std::vector<std::filesystem::path>& sources)
+      : material_names_(film_materials.begin(), film_materials.end()), sources_(sources) {}
 
   Model read(const Element& element) {
     const Fields fields(element, kModel);
+    if (const auto from = fields.find("from")) return derive(fields, *from);
+    if (const auto proportions = fields.find("proportions"))
+      proportions->refuse("stands without from", "name the model file they belong to: \"from\": \"human.json\"");
     if (const auto materials = fields.find("materials")) read_materials(*materials);
     if (const auto shapes = fields.find("shapes")) read_shapes(*shapes);
     read_joints(fields.required("joints"));
@@ -97,6 +104,42 @@ class ModelReader {
   }
 
  private:
+  // Another file's model with other proportions, and materials of its own in place of those of the same names.
+  Model derive(const Fields& fields, const Element& from) {
+    for (const std::string_view key : {"joints", "shapes", "limbs"})
+      if (const auto other = fields.find(key))
+        other->refuse("stands beside from", "a derived model has those of " + read_text(from) + ": take it out");
+    model_ = read_source(from);
+    if (const auto materials = fields.find("materials")) replace_materials(*materials);
+    try {
+      apply(read_proportions(fields.required("proportions")), model_);
+    } catch (const Failure& failure) {
+      if (failure.where.find(':') != std::string::npos) throw;  // it names the line already
+      throw Failure(failure.problem, fields.find("proportions")->where() + ": " + failure.where, failure.remedy);
+    }
+    return std::move(model_);
+  }
+
+  Model read_source(const Element& from) const {
+    const std::filesystem::path folder = std::filesystem::path(from.document().name()).parent_path();
+    const std::filesystem::path path = (folder / read_text(from)).lexically_normal();
+    if (std::ranges::count(sources_, path) || path == std::filesystem::path(from.document().name()).lexically_normal())
+      from.refuse("derives the model from itself", "name a file with joints");
+    std::vector<std::filesystem::path> sources = sources_;
+    sources.push_back(path);
+    const Document document = read_document(path);
+    std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
+    return ModelReader(names, sources).read(document.root());
+  }
+
+  void replace_materials(const Element& element) {
+    std::vector<NamedMaterial> others = std::exchange(model_.materials, {});
+    read_materials(element);
+    for (NamedMaterial& other : others)
+      if (std::ranges::none_of(model_.materials, [&](const NamedMaterial& own) { return own.name == other.name; }))
+        model_.materials.push_back(std::move(other));
+  }
+
   void read_materials(const Element& element) {
     require_kind(element, Kind::object);
     for (const Element item : element)
@@ -289,6 +332,7 @@ class ModelReader {
   Model model_;
   std::size_t own_shapes_ = 0;  // those of the file come first
   std::unordered_set<std::string_view> material_names_;
+  std::vector<std::filesystem::path> sources_;
   std::map<std::pair<std::string_view, OptionValues>, std::size_t> library_;  // numbers of shapes made
   std::unordered_map<std::string, std::size_t> numbers_;                      // of joints, as in the file
 };
@@ -322,7 +366,7 @@ node::Material read_material(const Fields& fields) {
 }
 
 Model read_model(const Element& element, std::span<const std::string_view> film_materials) {
-  return ModelReader(film_materials).read(element);
+  return ModelReader(film_materials, {}).read(element);
 }
 
 Model load_model(const std::filesystem::path& path, std::span<const std::string_view> film_materials) {

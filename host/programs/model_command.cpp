@@ -1,53 +1,312 @@
 #include "host/programs/model_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <vector>
 
+#include "hal/failure.h"
 #include "host/modeler/describe.h"
+#include "host/modeler/edit.h"
 #include "host/modeler/model_file.h"
+#include "host/modeler/proportions.h"
+#include "host/modeler/review.h"
+#include "host/modeler/shape_library.h"
+#include "host/options/command_line.h"
+#include "host/options/wrapped.h"
 
 namespace mars::host {
 namespace {
 
-// One of the commands, whose words are kept while the command line is read and then carried out.
-template <typename Words>
-std::shared_ptr<Words> words_of(CLI::App* command, void (*carry_out)(const Words&)) {
-  auto words = std::make_shared<Words>();
-  command->callback([words, carry_out] { carry_out(*words); });
-  return words;
-}
+constexpr const char* kWay = R"(A figure from nothing:
+  mars model new dog.json body --shape ellipsoid --sbb -0.6 -0.2 -0.2 0.6 0.2 0.2
+  mars model add dog.json leg --parent body --place 0.4 0.1 -0.1 \
+      --shape capsule --sbb -0.06 -0.06 -0.5 0.06 0.06 0.06 --limits y -60 60
+  mars model show dog.json
+A file is changed whole or not at all. docs/modeling.md goes on from here.
+)";
 
-struct OfFile {
-  std::string file;
+// What a person typed after any of the commands; what was not typed is empty.
+struct Words {
+  std::string file, joint, from, parent, shape, material, name;
+  std::vector<double> place, x_axis, y_axis, sbb, color, factors;
+  std::vector<std::tuple<std::string, double, double>> limits;
+  std::vector<std::string> options, resets, joints, branches;
+  std::optional<double> height;
+  MaterialChange look;
+  bool fixed = false, free = false, branch = false, no_ground = false;
 };
 
-void add_file(CLI::App* command, OfFile& words) {
-  command->add_option("MODEL", words.file, "The model file. Example: dog.json")->required();
+std::optional<std::string> given(const std::string& word) {
+  return word.empty() ? std::nullopt : std::optional(word);
 }
 
-void carry_out_new(const OfFile& words) {
-  create_model(words.file, {{"joints", {{{"name", "body"}}}}});
+std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
+  if (numbers.empty()) return std::nullopt;
+  return glm::dvec3(numbers[0], numbers[1], numbers[2]);
 }
 
-void carry_out_show(const OfFile& words) { std::cout << describe_model(load_own_model(words.file)); }
-
-void carry_out_check(const OfFile& words) {
-  load_own_model(words.file);
-  std::cout << words.file << ": a model\n";
+// "top=0.5", or "edge=0.1,0.1,0.2".
+std::pair<std::string, std::vector<double>> option_of(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  std::pair<std::string, std::vector<double>> option{text.substr(0, equals), {}};
+  std::string rest = equals < text.size() ? text.substr(equals + 1) : "";
+  std::replace(rest.begin(), rest.end(), ',', ' ');
+  std::istringstream numbers(rest);
+  for (double number; numbers >> number;) option.second.push_back(number);
+  if (option.second.empty() || !numbers.eof())
+    throw Failure("is no option of a shape", "'" + text + "'", "write it like top=0.5");
+  return option;
 }
+
+JointChange change_of(const Words& words) {
+  JointChange change;
+  change.reset = words.resets;
+  change.name = given(words.name);
+  change.parent = given(words.parent);
+  change.place = vector_of(words.place);
+  change.x_axis = vector_of(words.x_axis);
+  change.y_axis = vector_of(words.y_axis);
+  if (words.fixed) change.freedom = Freedom::fixed;
+  if (words.free) change.freedom = Freedom::free;
+  for (const auto& [axis, lower, upper] : words.limits) change.limits.push_back({axis[0], {lower, upper}});
+  change.shape = given(words.shape);
+  for (const std::string& text : words.options) change.options.push_back(option_of(text));
+  if (!words.sbb.empty())
+    change.sbb = Box{{words.sbb[0], words.sbb[1], words.sbb[2]}, {words.sbb[3], words.sbb[4], words.sbb[5]}};
+  change.material = given(words.material);
+  return change;
+}
+
+MaterialChange look_of(const Words& words) {
+  MaterialChange look = words.look;
+  look.color = vector_of(words.color);
+  return look;
+}
+
+bool of_a_joint(const Words& words) {
+  return words.fixed || words.free || !(words.parent + words.shape).empty() || !words.place.empty() || !words.x_axis.empty() ||
+         !words.y_axis.empty() || !words.sbb.empty() || !words.limits.empty() || !words.options.empty() || !words.resets.empty();
+}
+
+void require_sense_of_options(const Words& words) {
+  if (words.fixed && words.free) throw Failure("cannot be both fixed and free", words.file, "leave one of them out");
+  if (words.material.empty() && look_of(words).any())
+    throw Failure("no material is named", words.file, "colours and light are a material's: name it, --material NAME");
+}
+
+// Without a joint's name, words are about a material.
+void require_sense(const Words& words) {
+  require_sense_of_options(words);
+  if (words.joint.empty() && words.material.empty())
+    throw Failure("no joint and no material is named", words.file, "name a joint after the file, or --material NAME");
+  if (words.joint.empty() && of_a_joint(words))
+    throw Failure("no joint is named", words.file, "name it after the file");
+}
+
+bool has_material(const Json& model, const std::string& name) {
+  return model.contains("materials") && model["materials"].contains(name);
+}
+
+void run_new(const Words& words) {
+  if (!words.from.empty()) {
+    if (of_a_joint(words) || !words.joint.empty() || !words.material.empty())
+      throw Failure("a model made from another has that one's joints", words.file, "give only --from");
+    return create_model(words.file, derived_model(words.from));
+  }
+  require_sense_of_options(words);
+  Json model = empty_model();
+  const std::string joint = words.joint.empty() ? "body" : words.joint;
+  if (look_of(words).any()) add_material(model, words.material, look_of(words));
+  add_joint(model, joint, change_of(words));
+  create_model(words.file, model);
+}
+
+void run_add(const Words& words) {
+  require_sense(words);
+  change_model(words.file, [&](Json& model) {
+    if (words.joint.empty() || look_of(words).any()) add_material(model, words.material, look_of(words));
+    if (!words.joint.empty()) add_joint(model, words.joint, change_of(words));
+  });
+}
+
+void run_set(const Words& words) {
+  require_sense(words);
+  change_model(words.file, [&](Json& model) {
+    if (words.joint.empty()) return set_material(model, words.material, look_of(words), given(words.name));
+    if (look_of(words).any() && !has_material(model, words.material))
+      add_material(model, words.material, look_of(words));
+    else if (look_of(words).any())
+      set_material(model, words.material, look_of(words), std::nullopt);
+    set_joint(model, words.joint, change_of(words));
+  });
+}
+
+void run_remove(const Words& words) {
+  require_sense(words);
+  change_model(words.file, [&](Json& model) {
+    if (!words.joint.empty()) remove_joint(model, words.joint, words.branch);
+    if (!words.material.empty()) remove_material(model, words.material);
+  });
+}
+
+void run_scale(const Words& words) {
+  Proportions proportions;
+  const bool alike = words.factors.size() == 1;
+  const glm::dvec3 factors = words.factors.empty() ? glm::dvec3(1) : alike ? glm::dvec3(words.factors[0]) : *vector_of(words.factors);
+  for (const std::string& pattern : words.joints) proportions.joints.push_back({pattern, false, factors});
+  for (const std::string& pattern : words.branches) proportions.joints.push_back({pattern, true, factors});
+  if (proportions.joints.empty()) proportions.scale = factors;
+  proportions.height = words.height;
+  proportions.ground = !words.no_ground;
+  change_model(words.file, [&](Json& model) { scale_model(model, load_own_model(words.file), proportions); });
+}
+
+void run_show(const Words& words) { std::cout << describe_model(load_own_model(words.file)); }
+
+void run_check(const Words& words) {
+  const Model model = load_own_model(words.file);
+  const std::vector<std::string> doubts = doubts_about(model);
+  for (const std::string& doubt : doubts) std::cout << words.file << ": " << doubt << '\n';
+  std::cout << words.file << ": a model of " << model.joints.size() << (model.joints.size() == 1 ? " joint, " : " joints, ")
+            << (doubts.empty() ? "nothing to remark" : std::to_string(doubts.size()) + " to look at") << '\n';
+}
+
+std::string shapes_text() {
+  std::string text;
+  for (const LibraryShape& shape : shape_library()) {
+    text += (text.empty() ? "" : ", ") + std::string(shape.name);
+    if (!shape.option.key.empty()) text += " (" + std::string(shape.option.key) + ")";
+  }
+  return "Shapes of the library, and what may be given --with:\n  " + wrapped(text, 2) + "\n";
+}
+
+void add_numbers(CLI::App& app, const char* name, std::vector<double>& numbers, int count, const char* type, const char* help) {
+  app.add_option(name, numbers, help)->expected(count)->type_name(type);
+}
+
+// May be given several times.
+template <typename Value>
+CLI::Option* add_several(CLI::App& app, const char* name, std::vector<Value>& values, const char* type, const char* help) {
+  return app.add_option(name, values, help)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name(type);
+}
+
+void add_limits(CLI::App& app, Words& words) {
+  add_several(app, "--limits", words.limits, "x|y|z LOWER UPPER",
+              "How far it can turn about one of its axes, in degrees; equal: it is held there. Once for each axis. Example: --limits y -30 60")
+      ->check([](const std::string& word) {
+        const bool number = word.find_first_of("0123456789") != std::string::npos;
+        return number || word == "x" || word == "y" || word == "z" ? std::string() : "'" + word + "' is no axis: write x, y or z";
+      });
+  app.add_flag("--fixed", words.fixed, "It cannot turn, but for what --limits gives. Example: --fixed");
+  app.add_flag("--free", words.free, "It can turn about all axes, but for what --limits gives. Example: --free");
+}
+
+void add_joint_options(CLI::App& app, Words& words) {
+  app.add_option("--parent", words.parent, "The joint it hangs on. Example: --parent body")->type_name("JOINT");
+  add_numbers(app, "--place", words.place, 3, "X Y Z", "Where, in the parent's frame. Example: --place 0.4 0.1 -0.1");
+  add_numbers(app, "--x-axis", words.x_axis, 3, "X Y Z", "Its x axis, in the parent's frame. Example: --x-axis 1 1 0");
+  add_numbers(app, "--y-axis", words.y_axis, 3, "X Y Z",
+              "Its y axis; if it is not square to x, the segment is sheared. Example: --y-axis 0.5 1 0");
+  add_limits(app, words);
+  app.add_option("--shape", words.shape, "Its segment: a shape of the library or of the model. Example: --shape capsule")
+      ->type_name("SHAPE");
+  add_several(app, "--with", words.options, "KEY=NUMBER", "An option of the shape. Example: --with top=0.5");
+  add_numbers(app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
+              "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
+  app.footer(shapes_text());
+}
+
+void add_look_options(CLI::App& app, Words& words) {
+  app.add_option("--material", words.material, "What it is made of. Example: --material fur")->type_name("NAME");
+  add_numbers(app, "--color", words.color, 3, "R G B", "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
+  app.add_option("--ambient", words.look.ambient, "Share of the colour that is always there. Example: --ambient 0.2")
+      ->type_name("SHARE");
+  app.add_option("--diffuse", words.look.diffuse, "Share where light falls straight. Example: --diffuse 0.7")->type_name("SHARE");
+  app.add_option("--specular", words.look.specular, "White in the middle of a highlight. Example: --specular 0.1")
+      ->type_name("SHARE");
+  app.add_option("--exponent", words.look.exponent, "How narrow a highlight is. Example: --exponent 16")->type_name("NUMBER");
+  app.add_option("--sides", words.look.sides, "1: seen from outside only. Example: --sides 1")->type_name("1|2");
+}
+
+struct Verb {
+  const char* name;
+  const char* purpose;
+  void (*run)(const Words& words);
+  void (*add)(CLI::App& app, Words& words);
+};
+
+constexpr Verb kVerbs[] = {
+    {"new", "Make a model of one joint, or one that differs from another by proportions", run_new,
+     [](CLI::App& app, Words& words) {
+       app.add_option("JOINT", words.joint, "The joint's name; default: body. Example: body");
+       app.add_option("--from", words.from, "Another model file, named from where the new one stands. Example: --from human.json")
+           ->type_name("MODEL");
+       add_joint_options(app, words);
+       add_look_options(app, words);
+     }},
+    {"show", "Show a model's joints, how they turn, and their segments", run_show, [](CLI::App&, Words&) {}},
+    {"add", "Add a joint, or a material, or both", run_add,
+     [](CLI::App& app, Words& words) {
+       app.add_option("JOINT", words.joint, "The new joint; none: only a material. Example: leg");
+       add_joint_options(app, words);
+       add_look_options(app, words);
+     }},
+    {"set", "Change a joint, or a material, or both", run_set,
+     [](CLI::App& app, Words& words) {
+       app.add_option("JOINT", words.joint, "The joint; none: only a material. Example: leg");
+       app.add_option("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
+           ->type_name("NAME");
+       add_joint_options(app, words);
+       add_several(app, "--reset", words.resets, "parent|place|axes|limits|segment|sbb|material",
+                   "Back to what it is where nothing is told. Example: --reset axes")
+           ->check(CLI::IsMember(std::vector<std::string>(std::begin(kResets), std::end(kResets))).description(""));
+       add_look_options(app, words);
+     }},
+    {"scale", "Make all, or some joints, larger or smaller along their own axes", run_scale,
+     [](CLI::App& app, Words& words) {
+       app.add_option("FACTOR", words.factors, "One for all axes, or three for x, y and z. Example: 1.2")
+           ->expected(0, 3)
+           ->check(CLI::Range(1e-3, 1e3).description(""));
+       add_several(app, "--joint", words.joints, "PATTERN", "Only these joints; * stands for any text. Example: --joint '*-thigh'");
+       add_several(app, "--branch", words.branches, "PATTERN",
+                   "Only these joints and all that hangs on them. Example: --branch head");
+       app.add_option("--height", words.height, "Then all alike to this height at rest. Example: --height 1.2")->type_name("LENGTH");
+       app.add_flag("--no-ground", words.no_ground,
+                    "The lowest point at rest may rise or sink; else it stays at its height. Example: --no-ground");
+       app.parse_complete_callback([&words] {
+         if (words.factors.size() == 2) throw CLI::ValidationError("FACTOR", "give one for all axes, or three");
+         if (words.factors.empty() && !words.height) throw CLI::ValidationError("FACTOR", "give it, or --height");
+       });
+     }},
+    {"remove", "Remove a joint, or a material", run_remove,
+     [](CLI::App& app, Words& words) {
+       app.add_option("JOINT", words.joint, "The joint. Example: leg");
+       app.add_flag("--branch", words.branch, "With all joints that hang on it. Example: --branch");
+       app.add_option("--material", words.material, "The material that is to go. Example: --material fur")->type_name("NAME");
+     }},
+    {"check", "Tell whether a model is right, and what is probably not meant", run_check, [](CLI::App&, Words&) {}},
+};
 
 }  // namespace
 
 void add_model(CLI::App& app) {
   CLI::App* model = app.add_subcommand("model", "Make a model, or change it step by step");
-  CLI::App* made = model->add_subcommand("new", "Make a model of one joint");
-  add_file(made, *words_of(made, carry_out_new));
-  CLI::App* show = model->add_subcommand("show", "Show a model's joints, how they turn, and its segments");
-  add_file(show, *words_of(show, carry_out_show));
-  CLI::App* checked = model->add_subcommand("check", "Tell whether a model is right, and what is probably meant otherwise");
-  add_file(checked, *words_of(checked, carry_out_check));
+  model->footer(kWay);
+  for (const Verb& verb : kVerbs) {
+    const auto words = std::make_shared<Words>();
+    CLI::App* command = model->add_subcommand(verb.name, verb.purpose);
+    command->add_option("MODEL", words->file, "The model file. Example: dog.json")->required();
+    verb.add(*command, *words);
+    command->callback([words, run = verb.run] { run(*words); });
+  }
 }
 
 }  // namespace mars::host

@@ -1,0 +1,73 @@
+// Steps by which commands, and later the studio, change a model: each on the JSON of a model that read_model() took
+// (model_file.h reads and writes it), so that what a person wrote stays as written. What only read_model() can tell,
+// such as a cycle of parents, is told when the file is written. Failures name the joint, axis or material.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/document/json_file.h"
+#include "host/modeler/model.h"
+
+namespace mars::host {
+
+enum class Freedom { as_it_was, fixed, free };
+
+// Of one joint; what is not there stays as it was.
+struct JointChange {
+  std::vector<std::string> reset;     // of kResets, to what they are where a file does not tell
+  std::optional<std::string> name;
+  std::optional<std::string> parent;
+  std::optional<glm::dvec3> place;
+  std::optional<glm::dvec3> x_axis;
+  std::optional<glm::dvec3> y_axis;
+  Freedom freedom = Freedom::as_it_was;
+  std::vector<std::pair<char, Limits>> limits;  // of x, y or z; after `freedom`
+  std::optional<std::string> shape;             // another one loses the options of that before
+  std::vector<std::pair<std::string, std::vector<double>>> options;  // of the shape: top, ...
+  std::optional<Box> sbb;
+  std::optional<std::string> material;
+};
+
+inline constexpr std::string_view kResets[] = {"parent", "place", "axes", "limits", "segment", "sbb", "material"};
+
+struct MaterialChange {
+  std::optional<glm::dvec3> color;
+  std::optional<double> ambient;
+  std::optional<double> diffuse;
+  std::optional<double> specular;
+  std::optional<double> exponent;
+  std::optional<int> sides;
+
+  bool any() const { return color || ambient || diffuse || specular || exponent || sides; }
+};
+
+// A model without joints, to which the first is added at once.
+Json empty_model();
+// A model that is made from another file by proportions.
+Json derived_model(const std::string& from);
+
+// A new joint with limits of some axes turns about no other; without any it is free.
+void add_joint(Json& model, const std::string& name, const JointChange& change);
+// A new name is also put where others name the joint.
+void set_joint(Json& model, const std::string& name, const JointChange& change);
+// Joints that hang on it are removed too if `branch`, else they are in the way.
+void remove_joint(Json& model, const std::string& name, bool branch);
+
+void add_material(Json& model, const std::string& name, const MaterialChange& change);
+// `new_name` is also put into the segments made of it.
+void set_material(Json& model, const std::string& name, const MaterialChange& change,
+                  const std::optional<std::string>& new_name);
+void remove_material(Json& model, const std::string& name);
+
+// The keys of a joint in the order in which people read them.
+void put_in_order(Json& joint);
+
+// A number as a person would write it: 2, not 2.0; ten digits.
+Json plain_number(double number);
+Json plain_vector(const glm::dvec3& vector);
+
+}  // namespace mars::host

@@ -1,0 +1,167 @@
+#include "host/modeler/proportions.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "hal/failure.h"
+#include "host/modeler/edit.h"
+#include "host/modeler/frames.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::string_view kNames[] = {"joints", "branches", "scale", "height", "ground"};
+constexpr Keys kKeys[] = {{"proportions", kNames}};
+constexpr Range kFactors{1e-3, 1e3};
+
+// The joints that the pattern fits, and those below if asked.
+std::vector<bool> chosen(const Scaling& scaling, const std::vector<Joint>& joints) {
+  std::vector<bool> some(joints.size());
+  bool any = false;
+  for (std::size_t number = 0; number < joints.size(); ++number) {
+    const std::size_t parent = joints[number].parent;
+    some[number] = fits(scaling.pattern, joints[number].name) || (scaling.branch && parent != kNone && some[parent]);
+    any = any || some[number];
+  }
+  if (any) return some;
+  std::vector<std::string_view> names;
+  for (const Joint& joint : joints) names.push_back(joint.name);
+  throw Failure("is no joint of the model", "joint '" + scaling.pattern + "'",
+                did_you_mean(scaling.pattern, names, "name a joint, or several: *-leg"));
+}
+
+// factors[i]: of joint i. Joints that hang on nothing are carried by `whole`.
+void scale_joints(Model& model, const std::vector<glm::dvec3>& factors, const glm::dvec3& whole) {
+  for (std::size_t number = 0; number < factors.size(); ++number) {
+    Joint& joint = model.joints[number];
+    if (joint.segment) {
+      joint.segment->sbb.min *= factors[number];
+      joint.segment->sbb.max *= factors[number];
+    }
+    if (joint.parent == kNone) {
+      joint.place *= whole;
+    } else if (factors[joint.parent] != glm::dvec3(1)) {
+      const glm::dmat3 axes = segment_axes(model.joints[joint.parent]);
+      joint.place = axes * (factors[joint.parent] * (glm::inverse(axes) * joint.place));
+    }
+  }
+}
+
+void scale_all(Model& model, const glm::dvec3& factors) {
+  scale_joints(model, std::vector<glm::dvec3>(model.joints.size(), factors), factors);
+}
+
+void scale_to_height(Model& model, double height) {
+  const auto bounds = rest_bounds(model);
+  if (!bounds || bounds->max.z <= bounds->min.z)
+    throw Failure("has no height", "", "give it segments, or scale it by a factor");
+  scale_all(model, glm::dvec3(height / (bounds->max.z - bounds->min.z)));
+}
+
+void keep_ground(Model& model, double ground) {
+  const double lowest = rest_bounds(model)->min.z;
+  for (Joint& joint : model.joints)
+    if (joint.parent == kNone) joint.place.z += ground - lowest;
+}
+
+// One number, or one for each axis.
+glm::dvec3 read_factors(const Element& element) {
+  return element.kind() == Kind::list ? read_vector(element, kFactors) : glm::dvec3(read_number(element, kFactors));
+}
+
+Json written(const glm::dvec3& factors) {
+  return factors.x == factors.y && factors.y == factors.z ? plain_number(factors.x) : plain_vector(factors);
+}
+
+glm::dvec3 factors_in(const Json& json) {
+  if (json.is_array()) return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+  return glm::dvec3(json.get<double>());
+}
+
+void multiply(Json& object, const std::string& key, const glm::dvec3& factors) {
+  object[key] = written(object.contains(key) ? factors * factors_in(object[key]) : factors);
+}
+
+// Proportions over those that a derived model has.
+void add_to(Json& json, const Proportions& more) {
+  if (json.is_null()) json = Json::object();
+  for (const Scaling& scaling : more.joints)
+    multiply(json[scaling.branch ? "branches" : "joints"], scaling.pattern, scaling.factors);
+  if (more.scale != glm::dvec3(1)) multiply(json, "scale", more.scale);
+  if (more.height)
+    json["height"] = plain_number(*more.height);
+  else if (json.contains("height"))
+    json["height"] = plain_number(json["height"].get<double>() * more.scale.z);
+  if (!more.ground) json["ground"] = false;
+}
+
+}  // namespace
+
+bool fits(std::string_view pattern, std::string_view name) {
+  std::size_t at = 0, in = 0, star = std::string_view::npos, after = 0;
+  while (in < name.size()) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      after = in;
+    } else if (at < pattern.size() && pattern[at] == name[in]) {
+      ++at, ++in;
+    } else if (star != std::string_view::npos) {
+      at = star + 1;
+      in = ++after;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', at) == std::string_view::npos;
+}
+
+void apply(const Proportions& proportions, Model& model) {
+  const auto before = rest_bounds(model);
+  std::vector<glm::dvec3> factors(model.joints.size(), proportions.scale);
+  for (const Scaling& scaling : proportions.joints) {
+    const std::vector<bool> some = chosen(scaling, model.joints);
+    for (std::size_t number = 0; number < factors.size(); ++number)
+      if (some[number]) factors[number] *= scaling.factors;
+  }
+  scale_joints(model, factors, proportions.scale);
+  if (proportions.height) scale_to_height(model, *proportions.height);
+  if (proportions.ground && before) keep_ground(model, before->min.z);
+}
+
+Proportions read_proportions(const Element& element) {
+  const Fields fields(element, kKeys[0]);
+  Proportions proportions;
+  for (const bool branch : {false, true}) {
+    const auto list = fields.find(branch ? "branches" : "joints");
+    if (!list) continue;
+    require_kind(*list, Kind::object);
+    for (const Element item : *list) proportions.joints.push_back({std::string(item.key()), branch, read_factors(item)});
+  }
+  if (const auto scale = fields.find("scale")) proportions.scale = read_factors(*scale);
+  if (const auto height = fields.find("height")) proportions.height = read_number(*height, {1e-6, kFarthest});
+  if (const auto ground = fields.find("ground")) {
+    require_kind(*ground, Kind::boolean);
+    proportions.ground = ground->boolean();
+  }
+  return proportions;
+}
+
+std::span<const Keys> proportions_keys() { return kKeys; }
+
+void scale_model(Json& json, const Model& model, const Proportions& proportions) {
+  Model scaled = model;
+  apply(proportions, scaled);
+  if (!json.contains("joints")) return add_to(json["proportions"], proportions);
+  for (Json& joint : json["joints"]) {
+    const auto named = [&](const Joint& each) { return each.name == joint["name"]; };
+    const auto number = static_cast<std::size_t>(std::ranges::find_if(model.joints, named) - model.joints.begin());
+    const Joint &from = model.joints[number], &to = scaled.joints[number];
+    if (to.place != from.place) joint["place"] = plain_vector(to.place);
+    put_in_order(joint);
+    if (to.segment && !(to.segment->sbb == from.segment->sbb))
+      joint["segment"]["sbb"] = {plain_vector(to.segment->sbb.min), plain_vector(to.segment->sbb.max)};
+  }
+}
+
+}  // namespace mars::host

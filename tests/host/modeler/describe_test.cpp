@@ -1,0 +1,46 @@
+#include "host/modeler/describe.h"
+
+#include <gtest/gtest.h>
+
+#include "host/modeler/read_model.h"
+
+namespace mars::host {
+namespace {
+
+Model model_of(const std::string& joints) {
+  const Document document("{\"joints\": [" + joints + "], \"materials\": {\"fur\": {\"color\": [1, 0.5, 0]}}}", "m.json");
+  return read_model(document.root());
+}
+
+TEST(Describe, ATreeWithFreedomsAndSegments) {
+  const Model model = model_of(R"(
+      {"name": "paw", "parent": "leg", "limits": {}},
+      {"name": "body", "segment": {"shape": "box", "sbb": [[-1, -1, 1], [1, 1, 2]], "material": "fur"}},
+      {"name": "leg", "parent": "body", "limits": {"y": [-30, 60.5], "z": [20, 20]}, "segment": {"shape": "box"}})");
+  EXPECT_EQ(describe_model(model), R"(joints    3 with 4 freedoms
+segments  2 of 1 shapes
+patches   12, 6 of them stored
+at rest   2 x 2.282 x 2, z from 0 to 2
+
+joint    turns                 axes  shape  patches  sbb        material
+body     free                  -     box    6        2 x 2 x 1  fur
+  leg    y -30..60.5, z at 20  -     box    6        1 x 1 x 1  -
+    paw  fixed                 -     -      -        -          -
+
+material  color    ambient  diffuse  specular  exponent  sides
+fur       1 0.5 0  0.1      0.65     0.45      32        2
+)");
+}
+
+TEST(Describe, TellsSkewedAxes) {
+  const Model model = model_of(R"({"name": "a", "y_axis": [0.5, 0.8660254037844386, 0], "segment": {"shape": "box"}},
+                                  {"name": "b", "x_axis": [0, 1, 0], "y_axis": [-1, 0, 0]})");
+  EXPECT_NEAR(skew_of(model.joints[0]), 60, 1e-9);
+  EXPECT_EQ(skew_of(model.joints[1]), 0);
+  const std::string text = describe_model(model);
+  EXPECT_NE(text.find("skewed, 60 degrees"), std::string::npos);
+  EXPECT_NE(text.find("its own"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mars::host

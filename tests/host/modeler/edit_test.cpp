@@ -1,0 +1,163 @@
+#include "host/modeler/edit.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+Json dog() {
+  return Json::parse(R"({"joints": [
+      {"name": "body", "segment": {"shape": "sphere", "material": "fur"}},
+      {"name": "leg", "parent": "body", "limits": {"y": [-30, 30]}, "segment": {"shape": "cone", "top": 0.5}},
+      {"name": "paw", "parent": "leg"}],
+    "materials": {"fur": {"color": [1, 0, 0]}},
+    "limbs": {"pelvis": "body", "left": {"hip": "leg"}}})");
+}
+
+std::string failure(const std::function<void(Json&)>& change) {
+  Json model = dog();
+  return failure_of([&] { change(model); });
+}
+
+Json changed(const std::string& joint, const JointChange& change) {
+  Json model = dog();
+  set_joint(model, joint, change);
+  for (Json& each : model["joints"])
+    if (each["name"] == joint) return each;
+  return nullptr;
+}
+
+TEST(Edit, AJointIsWrittenAsAPersonWould) {
+  Json model = dog();
+  JointChange change;
+  change.sbb = Box{{-1, -1, -0.5}, {1, 1, 0}};
+  change.shape = "cone";
+  change.options = {{"top", {0.25}}};
+  change.material = "fur";
+  change.place = {0, 0, -0.1};
+  change.limits = {{'z', {0, 10}}, {'y', {-30, 60}}};
+  change.parent = "body";
+  add_joint(model, "tail", change);
+  EXPECT_EQ(model["joints"][3].dump(),
+            R"({"name":"tail","parent":"body","place":[0,0,-0.1],"limits":{"y":[-30,60],"z":[0,10]},)"
+            R"("segment":{"shape":"cone","top":0.25,"sbb":[[-1,-1,-0.5],[1,1,0]],"material":"fur"}})");
+}
+
+TEST(Edit, WithoutLimitsAJointIsFree) {
+  Json model = dog();
+  add_joint(model, "tail", {});
+  EXPECT_EQ(model["joints"][3].dump(), R"({"name":"tail"})");
+}
+
+TEST(Edit, LimitsAreSetAxisByAxis) {
+  JointChange change;
+  change.limits = {{'x', {5, 5}}};
+  EXPECT_EQ(changed("leg", change)["limits"].dump(), R"({"x":[5,5],"y":[-30,30]})");
+  EXPECT_EQ(changed("paw", change)["limits"].dump(), R"({"x":[5,5],"y":[-180,180],"z":[-180,180]})");
+  change.freedom = Freedom::fixed;
+  EXPECT_EQ(changed("leg", change)["limits"].dump(), R"({"x":[5,5]})");
+  change = {};
+  change.freedom = Freedom::free;
+  EXPECT_FALSE(changed("leg", change).contains("limits"));
+  change.limits = {{'y', {3, 2}}};
+  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }),
+                    "joint 'leg': has limits about y from 3 to 2 degrees (give the lower one first)"));
+}
+
+TEST(Edit, AnotherShapeLosesTheOptionsOfTheOneBefore) {
+  JointChange change;
+  change.shape = "box";
+  EXPECT_EQ(changed("leg", change)["segment"].dump(), R"({"shape":"box"})");
+  change.shape = "cone";
+  EXPECT_EQ(changed("leg", change)["segment"].dump(), R"({"shape":"cone","top":0.5})");
+  change.options = {{"tube", {0.1}}};
+  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }), "its own is 'top'"));
+  change = {};
+  change.sbb = Box{};
+  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "paw", change); }), "has no segment (give it a shape"));
+}
+
+TEST(Edit, ResetGoesBackToWhatAFileNeedNotTell) {
+  JointChange change;
+  change.x_axis = {1, 1, 0};
+  change.reset = {"parent", "limits"};
+  Json leg = changed("leg", change);
+  EXPECT_EQ(leg["x_axis"].dump(), "[1,1,0]");
+  EXPECT_FALSE(leg.contains("parent"));
+  EXPECT_FALSE(leg.contains("limits"));
+  change = {};
+  change.reset = {"segment"};
+  EXPECT_FALSE(changed("leg", change).contains("segment"));
+}
+
+TEST(Edit, ANewNameIsPutWhereOthersNameTheJoint) {
+  Json model = dog();
+  JointChange change;
+  change.name = "thigh";
+  set_joint(model, "leg", change);
+  EXPECT_EQ(model["joints"][1]["name"], "thigh");
+  EXPECT_EQ(model["joints"][2]["parent"], "thigh");
+  EXPECT_EQ(model["limbs"]["left"]["hip"], "thigh");
+  EXPECT_EQ(model["limbs"]["pelvis"], "body");
+  change.name = "paw";
+  EXPECT_TRUE(holds(failure([&](Json& other) { set_joint(other, "leg", change); }),
+                    "joint 'paw': is in the model already"));
+}
+
+TEST(Edit, WhatCarriesOthersIsRemovedOnlyWithThem) {
+  EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "leg", false); }), "joint 'leg': carries 'paw'"));
+  EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "leg", true); }),
+                    "is one of the model's limbs: limbs.left.hip"));
+  EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "body", true); }), "a model has at least one joint"));
+  Json model = dog();
+  model.erase("limbs");
+  remove_joint(model, "leg", true);
+  EXPECT_EQ(model["joints"].size(), 1u);
+}
+
+TEST(Edit, NamesThatAreNotThereAreGuessed) {
+  JointChange change;
+  change.parent = "bdoy";
+  EXPECT_TRUE(holds(failure([&](Json& model) { add_joint(model, "tail", change); }), "did you mean 'body'?"));
+  EXPECT_TRUE(holds(failure([&](Json& model) { add_joint(model, "leg", {}); }), "is in the model already"));
+  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "pwa", {}); }), "did you mean 'paw'?"));
+  EXPECT_TRUE(holds(failure([&](Json& model) { remove_joint(model, "legg", true); }), "did you mean 'leg'?"));
+  change = {};
+  change.material = "furr";
+  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }), "did you mean 'fur'?"));
+  change = {};
+  change.shape = "spere";
+  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }), "did you mean 'sphere'?"));
+}
+
+TEST(Edit, Materials) {
+  Json model = dog();
+  MaterialChange change;
+  change.exponent = 16;
+  change.color = {0.5, 0.25, 1};
+  add_material(model, "nose", change);
+  EXPECT_EQ(model["materials"]["nose"].dump(), R"({"color":[0.5,0.25,1],"exponent":16})");
+  change = {};
+  change.ambient = 0.2;
+  set_material(model, "fur", change, "coat");
+  EXPECT_EQ(model["materials"].begin().key(), "coat");
+  EXPECT_EQ(model["materials"]["coat"].dump(), R"({"color":[1,0,0],"ambient":0.2})");
+  EXPECT_EQ(model["joints"][0]["segment"]["material"], "coat");
+  remove_material(model, "nose");
+  EXPECT_FALSE(model["materials"].contains("nose"));
+  EXPECT_TRUE(holds(failure([](Json& other) { remove_material(other, "fur"); }), "is what 'body' is made of"));
+  EXPECT_TRUE(holds(failure([](Json& other) { add_material(other, "fur", {}); }), "is in the model already"));
+  EXPECT_TRUE(holds(failure([](Json& other) { set_material(other, "fru", {}, {}); }), "did you mean 'fur'?"));
+}
+
+TEST(Edit, NumbersAreShort) {
+  EXPECT_EQ(plain_number(0.1 + 0.2).dump(), "0.3");
+  EXPECT_EQ(plain_number(-2).dump(), "-2");
+  EXPECT_EQ(plain_number(1e9).dump(), "1000000000");
+  EXPECT_EQ(plain_number(-0.0).dump(), "0");
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,56 @@
+#include "host/modeler/review.h"
+
+#include <gtest/gtest.h>
+
+#include "host/modeler/model_file.h"
+#include "tests/host/document/failure_of.h"
+
+namespace mars::host {
+namespace {
+
+std::vector<std::string> doubts(const std::string& joints, const std::string& more = "") {
+  const Document document("{\"joints\": [" + joints + "]" + more + "}", "m.json");
+  return doubts_about(read_own_model(document.root()));
+}
+
+const std::string kBody = R"({"name": "body", "segment": {"shape": "box", "sbb": [[-1, -1, 0], [1, 1, 2]]}}, )";
+
+void expect_one(const std::vector<std::string>& told, const std::string& part) {
+  ASSERT_EQ(told.size(), 1u) << part << testing::PrintToString(told);
+  EXPECT_TRUE(holds(told[0], part)) << told[0];
+}
+
+TEST(Review, AWholeFigureIsNotDoubted) {
+  EXPECT_TRUE(doubts(kBody + R"({"name": "leg", "parent": "body", "limits": {"y": [0, 9]},
+      "segment": {"shape": "box", "sbb": [[0, 0, -1], [1, 1, 0]]}})").empty());
+}
+
+TEST(Review, TellsWhatIsProbablyNotMeant) {
+  expect_one(doubts(kBody + R"({"name": "leg", "parent": "body", "place": [3, 0, 1],
+      "segment": {"shape": "box", "sbb": [[0, 0, -1], [1, 1, 0]]}})"),
+             "joint 'leg' has its segment 2 away from that of 'body' at rest");
+  expect_one(doubts(kBody + R"({"name": "leg", "parent": "body", "place": [0, 0, -2],
+      "segment": {"shape": "box", "sbb": [[0, 0, -1], [1, 1, 0]]}})"),
+             "joint 'leg' is placed 2 outside the segment of 'body', whose sbb lies on the other side");
+  expect_one(doubts(kBody + R"({"name": "leg", "parent": "body"})"), "joint 'leg' has no segment and carries no joint");
+  expect_one(doubts(kBody + R"({"name": "leg", "parent": "body", "limits": {"y": [10, 20]}, "segment": {"shape": "box"}})"),
+             "joint 'leg' rests at 10 degrees about y, for its limits leave 0 out");
+  expect_one(doubts(kBody + R"({"name": "leg", "parent": "body", "segment": {"shape": "box"}},
+                               {"name": "tail", "segment": {"shape": "box"}})"),
+             "joint 'tail' hangs on nothing, beside 'body'");
+  expect_one(doubts(R"({"name": "a", "limits": {}, "segment": {"shape": "box"}},
+                       {"name": "b", "limits": {}, "parent": "a", "segment": {"shape": "box"}})"),
+             "no joint can turn");
+  expect_one(doubts(R"({"name": "a", "segment": {"shape": "box"}})", R"(, "materials": {"fur": {}})"),
+             "material 'fur' is used by no segment");
+  expect_one(doubts(R"({"name": "a", "segment": {"shape": "box", "material": "fur"}})"),
+             "material 'fur' is not the model's own");
+}
+
+TEST(Review, AFloorOfTilesIsNotDoubted) {
+  EXPECT_TRUE(doubts(R"({"name": "a", "limits": {}, "segment": {"shape": "box"}},
+                        {"name": "b", "limits": {}, "place": [5, 0, 0], "segment": {"shape": "box"}})").empty());
+}
+
+}  // namespace
+}  // namespace mars::host
