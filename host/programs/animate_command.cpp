@@ -11,6 +11,7 @@
 #include "host/animator/read_film.h"
 #include "host/animator/read_keys.h"
 #include "host/film/film_file.h"
+#include "host/programs/motion_command.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -288,6 +289,7 @@ void add_animate(CLI::App& app, int&) {
   add_delete(*animate, *words);
   add_time(*animate, *words);
   add_list(*animate, *words);
+  add_motion(*animate, words->film);
   animate->parse_complete_callback([words] {});  // keeps what was typed
 }
 

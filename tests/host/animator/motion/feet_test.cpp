@@ -16,7 +16,7 @@ namespace {
 
 // Of a leg's length, which is 835 mm on a man of 1.75 m: what is lower is on the floor; how far it may slide, and go
 // through.
-constexpr double kDown = 0.003, kSlide = 0.0045, kThrough = 0.003;
+constexpr double kDown = 0.003, kSlide = 0.002, kThrough = 0.003;
 
 using Points = std::vector<glm::dvec3>;
 
