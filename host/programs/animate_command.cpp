@@ -13,6 +13,7 @@
 #include "host/animator/read_keys.h"
 #include "host/film/film_file.h"
 #include "host/options/command_line.h"
+#include "host/programs/motion_command.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -301,6 +302,7 @@ void add_animate(CLI::App& app, int& code) {
   add_time(*animate, *words);
   add_list(*animate, *words);
   add_check(*animate, *words, code);
+  add_motion(*animate, words->film);
   animate->parse_complete_callback([words] {});  // keeps what was typed
 }
 

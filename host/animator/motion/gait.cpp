@@ -21,6 +21,8 @@ constexpr double kOff = 50;            // and as the toes leave
 constexpr double kTipOff = 24;         // of feet without toes
 constexpr double kReach = 0.9992;      // of a leg: never quite straight
 constexpr double kClearance = 0.012;   // of swinging feet over the floor, at least
+constexpr double kLiftTime = 0.12;     // of a swing, until they have it
+constexpr double kUpright = 0.05;      // of a swing, at either end, that a foot moves up or down alone
 constexpr double kStiffRise = 0.05;    // of legs without knees
 constexpr CurvePoint kPitches[] = {{0, 50}, {0.184, 63}, {0.424, 38}, {0.688, 0}, {0.88, -19}, {1, -20}};
 constexpr CurvePoint kRises[] = {{0, 0.070}, {0.1, 0.112}, {0.28, 0.136}, {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
@@ -129,10 +131,11 @@ class Walker {
     const Foot off = before(step.off), land = after(step.land);
     const double span = step.land - step.off, u = (time - step.off) / span;
     Foot foot;
-    for (int axis = 0; axis < 2; ++axis)
-      foot.ankle[axis] = hermite({0, off.ankle[axis]}, {1, land.ankle[axis]},
-                                 (off.ankle[axis] - before(step.off - kMoment * span).ankle[axis]) / kMoment,
-                                 (after(step.land + kMoment * span).ankle[axis] - land.ankle[axis]) / kMoment, u);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double leaves = (off.ankle[axis] - before(step.off - kMoment * span).ankle[axis]) / kMoment;
+      const double lands = (after(step.land + kMoment * span).ankle[axis] - land.ankle[axis]) / kMoment;
+      foot.ankle[axis] = carried(off.ankle[axis], leaves, land.ankle[axis], lands, u);
+    }
     foot.heading = from.heading + std::remainder(step.to.heading - from.heading, 360.0) * smooth(0, 1, u);
     const double way = curve_through(kPitches, 60, 0, u);
     foot.pitch = way > 0 ? way * off.pitch / kOff : way * land.pitch / kStrike;
@@ -140,9 +143,16 @@ class Walker {
     foot.stands = false;
     foot.ankle.z = floor_ + std::max(rise(step, from, off, land, u) * body_.leg_length(),
                                      body_.leg(side).sole.height(foot.pitch, foot.bent) - body_.leg(side).sole.height(0, 0) +
-                                         4 * u * (1 - u) * kClearance * body_.leg_length()) +
+                                         std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * kClearance * body_.leg_length()) +
                    body_.leg(side).sole.height(0, 0);
     return foot;
+  }
+
+  // A foot goes up before it goes forward, and comes down when it is there.
+  static double carried(double from, double leaves, double to, double lands, double u) {
+    if (u < kUpright) return from + leaves * u;
+    if (u > 1 - kUpright) return to - lands * (1 - u);
+    return hermite({kUpright, from + leaves * kUpright}, {1 - kUpright, to - lands * kUpright}, leaves, lands, u);
   }
 
   // Of the ankle over where it is when the foot is flat.
@@ -279,6 +289,14 @@ std::vector<double> smooth_cover(const std::vector<double>& values, int reach) {
   });
 }
 
+// It begins as high as it is.
+void lower_smoothly(std::vector<double>& high, const Gait& gait) {
+  const std::vector<double> cover = smooth_cover(high, std::max(1, int(gait.period / 3)));
+  high[0] = 0;
+  for (std::size_t frame = 1; frame < high.size(); ++frame)
+    high[frame] = std::max(high[frame], cover[frame] * smooth(0, gait.steps.front().land, double(frame)));
+}
+
 }  // namespace
 
 double smooth(double from, double to, double x) {
@@ -313,7 +331,7 @@ std::vector<Posture> postures_of(const Body& body, const Posture& start, const G
     stances.push_back(walker.at(frame));
     high.push_back(walker.too_high(stances.back()));
   }
-  high = smooth_cover(high, std::max(1, int(gait.period / 3)));
+  lower_smoothly(high, gait);
   std::vector<Posture> postures;
   Posture posture = start;
   for (std::size_t frame = 0; frame < stances.size(); ++frame) {

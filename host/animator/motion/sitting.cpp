@@ -19,7 +19,8 @@ namespace {
 constexpr double kSeconds = 1.6;
 constexpr double kLean = 44;          // degrees of the trunk, so that its weight stays over the feet
 constexpr double kUpright = 0.8;      // of its height: what is lower sits
-constexpr double kHandAlong = 0.62;   // of the thigh, where a hand lies
+constexpr double kHandAlong = 0.6;    // of the thigh, where a wrist lies
+constexpr double kHandOut = 0.6;      // of the way from above the hip to below the shoulder
 constexpr const char* kRemedy = "choose another seat-height, or widen the joint's limits in its model";
 
 glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.heading); }
@@ -69,7 +70,7 @@ class Chair {
       const double u = double(frame) / frames_;
       Stance stance = from_;
       stance.pelvis = glm::mix(from_.pelvis, pelvis, glm::dvec3(across(u), across(u), down(u)));
-      stance.pelvis.z = std::min(stance.pelvis.z, highest(stance));
+      if (frame > 0) stance.pelvis.z = std::min(stance.pelvis.z, highest(stance));
       const double lean = kLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
       stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
       bend(stance, lean);
@@ -99,22 +100,34 @@ class Chair {
       const std::size_t shoulder = body_.find(Limb::shoulder, side), elbow = body_.find(Limb::elbow, side),
                         wrist = body_.find(Limb::wrist, side);
       if (shoulder == kNone || elbow == kNone || wrist == kNone) continue;
-      posture.pose[shoulder] = numbers_for(body_, shoulder, hanging_shoulder(body_, side, {sign_of(side) * 10, -15, 0}), posture.pose[shoulder]);
-      posture.pose[elbow] = numbers_for(body_, elbow, hanging_elbow(body_, side, {0, -60, 0}), posture.pose[elbow]);
-      const Leg& leg = body_.leg(side);
-      const glm::dvec3 hip = frame_in(*body_.model, posture, leg.hip).place;
-      const glm::dvec3 knee = frame_in(*body_.model, posture, leg.knee).place;
-      const double thick = extent(body_, leg.hip, {1, 0, 0}) * 0.8 + extent(body_, wrist, {0, -sign_of(side), 0});
-      const std::size_t joints[] = {shoulder, elbow};
-      const Goal goals[] = {{.joint = wrist, .place = glm::mix(hip, knee, kHandAlong) + glm::dvec3(0, 0, thick)}};
-      reach(*body_.model, posture, joints, goals);
-      // The palm lies down as far as the wrist turns.
-      posture.pose[wrist] = numbers_for(body_, wrist, hanging_elbow(body_, side, {-sign_of(side) * 30, 0, 0}), posture.pose[wrist]);
+      lay_hand(side, shoulder, elbow, wrist, posture);
     }
     return posture;
   }
 
  private:
+  // The wrist over the thigh, a little to the outside, and the palm down.
+  void lay_hand(Side side, std::size_t shoulder, std::size_t elbow, std::size_t wrist, Posture& posture) const {
+    const double s = sign_of(side);
+    const auto place = [&](std::size_t joint) { return frame_in(*body_.model, posture, joint).place; };
+    const auto pose = [&](std::size_t joint, const glm::dmat3& turn) {
+      posture.pose[joint] = numbers_for(body_, joint, turn, posture.pose[joint]);
+    };
+    pose(shoulder, hanging_shoulder(body_, side, {s * 10, -15, 0}));
+    pose(elbow, hanging_elbow(body_, side, {0, -60, s * -75}));
+    pose(wrist, glm::dmat3(1));
+    const Leg& leg = body_.leg(side);
+    const glm::dvec3 left = facing(from_)[1], hip = place(leg.hip);
+    const double out = kHandOut * glm::dot(place(shoulder) - hip, left);
+    const double thick = extent(body_, leg.hip, {1, 0, 0}) * 0.8 + extent(body_, wrist, {0, -s, 0});
+    const double arm = glm::distance(place(shoulder), place(elbow)) + glm::distance(place(elbow), place(wrist));
+    const std::size_t joints[] = {shoulder, elbow};
+    const Goal goals[] = {
+        {.joint = wrist, .place = glm::mix(hip, place(leg.knee), kHandAlong) + out * left + glm::dvec3(0, 0, thick)},
+        {.joint = wrist, .turn_weight = 0.2 * arm, .direction = body_.axes[1], .across = left}};
+    reach(*body_.model, posture, joints, goals);
+  }
+
   glm::dvec3 hip_middle() const {
     return 0.5 * (frame_in(*body_.model, start_, body_.legs[0].hip).place + frame_in(*body_.model, start_, body_.legs[1].hip).place);
   }

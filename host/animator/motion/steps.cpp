@@ -79,11 +79,12 @@ class Planner {
 
   // The k-th landing, from 1; its swing before it.
   Step step(int k, Side side, const Footprint& to) const {
-    const double land = (kLead + k) * period_;
-    return {side, to, land - swing_share(body_) * period_, land};
+    const double land = landing(k);
+    return {side, to, land - std::round(swing_share(body_) * period_), land};
   }
 
-  double landing(int k) const { return (kLead + k) * period_; }
+  // In whole frames, so that a film shows the foot as it comes down.
+  double landing(int k) const { return std::round(kLead * period_) + k * period_; }
 
  private:
   const Body& body_;

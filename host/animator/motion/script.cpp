@@ -1,0 +1,226 @@
+#include "host/animator/motion/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "hal/failure.h"
+#include "host/animator/motion/script_line.h"
+#include "host/animator/pose.h"
+#include "host/animator/read_film.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::string_view kCues[] = {"at", "then", "after"};
+constexpr const char* kCamera = "camera";
+
+Film meaning_of(const Json& json, const std::filesystem::path& path) {
+  const Document document(laid_out(json), path.string());
+  return read_film(document.root(), path.parent_path());
+}
+
+std::string list_of(const std::vector<std::string>& words, char between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : std::string(1, between)) + word;
+  return text;
+}
+
+class Player {
+ public:
+  Player(Json& film, const std::filesystem::path& path, std::string name)
+      : film_(film), path_(path), name_(std::move(name)), rate_(meaning_of(film, path).rate) {
+    for (const Json& actor : film.at("actors")) actors_.push_back(actor.at("name").get<std::string>());
+  }
+
+  void play(std::string_view text, int number) {
+    ScriptLine line(text, name_ + ":" + std::to_string(number));
+    if (line.empty()) return;
+    if (line.take_if("let")) return let(line);
+    const std::uint32_t at = take_cue(line);
+    if (line.next_is("cut")) return cut_film(line, at);
+    const std::string who = line.take("an actor, or cut,");
+    last_ = who == kCamera && !is_actor(who) ? move_camera(line, at) : start(line, who, at);
+    if (line.take_if("as")) times_[line.take("a name")] = last_;
+    if (!line.empty()) line.refuse("goes on with '" + line.take("") + "'", "take it out");
+    played_.last = std::max(played_.last, last_);
+  }
+
+  Played played() { return std::move(played_); }
+
+ private:
+  bool is_actor(const std::string& name) const { return std::count(actors_.begin(), actors_.end(), name) > 0; }
+
+  void let(ScriptLine& line) {
+    const std::string name = line.take("a name");
+    if (!line.take_if("=")) line.refuse("has no '=' after the name", "write: let midpoint = runtime / 2");
+    times_[name] = line.take_time(times_, rate_);
+    if (!line.empty()) line.refuse("goes on with '" + line.take("") + "'", "write one time, as in: let end = 4s + 12");
+  }
+
+  std::uint32_t take_cue(ScriptLine& line) {
+    const std::string cue = line.take("a cue");
+    if (cue == "then") return last_;
+    if (cue == "at" || cue == "after") return static_cast<std::uint32_t>(std::lround(line.take_time(times_, rate_)));
+    line.refuse("begins with '" + cue + "', which is no cue", did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
+  }
+
+  // "and the film ends": with the frame before, so that it has as many frames as the time says.
+  void cut_film(ScriptLine& line, std::uint32_t at) {
+    line.take("cut");
+    if (at == 0) line.refuse("ends the film before it begins", "cut later");
+    if (!line.empty()) line.refuse("goes on after cut", "a camera's cut is: camera cut eye X Y Z");
+    film_["frames"] = at;
+    played_.told.push_back(line.where() + ": the film has " + std::to_string(at) + " frames");
+  }
+
+  std::uint32_t start(ScriptLine& line, const std::string& who, std::uint32_t at) {
+    if (!is_actor(who))
+      line.refuse("names '" + who + "', who is no actor of the film",
+                  did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()), "name an actor, or camera"));
+    const std::string verb = line.take("an action");
+    const Action* action = find_action(verb);
+    std::vector<std::string_view> verbs;
+    for (const Action& each : actions()) verbs.push_back(each.name);
+    if (!action) line.refuse("has '" + verb + "', which is no action", did_you_mean(verb, verbs, "see: mars animate --help"));
+    const Wishes wishes(take_values(line, *action, at), line.where() + ": " + verb);
+    if (begun_.insert(who).second) clear_after(who, at);
+    const Performed done = in_line(line, [&] { return perform(film_, path_, who, *action, at, wishes); });
+    played_.told.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) + " to " +
+                           std::to_string(done.last) + (done.told.empty() ? "" : ": " + done.told));
+    return done.last;
+  }
+
+  Wishes::Values take_values(ScriptLine& line, const Action& action, std::uint32_t at) {
+    Wishes::Values values;
+    std::vector<std::string_view> names;
+    for (const Parameter& parameter : action.parameters) names.push_back(parameter.name);
+    const bool lasts = std::count(names.begin(), names.end(), "seconds") > 0;
+    while (!line.empty() && !line.next_is("as")) {
+      const std::string word = line.take("");
+      if (word == "until" && lasts) {
+        values["seconds"] = {std::to_string(seconds_until(line, at))};
+        continue;
+      }
+      const auto found = std::find(names.begin(), names.end(), word);
+      if (found == names.end())
+        line.refuse("has '" + word + "', which '" + std::string(action.name) + "' does not know",
+                    did_you_mean(word, names, "see: mars animate FILM " + std::string(action.name) + " --help"));
+      const Parameter& parameter = action.parameters[std::size_t(found - names.begin())];
+      std::vector<std::string>& taken = values[word];
+      taken.clear();
+      for (std::size_t i = 0; i < parameter.count(); ++i)
+        taken.push_back(line.take(word + " " + std::string(parameter.value)));
+    }
+    return values;
+  }
+
+  double seconds_until(ScriptLine& line, std::uint32_t at) {
+    const double end = line.take_time(times_, rate_);
+    if (end <= at) line.refuse("ends before it begins", "write a later time after until");
+    return (end - at) / rate_;
+  }
+
+  // camera cut eye X Y Z at X Y Z fov N: from this frame on; camera move the same, seconds S or until TIME.
+  std::uint32_t move_camera(ScriptLine& line, std::uint32_t at) {
+    constexpr std::string_view verbs[] = {"cut", "move"}, parts[] = {"eye", "at", "fov", "seconds", "until"};
+    const std::string verb = line.take("cut or move");
+    if (verb != "cut" && verb != "move")
+      line.refuse("has '" + verb + "' after camera", did_you_mean(verb, verbs, "write camera cut or camera move"));
+    std::vector<std::string> wishes;
+    double seconds = 1;
+    while (!line.empty() && !line.next_is("as")) {
+      const std::string part = line.take("");
+      if (part == "until" && verb == "move")
+        seconds = seconds_until(line, at);
+      else if (part == "seconds" && verb == "move")
+        seconds = line.take_time(times_, 1);
+      else if (part == "eye" || part == "at" || part == "fov")
+        wishes.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
+      else
+        line.refuse("has '" + part + "', which the camera does not know", did_you_mean(part, parts, "write eye, at or fov"));
+    }
+    if (wishes.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
+    if (begun_.insert(kCamera).second) clear_camera_after(at);
+    const std::uint32_t end = verb == "cut" ? at : at + std::uint32_t(std::max(1L, std::lround(seconds * rate_)));
+    in_line(line, [&] {
+      // It stays as it is until the cut, or until it moves.
+      if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
+        make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before, verb == "cut" ? kLinear : kBoth,
+                  Beyond::refused);
+      pose(film_, meaning_of(film_, path_), kCamera, wishes, end, kLinear, Beyond::refused);
+      return 0;
+    });
+    played_.told.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));
+    return end;
+  }
+
+  static std::vector<std::string> parts_of(const std::vector<std::string>& wishes) {
+    std::vector<std::string> parts;
+    for (const std::string& wish : wishes) parts.push_back(wish.substr(0, wish.find('=')));
+    return parts;
+  }
+
+  static std::vector<std::string> take_words(ScriptLine& line, int count) {
+    std::vector<std::string> words;
+    for (int i = 0; i < count; ++i) words.push_back(line.take("a number"));
+    return words;
+  }
+
+  // What an earlier version of the script had left there.
+  void clear_after(const std::string& who, std::uint32_t at) {
+    const Film film = meaning_of(film_, path_);
+    const auto actor = std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == who; });
+    ActorKey all;
+    all.place = all.turn = glm::dvec3(0);
+    for (const Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
+    clear_keys(film_, who, at + 1, node::kMostFrames, all);
+  }
+
+  void clear_camera_after(std::uint32_t at) {
+    Json& camera = film_["camera"];
+    if (!camera.contains("keys")) return;
+    Json left = Json::array();
+    for (const Json& key : camera["keys"])
+      if (key.at("frame").get<std::uint32_t>() < std::max(at, 1u)) left.push_back(key);
+    camera["keys"] = left;
+  }
+
+  // Failures of an action are told with the line that wanted it.
+  template <typename Do>
+  auto in_line(const ScriptLine& line, Do act) -> decltype(act()) {
+    try {
+      return act();
+    } catch (const Failure& failure) {
+      if (failure.where.starts_with(name_)) throw;
+      throw Failure(failure.problem, line.where() + ": " + failure.where, failure.remedy);
+    }
+  }
+
+  Json& film_;
+  std::filesystem::path path_;
+  std::string name_;
+  double rate_;
+  std::vector<std::string> actors_;
+  std::set<std::string> begun_;
+  Times times_;
+  std::uint32_t last_ = 0;
+  Played played_;
+};
+
+}  // namespace
+
+Played play_script(Json& film, const std::filesystem::path& path, const std::string& script, const std::string& name) {
+  Json changed = film;
+  Player player(changed, path, name);
+  int number = 0;
+  for (std::size_t start = 0; start <= script.size();) {
+    const std::size_t end = std::min(script.find('\n', start), script.size());
+    player.play(std::string_view(script).substr(start, end - start), ++number);
+    start = end + 1;
+  }
+  film = std::move(changed);
+  return player.played();
+}
+
+}  // namespace mars::host

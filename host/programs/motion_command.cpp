@@ -1,0 +1,97 @@
+#include "host/programs/motion_command.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <memory>
+
+#include "hal/failure.h"
+#include "host/animator/motion/action.h"
+#include "host/animator/motion/script.h"
+#include "host/animator/read_film.h"
+#include "host/document/file.h"
+#include "host/film/film_file.h"
+#include "node/film.h"
+
+namespace mars::host {
+namespace {
+
+// What a person typed for one action.
+struct Typed {
+  std::string actor;
+  std::vector<std::vector<std::string>> values;  // one a parameter
+  std::uint32_t at = 0;
+  bool lengthen = false;
+};
+
+Json open(const std::string& path) {
+  if (is_compiled_film(path))
+    throw Failure("is compiled: it has matrices, no keys", path, "name the film file that it was made from");
+  read_film(path);
+  return read_json(path);
+}
+
+// The film file, changed; with as many frames as `last` needs, if that is wanted.
+void write(const std::string& file, Json& film, std::uint32_t last, bool lengthen) {
+  const auto frames = film.at("frames").get<std::uint32_t>();
+  if (lengthen && last >= frames) film["frames"] = last + 1;
+  const std::filesystem::path path = file;
+  write_json(path, film, [&](const Element& root) { read_film(root, path.parent_path()); });
+  if (!lengthen && last >= frames)
+    std::cerr << "mars: " << file << ": that ends at frame " << last << ", behind the last of " << frames
+              << " frames (--lengthen makes the film long enough)\n";
+}
+
+void add_action(CLI::App& animate, const std::string& film, const Action& action) {
+  CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
+  const auto typed = std::make_shared<Typed>();
+  typed->values.resize(action.parameters.size());
+  command->add_option("ACTOR", typed->actor, "Who. Example: anna")->required();
+  for (std::size_t i = 0; i < action.parameters.size(); ++i) {
+    const Parameter& parameter = action.parameters[i];
+    const std::string name = "--" + std::string(parameter.name);
+    std::string help(parameter.meaning);
+    help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
+    command->add_option(name, typed->values[i], help + ". Example: " + name + " " + std::string(parameter.example))
+        ->expected(static_cast<int>(parameter.count()))
+        ->type_name(std::string(parameter.value));
+  }
+  const CLI::Option* at =
+      command->add_option("--at", typed->at, "The frame at which it begins; default: the actor's last key. Example: --at 24")
+          ->type_name("FRAME")
+          ->check(CLI::Range(0u, node::kMostFrames).description(""));
+  command->add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
+  command->callback([&film, &action, typed, at] {
+    Wishes::Values values;
+    for (std::size_t i = 0; i < typed->values.size(); ++i)
+      if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
+    Json json = open(film);
+    const Performed done = perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
+                                   Wishes(std::move(values), std::string(action.name)));
+    write(film, json, done.last, typed->lengthen);
+    std::cout << "frames " << done.first << " to " << done.last << (done.told.empty() ? "" : ": " + done.told) << '\n';
+  });
+}
+
+void add_script(CLI::App& animate, const std::string& film) {
+  CLI::App* command = animate.add_subcommand("script", "Have a script's actors act, each at its cue");
+  const auto script = std::make_shared<std::string>();
+  const auto lengthen = std::make_shared<bool>(false);
+  command->add_option("SCRIPT", *script, "The script; docs/motion.md tells its form. Example: cubes.script")->required();
+  command->add_flag("--lengthen", *lengthen, "Give the film as many frames as the script needs. Example: --lengthen");
+  command->callback([&film, script, lengthen] {
+    Json json = open(film);
+    const Played played = play_script(json, film, read_file(*script), *script);
+    write(film, json, played.last, *lengthen);
+    for (const std::string& line : played.told) std::cout << line << '\n';
+  });
+}
+
+}  // namespace
+
+void add_motion(CLI::App& animate, const std::string& film) {
+  for (const Action& action : actions()) add_action(animate, film, action);
+  add_script(animate, film);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,109 @@
+// Figures of several builds in a film, and how a test has them act.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/animator/motion/action.h"
+#include "host/animator/read_film.h"
+
+namespace mars::host {
+
+struct Build {
+  std::string name;
+  Json model;
+  double leg;  // length, in the model's unit
+};
+
+inline Json human() {
+  return read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/human.json");
+}
+
+// Another body of the man's parts: everything times `size`, with longer or shorter legs, and wider.
+inline Json built(double size, double legs, double width) {
+  Json model = human();
+  const auto shape = [&](Json& point, double height) {
+    for (int axis = 0; axis < 3; ++axis)
+      point[axis] = point[axis].get<double>() * size * (axis == 1 ? width : axis == 2 ? height : 1);
+  };
+  for (Json& joint : model["joints"]) {
+    const auto name = joint["name"].get<std::string>();
+    const bool below_bone = name.ends_with("shin") || name.ends_with("-foot") || name == "pelvis";
+    const bool bone = name.ends_with("thigh") || name.ends_with("shin");
+    if (joint.contains("place")) shape(joint["place"], below_bone ? legs : 1);
+    if (joint.contains("segment"))
+      for (Json& corner : joint["segment"]["sbb"]) shape(corner, bone ? legs : 1);
+  }
+  return model;
+}
+
+inline Json jointed(const std::string& name, const std::string& parent, const Json& place, const Json& limits,
+                    const Json& sbb, const char* shape = "box") {
+  Json joint{{"name", name}, {"place", place}, {"segment", {{"shape", shape}, {"sbb", sbb}}}};
+  if (!parent.empty()) joint["parent"] = parent;
+  if (!limits.is_null()) joint["limits"] = limits;
+  return joint;
+}
+
+// Of boxes, every joint a hinge: it can neither sway nor turn.
+inline Json robot() {
+  Json joints = Json::array({jointed("hull", "", {0, 0, 95}, Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
+  Json limbs{{"pelvis", "hull"}};
+  for (const std::string side : {"left", "right"}) {
+    const double y = side == "left" ? 18 : -18;
+    joints.push_back(jointed(side + " thigh", "hull", {0, y, 0}, {{"y", {-100, 60}}}, {{-6, -6, -45}, {6, 6, 5}}));
+    joints.push_back(jointed(side + " shin", side + " thigh", {0, 0, -45}, {{"y", {0, 120}}}, {{-5, -5, -42}, {5, 5, 5}}));
+    joints.push_back(jointed(side + " foot", side + " shin", {0, 0, -42}, {{"y", {-60, 60}}}, {{-10, -8, -8}, {20, 8, 2}}));
+    joints.push_back(jointed(side + " arm", "hull", {0, 1.7 * y, 55}, {{"y", {-170, 90}}}, {{-4, -4, -30}, {4, 4, 4}}));
+    limbs[side] = {{"hip", side + " thigh"}, {"knee", side + " shin"}, {"ankle", side + " foot"}, {"shoulder", side + " arm"}};
+  }
+  return {{"limbs", limbs}, {"joints", joints}};
+}
+
+// It is drawn looking along -y, and its legs are of one piece.
+inline Json bird() {
+  Json joints = Json::array({jointed("body", "", {0, 0, 1.04}, {}, {{-0.5, -0.7, -0.3}, {0.5, 0.6, 0.6}}, "sphere"),
+                             jointed("head", "body", {0, -0.6, 0.6}, {{"x", {-40, 40}}}, {{-0.2, -0.3, -0.1}, {0.2, 0.2, 0.3}})});
+  Json limbs{{"pelvis", "body"}, {"head", "head"}};
+  for (const std::string side : {"left", "right"}) {
+    const double x = side == "left" ? 0.25 : -0.25;
+    joints.push_back(jointed(side + " leg", "body", {x, 0, 0}, {}, {{-0.05, -0.05, -1}, {0.05, 0.05, 0}}));
+    joints.push_back(jointed(side + " foot", side + " leg", {0, 0, -1}, {}, {{-0.1, -0.3, -0.04}, {0.1, 0.1, 0.02}}));
+    limbs[side] = {{"hip", side + " leg"}, {"ankle", side + " foot"}};
+  }
+  return {{"limbs", limbs}, {"joints", joints}};
+}
+
+inline Json film_with(const Json& model) {
+  return {{"frames", 1000},
+          {"camera", {{"eye", {0, -9, 2}}}},
+          {"models", {{"figure", model}}},
+          {"actors", Json::array({{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
+}
+
+// "walk steps 4 lean 5", from a frame on, or else from the last key.
+inline Performed act(Json& film, const std::string& text, std::optional<std::uint32_t> at = {}) {
+  std::vector<std::string> words;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find(' ', from), text.size());
+    words.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  const Action& action = *find_action(words[0]);
+  Wishes::Values values;
+  for (std::size_t i = 1; i < words.size();) {
+    const std::string name = words[i++];
+    for (const Parameter& parameter : action.parameters)
+      if (parameter.name == name)
+        for (std::size_t k = 0; k < parameter.count(); ++k) values[name].push_back(words.at(i++));
+  }
+  return perform(film, "film.json", "anna", action, at, Wishes(values, std::string(action.name)));
+}
+
+inline Film read(const Json& json) {
+  const Document document(laid_out(json), "film.json");
+  return read_film(document.root(), ".");
+}
+
+}  // namespace mars::host

@@ -1,0 +1,166 @@
+// Feet on the floor stay where they are, none goes through it, one at least is down: for bodies of several builds,
+// measured on the soles' surfaces in compiled films.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "host/film/compile.h"
+#include "tests/host/animator/motion/bodies.h"
+#include "tests/host/modeler/surface.h"
+
+namespace mars::host {
+namespace {
+
+// Of a leg's length, which is 835 mm on a man of 1.75 m: what is lower is on the floor; how far it may slide, and go
+// through.
+constexpr double kDown = 0.003, kSlide = 0.002, kThrough = 0.003;
+
+using Points = std::vector<glm::dvec3>;
+
+// All over the parts whose names begin with "anna/left" and end so.
+Points sole(const CompiledFilm& film, const std::string& side, std::uint32_t frame) {
+  Points points;
+  for (const node::Segment& segment : film.view().segments()) {
+    const std::string name(film.view().name(segment));
+    if (!name.starts_with("anna/" + side) || !(name.ends_with("foot") || name.ends_with("toes") || name.ends_with("sole")))
+      continue;
+    const auto& m = film.view().matrix_at(segment, frame).m;
+    const node::Shape& shape = film.view().shapes()[segment.shape];
+    for (const node::Patch& patch : film.view().patches().subspan(shape.first_patch, shape.patch_count))
+      for (const double u : {0.0, 0.5, 1.0})
+        for (const double v : {0.0, 0.5, 1.0}) {
+          const glm::dvec3 p = point_of(patch, u, v);
+          const auto at = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
+          points.emplace_back(at(0), at(1), at(2));
+        }
+  }
+  return points;
+}
+
+double lowest(const Points& points) {
+  double least = 1e9;
+  for (const glm::dvec3& point : points) least = std::min(least, point.z);
+  return least;
+}
+
+glm::dvec3 middle(const Points& points) {
+  glm::dvec3 sum(0);
+  for (const glm::dvec3& point : points) sum += point;
+  return sum / double(points.size());
+}
+
+class Feet {
+ public:
+  Feet(const Json& film, const Performed& performed, double leg)
+      : film_(compile(read(film))), performed_(performed), leg_(leg),
+        floor_(std::min(lowest(sole(film_, "left", 0)), lowest(sole(film_, "right", 0)))) {}
+
+  void expect_footing(const std::string& what) {
+    for (std::uint32_t frame = performed_.first; frame <= performed_.last; ++frame) look(frame);
+    EXPECT_LT(slid_, kSlide) << what;
+    EXPECT_LT(through_, kThrough) << what;
+    EXPECT_LT(floating_, kDown) << what;
+    EXPECT_GT(held_, 300u) << what << ": points that were measured";
+    ::testing::Test::RecordProperty(what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
+  }
+
+  glm::dvec3 at(std::uint32_t frame) const {
+    return 0.5 * (middle(sole(film_, "left", frame)) + middle(sole(film_, "right", frame)));
+  }
+  glm::dvec3 way() const { return at(performed_.last) - at(performed_.first); }
+
+ private:
+  void look(std::uint32_t frame) {
+    double least = 1e9;
+    for (const std::string side : {"left", "right"}) {
+      const Points points = sole(film_, side, frame);
+      landed_[side].resize(points.size());
+      least = std::min(least, (lowest(points) - floor_) / leg_);
+      through_ = std::max(through_, (floor_ - lowest(points)) / leg_);
+      for (std::size_t i = 0; i < points.size(); ++i) follow(points[i], landed_[side][i]);
+    }
+    floating_ = std::max(floating_, least);
+  }
+
+  void follow(const glm::dvec3& point, std::optional<glm::dvec3>& landed) {
+    if (point.z > floor_ + kDown * leg_) return landed.reset();
+    if (!landed) landed = point;
+    slid_ = std::max(slid_, std::hypot(point.x - landed->x, point.y - landed->y) / leg_);
+    ++held_;
+  }
+
+  CompiledFilm film_;
+  Performed performed_;
+  double leg_, floor_;
+  std::map<std::string, std::vector<std::optional<glm::dvec3>>> landed_;
+  double slid_ = 0, through_ = 0, floating_ = 0;  // of the leg
+  std::size_t held_ = 0;
+};
+
+std::vector<Build> people() {
+  return {{"man", human(), 2.42},
+          {"child", built(0.6, 0.85, 1.05), 2.42 * 0.6 * 0.85},
+          {"tall", built(1, 1.15, 0.95), 2.42 * 1.15},
+          {"stout", built(0.95, 0.9, 1.4), 2.42 * 0.95 * 0.9}};
+}
+
+std::vector<Build> everybody() {
+  std::vector<Build> builds = people();
+  builds.push_back({"robot", robot(), 87});
+  builds.push_back({"bird", bird(), 1});
+  return builds;
+}
+
+TEST(Feet, OfAllBuildsStayWhereTheyStandInAWalk) {
+  for (const Build& build : everybody()) {
+    Json film = film_with(build.model);
+    const Performed performed = act(film, "walk steps 5", 5);
+    Feet feet(film, performed, build.leg);
+    feet.expect_footing(build.name + " walks");
+    EXPECT_NEAR(glm::length(feet.way()) / build.leg, 5 * 0.616, 0.05) << build.name;
+  }
+}
+
+TEST(Feet, StayInOtherStylesAndOnBows) {
+  for (const char* words : {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
+                            "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
+    for (const Build& build : people()) {
+      Json film = film_with(build.model);
+      const Performed performed = act(film, words, 5);
+      Feet(film, performed, build.leg).expect_footing(build.name + " " + words);
+    }
+}
+
+TEST(Feet, StayWhileAFigureSitsDownAndStandsUp) {
+  std::vector<Build> builds = people();
+  builds.push_back({"robot", robot(), 87});
+  for (const Build& build : builds) {
+    Json film = film_with(build.model);
+    for (const char* words : {"sit", "stand"}) {
+      const Performed performed = act(film, words);
+      Feet(film, performed, build.leg).expect_footing(build.name + " " + words);
+    }
+  }
+}
+
+TEST(Walking, GoesOnFromWhereTheFigureStandsAndLooks) {
+  Json film = film_with(human());
+  act(film, "turn by 60", 0);
+  const Performed performed = act(film, "walk steps 3 step-length 1.5");
+  const glm::dvec3 way = Feet(film, performed, 2.42).way();
+  EXPECT_NEAR(std::atan2(way.y, way.x) * 180 / M_PI, 90, 1.5);
+  EXPECT_NEAR(glm::length(way), 4.5, 0.05);
+}
+
+TEST(Walking, GoesToAPlace) {
+  Json film = film_with(human());
+  const Performed performed = act(film, "walk to -6 3", 0);
+  const glm::dvec3 end = Feet(film, performed, 2.42).at(performed.last);
+  EXPECT_LT(std::hypot(end.x + 6, end.y - 3), 0.35) << "soles reach farther ahead of the ankles than behind";
+}
+
+}  // namespace
+}  // namespace mars::host
