@@ -1,6 +1,6 @@
 // Limbs of any creature or puppet, lofted (loft.h), closed, filling the unit cube, hanging down: one round
-// length each, and a mitten that fits a left and a right arm. Ends at joints are round, as those of the
-// human's shapes.
+// length each, and a mitten that fits a left and a right arm. Ends at joints are half balls about them, so
+// that limbs of one scale turn in each other. docs/model-format.md has the boxes for lengths of 1.
 #pragma once
 
 #include <vector>
