@@ -9,7 +9,6 @@
 #include "hal/failure.h"
 #include "host/document/fields.h"
 #include "host/document/file.h"
-#include "host/document/whole_file.h"
 
 namespace mars::host {
 namespace {
@@ -96,48 +95,6 @@ Box bounds_of(const Points& points) {
   return box;
 }
 
-template <typename Number>
-void append(std::string& text, Number number) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-void append_point(std::string& text, const auto& point) {
-  text += '[';
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis > 0) text += ", ";
-    append(text, point[axis]);
-  }
-  text += ']';
-}
-
-std::string quoted_name(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + '"';
-}
-
-std::string model_text(const PatchFile& file, const std::string& name) {
-  std::string text = "{\n  \"joints\": [\n    {\"name\": " + quoted_name(name) +
-                     ", \"segment\": {\"shape\": \"imported\", \"sbb\": [";
-  append_point(text, file.bounds.min);
-  text += ", ";
-  append_point(text, file.bounds.max);
-  text += "]}}\n  ],\n  \"shapes\": {\n    \"imported\": [";
-  for (std::size_t number = 0; number < file.patches.size(); ++number) {
-    text += number == 0 ? "\n      [" : ",\n      [";
-    for (std::size_t i = 0; i < 16; ++i) {
-      if (i > 0) text += ", ";
-      append_point(text, file.patches[number].points[i]);
-    }
-    text += ']';
-  }
-  return text + "\n    ]\n  }\n}\n";
-}
-
 }  // namespace
 
 PatchFile read_patch_file(const std::filesystem::path& path) {
@@ -152,19 +109,6 @@ PatchFile read_patch_file(const std::filesystem::path& path) {
           static_cast<float>((points[i][axis] - file.bounds.min[axis]) / extent);
     }
   return file;
-}
-
-std::string import_patches(const std::filesystem::path& from, const std::filesystem::path& to,
-                           std::string joint) {
-  if (joint.empty()) joint = from.stem().string();
-  const bool plain =
-      !joint.empty() && joint.size() <= 100 && joint.find('/') == std::string::npos &&
-      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
-  if (!plain) throw Failure("cannot name a joint", joint, "choose a name of 1 to 100 bytes without '/'");
-  const PatchFile file = read_patch_file(from);
-  write_whole_file(to, model_text(file, joint));
-  return to.string() + ": model of one joint '" + joint + "', " + std::to_string(file.patches.size()) +
-         " patches";
 }
 
 }  // namespace mars::host

@@ -13,9 +13,9 @@
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
+#include "host/import/import_file.h"
 #include "host/launch/bench.h"
 #include "host/launch/launch.h"
-#include "host/modeler/patch_file.h"
 #include "host/options/command_line.h"
 #include "host/programs/animate_command.h"
 #include "host/programs/film_of.h"
@@ -42,7 +42,7 @@ Commands:
   mars play DIR                    play rendered frames in the terminal
   mars verify DIR                  are all frames there, and whole?
   mars animate FILM list           the keys of a film; pose, key, move, time and more
-  mars import FILE -o MODEL.json   a model from a patch file
+  mars import FILE -o MODEL.json   a model from a mesh or patch file
   mars model new MODEL.json        a model of your own, step by step
   mars doctor                      what is in the way here, and what to do
   mars bench NAME                  measure, where MARS was built from its sources
@@ -114,14 +114,14 @@ void add_verify(CLI::App& app, Names& names, int& code) {
 }
 
 void add_import(CLI::App& app, Names& names) {
-  CLI::App* command = app.add_subcommand("import", "Make a model file from a patch file (.bpt)");
-  command->add_option("FILE", names.from, "The patch file. Example: teapot.bpt")->required();
+  CLI::App* command = app.add_subcommand("import", "Make a model file from a mesh file or a patch file");
+  command->add_option("FILE", names.from, "A mesh (.obj, .stl, .ply, .gltf, .glb) or patch file (.bpt). Example: teapot.bpt")->required();
   command->add_option("-o,--output", names.to, "The model file. Example: -o teapot.json")
       ->required()
       ->type_name("FILE");
   command->add_option("--joint", names.joint, "Name of its joint; default: the file's. Example: --joint body")
       ->type_name("NAME");
-  command->callback([&] { std::cout << import_patches(names.from, names.to, names.joint) << '\n'; });
+  command->callback([&] { std::cout << import_model(names.from, names.to, names.joint) << '\n'; });
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
