@@ -141,7 +141,7 @@ std::string import_mesh_apart(const std::filesystem::path& from, const std::file
                               const std::string& joint) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(from, error);
-  const std::chrono::seconds most(10 + (error ? 0 : bytes >> 20));  // a sound file takes a fraction of that
+  const std::chrono::seconds most(5 + (error ? 0 : bytes >> 20));  // a sound file takes a fraction of that
   return run_apart([&] { return import_mesh(from, to, joint); }, most,
                    Failure("is no sound mesh file: reading it does not end well", from.string(),
                            "export it again, or as another of OBJ, STL, PLY, glTF, GLB"));
