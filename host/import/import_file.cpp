@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <chrono>
 #include <vector>
 
 #include "hal/failure.h"
 #include "host/document/whole_file.h"
+#include "host/import/apart.h"
 #include "host/import/mesh_file.h"
 #include "host/modeler/patch_file.h"
 
@@ -134,6 +136,17 @@ std::string import_mesh(const std::filesystem::path& from, const std::filesystem
          std::to_string(vertices) + " vertices, " + std::to_string(faces) + " faces";
 }
 
+// Assimp does not come back from every damaged file.
+std::string import_mesh_apart(const std::filesystem::path& from, const std::filesystem::path& to,
+                              const std::string& joint) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(from, error);
+  const std::chrono::seconds most(5 + (error ? 0 : bytes >> 20));  // a sound file takes a fraction of that
+  return run_apart([&] { return import_mesh(from, to, joint); }, most,
+                   Failure("is no sound mesh file: reading it does not end well", from.string(),
+                           "export it again, or as another of OBJ, STL, PLY, glTF, GLB"));
+}
+
 }  // namespace
 
 std::string import_model(const std::filesystem::path& from, const std::filesystem::path& to, std::string joint) {
@@ -143,7 +156,8 @@ std::string import_model(const std::filesystem::path& from, const std::filesyste
                      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
   if (!plain) throw Failure("cannot name a joint", joint, "choose a name of 1 to 90 bytes without '/' with --joint");
   check_can_write(to);
-  return to.string() + ": " + (is_mesh_file(from) ? import_mesh : import_patches)(from, to, joint);
+  const std::string told = is_mesh_file(from) ? import_mesh_apart(from, to, joint) : import_patches(from, to, joint);
+  return to.string() + ": " + told;
 }
 
 }  // namespace mars::host

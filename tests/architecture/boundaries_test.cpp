@@ -87,6 +87,10 @@ TEST(Boundaries, PngInOneHostFile) {
   EXPECT_TRUE(begins(*files.begin(), "host/"));
 }
 
+TEST(Boundaries, AssimpInOneHostFile) {
+  EXPECT_EQ(files_including(std::regex("^assimp/")), Files{"host/import/mesh_file.cpp"});
+}
+
 TEST(Boundaries, GetenvInOneSettingsFile) {
   Files files;
   for (const Source& source : sources())

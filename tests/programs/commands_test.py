@@ -91,6 +91,18 @@ class Commands(ProgramTest):
         self.succeed("mars", "render", self.write("empty.json", film), "-o", "empty", "--backend", "threads")
         self.assertNotEqual(self.verified_hash("out"), self.verified_hash("empty"))
 
+    def test_import_takes_meshes(self):
+        self.write("tent.obj", "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 0 1.5 2\nv 4 1.5 2\n"
+                               "f 1 2 6 5\nf 3 4 5 6\nf 2 3 6\nf 4 1 5\nf 4 3 2 1\n")
+        told = self.succeed("mars", "import", "tent.obj", "-o", "tent.json")
+        self.assertIn("tent.json: model of one joint 'tent', 6 vertices, 5 faces", told)
+        film = {"frames": 1, "size": [64, 64], "camera": {"eye": [2, -9, 3], "at": [2, 1, 1]},
+                "models": {"tent": "tent.json"}, "actors": [{"name": "tent", "model": "tent"}]}
+        film = self.write("film.json", film)
+        self.assertRegex(self.succeed("mars", "info", film), r"triangles +8, 8 of them stored")
+        self.succeed("mars", "render", film, "-o", "out", "--backend", "threads")
+        self.fail_clearly(1, "import", self.write("bad.obj", "f 1 2 3\n"), "-o", "bad.json", says="bad.obj")
+
     def test_film_of_the_readme(self):
         text = (SOURCES / "README.md").read_text()
         self.write("first.json", text.split("```json\n")[1].split("```")[0])

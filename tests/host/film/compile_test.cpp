@@ -30,6 +30,29 @@ TEST(Compile, StoresOnlyWhatChanges) {
   EXPECT_EQ(film.joints, 4u);
 }
 
+// Meshes beside patches, in the order of the segments; the same mesh in two models is stored once.
+TEST(Compile, StoresEqualMeshesOnce) {
+  const auto model = [](const char* name, const char* crease) {
+    return std::string("\"") + name + R"(": {"shapes": {"hut": {"mesh": {
+        "vertices": [[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0.5,0.5,1]],
+        "faces": [[3,2,1,0], [0,1,4], [1,2,4], [2,3,4], [3,0,4]], "crease": )" + crease + R"(}}},
+        "joints": [{"name": "a", "segment": {"shape": "hut"}},
+                   {"name": "b", "parent": "a", "segment": {"shape": "box"}}]})";
+  };
+  const CompiledFilm film = compiled(R"({"frames": 3, "camera": {"eye": [0, -9, 2]}, "models": {)" + model("m", "30") + "," +
+                                     model("n", "30") + "," + model("o", "180") + R"(}, "actors": [
+      {"name": "x", "model": "m"}, {"name": "y", "model": "n", "place": [2, 0, 0]}, {"name": "z", "model": "o"}]})");
+  const node::FilmView view = film.view();
+  node::FilmView(film.block(), "f.json");
+  ASSERT_EQ(view.segments().size(), 6u);
+  EXPECT_EQ(view.shapes().size(), 3u) << "flat, box, smooth";
+  EXPECT_EQ(view.segments()[0].shape, view.segments()[2].shape);
+  EXPECT_NE(view.segments()[0].shape, view.segments()[4].shape);
+  EXPECT_EQ(view.mesh_triangles().size(), 12u);
+  EXPECT_EQ(view.mesh_places().size(), 16u + 5u) << "sharp edges: a vertex for each face; smooth: one for all";
+  EXPECT_EQ(view.patch_instances(), 3u * (1 + 6));
+}
+
 TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
       {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})"));

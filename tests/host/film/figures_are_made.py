@@ -1,4 +1,4 @@
-"""Holds the figures' examples against the program that makes them: figures_are_made.py SOURCE_FOLDER."""
+"""Holds the examples of figures and meshes against the programs that make them: figures_are_made.py SOURCE_FOLDER."""
 import json
 import pathlib
 import subprocess
@@ -23,10 +23,11 @@ def differs(made, kept, least=1.01e-4):
 
 
 with tempfile.TemporaryDirectory() as folder:
-    subprocess.run([sys.executable, "-B", root / "make_figures.py", folder], check=True)
+    for maker in "make_figures.py", "make_stones.py":
+        subprocess.run([sys.executable, "-B", root / maker, folder], check=True)
     made = {path.relative_to(folder): path for path in pathlib.Path(folder).rglob("*.json")}
-    assert len(made) >= 7, made
+    assert len(made) >= 13, made
     stale = [str(name) for name, path in made.items()
              if differs(json.loads(path.read_text()), json.loads((root / name).read_text()))]
 if stale:
-    sys.exit(f"not as examples/make_figures.py makes them: {', '.join(stale)}; run it again")
+    sys.exit(f"not as examples/make_*.py make them: {', '.join(stale)}; run them again")

@@ -42,6 +42,27 @@ TEST(LargeFilm, AHundredThousandPatchesInline) {
   EXPECT_EQ(film.view().patches().size(), 100'000u);
 }
 
+TEST(LargeFilm, AMillionTrianglesOfAMesh) {
+  constexpr int kSide = 708;
+  std::string json = std::string(kStart) +
+                     R"({"joints": [{"name": "t", "segment": {"shape": "s"}}], "shapes": {"s": {"mesh": {"vertices": [)";
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i)
+      json += (i + j ? ",\n[0." : "[0.") + std::to_string(1000 + i) + ", 0." + std::to_string(1000 + j) + ", 0." +
+              std::to_string(1000 + (i * i + 3 * j) % 17) + "]";
+  json += "], \"faces\": [";
+  for (int j = 0; j + 1 < kSide; ++j)
+    for (int i = 0; i + 1 < kSide; ++i) {
+      const int a = j * kSide + i;
+      const std::string first = std::to_string(a), opposite = std::to_string(a + kSide + 1);
+      json += (a ? ",\n[" : "[") + first + ", " + std::to_string(a + 1) + ", " + opposite + "],\n[" + first + ", " + opposite +
+              ", " + std::to_string(a + kSide) + "]";
+    }
+  CompiledFilm film;
+  EXPECT_LT(seconds_of([&] { film = compiled(json + R"(]}}}}}, "actors": [{"name": "x", "model": "m"}]})"); }), 30);
+  EXPECT_EQ(film.view().mesh_triangles().size(), 2u * (kSide - 1) * (kSide - 1));
+}
+
 std::string chain(int length) {
   std::string joints = R"({"name": "j0", "segment": {"shape": "box"}})";
   for (int i = 1; i < length; ++i)

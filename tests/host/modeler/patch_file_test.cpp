@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/modeler/read_model.h"
 #include "host/modeler/teapot.h"
 #include "tests/host/document/failure_of.h"
 
@@ -56,17 +55,6 @@ TEST_F(PatchFileTest, TellsTheLineOfWhatIsWrong) {
   EXPECT_TRUE(holds(failure(one_patch("2 3")), ":2: has a patch of degrees 2 3"));
   EXPECT_TRUE(holds(failure(one_patch() + "1\n"), "goes on after its last patch"));
   EXPECT_TRUE(holds(failure("1\n3 3\n0 0 nan"), "in.bpt:3"));
-}
-
-TEST_F(PatchFileTest, ImportsAModelThatCanBeRead) {
-  import_patches(write(one_patch()), folder_ / "model.json", "");
-  const Model model = load_model(folder_ / "model.json");
-  ASSERT_EQ(model.joints.size(), 1u);
-  EXPECT_EQ(model.joints[0].name, "in");
-  EXPECT_EQ(model.joints[0].segment->sbb.min, glm::dvec3(10, -3, 7));
-  EXPECT_EQ(model.shapes[0].patches[0].points, read_patch_file(folder_ / "in.bpt").patches[0].points);
-  EXPECT_TRUE(
-      holds(failure_of([&] { import_patches(folder_ / "in.bpt", folder_ / "x.json", "a/b"); }), "'/'"));
 }
 
 TEST_F(PatchFileTest, TheTeapotOfOthersIsOurs) {

@@ -1,0 +1,68 @@
+// Triangles on their way to set-ups: examined sixteen at a time, and where the set-ups go. Plain structs only: kernels of
+// several instruction sets share them (kernels.h).
+#pragma once
+
+#include <cstdint>
+
+#include "node/vertices.h"
+
+namespace mars::node {
+
+// Triangles no higher than this many 1/256 pixel may have been turned over by snapping.
+inline constexpr int kThin = 4;
+
+// What is asked of triangles whose vertices are all on the screen's plane.
+struct Examination {
+  std::int32_t width;
+  std::int32_t height;
+  bool one_sided;  // those whose outside is turned away are dropped
+  bool mirrored;   // their outside is the other side
+};
+
+inline constexpr std::int32_t kMostExtent = 96;  // pixels; larger triangles are left undecided
+
+// A batch's triangles in one of three states: decided, with the columns they cover row by row, at least one;
+// undecided, where they are larger than kMostExtent or may have been turned over; or dropped: turned away or
+// between samples.
+struct Examined {
+  std::uint32_t decided;    // one bit a triangle
+  std::uint32_t undecided;
+  std::uint32_t faces;      // the side from which a, b, c run counter-clockwise is turned to the eye
+  alignas(64) std::int32_t first_row[kExamined];
+  alignas(64) std::int32_t last_row[kExamined];
+  alignas(64) std::uint32_t columns[kMostExtent][kExamined];  // of row first_row + r at [r]: first | last << 16, or 0
+  // b - a and c - a, 1/256 pixel, and 1 / twice the area.
+  alignas(64) float x1[kExamined];
+  alignas(64) float y1[kExamined];
+  alignas(64) float x2[kExamined];
+  alignas(64) float y2[kExamined];
+  alignas(64) float inverse[kExamined];
+};
+
+// What a patch's or a meshlet's triangles have in common.
+struct PatchIdentity {
+  std::uint32_t patch;
+  std::uint32_t look;
+  bool mirrored;   // its matrix turns shapes inside out
+  bool one_sided;  // triangles seen from inside are dropped
+  bool moving;
+};
+
+// b - a and c - a of a triangle, 1/256 pixel, 1 / twice its area, and whether the side from which a, b, c run
+// counter-clockwise is turned to the eye.
+struct ScreenShape {
+  float x1, y1, x2, y2;
+  float inverse;
+  bool faces;
+};
+
+// Where set-ups go: triangles forward from `next`, their crossings backward from `crossing`.
+struct SetUpSpace {
+  Triangle* first;     // the frame's triangles count from here
+  Triangle* next;
+  Crossing* crossing;  // the one stored last
+  std::uint32_t* line_counts;        // edge boxes a line, of all that is added
+  const std::uint8_t* wanted_lines;  // 1: edge boxes there are kept and counted
+};
+
+}  // namespace mars::node

@@ -1,0 +1,40 @@
+// Lines of a picture: which triangles they show, and how these are shaded. Plain structs only: kernels of several
+// instruction sets share them (kernels.h).
+#pragma once
+
+#include <cstdint>
+
+#include "node/film_parts.h"
+#include "node/protocol.h"
+#include "node/vertices.h"
+
+namespace mars::node {
+
+struct EyeLight {
+  bool point;       // else directional
+  float vector[3];  // eye space: the light's place, or the unit direction to it
+  float color[3];
+};
+
+struct Shading {
+  const Triangle* triangles;
+  const Material* materials;
+  const EyeLight* lights;
+  std::uint32_t light_count;
+  Projection projection;
+};
+
+// Columns [first, last); none where last <= first.
+struct Extent {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+struct Shaded {
+  std::uint32_t runs;
+  std::uint32_t pixels;
+};
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+}  // namespace mars::node

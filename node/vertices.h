@@ -1,0 +1,106 @@
+// Vertices and triangles in eye space and on the screen, and what kernels make them from: patches and meshes. Plain
+// structs only: kernels of several instruction sets share them (kernels.h).
+#pragma once
+
+#include <cstdint>
+
+#include "node/triangle.h"
+
+namespace mars::node {
+
+// Bernstein polynomials at i / rate, i = 0..rate: four cubic ones, and three quadratic ones for slopes.
+struct Basis {
+  const float* cubic[4];
+  const float* quadratic[3];
+  int rate;
+};
+
+// Points of a patch along one parameter line, with the normals there: position = cubic . point,
+// along = quadratic . slope, across = cubic . cross, normal = sign * along x across, normalised.
+struct Row {
+  float point[4][3];
+  float slope[3][3];
+  float cross[4][3];
+  float sign;
+};
+
+// What weighs a patch's 16 control points at each of 16 places of it: for the place itself and its derivatives.
+struct SurveyWeights {
+  enum Kind { kPlace, kU, kV, kUU, kUV, kVV, kKinds };
+  alignas(64) float weight[kKinds][16][16];  // [control point][place]
+};
+
+// A diced curve strays from the true one by no more than this many pixels; the inside of a surface by about twice
+// as much, where it is seen edge-on, as outlines are.
+inline constexpr float kTolerance = 0.1875f;
+// Nor does its normal turn by more than about this (radians) in a step, unless the step is shorter than kLeastStep
+// pixels.
+inline constexpr float kTurn = 0.2f;
+inline constexpr float kLeastStep = 4.0f;
+
+// How finely a patch's inside is to be diced, in steps, before rounding.
+struct Fineness {
+  float u;
+  float v;
+};
+
+// From a mesh's own space to eye space. Normals go by the cofactors of the places' linear part, which is where the cross
+// product of two moved vectors points: the inverse's transpose but for its length, and turned where that mirrors.
+struct EyeMap {
+  float place[3][4];
+  float normal[3][3];
+};
+
+// screen x = center[0] + scale * x / w, y = center[1] - scale * y / w, w = -z, in pixels.
+struct Projection {
+  float scale;
+  float center[2];
+  float near;
+  float far;
+  float guard;   // pixels from the centre
+  float corner;  // cosine of the angle between the view axis and the picture's corner
+};
+
+// Kernels work on whole vectors: every array of vertices, of triangles' corners and of pixels has room for this many
+// items more than are asked for, which may be written (with anything) or read; corners there must be numbers of
+// vertices. So has a line's depth and ids; there what lies behind the line is read, and written back as it was.
+inline constexpr int kVectorSlack = 16;
+
+// Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then
+// what projection adds: values, screen place, and whether the vertex is on the screen's plane at all.
+struct Vertices {
+  float* place[3];
+  float* normal[3];
+  float (*values)[kValues];  // 1 / w, normal / w
+  std::int32_t* x;
+  std::int32_t* y;
+  std::uint8_t* outside;  // 1: nearer than near, farther than far, or beyond the guard band
+};
+
+// Vertices of one triangle, counter-clockwise seen from outside in an eye space that is not mirrored.
+struct Corner3 {
+  std::uint32_t a, b, c;
+};
+
+inline constexpr std::uint32_t kExamined = 16;  // triangles at most in a batch
+
+// Triangles [first, last), which are examined together. `consecutive`: each corner's numbers go up by one.
+struct Batch {
+  std::uint32_t first;
+  std::uint32_t last;
+  bool consecutive;
+};
+
+// The triangles of a diced patch or a meshlet, one array a corner, and the batches that tile them.
+struct Triangles {
+  const std::uint32_t* a;
+  const std::uint32_t* b;
+  const std::uint32_t* c;
+  std::uint32_t count;
+  const Batch* batches;
+  std::uint32_t batch_count;
+
+  Corner3 operator[](std::uint32_t k) const { return {a[k], b[k], c[k]}; }
+};
+
+}  // namespace mars::node
