@@ -44,8 +44,8 @@ class Model(ProgramTest):
         self.assertRegex(shown, r"joints +3 with 4 freedoms\n")
 
     def test_the_figure_of_the_documentation(self):
-        text = (SOURCES / "docs/modeling.md").read_text()
-        self.write("dog.sh", text.split("```sh\n")[1].split("```")[0])
+        script, text = (SOURCES / "docs/modeling.md").read_text().split("```sh\n")[1].split("```")
+        self.write("dog.sh", script)
         env = dict(os.environ, PATH=f"{PROGRAMS}:{os.environ['PATH']}")
         self.assertEqual(self.succeed("sh", "-e", "dog.sh", env=env), "dog.json: a model of 15 joints, nothing to remark\n")
         lines = [line.split("#")[0].replace("'", "").split() for line in text.splitlines() if line.startswith("    mars model")]
