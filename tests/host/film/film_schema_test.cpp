@@ -92,7 +92,7 @@ TEST(Examples, FiguresOfOtherProportionsShareTheirShapes) {
   };
   actors.erase(std::remove_if(actors.begin(), actors.end(), other), actors.end());
   ASSERT_EQ(actors.size(), 3u);
-  const Document document(json.dump(), "one.json");
+  const Document document(json.dump(), (folder / "one.json").string());
   const CompiledFilm one = compile(read_film(document.root(), folder));
   EXPECT_EQ(five.view().patches().size(), one.view().patches().size());
   EXPECT_EQ(five.view().shapes().size(), one.view().shapes().size());
