@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the films with articulated figures and their models: caterpillar, human, robot-arm and demo.
+"""Writes the films with articulated figures and their models: bodies, caterpillar, human, robot-arm and demo.
 
 With an argument: into that folder instead of its own.
 """
@@ -294,11 +294,64 @@ def robot_film():
     return film(96, [640, 360], camera, models, actors, intervals="keyframes")
 
 
+# Other people of the man's segments: how each differs from him.
+FIGURES = {
+    "child": {"branches": {"head": 1.5}, "height": 3.35,
+              "joints": {"*-thigh": [1, 1, 0.84], "*-shin": [1, 1, 0.86], "*-clavicle": [0.95, 0.86, 0.95],
+                         "*-upper-arm": [1, 1, 0.92], "*-forearm": [1, 1, 0.92], "chest": [1, 0.94, 0.94],
+                         "pelvis": [1, 0.94, 1]}},
+    "tall": {"branches": {"head": 0.92, "*-foot": 1.05}, "height": 5.75,
+             "joints": {"*-thigh": [0.96, 0.96, 1.12], "*-shin": [0.96, 0.96, 1.14], "*-upper-arm": [0.95, 0.95, 1.1],
+                        "*-sleeve": [0.95, 0.95, 1.1], "*-forearm": [0.95, 0.95, 1.1], "neck": [0.92, 0.92, 1.1]}},
+    "stout": {"branches": {"head": 1.04}, "height": 4.8,
+              "joints": {"spine": [1.38, 1.2, 1], "chest": [1.3, 1.18, 0.97], "pelvis": [1.34, 1.22, 1],
+                        "*-clavicle": [1.2, 1.05, 1.1], "*-thigh": [1.22, 1.24, 0.9], "*-shin": [1.2, 1.2, 0.92],
+                        "*-upper-arm": [1.2, 1.22, 0.96], "*-sleeve": [1.24, 1.26, 0.96], "*-forearm": [1.14, 1.14, 0.96],
+                        "neck": [1.2, 1.2, 0.86]}}}
+TODDLER = {"branches": {"head": 1.85, "*-hand": 1.1}, "height": 2.35,
+           "joints": {"*-thigh": [1.06, 1.06, 0.68], "*-shin": [1.06, 1.06, 0.7], "*-clavicle": [1, 0.8, 1],
+                      "*-upper-arm": [1.06, 1.06, 0.8], "*-sleeve": [1.06, 1.06, 0.8], "*-forearm": [1.06, 1.06, 0.82],
+                      "spine": [1.12, 1, 0.94], "chest": [1.04, 0.92, 0.88], "neck": [0.95, 0.95, 0.7]}}
+CLOTHES = {"child": [0.93, 0.72, 0.22], "tall": [0.25, 0.52, 0.38], "stout": [0.30, 0.42, 0.72]}
+
+
+def derived(name, source):
+    shirt = cloth(CLOTHES[name])
+    return {"from": source, "proportions": FIGURES[name], "materials": {"shirt": shirt}}
+
+
+def cloth(color):
+    return {"color": color, "ambient": 0.22, "diffuse": 0.72, "specular": 0.06, "exponent": 12}
+
+
+def wave(first):
+    """Arms a little off the body; from frame `first` on, the left one is raised and waves."""
+    still = {"left-upper-arm": [12, 0, 0], "right-upper-arm": [-12, 0, 0], "left-forearm": [0, -10, 0],
+             "right-forearm": [0, -10, 0], "head": [0, 0, 0]}
+    up = still | {"left-upper-arm": [145, -10, 0], "left-forearm": [0, -35, 50], "head": [0, 0, 15]}
+    down = up | {"left-forearm": [0, -35, -50]}
+    poses = [(0, still), (first, still), (first + 8, up), (first + 12, down), (first + 16, up), (first + 26, still)]
+    return [{"frame": frame, "ease": "both", "pose": pose}
+            for i, (frame, pose) in enumerate(poses) if i == 0 or frame > poses[i - 1][0]]
+
+
+def bodies_film():
+    models = {"man": "models/human.json", **{name: f"models/{name}.json" for name in FIGURES},
+              "toddler": {"from": "models/human.json", "proportions": TODDLER,
+                          "materials": {"shirt": cloth([0.90, 0.45, 0.55])}}}
+    row = [("tall", -3.7), ("child", -1.9), ("man", 0.0), ("toddler", 1.75), ("stout", 3.5)]
+    actors = [{"name": name, "model": name, "place": [x, 0.3 * abs(x), 0.0], "turn": [0, 0, -90 - 4 * x],
+               "keys": wave(8 * number)} for number, (name, x) in enumerate(row)]
+    camera = {"eye": [0.0, -15.5, 3.9], "at": [0.0, 0.0, 2.7], "fov": 28.5}
+    return film(72, [640, 360], camera, models, actors, lights=SUN)
+
+
 if __name__ == "__main__":
     to = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     (to / "models").mkdir(exist_ok=True)
     written = {"models/human": human(METRE), "models/caterpillar": caterpillar(), "models/robot-arm": robot_arm(),
                "models/tiles": tiles(), "caterpillar": caterpillar_film(), "robot-arm": robot_film(),
-               "demo": demo_film()}
+               "demo": demo_film(), "bodies": bodies_film(),
+               **{f"models/{name}": derived(name, "human.json") for name in FIGURES}}
     for name, content in written.items():
         (to / f"{name}.json").write_text(text_of(content) + "\n")

@@ -40,7 +40,7 @@ Row row_of(const Model& model, const Joint& joint, std::size_t depth) {
   if (!joint.segment) return row;
   const Shape& shape = model.shapes[joint.segment->shape];
   row[3] = shape.name;
-  row[4] = std::to_string(shape.patches.size());
+  row[4] = shape.mesh ? std::to_string(shape.mesh->ends.size()) + " faces" : std::to_string(shape.patches.size());
   row[5] = size_text(joint.segment->sbb.max - joint.segment->sbb.min);
   if (!joint.segment->material.empty()) row[6] = joint.segment->material;
   return row;

@@ -37,6 +37,8 @@ std::vector<glm::dvec3> surface_points(const Shape& shape) {
   for (const node::Patch& patch : shape.patches)
     for (int j = 0; j <= kSteps; ++j)
       for (int i = 0; i <= kSteps; ++i) points.push_back(point_of(patch, double(i) / kSteps, double(j) / kSteps));
+  if (shape.mesh)
+    for (const Mesh::Place& vertex : shape.mesh->vertices) points.emplace_back(vertex[0], vertex[1], vertex[2]);
   return points;
 }
 

@@ -12,7 +12,8 @@
 
 namespace mars::host {
 
-// `film_materials`: names that segments may use beside the model's own.
+// `film_materials`: names that segments may use beside the model's own. A model derived from another file names it
+// from the folder of the element's document.
 Model read_model(const Element& element, std::span<const std::string_view> film_materials = {});
 Model load_model(const std::filesystem::path& path, std::span<const std::string_view> film_materials = {});
 

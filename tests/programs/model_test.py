@@ -1,10 +1,11 @@
 """mars model: every command, its errors, and that a file is changed whole or not at all."""
 
 import json
+import os
 import subprocess
 import time
 
-from harness import EXAMPLES, PROGRAMS, ProgramTest, main
+from harness import EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main
 
 BODY = ["--shape", "sphere", "--sbb", -0.6, -0.2, -0.2, 0.6, 0.2, 0.2, "--material", "fur", "--color", 0.6, 0.4, 0.2]
 LEG = ["--parent", "body", "--place", 0.4, 0.1, -0.1, "--shape", "capsule", "--sbb", -0.06, -0.06, -0.5, 0.06, 0.06, 0.06,
@@ -41,6 +42,21 @@ class Model(ProgramTest):
         shown = self.model("show", "dog.json")
         self.assertRegex(shown, r"\n  leg +y -60\.\.60 +- +capsule +\d+ +0\.12 x 0\.12 x 0\.56 +fur\n    paw +fixed ")
         self.assertRegex(shown, r"joints +3 with 4 freedoms\n")
+
+    def test_the_figure_of_the_documentation(self):
+        script, text = (SOURCES / "docs/modeling.md").read_text().split("```sh\n")[1].split("```")
+        self.write("dog.sh", script)
+        env = dict(os.environ, PATH=f"{PROGRAMS}:{os.environ['PATH']}")
+        self.assertEqual(self.succeed("sh", "-e", "dog.sh", env=env), "dog.json: a model of 15 joints, nothing to remark\n")
+        lines = [line.split("#")[0].replace("'", "").split() for line in text.splitlines() if line.startswith("    mars model")]
+        self.assertGreater(len(lines), 8)
+        for words in lines:
+            if words[2] == "remove":
+                self.refuse(*words[2:], says="joint 'left-hind-leg': carries 'left-hind-paw'")
+            else:
+                self.succeed(*words)
+        self.assertIn("ear-left", self.joints())
+        self.assertRegex(self.model("show", "dog.json"), r"at rest .* x 2, z")
 
     def test_set_changes_anything(self):
         self.dog()

@@ -24,11 +24,13 @@ function help(text,    at, example) {
   return text (example == "" ? "" : "Example:\n.Ql " plain(example) "\n")
 }
 
-function value(name) {
+# "X Y Z" are three values; of "a|b" one is chosen.
+function value(name,    i, count, each, text) {
   if (name == "-") return ""
-  if (index(name, "|") == 0) return " Ar " name
-  gsub(/\|/, " | Cm ", name)
-  return " Cm " name
+  count = split(name, each, " ")
+  for (i = 1; i <= count; i++)
+    text = text (gsub(/\|/, " | Cm ", each[i]) ? " Cm " : " Ar ") each[i]
+  return text
 }
 
 function option(names, type,    i, count, each, line) {

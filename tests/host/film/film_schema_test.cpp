@@ -1,10 +1,12 @@
 // The published schemas name exactly the keys that the readers know, and every example is read and compiled.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "host/document/file.h"
+#include "host/document/json_file.h"
 #include "host/film/compile.h"
 #include "host/animator/read_film.h"
 #include "host/modeler/read_model.h"
@@ -76,6 +78,25 @@ TEST(Examples, AllCompile) {
   }
   for (const fs::path& path : json_files("examples/models"))
     EXPECT_FALSE(load_model(path).joints.empty()) << path;
+}
+
+// Five bodies of one man's segments: their patches are stored as often as his.
+TEST(Examples, FiguresOfOtherProportionsShareTheirShapes) {
+  const fs::path folder = fs::path(MARS_SOURCE_DIR) / "examples";
+  const CompiledFilm five = load_film(folder / "bodies.json");
+  Json json = read_json(folder / "bodies.json");
+  Json& actors = json["actors"];
+  ASSERT_EQ(actors.size(), 7u);
+  const auto other = [](const Json& actor) {
+    return actor["name"] != "man" && actor["name"] != "floor" && actor["name"] != "tiles";
+  };
+  actors.erase(std::remove_if(actors.begin(), actors.end(), other), actors.end());
+  ASSERT_EQ(actors.size(), 3u);
+  const Document document(json.dump(), (folder / "one.json").string());
+  const CompiledFilm one = compile(read_film(document.root(), folder));
+  EXPECT_EQ(five.view().patches().size(), one.view().patches().size());
+  EXPECT_EQ(five.view().shapes().size(), one.view().shapes().size());
+  EXPECT_EQ(five.view().segments().size(), one.view().segments().size() + 4 * 37);
 }
 
 // The first block of JSON on a page of docs/.
