@@ -36,15 +36,9 @@ struct Header {
   std::array<Place, kSections> place;
 };
 
-std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
+static_assert(sizeof(Header) <= kMatricesOffset && kMatricesOffset % kAlignment == 0);
 
-template <typename Items>
-void append(std::vector<std::byte>& block, Place& place, const Items& items) {
-  const auto bytes = std::as_bytes(std::span(items));
-  place = {aligned(block.size()), items.size()};
-  block.resize(place.offset);
-  block.insert(block.end(), bytes.begin(), bytes.end());
-}
+std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
 
 [[noreturn]] void broken(const std::string& where, const std::string& what) {
   throw Failure("is not a sound compiled film: " + what, where, "compile the film again with `mars compile`");
@@ -132,32 +126,58 @@ bool sound(const Track& track, std::span<const Change> changes, std::size_t valu
 }  // namespace
 
 std::vector<std::byte> pack(const FilmData& film) {
-  check(film.changes.size() <= std::numeric_limits<std::uint32_t>::max(), "a film's changes fit 32 bits");
-  Header header{kMagic, kFilmVersion, kSections, {}};
-  std::vector<std::byte> block(sizeof header);
-  const auto add = [&](Section number, const auto& items) {
-    append(block, header.place[number], items);
-  };
-  add(kSettings, std::array{film.settings});
-  add(kPatches, film.patches);
-  add(kMeshPlaces, film.mesh_places);
-  add(kMeshNormals, film.mesh_normals);
-  add(kMeshTriangles, film.mesh_triangles);
-  add(kMeshlets, film.meshlets);
-  add(kShapes, film.shapes);
-  add(kSegments, film.segments);
-  add(kMaterials, film.materials);
-  add(kMatrices, film.matrices);
-  add(kCameras, film.cameras);
-  add(kLights, film.lights);
-  add(kLightTracks, film.light_tracks);
-  add(kChanges, film.changes);
-  add(kIntervals, film.intervals);
-  add(kMoving, film.moving);
-  add(kNames, film.names);
-  block.resize(aligned(block.size() + kSlack));
-  std::memcpy(block.data(), &header, sizeof header);
+  std::vector<std::byte> block;
+  pack_around(film, film.matrices.size(), [&](std::size_t bytes) {
+    block.resize(bytes);
+    return block.data();
+  });
+  const auto matrices = std::as_bytes(std::span(film.matrices));
+  std::copy(matrices.begin(), matrices.end(), block.begin() + kMatricesOffset);
   return block;
+}
+
+void pack_around(const FilmData& film, std::size_t matrices,
+                 const std::function<std::byte*(std::size_t bytes)>& resize) {
+  check(film.changes.size() <= std::numeric_limits<std::uint32_t>::max(), "a film's changes fit 32 bits");
+  const std::array settings{film.settings};
+  const auto each_section = [&](const auto& visit) {
+    visit(kSettings, settings);
+    visit(kPatches, film.patches);
+    visit(kMeshPlaces, film.mesh_places);
+    visit(kMeshNormals, film.mesh_normals);
+    visit(kMeshTriangles, film.mesh_triangles);
+    visit(kMeshlets, film.meshlets);
+    visit(kShapes, film.shapes);
+    visit(kSegments, film.segments);
+    visit(kMaterials, film.materials);
+    visit(kCameras, film.cameras);
+    visit(kLights, film.lights);
+    visit(kLightTracks, film.light_tracks);
+    visit(kChanges, film.changes);
+    visit(kIntervals, film.intervals);
+    visit(kMoving, film.moving);
+    visit(kNames, film.names);
+  };
+  Header header{kMagic, kFilmVersion, kSections, {}};
+  header.place[kMatrices] = {kMatricesOffset, matrices};
+  std::size_t end = kMatricesOffset + matrices * sizeof(Matrix);
+  each_section([&](Section number, const auto& items) {
+    header.place[number] = {aligned(end), items.size()};
+    end = aligned(end) + std::as_bytes(std::span(items)).size();
+  });
+  const std::size_t bytes = aligned(end + kSlack);
+  std::byte* const block = resize(bytes);
+  std::memset(block, 0, kMatricesOffset);
+  std::memcpy(block, &header, sizeof header);
+  std::size_t written = kMatricesOffset + matrices * sizeof(Matrix);
+  each_section([&](Section number, const auto& items) {
+    const auto from = std::as_bytes(std::span(items));
+    const std::size_t offset = header.place[number].offset;
+    std::memset(block + written, 0, offset - written);
+    if (!from.empty()) std::memcpy(block + offset, from.data(), from.size());
+    written = offset + from.size();
+  });
+  std::memset(block + written, 0, bytes - written);
 }
 
 FilmView::FilmView(std::span<const std::byte> block, const std::string& where, bool trusted) {

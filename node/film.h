@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +42,13 @@ struct FilmData {
 
 // The block, little-endian, every section aligned to 64 bytes. check()s that changes can be counted.
 std::vector<std::byte> pack(const FilmData& film);
+
+// The same for a block whose matrices already stand where they belong, `matrices` of them, kMatricesOffset bytes
+// behind its beginning; those of `film` do not count. `resize` gives the block its size, keeps what stands there
+// and returns where it is.
+inline constexpr std::size_t kMatricesOffset = 320;
+void pack_around(const FilmData& film, std::size_t matrices,
+                 const std::function<std::byte*(std::size_t bytes)>& resize);
 
 // Reads a packed film in place; the block must outlive it and be aligned to 8 bytes.
 class FilmView {

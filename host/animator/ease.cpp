@@ -45,7 +45,13 @@ double eased(const Ease& ease, double time) {
   if (time <= 0) return 0;
   if (time >= 1) return 1;
   if (straight(ease)) return time;
-  return curve(ease.y1, ease.y2, parameter_at(ease, time));
+  // All joints of a figure mostly ask the same.
+  thread_local Ease asked = kLinear;
+  thread_local double at = 0, answer = 0;
+  if (ease == asked && time == at) return answer;
+  asked = ease;
+  at = time;
+  return answer = curve(ease.y1, ease.y2, parameter_at(ease, time));
 }
 
 Swing swing_of(const Ease& ease) {

@@ -10,6 +10,7 @@
 #include "hal/failure.h"
 #include "host/film/film_file.h"
 #include "host/film/intervals.h"
+#include "host/film/motion_writer.h"
 #include "host/animator/direction.h"
 #include "host/film/shape_writer.h"
 #include "host/animator/read_film.h"
@@ -17,9 +18,6 @@
 namespace mars::host {
 namespace {
 
-constexpr std::size_t kMostMatrices = std::size_t{1} << 26;  // 6 GB
-constexpr double kFarthestMatrix = 1e12;                     // as node/film.h allows
-const Axes kIdentity{};
 
 // Appends to a film's values and to one track of changes those that differ from the one before.
 template <typename Value>
@@ -71,9 +69,12 @@ class Compiler {
     add_settings();
     add_camera();
     for (const LightMotion& light : film_.lights) add_light(light);
-    for (const Actor& actor : film_.actors) add_actor(actor);
+    for (const Actor& actor : film_.actors) add_segments(actor);
+    CompiledFilm compiled;
+    const std::size_t matrices = write_motion(film_, data_, compiled.lines);
     cut_intervals(data_, options_.cutting.value_or(film_.cutting), keyframes());
-    return packed();
+    pack(matrices, compiled);
+    return compiled;
   }
 
  private:
@@ -200,43 +201,21 @@ class Compiler {
     return numbers;
   }
 
-  // One segment being written: its joint, and its matrices so far.
-  struct Writing {
-    std::size_t joint;
-    std::size_t segment;
-    std::vector<node::Change> changes;
-  };
-
-  void add_matrix(Writing& writing, std::uint32_t frame, const node::Matrix& matrix) {
-    if (!writing.changes.empty() && matrix == data_.matrices[writing.changes.back().value]) return;
-    for (const auto& row : matrix.m)
-      for (const double number : row)
-        if (!(std::abs(number) <= kFarthestMatrix))
-          fail("stands farther than 1e12 from the origin",
-               std::string(&data_.names[data_.segments[writing.segment].name]) + ", frame " +
-                   std::to_string(frame),
-               "use smaller places and boxes");
-    if (data_.matrices.size() >= kMostMatrices)
-      fail("has more than 67 million different T-matrices", "actors",
-           "make the film shorter, or move fewer segments");
-    writing.changes.push_back({frame, static_cast<std::uint32_t>(data_.matrices.size())});
-    data_.matrices.push_back(matrix);
-  }
-
-  std::vector<Writing> add_segments(const Actor& actor) {
+  void add_segments(const Actor& actor) {
     const Model& model = film_.models[actor.model];
     const auto& shapes = shapes_of(actor.model);
-    std::vector<Writing> writings;
-    for (std::size_t number = 0; number < model.joints.size(); ++number) {
-      const Joint& joint = model.joints[number];
+    for (const Joint& joint : model.joints) {
       if (!joint.segment) continue;
-      writings.push_back({number, data_.segments.size(), {}});
       data_.segments.push_back({shapes[joint.segment->shape],
                                 add_name(actor.name + "/" + joint.name),
                                 {},
                                 find_look(actor, joint.segment->material)});
+      instances_ += data_.shapes[data_.segments.back().shape].size();
     }
-    return writings;
+    joints_ += model.joints.size();
+    if (instances_ > std::numeric_limits<std::uint32_t>::max() ||
+        joints_ > std::numeric_limits<std::uint32_t>::max())
+      fail("have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
   }
 
   std::uint32_t add_name(const std::string& name) {
@@ -245,43 +224,6 @@ class Compiler {
     const auto offset = static_cast<std::uint32_t>(data_.names.size());
     data_.names.insert(data_.names.end(), name.c_str(), name.c_str() + name.size() + 1);
     return offset;
-  }
-
-  void add_actor(const Actor& actor) {
-    std::vector<Writing> writings = add_segments(actor);
-    actor.matrices.empty() ? play(actor, writings) : copy(actor, writings);
-    for (const Writing& writing : writings)
-      data_.segments[writing.segment].motion =
-          TrackWriter<node::Matrix>::append_changes(data_.changes, writing.changes);
-    for (const Writing& writing : writings)
-      instances_ += data_.shapes[data_.segments[writing.segment].shape].size();
-    joints_ += film_.models[actor.model].joints.size();
-    if (instances_ > std::numeric_limits<std::uint32_t>::max() ||
-        joints_ > std::numeric_limits<std::uint32_t>::max())
-      fail("have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
-  }
-
-  void play(const Actor& actor, std::vector<Writing>& writings) {
-    const Model& model = film_.models[actor.model];
-    Figure figure(model, actor.motion);
-    const std::uint32_t frames = figure.still() ? 1 : film_.frames;
-    for (std::uint32_t frame = 0; frame < frames; ++frame) {
-      if (!figure.move_to(frame)) continue;
-      for (Writing& writing : writings) {
-        if (!figure.moved(writing.joint)) continue;
-        const Joint& joint = model.joints[writing.joint];
-        add_matrix(writing, frame,
-                   t_matrix(segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
-      }
-    }
-  }
-
-  void copy(const Actor& actor, std::vector<Writing>& writings) {
-    for (Writing& writing : writings)
-      for (const Key<Axes>& key : actor.matrices[writing.joint])
-        if (key.frame < film_.frames)
-          add_matrix(writing, key.frame,
-                     t_matrix(key.value, film_.models[actor.model].joints[writing.joint].segment->sbb));
   }
 
   std::vector<std::uint32_t> keyframes() const {
@@ -303,16 +245,15 @@ class Compiler {
     return frames;
   }
 
-  CompiledFilm packed() const {
-    const std::vector<std::byte> block = node::pack(data_);
-    CompiledFilm film;
-    film.lines.resize(block.size() / sizeof(CompiledFilm::Line));
-    check(film.block().size() == block.size(), "a packed film is whole lines of 64 bytes");
-    std::memcpy(film.lines.data(), block.data(), block.size());
+  void pack(std::size_t matrices, CompiledFilm& film) const {
+    node::pack_around(data_, matrices, [&](std::size_t bytes) {
+      check(bytes % sizeof(CompiledFilm::Line) == 0, "a packed film is whole lines of 64 bytes");
+      film.lines.resize(bytes / sizeof(CompiledFilm::Line));
+      return reinterpret_cast<std::byte*>(film.lines.data());
+    });
     film.source = film_.source;
     film.actors = static_cast<std::uint32_t>(film_.actors.size());
     film.joints = static_cast<std::uint32_t>(joints_);
-    return film;
   }
 
   const Film& film_;

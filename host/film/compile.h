@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/animator/film.h"
+#include "host/film/lazy_memory.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -28,7 +29,9 @@ struct CompiledFilm {
     std::array<std::byte, 64> bytes;
   };
 
-  std::vector<Line> lines;
+  using Lines = LazyVector<Line>;
+
+  Lines lines;
   std::string source;  // file, for messages
   std::uint32_t actors = 0;
   std::uint32_t joints = 0;  // of all actors

@@ -47,10 +47,13 @@ std::array<char, 32> checksum_over(const Header& header, std::span<const std::by
 void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
   Header header{kMagic, node::kFilmVersion, film.actors, film.joints, 0, film.block().size(), {}};
   header.checksum = checksum_over(header, film.block());
-  std::vector<std::byte> bytes(sizeof header + film.block().size());
-  std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, film.lines.data(), film.block().size());
-  write_whole_file(path, std::span<const std::byte>(bytes));
+  const auto text_of = [](const void* bytes, std::size_t count) {
+    return std::string_view(static_cast<const char*>(bytes), count);
+  };
+  write_whole_file(path, [&](const Write& write) {
+    write(text_of(&header, sizeof header));
+    write(text_of(film.block().data(), film.block().size()));
+  });
 }
 
 bool is_compiled_film(const std::filesystem::path& path) {

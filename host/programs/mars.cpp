@@ -21,6 +21,7 @@
 #include "host/programs/film_of.h"
 #include "host/programs/model_command.h"
 #include "host/programs/node_job.h"
+#include "host/programs/plot_command.h"
 #include "host/programs/preview_command.h"
 #include "host/sinks/verify.h"
 
@@ -42,6 +43,7 @@ Commands:
   mars play DIR                    play rendered frames in the terminal
   mars verify DIR                  are all frames there, and whole?
   mars animate FILM list           the keys of a film; pose, key, move, time and more
+  mars plot FILM -o FILE.png       joint angles over time, as a picture
   mars import FILE -o MODEL.json   a model from a mesh or patch file
   mars model new MODEL.json        a model of your own, step by step
   mars doctor                      what is in the way here, and what to do
@@ -76,11 +78,12 @@ int verify(const std::string& folder) {
   return 0;
 }
 
-// A film file's joints that leave their limits between keys; a .mars file has no keys.
-std::string remark_on(const std::string& path) {
-  if (is_compiled_film(path)) return "";
-  const std::string remark = limits_remark(read_film(path));
-  return remark.empty() ? "" : "remark      " + remark + "\n";
+// Of a film file also whether joints leave their limits between keys; a .mars file has no keys.
+std::string info_of(const std::string& path) {
+  if (is_compiled_film(path)) return describe(load_film(path));
+  const Film film = read_film(path);
+  const std::string remark = limits_remark(film);
+  return describe(compile(film)) + (remark.empty() ? "" : "remark      " + remark + "\n");
 }
 
 void add_render(CLI::App& app, RenderOptions& options) {
@@ -102,7 +105,7 @@ void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
 void add_info(CLI::App& app, Names& names) {
   CLI::App* command = app.add_subcommand("info", "Tell what a film holds");
   command->add_option("FILM", names.from, "A .json or .mars file. Example: examples/demo.json")->required();
-  command->callback([&] { std::cout << describe(load_film(names.from)) << remark_on(names.from); });
+  command->callback([&] { std::cout << info_of(names.from); });
 }
 
 void add_verify(CLI::App& app, Names& names, int& code) {
@@ -183,6 +186,7 @@ int run(int argc, char** argv) {
   add_preview(app);
   add_play(app);
   add_animate(app, code);
+  add_plot(app);
   add_model(app);
   DoctorOptions doctor;
   doctor.reserved_cores = kCoresForHost;

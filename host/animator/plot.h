@@ -1,0 +1,17 @@
+// Angles of joints over the frames as a picture: what gnuplot is told to draw. A panel a part, a curve for each
+// axis that is free, dots at keys, the limits as a band: a curve that leaves its band leaves its limits.
+#pragma once
+
+#include <string>
+
+#include "host/animator/things.h"
+
+namespace mars::host {
+
+enum class PlotAs { png, svg };
+
+// The script for gnuplot, whose standard output is then the picture. Without parts: of the chosen thing all that
+// has keys. Throws where nothing is keyed, or more than would be legible.
+std::string plot_script(Json& film, const Film& meaning, const Choice& choice, PlotAs as);
+
+}  // namespace mars::host

@@ -1,0 +1,294 @@
+#include "host/film/motion_writer.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "hal/failure.h"
+#include "topology/memory_limit.h"
+
+namespace mars::host {
+namespace {
+
+constexpr double kFarthestMatrix = 1e12;              // as node/film.h allows
+constexpr std::size_t kWorthAThread = 20'000;          // matrices
+constexpr std::size_t kRoomBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
+constexpr std::size_t kBytesEach = sizeof(node::Matrix) + 3 * sizeof(node::Change);  // with lists on the way
+
+// Frames at which something may differ from the frame before: (after, last], ascending and apart.
+struct Run {
+  std::uint32_t after, last;
+};
+using Runs = std::vector<Run>;
+
+template <typename Value>
+void add_runs(const Channel<Value>& channel, std::uint32_t frames, Runs& runs) {
+  for (std::size_t i = 0; i + 1 < channel.size() && channel[i].frame + 1 < frames; ++i)
+    if (channel[i].value != channel[i + 1].value)
+      runs.push_back({channel[i].frame, std::min(channel[i + 1].frame, frames - 1)});
+}
+
+Runs merged(Runs runs) {
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.after < b.after; });
+  Runs apart;
+  for (const Run& run : runs)
+    if (!apart.empty() && run.after <= apart.back().last)
+      apart.back().last = std::max(apart.back().last, run.last);
+    else
+      apart.push_back(run);
+  return apart;
+}
+
+std::size_t count_of(const Runs& runs) {
+  std::size_t frames = 1;  // the first frame has a matrix anyway
+  for (const Run& run : runs) frames += run.last - run.after;
+  return frames;
+}
+
+// What one actor may need at most, and where it is written.
+struct Share {
+  std::size_t first_segment = 0, segments = 0;
+  std::vector<std::size_t> most;  // matrices of each segment
+  std::size_t first_matrix = 0, first_change = 0;
+  std::size_t matrices = 0;               // written
+  std::vector<std::uint32_t> changes;     // written, of each segment
+};
+
+std::vector<std::size_t> most_of_matrices(const Actor& actor, const Model& model, std::uint32_t frames) {
+  std::vector<std::size_t> most;
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+    if (!model.joints[joint].segment) continue;
+    const auto& keys = actor.matrices[joint];
+    most.push_back(std::count_if(keys.begin(), keys.end(), [&](const auto& key) { return key.frame < frames; }));
+  }
+  return most;
+}
+
+// A joint moves where it is turned or its parent moves.
+std::vector<std::size_t> most_of_motion(const Actor& actor, const Model& model, std::uint32_t frames) {
+  Runs root;
+  add_runs(actor.motion.place, frames, root);
+  add_runs(actor.motion.turn, frames, root);
+  root = merged(std::move(root));
+  std::vector<Runs> runs(model.joints.size());
+  std::vector<std::size_t> most;
+  for (std::size_t number = 0; number < model.joints.size(); ++number) {
+    const Joint& joint = model.joints[number];
+    runs[number] = joint.parent == kNone ? root : runs[joint.parent];
+    const std::size_t before = runs[number].size();
+    add_runs(actor.motion.pose[number], frames, runs[number]);
+    if (runs[number].size() > before) runs[number] = merged(std::move(runs[number]));
+    if (joint.segment) most.push_back(count_of(runs[number]));
+  }
+  return most;
+}
+
+std::uint64_t memory_here() {
+  std::uint64_t bytes = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+  const topology::MemoryLimit limit = topology::memory_limit();
+  for (const std::uint64_t less : {limit.together, limit.each})
+    if (less > 0) bytes = std::min(bytes, less);
+  return bytes;
+}
+
+std::string gigabytes(std::uint64_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f GB", double(bytes) / 1e9);
+  return text;
+}
+
+class MotionWriter {
+ public:
+  MotionWriter(const Film& film, node::FilmData& data) : film_(film), data_(data) {}
+
+  std::size_t write(CompiledFilm::Lines& lines) {
+    plan();
+    matrices_ = room_for(most_matrices_, lines);
+    const std::size_t own_changes = data_.changes.size();  // of camera, lights and materials
+    data_.changes.resize(own_changes + most_matrices_);
+    for (Share& share : shares_) share.first_change += own_changes;
+    play_all();
+    const std::size_t matrices = close_gaps(own_changes);
+    lines.resize(lines_of(matrices));
+    return matrices;
+  }
+
+ private:
+  static std::size_t lines_of(std::size_t matrices) {
+    return (node::kMatricesOffset + matrices * sizeof(node::Matrix) + sizeof(CompiledFilm::Line) - 1) /
+           sizeof(CompiledFilm::Line);
+  }
+
+  static node::Matrix* room_for(std::size_t matrices, CompiledFilm::Lines& lines) {
+    // Room for what follows them, mostly their changes, so that they need not be moved again.
+    lines.reserve(lines_of(matrices + matrices / 4) + kRoomBehind / sizeof(CompiledFilm::Line));
+    lines.resize(lines_of(matrices));
+    return reinterpret_cast<node::Matrix*>(reinterpret_cast<std::byte*>(lines.data()) + node::kMatricesOffset);
+  }
+
+  void plan() {
+    std::size_t segment = 0;
+    for (const Actor& actor : film_.actors) {
+      const Model& model = film_.models[actor.model];
+      Share share;
+      share.first_segment = segment;
+      share.first_matrix = share.first_change = most_matrices_;
+      share.most = actor.matrices.empty() ? most_of_motion(actor, model, film_.frames)
+                                          : most_of_matrices(actor, model, film_.frames);
+      share.segments = share.most.size();
+      segment += share.segments;
+      for (const std::size_t most : share.most) most_matrices_ += most;
+      shares_.push_back(std::move(share));
+    }
+    refuse_too_many();
+  }
+
+  void refuse_too_many() const {
+    const std::uint64_t needed = most_matrices_ * kBytesEach, here = memory_here();
+    const std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - data_.changes.size();
+    if (needed <= here && most_matrices_ <= most) return;
+    throw Failure("moves so much that it needs " + std::to_string(most_matrices_) + " T-matrices, " +
+                      gigabytes(needed) + " of memory" +
+                      (needed > here ? ", where there are " + gigabytes(here) : ""),
+                  film_.source.empty() ? "actors" : film_.source + ": actors",
+                  "make the film shorter, or move fewer segments at a time");
+  }
+
+  // Threads take actors in order, so that of several failures the first actor's is known.
+  void play_all() {
+    std::atomic<std::size_t> next = 0, failed = shares_.size();
+    std::exception_ptr failure;
+    std::mutex guard;
+    const auto work = [&] {
+      for (std::size_t actor; (actor = next++) < failed;) {
+        try {
+          write_actor(actor);
+        } catch (...) {
+          const std::lock_guard lock(guard);
+          if (actor >= failed) continue;
+          failed = actor;
+          failure = std::current_exception();
+        }
+      }
+    };
+    const std::size_t useful = std::min(shares_.size(), most_matrices_ / kWorthAThread);
+    std::vector<std::jthread> helpers;
+    for (std::size_t i = 1; i < std::min<std::size_t>(useful, std::thread::hardware_concurrency()); ++i)
+      helpers.emplace_back(work);
+    work();
+    helpers.clear();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  // One segment being written: its joint, and its matrices so far.
+  struct Writing {
+    std::size_t joint;
+    std::size_t segment;
+    node::Change* changes;
+    std::uint32_t count;
+  };
+
+  void write_actor(std::size_t number) {
+    Share& share = shares_[number];
+    const Actor& actor = film_.actors[number];
+    std::vector<Writing> writings;
+    const auto& joints = film_.models[actor.model].joints;
+    node::Change* changes = data_.changes.data() + share.first_change;
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+      if (!joints[joint].segment) continue;
+      const std::size_t segment = writings.size();
+      writings.push_back({joint, share.first_segment + segment, changes, 0});
+      changes += share.most[segment];
+    }
+    actor.matrices.empty() ? play(actor, share, writings) : copy(actor, share, writings);
+    for (const Writing& writing : writings) share.changes.push_back(writing.count);
+  }
+
+  void play(const Actor& actor, Share& share, std::vector<Writing>& writings) {
+    const Model& model = film_.models[actor.model];
+    Figure figure(model, actor.motion);
+    const std::uint32_t frames = figure.still() ? 1 : film_.frames;
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+      if (!figure.move_to(frame)) continue;
+      for (Writing& writing : writings) {
+        if (!figure.moved(writing.joint)) continue;
+        const Joint& joint = model.joints[writing.joint];
+        add(share, writing, frame,
+            t_matrix(segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
+      }
+    }
+  }
+
+  void copy(const Actor& actor, Share& share, std::vector<Writing>& writings) {
+    const auto& joints = film_.models[actor.model].joints;
+    for (Writing& writing : writings)
+      for (const Key<Axes>& key : actor.matrices[writing.joint])
+        if (key.frame < film_.frames)
+          add(share, writing, key.frame, t_matrix(key.value, joints[writing.joint].segment->sbb));
+  }
+
+  void add(Share& share, Writing& writing, std::uint32_t frame, const node::Matrix& matrix) {
+    if (writing.count > 0 && matrix == matrices_[writing.changes[writing.count - 1].value]) return;
+    for (const auto& row : matrix.m)
+      for (const double number : row)
+        if (!(std::abs(number) <= kFarthestMatrix)) refuse_far(writing, frame);
+    check(writing.count < share.most[writing.segment - share.first_segment], "a segment moves as often as was planned");
+    const std::size_t place = share.first_matrix + share.matrices++;
+    matrices_[place] = matrix;
+    writing.changes[writing.count++] = {frame, static_cast<std::uint32_t>(place)};
+  }
+
+  [[noreturn]] void refuse_far(const Writing& writing, std::uint32_t frame) const {
+    const std::string name = &data_.names[data_.segments[writing.segment].name];
+    throw Failure("stands farther than 1e12 from the origin",
+                  (film_.source.empty() ? "" : film_.source + ": ") + name + ", frame " + std::to_string(frame),
+                  "use smaller places and boxes");
+  }
+
+  // Fewer matrices than planned leave gaps. Moves all down over them; segments learn where their changes are.
+  std::size_t close_gaps(std::size_t change_to) {
+    std::size_t matrix_to = 0;
+    for (const Share& share : shares_) {
+      const std::size_t down = share.first_matrix - matrix_to;
+      if (down > 0)
+        std::memmove(static_cast<void*>(matrices_ + matrix_to), matrices_ + share.first_matrix,
+                     share.matrices * sizeof(node::Matrix));
+      std::size_t from = share.first_change;
+      for (std::size_t i = 0; i < share.segments; ++i) {
+        const std::uint32_t count = share.changes[i];
+        for (std::uint32_t k = 0; k < count && (down > 0 || from != change_to); ++k) {
+          const node::Change& change = data_.changes[from + k];
+          data_.changes[change_to + k] = {change.frame, static_cast<std::uint32_t>(change.value - down)};
+        }
+        data_.segments[share.first_segment + i].motion = {static_cast<std::uint32_t>(change_to), count};
+        change_to += count;
+        from += share.most[i];
+      }
+      matrix_to += share.matrices;
+    }
+    data_.changes.resize(change_to);
+    return matrix_to;
+  }
+
+  const Film& film_;
+  node::FilmData& data_;
+  std::vector<Share> shares_;
+  std::size_t most_matrices_ = 0;
+  node::Matrix* matrices_ = nullptr;
+};
+
+}  // namespace
+
+std::size_t write_motion(const Film& film, node::FilmData& data, CompiledFilm::Lines& lines) {
+  return MotionWriter(film, data).write(lines);
+}
+
+}  // namespace mars::host

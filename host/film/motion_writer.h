@@ -1,0 +1,19 @@
+// The T-matrices of all actors over all frames: only those that differ from the frame before. They are written
+// where the compiled film keeps them, by several threads, each an actor at a time; the result is the same for
+// any number of threads.
+#pragma once
+
+#include <cstddef>
+
+#include "host/animator/film.h"
+#include "host/film/compile.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+// Gives the segments of `data`, which are those of all actors in order, their motion; `lines` becomes room for
+// the block's header and the matrices. Returns the number of matrices. Throws, before any is made, where there
+// are more than memory holds; and where a segment stands too far out.
+std::size_t write_motion(const Film& film, node::FilmData& data, CompiledFilm::Lines& lines);
+
+}  // namespace mars::host

@@ -1,0 +1,12 @@
+// `mars plot`: joint angles over time, drawn by gnuplot.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace mars::host {
+
+void add_plot(CLI::App& app);
+
+}  // namespace mars::host

@@ -1,0 +1,175 @@
+"""mars animate and mars plot, as a person types them: what the film file says afterwards, and what is told."""
+
+import json
+import re
+import shutil
+import unittest
+
+from harness import EXAMPLES, SOURCES, ProgramTest, main
+
+ARM = {"joints": [
+    {"name": "shoulder", "limits": {"x": [-90, 90], "y": [-90, 90], "z": [-90, 90]}, "segment": {"shape": "box"}},
+    {"name": "elbow", "parent": "shoulder", "place": [1, 0, 0], "limits": {"y": [0, 150]}, "segment": {"shape": "box"}}]}
+
+
+def film(**more):
+    return {"frames": 48, "camera": {"eye": [0, -9, 2]}, "models": {"arm": ARM},
+            "actors": [{"name": "robot", "model": "arm"}], **more}
+
+
+class Animate(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("film.json", film())
+
+    def animate(self, *words):
+        return self.mars("animate", "film.json", *words)
+
+    def changed(self, *words):
+        """The actor after words that succeed and tell nothing."""
+        ended = self.animate(*words)
+        self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "", ""))
+        return self.actor()
+
+    def actor(self):
+        return json.loads((self.folder / "film.json").read_text())["actors"][0]
+
+    def refused(self, *words):
+        """What is told; the film stays, byte for byte."""
+        before = (self.folder / "film.json").read_bytes()
+        ended = self.animate(*words)
+        self.assertEqual(ended.returncode, 1, ended.stderr)
+        self.assertEqual((self.folder / "film.json").read_bytes(), before)
+        self.assertEqual(len(ended.stderr.splitlines()), 1)
+        return ended.stderr
+
+    def frames(self):
+        return [key["frame"] for key in self.actor()["keys"]]
+
+    def test_a_film_from_poses(self):
+        self.changed("pose", "robot", "elbow.y=90", "place=1,0,0", "--frame", 24, "--ease", "both")
+        self.changed("pose", "robot", "shoulder.z=-30", "--frame", 24)
+        self.assertEqual(self.actor()["keys"], [
+            {"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 0, 0], "shoulder": [0, 0, 0]}},
+            {"frame": 24, "place": [1, 0, 0], "pose": {"elbow": [0, 90, 0], "shoulder": [0, 0, -30]}, "ease": "both"}])
+        self.assertIn("matrices    50\n", self.succeed("mars", "info", "film.json"))
+
+    def test_negative_numbers_need_no_care(self):
+        actor = self.changed("pose", "robot", "place=-1,-2,-0.5", "turn.z=-45", "--frame", 0)
+        self.assertEqual(actor["keys"], [{"frame": 0, "place": [-1, -2, -0.5], "turn": [0, 0, -45]}])
+        self.changed("time", "robot", "--frame", 0, "--shift", 12)
+        self.changed("time", "robot", "--frame", 12, "--shift", -6)
+        self.assertEqual(self.frames(), [6])
+
+    def test_limits(self):
+        told = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
+        self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", told)
+        self.assertIn("--clamp", told)
+        actor = self.changed("pose", "robot", "elbow.y=170", "--frame", 24, "--clamp")
+        self.assertEqual(actor["keys"][1]["pose"]["elbow"], [0, 150, 0])
+
+    def test_keys_moved_copied_and_timed(self):
+        self.changed("pose", "robot", "elbow.y=90", "--frame", 12)
+        self.changed("copy", "robot", "--frame", "0-12", "--to", 24)
+        self.assertEqual(self.frames(), [0, 12, 24, 36])
+        self.changed("move", "robot", "elbow", "--frame", 36, "--to", 40)
+        self.changed("time", "robot", "--frame", "0-24", "--stretch", 0.5)
+        self.assertEqual(self.frames(), [0, 6, 12, 28])
+        self.changed("time", "robot", "--frame", 6, "--hold", 4)
+        self.assertEqual(self.frames(), [0, 6, 10, 16, 32])
+        self.changed("delete", "robot", "--frame", "16-")
+        self.assertEqual(self.frames(), [0, 6, 10])
+        actor = self.changed("time", "robot", "--frame", 0, "--anticipate", 10, "--overshoot", 20)
+        self.assertEqual(len(actor["keys"][0]["ease"]), 4)
+
+    def test_keys_behind_the_end_are_told_or_the_film_grows(self):
+        ended = self.animate("pose", "robot", "elbow.y=90", "--frame", 60)
+        self.assertEqual(ended.returncode, 0)
+        self.assertIn("the last key, at frame 60, lies behind the last of 48 frames (--lengthen", ended.stderr)
+        self.assertIn("has keys up to frame 60", self.animate("check").stdout)
+        self.changed("move", "robot", "--frame", 60, "--to", 61, "--lengthen")
+        self.assertEqual(json.loads((self.folder / "film.json").read_text())["frames"], 62)
+
+    def test_all_and_the_camera(self):
+        self.changed("pose", "robot", "elbow.y=90", "--frame", 12)
+        self.changed("pose", "camera", "eye.x=3", "fov=30", "--frame", 12)
+        self.changed("time", "--all", "--frame", 5, "--shift", 10)
+        table = self.animate("list").stdout
+        self.assertEqual(self.frames(), [0, 22])
+        self.assertRegex(table, r"camera\n.*\n +0  eye   x 0  y -9  z 2\n +fov   40\n +22  eye   x 3")
+
+    def test_list_shows_what_is_keyed(self):
+        self.changed("pose", "robot", "elbow.y=90", "--frame", 12, "--ease", "out")
+        self.assertEqual(self.animate("list", "robot").stdout,
+                         "actor 'robot'\n  frame  part   value  ease\n      0  elbow  y 0\n     12  elbow  y 90   out\n")
+
+    def test_check_finds_limits_left_between_keys_and_a_key_mends_them(self):
+        self.changed("pose", "robot", "shoulder=0,80,0", "--frame", 0)
+        self.changed("pose", "robot", "shoulder=85,80,-90", "--frame", 24)
+        data = json.loads((self.folder / "film.json").read_text())
+        data["models"]["arm"]["joints"][0]["limits"]["y"] = [-81, 81]
+        self.write("film.json", data)
+        ended = self.animate("check")
+        self.assertEqual(ended.returncode, 1)
+        self.assertRegex(ended.stdout, r"actor 'robot', joint 'shoulder': turns \S+ degrees about y between keys, "
+                                       r"outside its limits -81 to 81, in frame 12")
+        self.assertIn("remark      film.json: 1 joint leaves its limits", self.succeed("mars", "info", "film.json"))
+        mend = re.search(r"mend it with: (.*)\)", ended.stdout)[1]
+        worst = self.degrees_outside(ended.stdout)
+        self.changed(*mend.split())
+        after = self.animate("check").stdout
+        self.assertLess(self.degrees_outside(after) if "turns" in after else 0, worst / 2)
+
+    def degrees_outside(self, told):
+        return float(re.search(r"turns (\S+) degrees", told)[1]) - 81
+
+    def test_what_cannot_be_done_is_told(self):
+        self.changed("pose", "robot", "elbow.y=90", "--frame", 12)
+        self.assertIn("did you mean 'elbow'?", self.refused("pose", "robot", "elbwo.y=9", "--frame", 3))
+        self.assertIn("did you mean 'robot'?", self.refused("key", "robbot", "--frame", 3))
+        self.assertIn("its keys stand at 0, 12", self.refused("move", "robot", "--frame", "3-5", "--to", 9))
+        self.assertIn("name an actor or camera, or say --all", self.refused("delete", "--frame", 0))
+        self.assertIn("--all and 'robot'", self.refused("delete", "robot", "--all", "--frame", 0))
+        self.assertIn("say one of --ease", self.refused("time", "robot", "--frame", 0))
+        self.assertIn("is no frame", self.refused("key", "robot", "--frame", "twelve"))
+        self.assertIn("ends before it begins", self.refused("delete", "robot", "--frame", "12-3"))
+        self.assertIn("did you mean 'both'", self.refused("time", "robot", "--frame", 0, "--ease", "boht"))
+        self.assertEqual(self.animate("tyme").returncode, 2)
+
+    def test_films_without_keys_to_change(self):
+        self.succeed("mars", "compile", "film.json", "-o", "film.mars")
+        for words in [["animate", "film.mars", "list"], ["plot", "film.mars", "-o", "a.png"]]:
+            self.assertIn("is compiled: it has matrices, no keys", self.mars(*words).stderr)
+        self.assertIn("there is no such file", self.mars("animate", "none.json", "list").stderr)
+        rows = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
+        self.write("film.json", film(actors=[{"name": "robot", "model": "arm", "matrices": [
+            {"frame": 0, "segments": {"shoulder": rows, "elbow": rows}}]}]))
+        self.assertIn("is moved by matrices", self.refused("pose", "robot", "elbow.y=9", "--frame", 3))
+
+    def test_examples_are_sound(self):
+        for name in ["robot-arm", "teapot", "demo"]:
+            ended = self.mars("animate", EXAMPLES / f"{name}.json", "check")
+            self.assertEqual(ended.returncode, 0, ended.stdout)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "there is no gnuplot")
+    def test_plot(self):
+        self.changed("pose", "robot", "elbow.y=90", "shoulder.x=20", "--frame", 12)
+        self.succeed("mars", "plot", "film.json", "-o", "a.png")
+        self.assertEqual((self.folder / "a.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.succeed("mars", "plot", "film.json", "robot", "elbow", "-o", "a.svg")
+        picture = (self.folder / "a.svg").read_text()
+        self.assertIn("actor 'robot': elbow", picture.replace("&#39;", "'"))
+        self.assertNotIn("shoulder", picture)
+
+    def test_plot_without_gnuplot_or_keys(self):
+        self.assertIn("has no keys to draw", self.mars("plot", "film.json", "-o", "a.png").stderr)
+        self.changed("pose", "robot", "elbow.y=90", "--frame", 12)
+        self.assertIn("is neither .png nor .svg", self.mars("plot", "film.json", "-o", "a.jpg").stderr)
+        none = self.mars("plot", "film.json", "-o", "a.png", env={"PATH": str(self.folder)})
+        self.assertEqual(none.returncode, 1)
+        self.assertIn("gnuplot: is not installed (install it, on Debian with: apt install gnuplot-nox)", none.stderr)
+        self.assertFalse((self.folder / "a.png").exists())
+
+
+if __name__ == "__main__":
+    main()
