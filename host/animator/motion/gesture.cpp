@@ -19,7 +19,7 @@ namespace {
 constexpr double kEnough = 1;     // degrees that a nod may fall short
 constexpr double kOff = 0.1;      // of the arm's length, that a waving hand may be off its place
 constexpr double kRaise = 0.5;    // seconds
-constexpr double kTolerance = 0.3;  // degrees between keys
+constexpr double kTolerance = 0.1;  // degrees between keys
 constexpr double kInward = -14, kOutward = 34;  // degrees of the forearm from upright
 
 // Postures of some joints at some moments. The numbers of a pose go straight from moment to moment, so that they keep
@@ -88,12 +88,13 @@ double bend(const Body& body, std::size_t joint, double degrees, Posture& postur
 Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::size_t head, double depth,
                const Wishes& wishes) {
   Posture down = start;
-  double left = depth - bend(body, neck, head == kNone ? depth : depth / 2, down);
-  left -= bend(body, head, left, down);
-  if (left > kEnough && neck != kNone && head != kNone) {
+  double by_neck = bend(body, neck, head == kNone ? depth : depth / 2, down);
+  const double by_head = bend(body, head, depth - by_neck, down);
+  if (neck != kNone) {
     down.pose[neck] = start.pose[neck];
-    left -= bend(body, neck, depth / 2 + left, down) - depth / 2;
+    by_neck = bend(body, neck, depth - by_head, down);
   }
+  const double left = depth - by_neck - by_head;
   if (left > kEnough)
     wishes.refuse("depth", "is " + shown(depth) + " degrees, but " + (neck == kNone ? "" : "'" + body.joint_name(neck) + "'") +
                                (neck == kNone || head == kNone ? "" : " and ") +

@@ -76,7 +76,7 @@ TEST(Actions, AskedAgainReplaceWhatTheyHadMade) {
   act(once, "walk steps 3", 5);
   act(twice, "walk steps 3 lean 10 pace 1.9", 5);
   act(twice, "walk steps 3", 5);
-  EXPECT_EQ(laid_out(twice), laid_out(once));
+  EXPECT_TRUE(twice == once);
 }
 
 TEST(Walk, SwingsArmsAgainstLegsAndBendsKneesForward) {
@@ -146,7 +146,7 @@ TEST(Nod, BendsTheHeadAsDeepAsAskedAndComesBack) {
   const auto bent = [&](std::uint32_t frame) {
     return glm::degrees(turn_between(shown.body.turn_of(shown.at(0), head), shown.body.turn_of(shown.at(frame), head)).angle);
   };
-  EXPECT_NEAR(bent(11), 30, 0.1);
+  EXPECT_NEAR(bent(11), 30, 0.25);
   EXPECT_NEAR(bent(done.last), 0, 0.01);
 }
 
