@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
+#include "host/document/file.h"
 #include "tests/host/animator/motion/bodies.h"
 #include "tests/host/document/failure_of.h"
 
@@ -92,6 +95,27 @@ TEST(Script, WhatFailsLeavesTheFilmAsItWas) {
   Json film = cubes();
   EXPECT_NE(failure_of([&] { play_script(film, "film.json", "at 0 green spin\nat 5 red spin", "a.script"); }), "");
   EXPECT_EQ(film, cubes());
+}
+
+TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
+  for (const std::string name : {"cubes", "visit"}) {
+    const std::filesystem::path path = std::filesystem::path(MARS_SOURCE_DIR) / "examples" / (name + ".json");
+    const Json kept = read_json(path);
+    Json made = kept;
+    play_script(made, path, read_file(path.parent_path() / (name + ".script")), name + ".script");
+    const Film a = read_film(path);
+    const Document document(laid_out(made), name);
+    const Film b = read_film(document.root(), path.parent_path());
+    ASSERT_EQ(a.frames, b.frames);
+    for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
+      for (std::uint32_t frame = 0; frame < a.frames; ++frame) {
+        const auto place = [&](const Film& film) { return value_at(film.actors[actor].motion.place, frame); };
+        EXPECT_LT(glm::distance(place(a), place(b)), 1e-3) << name << " " << a.actors[actor].name << " " << frame;
+      }
+    for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
+      EXPECT_EQ(kept["actors"][actor].contains("keys") ? kept["actors"][actor]["keys"].size() : 0u,
+                made["actors"][actor].contains("keys") ? made["actors"][actor]["keys"].size() : 0u) << name;
+  }
 }
 
 }  // namespace
