@@ -31,12 +31,15 @@ Json open(const std::string& path) {
   return read_json(path);
 }
 
+void write(const std::filesystem::path& file, const Json& film) {
+  write_json(file, film, [&](const Element& root) { read_film(root, file.parent_path()); });
+}
+
 // The film file, changed; with as many frames as `last` needs, if that is wanted.
 void write(const std::string& file, Json& film, std::uint32_t last, bool lengthen) {
   const auto frames = film.at("frames").get<std::uint32_t>();
   if (lengthen && last >= frames) film["frames"] = last + 1;
-  const std::filesystem::path path = file;
-  write_json(path, film, [&](const Element& root) { read_film(root, path.parent_path()); });
+  write(file, film);
   if (!lengthen && last >= frames)
     std::cerr << "mars: " << file << ": that ends at frame " << last << ", behind the last of " << frames
               << " frames (--lengthen makes the film long enough)\n";
@@ -82,7 +85,10 @@ void add_script(CLI::App& animate, const std::string& film) {
   command->callback([&film, script, lengthen] {
     Json json = open(film);
     const Played played = play_script(json, film, read_file(*script), *script);
-    write(film, json, played.last, *lengthen);
+    if (played.cut)
+      write(film, json);
+    else
+      write(film, json, played.last, *lengthen);
     for (const std::string& line : played.told) std::cout << line << '\n';
   });
 }

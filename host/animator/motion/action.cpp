@@ -171,7 +171,9 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
     throw Failure("is moved by matrices", "actor '" + name + "'", "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : last_key_of(actor), wishes};
   const Motion motion = action.perform(scene);
-  if (!motion.keys.empty() && motion.last > scene.at) clear_keys(json, name, scene.at + 1, motion.last, all_of(motion.keys));
+  // Where it is elsewhere afterwards, what followed was meant for another place.
+  const ActorKey driven = all_of(motion.keys);
+  clear_keys(json, name, scene.at + 1, driven.place ? node::kMostFrames : motion.last, driven);
   put_keys(json, name, motion.keys);
   return {scene.at, motion.last, motion.told};
 }

@@ -61,7 +61,8 @@ struct Scene {
   double frames(double seconds) const { return seconds * film.rate; }
 };
 
-// What comes of it. All earlier keys of what it drives, after the first frame and up to the last, make way.
+// What comes of it. Keys of what it drives make way: up to the last frame, and all later ones if the figure's place
+// is driven.
 struct Motion {
   std::vector<ActorKey> keys;
   std::uint32_t last = 0;   // frame

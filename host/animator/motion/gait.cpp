@@ -19,10 +19,11 @@ constexpr double kRise = 0.5;          // the heel rises before the toes leave
 constexpr double kStrike = -20;        // degrees of the sole as the heel comes down
 constexpr double kOff = 50;            // and as the toes leave
 constexpr double kTipOff = 24;         // of feet without toes
-constexpr double kReach = 0.9992;      // of a leg: never quite straight
+constexpr double kReach = 0.9992;      // of a leg that stands: never quite straight
+constexpr double kSwingReach = 0.988;  // of one that swings: its knee does not snap
 constexpr double kClearance = 0.012;   // of swinging feet over the floor, at least
 constexpr double kLiftTime = 0.12;     // of a swing, until they have it
-constexpr double kUpright = 0.05;      // of a swing, at either end, that a foot moves up or down alone
+constexpr double kUpright = 0.02;      // of a swing, at either end, that a foot moves up or down alone
 constexpr double kStiffRise = 0.05;    // of legs without knees
 constexpr CurvePoint kPitches[] = {{0, 50}, {0.184, 63}, {0.424, 38}, {0.688, 0}, {0.88, -19}, {1, -20}};
 constexpr CurvePoint kRises[] = {{0, 0.070}, {0.1, 0.112}, {0.28, 0.136}, {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
@@ -53,7 +54,7 @@ class Walker {
       const Foot& foot = stance.feet[index_of(side)];
       if (body_.stiff() && !foot.stands) continue;
       const glm::dvec3 hip = hip_of(stance, side), way = hip - foot.ankle;
-      const double reach = kReach * body_.leg(side).length();
+      const double reach = (foot.stands ? kReach : kSwingReach) * body_.leg(side).length();
       const double across = std::min(std::hypot(way.x, way.y), reach);
       most = std::max(most, way.z - std::sqrt(reach * reach - across * across));
     }

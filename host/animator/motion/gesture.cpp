@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "hal/failure.h"
+#include "host/animator/motion/gait.h"
+#include "host/animator/motion/glide.h"
 #include "host/animator/motion/reach.h"
 #include "host/animator/motion/stance.h"
 
@@ -17,38 +19,59 @@ namespace {
 constexpr double kEnough = 1;     // degrees that a nod may fall short
 constexpr double kOff = 0.1;      // of the arm's length, that a waving hand may be off its place
 constexpr double kRaise = 0.5;    // seconds
+constexpr double kTolerance = 0.1;  // degrees between keys
 constexpr double kInward = -14, kOutward = 34;  // degrees of the forearm from upright
 
-std::uint32_t frame_after(const Scene& scene, double seconds) {
-  return scene.at + static_cast<std::uint32_t>(std::max(1.0, std::round(scene.frames(seconds))));
-}
-
-glm::dvec3 two_digits(const Joint& joint, const glm::dvec3& pose) {
-  const glm::dvec3 even = glm::round(pose * 100.0) / 100.0;
-  return {std::clamp(even.x, joint.limits[0].lower, joint.limits[0].upper),
-          std::clamp(even.y, joint.limits[1].lower, joint.limits[1].upper),
-          std::clamp(even.z, joint.limits[2].lower, joint.limits[2].upper)};
-}
-
+// Postures of some joints at some moments. The numbers of a pose go straight from moment to moment, so that they keep
+// within limits all the way: joints that turn between far keys would not.
 class Gesture {
  public:
-  Gesture(const Scene& scene, std::vector<std::size_t> joints)
-      : model_(scene.model()), joints_(std::move(joints)) {}
+  Gesture(const Scene& scene, std::vector<std::size_t> joints) : scene_(scene), joints_(std::move(joints)) {}
 
-  void key(std::uint32_t frame, const Posture& posture, const Ease& ease) {
-    ActorKey& key = keys_.emplace_back();
-    key.frame = frame;
-    for (const std::size_t joint : joints_)
-      key.pose[model_.joints[joint].name] = two_digits(model_.joints[joint], posture.pose[joint]);
-    key.ease = ease;
+  // `seconds` from the start; slowly there and on.
+  void at(double seconds, const Posture& posture) {
+    moments_.push_back({static_cast<std::uint32_t>(std::round(scene_.frames(seconds))), posture});
   }
 
-  Motion motion() const { return {keys_, keys_.back().frame, ""}; }
+  Motion motion() const {
+    const std::uint32_t last = moments_.back().frame;
+    std::vector<ActorKey> keys(last + 1);
+    for (std::uint32_t frame = 0; frame <= last; ++frame) {
+      keys[frame].frame = scene_.at + frame;
+      keys[frame].ease = kLinear;
+    }
+    for (const std::size_t joint : joints_) add(scene_.model().joints[joint], numbers_of(joint, last), keys);
+    std::erase_if(keys, [](const ActorKey& key) { return key.pose.empty(); });
+    return {keys, scene_.at + last, ""};
+  }
 
  private:
-  const Model& model_;
+  struct Moment {
+    std::uint32_t frame;
+    Posture posture;
+  };
+
+  std::vector<glm::dvec3> numbers_of(std::size_t joint, std::uint32_t last) const {
+    std::vector<glm::dvec3> numbers;
+    std::size_t from = 0;
+    for (std::uint32_t frame = 0; frame <= last; ++frame) {
+      while (from + 2 < moments_.size() && frame >= moments_[from + 1].frame) ++from;
+      const Moment &a = moments_[from], &b = moments_[from + 1];
+      const double part = smooth(a.frame, std::max(b.frame, a.frame + 1), frame);
+      numbers.push_back(two_digits(scene_.model().joints[joint], glm::mix(a.posture.pose[joint], b.posture.pose[joint], part)));
+    }
+    return numbers;
+  }
+
+  static void add(const Joint& joint, const std::vector<glm::dvec3>& numbers, std::vector<ActorKey>& keys) {
+    choose_keys(numbers.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
+      return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at], kTolerance);
+    }, [&](std::size_t at) { keys[at].pose[joint.name] = numbers[at]; });
+  }
+
+  const Scene& scene_;
   std::vector<std::size_t> joints_;
-  std::vector<ActorKey> keys_;
+  std::vector<Moment> moments_;
 };
 
 // ---- Nodding
@@ -65,12 +88,13 @@ double bend(const Body& body, std::size_t joint, double degrees, Posture& postur
 Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::size_t head, double depth,
                const Wishes& wishes) {
   Posture down = start;
-  double left = depth - bend(body, neck, head == kNone ? depth : depth / 2, down);
-  left -= bend(body, head, left, down);
-  if (left > kEnough && neck != kNone && head != kNone) {
+  double by_neck = bend(body, neck, head == kNone ? depth : depth / 2, down);
+  const double by_head = bend(body, head, depth - by_neck, down);
+  if (neck != kNone) {
     down.pose[neck] = start.pose[neck];
-    left -= bend(body, neck, depth / 2 + left, down) - depth / 2;
+    by_neck = bend(body, neck, depth - by_head, down);
   }
+  const double left = depth - by_neck - by_head;
   if (left > kEnough)
     wishes.refuse("depth", "is " + shown(depth) + " degrees, but " + (neck == kNone ? "" : "'" + body.joint_name(neck) + "'") +
                                (neck == kNone || head == kNone ? "" : " and ") +
@@ -108,12 +132,6 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
   return posture;
 }
 
-Posture half_way(const Posture& a, const Posture& b) {
-  Posture posture = a;
-  for (std::size_t joint = 0; joint < a.pose.size(); ++joint) posture.pose[joint] = 0.5 * (a.pose[joint] + b.pose[joint]);
-  return posture;
-}
-
 }  // namespace
 
 Motion nod(const Scene& scene) {
@@ -129,10 +147,10 @@ Motion nod(const Scene& scene) {
   const double seconds = wishes.number("seconds", 0.6, {0.1, 60});
   Gesture gesture(scene, joints);
   for (std::uint32_t time = 0; time < times; ++time) {
-    gesture.key(frame_after(scene, seconds * time) - (time == 0), start, kBoth);
-    gesture.key(frame_after(scene, seconds * (time + 0.45)), down, kBoth);
+    gesture.at(seconds * time, start);
+    gesture.at(seconds * (time + 0.45), down);
   }
-  gesture.key(frame_after(scene, seconds * times), start, kLinear);
+  gesture.at(seconds * times, start);
   return gesture.motion();
 }
 
@@ -152,16 +170,13 @@ Motion wave(const Scene& scene) {
   const std::uint32_t times = wishes.count("times", 3, 1000);
   const double seconds = wishes.number("seconds", 0.5, {0.1, 60});
   Gesture gesture(scene, {arm.shoulder, arm.elbow, arm.wrist});
-  gesture.key(scene.at, start, kIn);
-  gesture.key(frame_after(scene, kRaise / 2), half_way(start, out), kOut);
+  gesture.at(0, start);
   for (std::uint32_t time = 0; time < times; ++time) {
-    gesture.key(frame_after(scene, kRaise + seconds * time), out, kBoth);
-    gesture.key(frame_after(scene, kRaise + seconds * (time + 0.5)), in, kBoth);
+    gesture.at(kRaise + seconds * time, out);
+    gesture.at(kRaise + seconds * (time + 0.5), in);
   }
-  const double end = kRaise + seconds * times;
-  gesture.key(frame_after(scene, end), out, kIn);
-  gesture.key(frame_after(scene, end + kRaise / 2), half_way(start, out), kOut);
-  gesture.key(frame_after(scene, end + kRaise), start, kLinear);
+  gesture.at(kRaise + seconds * times, out);
+  gesture.at(2 * kRaise + seconds * times, start);
   return gesture.motion();
 }
 

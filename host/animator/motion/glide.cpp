@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "host/animator/angles.h"
 #include "host/animator/motion/gait.h"
 
 namespace mars::host {
@@ -24,12 +25,6 @@ glm::dvec3 rounded_to(const glm::dvec3& v, double digit) {
 // A power of ten that is small against the figure.
 double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4))); }
 
-glm::dvec3 within(const Joint& joint, glm::dvec3 pose) {
-  for (int axis = 0; axis < 3; ++axis)
-    pose[axis] = std::clamp(pose[axis], joint.limits[axis].lower, joint.limits[axis].upper);
-  return pose;
-}
-
 double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
 
 class Keying {
@@ -41,7 +36,7 @@ class Keying {
   template <typename Value, typename Put>
   void add_turns(const Joint& joint, double tolerance, Value value, Put put) {
     std::vector<glm::dvec3> values;
-    for (const Posture& posture : postures_) values.push_back(within(joint, rounded_to(value(posture), 0.01)));
+    for (const Posture& posture : postures_) values.push_back(two_digits(joint, value(posture)));
     choose_keys(values.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
       return strays(joint, values[a], values[b], share(a, b, at), values[at], tolerance);
     }, [&](std::size_t at) { put(keys_[at], values[at]); });
@@ -98,8 +93,11 @@ bool strays(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, double
   const glm::dmat3 start = orientation(joint, a);
   const Turn turn = turn_between(start, orientation(joint, b));
   const glm::dmat3 shown = rotation(turn.axis, part * turn.angle) * start;
-  return glm::degrees(turn_between(shown, orientation(joint, is)).angle) > tolerance;
+  return glm::degrees(turn_between(shown, orientation(joint, is)).angle) > tolerance ||
+         largest_excess(joint, pose_of(joint, shown, is)) > kAngleRounding;
 }
+
+glm::dvec3 two_digits(const Joint& joint, const glm::dvec3& pose) { return clamped(joint, rounded_to(pose, 0.01)); }
 
 void begin_at(const Model& model, const Posture& start, double frames, std::vector<Posture>& postures) {
   const Posture first = postures.front();
@@ -109,7 +107,7 @@ void begin_at(const Model& model, const Posture& start, double frames, std::vect
     Posture& posture = postures[at];
     posture.place += left * off(start.place, first.place);
     for (std::size_t joint = 0; joint < posture.pose.size(); ++joint)
-      posture.pose[joint] = within(model.joints[joint],
+      posture.pose[joint] = clamped(model.joints[joint],
                                    posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
   }
 }

@@ -15,9 +15,13 @@ namespace mars::host {
 void choose_keys(std::size_t count, const std::function<bool(std::size_t, std::size_t, std::size_t)>& strays,
                  const std::function<void(std::size_t)>& put);
 
-// Whether a joint that turns from `a` to `b` is, that part of the way, more than `tolerance` degrees from `is`.
+// Whether a joint that turns from `a` to `b` is, that part of the way, more than `tolerance` degrees from `is`, or
+// outside its limits.
 bool strays(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, double part, const glm::dvec3& is,
             double tolerance);
+
+// The joint's numbers with two digits, within its limits.
+glm::dvec3 two_digits(const Joint& joint, const glm::dvec3& pose);
 
 // What `start` is off the first posture fades over `frames`, so that motion begins where the figure was.
 void begin_at(const Model& model, const Posture& start, double frames, std::vector<Posture>& postures);

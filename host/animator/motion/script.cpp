@@ -65,12 +65,12 @@ class Player {
     line.refuse("begins with '" + cue + "', which is no cue", did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
   }
 
-  // "and the film ends": with the frame before, so that it has as many frames as the time says.
   void cut_film(ScriptLine& line, std::uint32_t at) {
     line.take("cut");
     if (at == 0) line.refuse("ends the film before it begins", "cut later");
     if (!line.empty()) line.refuse("goes on after cut", "a camera's cut is: camera cut eye X Y Z");
     film_["frames"] = at;
+    played_.cut = true;
     played_.told.push_back(line.where() + ": the film has " + std::to_string(at) + " frames");
   }
 

@@ -18,11 +18,13 @@ constexpr double kPace = 2;          // steps a second
 constexpr double kLead = 0.35;       // of a period: weight goes to one foot before the first step
 constexpr double kSettle = 0.5;      // and to both after the last
 constexpr double kBehind = 0.526;    // of a step: the pelvis is behind the foot that lands
+constexpr double kFirstBehind = 0.44;  // the first foot, from standing
 constexpr double kApart = 0.67;      // of the hips' width: feet of a walk
 constexpr double kToeOut = 6;        // degrees
 constexpr double kTurnAtOnce = 50;   // degrees between two feet
 constexpr double kUpright = 0.8;     // of its height: what is lower sits
-constexpr double kMargin = 2;        // degrees: nothing to turn
+constexpr double kNothing = 0.2;      // degrees
+constexpr double kOnTheWay = 25;     // degrees that the first step can turn
 
 constexpr const char* kWalkRemedy = "take shorter steps (step-length), or widen the joint's limits in its model";
 constexpr const char* kTurnRemedy = "widen the joint's limits in its model, or turn the figure by keys of its turn";
@@ -104,7 +106,7 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
   Side side = first;
   for (int k = 1; k <= steps; ++k, side = other(side)) {
     gait.steps.push_back(planner.step(k, side, planner.print(path.at(k * length), path.heading(k * length), side)));
-    const double s = (k - behind) * length;
+    const double s = (k - (k == 1 && !body.stiff() ? kFirstBehind : behind)) * length;
     gait.way.push_back(planner.waypoint(planner.landing(k), path.at(s), path.heading(s), speed));
   }
   const double end = path.heading(path.length);
@@ -200,7 +202,7 @@ Motion walk(const Scene& scene) {
   std::optional<double> far = wishes.number("distance", {1e-6, kFarthest});
   if (const auto to = wishes.vector("to")) {
     const double by = bearing(stand_of(going.now()), *to);
-    if (std::abs(by) > kMargin) going.turn(by);
+    if (std::abs(by) > kOnTheWay) going.turn(by);
     far = glm::distance(stand_of(going.now()).middle, glm::dvec2(to->x, to->y));
     if (*far < 0.05 * going.body().leg_length()) return going.motion();
   }
@@ -222,7 +224,7 @@ Motion turn(const Scene& scene) {
   Going going(scene, "turn");
   const auto to = scene.wishes.vector("to");
   const double by = to ? bearing(stand_of(going.now()), *to) : scene.wishes.number("by", 90, {-3600, 3600});
-  if (std::abs(by) > kMargin / 10) going.turn(by);
+  if (std::abs(by) > kNothing) going.turn(by);
   return going.motion();
 }
 

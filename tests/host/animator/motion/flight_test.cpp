@@ -1,0 +1,95 @@
+// Kinematic laws against known answers: apex, impacts in geometric series, the end, what friction leaves.
+#include "host/animator/motion/flight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/animator/figure.h"
+#include "tests/host/animator/motion/bodies.h"
+
+namespace mars::host {
+namespace {
+
+constexpr double kG = 9.81;
+
+TEST(Flight, ThrownRisesToItsApexAndComesBack) {
+  const Flight flight({{0, 0, 1}, {3, 0, 6}, {0, 0, -kG}});
+  const double apex = 6 / kG;
+  EXPECT_NEAR(flight.place_at(apex).z, 1 + 36 / (2 * kG), 1e-12);
+  EXPECT_NEAR(flight.place_at(apex).x, 3 * apex, 1e-12);
+  EXPECT_NEAR(flight.place_at(2 * apex).z, 1, 1e-12);
+}
+
+TEST(Flight, BouncesAreAGeometricSeries) {
+  const double height = 2, e = 0.8, first = std::sqrt(2 * height / kG);
+  const Flight flight({{0, 0, height}, {0, 0, 0}, {0, 0, -kG}}, {.height = 0, .restitution = e, .friction = 0}, 1e-3);
+  double impact = first, up = 2 * first;
+  for (int bounce = 1; bounce <= 10; ++bounce) {
+    EXPECT_NEAR(flight.place_at(impact).z, 0, 1e-9) << bounce;
+    EXPECT_NEAR(flight.arcs()[std::size_t(bounce)].time, impact, 1e-9) << bounce;
+    up *= e;  // seconds in the air after this impact
+    EXPECT_NEAR(flight.place_at(impact + up / 2).z, height * std::pow(e, 2 * bounce), 1e-9) << bounce;
+    impact += up;
+  }
+  EXPECT_NEAR(flight.rest(), first * (1 + e) / (1 - e), 1e-9) << "the sum of all bounces";
+  EXPECT_EQ(flight.place_at(flight.rest() + 1), glm::dvec3(0, 0, 0));
+}
+
+TEST(Flight, FrictionTakesItsShareAndThenBrakesToRest) {
+  const Floor floor{.height = 0, .restitution = 0.5, .friction = 0.2};
+  const Flight flight({{0, 0, 1}, {4, 0, 0}, {0, 0, -kG}}, floor, 0.05);
+  const auto arcs = flight.arcs();
+  ASSERT_GE(arcs.size(), 4u);
+  EXPECT_NEAR(arcs[1].launch.velocity.x, 4 * 0.8, 1e-12);
+  EXPECT_NEAR(arcs[2].launch.velocity.x, 4 * 0.64, 1e-12);
+  const Arc& slide = arcs[arcs.size() - 2];
+  const double speed = slide.launch.velocity.x;
+  EXPECT_NEAR(flight.rest() - slide.time, speed / (0.2 * kG), 1e-12);
+  EXPECT_NEAR(flight.place_at(100).x - slide.launch.place.x, speed * speed / (2 * 0.2 * kG), 1e-12);
+  EXPECT_NEAR(flight.turned_at(100), flight.turned_at(flight.rest()), 1e-12) << "nor does it turn any more";
+}
+
+// What the film shows at a frame.
+glm::dvec3 shown(const Json& json, std::uint32_t frame) { return value_at(read(json).actors[0].motion.place, frame); }
+
+Json ball_at(double height) {
+  Json film = film_with({{"joints", Json::array({jointed("ball", "", {0, 0, 0}, {}, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, "sphere")})}});
+  film["actors"][0]["place"] = {0, 0, height};
+  return film;
+}
+
+TEST(Bounce, FilmsFollowTheLawAtEveryFrameWithinTheTolerance) {
+  Json film = ball_at(3.5);
+  const Performed done = act(film, "bounce velocity 2 0 1 restitution 0.75 friction 0.1 spin 0 300 0", 10);
+  const Flight flight({{0, 0, 3}, {2, 0, 1}, {0, 0, -kG}}, {.height = 0, .restitution = 0.75, .friction = 0.1},
+                      1e-3 * (3 + 1 / (2 * kG)));
+  for (std::uint32_t frame = done.first; frame <= done.last; ++frame) {
+    const glm::dvec3 there = shown(film, frame), law = flight.place_at((frame - 10) / 24.0);
+    EXPECT_NEAR(there.x, law.x, 5e-3) << frame;
+    EXPECT_NEAR(there.z - 0.5, law.z, 5e-3) << frame << ": its lowest point meets the floor";
+  }
+  EXPECT_EQ(done.last, 10 + std::uint32_t(std::ceil(flight.rest() * 24)));
+}
+
+TEST(Bounce, OfABallThatFallsStraightEndsWithTheSeries) {
+  Json film = ball_at(2.5);
+  const Performed done = act(film, "bounce restitution 0.5", 0);
+  EXPECT_EQ(done.last, std::uint32_t(std::ceil(24 * 3 * std::sqrt(4 / kG))));
+  EXPECT_EQ(shown(film, done.last).z, 0.5);
+}
+
+TEST(Spin, TurnsEvenlyThroughWholeTurns) {
+  Json film = ball_at(0);
+  film["actors"][0].erase("turn");
+  act(film, "spin axis z degrees 720 seconds 3", 0);
+  const Film meaning = read(film);
+  JointMotion turning(Joint{}, meaning.actors[0].motion.turn);
+  for (std::uint32_t frame = 0; frame <= 72; ++frame) {
+    const glm::dmat3 turn = turning.at(frame), wanted = rotation_by_degrees({0, 0, 1}, 10.0 * frame);
+    EXPECT_LT(turn_between(turn, wanted).angle, 1e-3) << frame;
+  }
+}
+
+}  // namespace
+}  // namespace mars::host
