@@ -31,7 +31,7 @@ class Commands(ProgramTest):
     def test_the_way_in(self):
         told = self.succeed("mars")
         self.assertIn("mars render examples/demo.json", told)
-        for command in ["render", "compile", "info", "verify", "import", "bench"]:
+        for command in ["render", "compile", "info", "preview", "play", "verify", "import", "bench"]:
             self.assertIn(f"mars {command} ", told)
             self.assertIn("Example: ", self.succeed("mars", command, "--help"))
 

@@ -116,10 +116,10 @@ class InATerminal(ProgramTest):
         screen = self.preview("preview", self.write("film.json", film))
         first = int(screen.wait_for(rb"(\d+)/239  24 frames/s  prisms, camera").group(1))
         begun = time.monotonic()
-        while time.monotonic() - begun < 2:
+        while time.monotonic() - begun < 4:
             screen.read(0.05)
         last = int(re.findall(rb"(\d+)/239 ", screen.seen)[-1])
-        self.assertAlmostEqual(last - first, 24 * (time.monotonic() - begun), delta=12)
+        self.assertAlmostEqual(last - first, 24 * (time.monotonic() - begun), delta=24)
         self.assertIn("▀".encode(), screen.seen)
         self.assertIn(b"\x1b[38;2;", screen.seen)
 
