@@ -1,5 +1,6 @@
 #include "host/modeler/model_file.h"
 
+#include <string>
 #include <vector>
 
 #include "hal/failure.h"
@@ -8,17 +9,21 @@
 namespace mars::host {
 namespace {
 
-// Of all segments; what is no segment with a material is left to read_model() to tell.
-std::vector<std::string_view> materials_named(const Element& model) {
-  std::vector<std::string_view> names;
-  const auto joints = model.find("joints");
-  if (!joints) return names;
-  for (const Element joint : *joints) {
-    const auto segment = joint.find("segment");
-    const auto material = segment ? segment->find("material") : std::nullopt;
-    if (material && material->kind() == Kind::text) names.push_back(material->text());
-  }
-  return names;
+constexpr int kMostSources = 16;  // files derived from each other, in a row
+
+// Of all segments, also those of the file that the model is derived from; what is not as it should be is left to
+// read_model() to tell.
+void add_materials(const Element& model, int sources, std::vector<std::string>& names) {
+  if (const auto joints = model.find("joints"))
+    for (const Element joint : *joints) {
+      const auto segment = joint.find("segment");
+      const auto material = segment ? segment->find("material") : std::nullopt;
+      if (material && material->kind() == Kind::text) names.emplace_back(material->text());
+    }
+  const auto from = model.find("from");
+  if (!from || from->kind() != Kind::text || sources == kMostSources) return;
+  const Document source = read_document(std::filesystem::path(from->document().name()).parent_path() / from->text());
+  add_materials(source.root(), sources + 1, names);
 }
 
 }  // namespace
@@ -27,7 +32,9 @@ Model read_own_model(const Element& element) {
   if (element.find("actors") || element.find("models"))
     element.refuse("is a film, not a model",
                    "put the model into a file of its own and name it in the film: \"models\": {\"dog\": \"dog.json\"}");
-  return read_model(element, materials_named(element));
+  std::vector<std::string> names;
+  add_materials(element, 0, names);
+  return read_model(element, std::vector<std::string_view>(names.begin(), names.end()));
 }
 
 Model load_own_model(const std::filesystem::path& path) {

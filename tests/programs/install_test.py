@@ -4,10 +4,13 @@ and completion say what the programs say themselves. And what ./bootstrap says w
 import gzip
 import os
 import pathlib
+import pty
 import re
+import select
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 import harness
@@ -128,6 +131,33 @@ class Installed(Installation):
                                 env=dict(os.environ, PATH=f"{harness.PROGRAMS}:{os.environ['PATH']}",
                                          HOME=str(self.folder)))
             self.assertEqual([line.split("\t")[0] for line in told.splitlines()], offered, typed)
+
+    @unittest.skipUnless(shutil.which("zsh"), "needs zsh")
+    def test_zsh_completes_commands_within_commands(self):
+        self.write("dog.json", "")
+        shell, terminal = pty.fork()
+        if shell == 0:
+            os.chdir(self.folder)
+            os.environ.update(PATH=f"{harness.PROGRAMS}:{os.environ['PATH']}", HOME=str(self.folder), TERM="dumb")
+            os.execvp("zsh", ["zsh", "-f", "-i"])
+        self.addCleanup(os.waitpid, shell, 0)
+        self.addCleanup(os.close, terminal)
+
+        def shows(typed, wanted):
+            os.write(terminal, typed.encode())
+            told, end = "", time.monotonic() + 20
+            while wanted not in told and time.monotonic() < end:
+                if select.select([terminal], [], [], 0.1)[0]:
+                    told += os.read(terminal, 65536).decode(errors="replace")
+            self.assertIn(wanted, told, typed)
+
+        functions = self.prefix / "share/zsh/site-functions"
+        shows(f"fpath=('{functions}' $fpath); autoload -U compinit; compinit -u; echo rea''dy\n", "ready\r\n")
+        for typed, wanted in [("mars mod", "mars model "), ("mars model sh", "mars model show "),
+                              ("mars model show d", "show dog.json "), ("mars render --backend thr", "threads "),
+                              ("mars model set dog.json body --limits x 0 9 --res", "--reset=")]:
+            shows(typed + "\t", wanted)
+            shows("\x15echo do''ne\n", "done\r\n")
 
 
 @unittest.skipUnless((BUILD / "cluster/install/options").exists(), "built without manual")

@@ -111,6 +111,16 @@ class Model(ProgramTest):
         self.model("add", "puppy.json", "--material", "fur", "--color", 0, 0, 0)
         self.assertRegex(self.model("show", "puppy.json"), r"fur +0 0 0")
 
+    def test_materials_of_a_film_are_left_to_it(self):
+        self.write("dog.json", {"joints": [{"name": "body", "segment": {"shape": "box", "material": "films"}}]})
+        self.model("new", "puppy.json", "--from", "dog.json")
+        self.assertIn("films", self.model("show", "puppy.json"))
+        self.assertIn("material 'films' is not the model's own", self.model("check", "puppy.json"))
+        self.model("add", "dog.json", "tail", "--parent", "body", "--shape", "box", "--material", "films")
+        self.refuse("set", "dog.json", "tail", "--material", "film", says="did you mean 'films'?")
+        self.write("self.json", {"from": "self.json", "proportions": {}})
+        self.fail_clearly(1, "model", "show", "self.json", says="derives the model from itself")
+
     def test_errors_leave_the_file_as_it_was(self):
         self.dog()
         for words, says in [

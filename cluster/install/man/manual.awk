@@ -20,6 +20,7 @@ function help(text,    at, example) {
   example = at ? substr(text, at + 9) : ""
   if (at) text = substr(text, 1, at - 1)
   sub(/ +$/, "", text)
+  gsub(/\. /, ".\n", text)
   if (text != "") text = plain(text) (text ~ /[.!?]$/ ? "" : ".") "\n"
   return text (example == "" ? "" : "Example:\n.Ql " plain(example) "\n")
 }
@@ -47,7 +48,7 @@ FILENAME == ARGV[1] && $1 == "command" {
   holds[within]++
 }
 FILENAME == ARGV[1] && $1 == "argument" {
-  synopsis[$2] = synopsis[$2] " Ar " $3
+  synopsis[$2] = synopsis[$2] ($5 == "required" ? " Ar " $3 : " Oo Ar " $3 " Oc")
   items[$2] = items[$2] ".It Ar " $3 "\n" help($6)
 }
 FILENAME == ARGV[1] && $1 == "option" && $3 !~ /--help/ {
