@@ -88,17 +88,23 @@ std::string laid_out(const std::vector<Row>& rows) {
 }
 
 std::string head_of(const Model& model) {
-  std::size_t freedoms = 0, segments = 0, patches = 0, stored = 0;
+  std::size_t freedoms = 0, segments = 0, patches = 0, stored = 0, faces = 0, stored_faces = 0;
   for (const Joint& joint : model.joints) {
     freedoms += static_cast<std::size_t>(joint.freedoms());
     if (!joint.segment) continue;
     ++segments;
-    patches += model.shapes[joint.segment->shape].patches.size();
+    const Shape& shape = model.shapes[joint.segment->shape];
+    patches += shape.patches.size();
+    faces += shape.mesh ? shape.mesh->ends.size() : 0;
   }
-  for (const Shape& shape : model.shapes) stored += shape.patches.size();
+  for (const Shape& shape : model.shapes) {
+    stored += shape.patches.size();
+    stored_faces += shape.mesh ? shape.mesh->ends.size() : 0;
+  }
   std::string text = "joints    " + formatted("%zu with %zu freedoms\n", model.joints.size(), freedoms);
   text += "segments  " + formatted("%zu of %zu shapes\n", segments, model.shapes.size());
   text += "patches   " + formatted("%zu, %zu of them stored\n", patches, stored);
+  if (stored_faces > 0) text += "faces     " + formatted("%zu, %zu of them stored\n", faces, stored_faces);
   if (const auto bounds = rest_bounds(model))
     text += "at rest   " + size_text(bounds->max - bounds->min) +
             formatted(", z from %.4g to %.4g\n", without_rounding(bounds->min.z), without_rounding(bounds->max.z));

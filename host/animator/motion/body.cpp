@@ -34,12 +34,15 @@ void add_points(const Model& model, const Posture& posture, std::size_t number, 
   if (!joint.segment) return;
   const Axes frame = segment_frame(frame_in(model, posture, number), joint);
   const Box& box = joint.segment->sbb;
-  for (const node::Patch& patch : model.shapes[joint.segment->shape].patches)
+  const auto add = [&](const glm::dvec3& p) {
+    points.push_back(frame.turn * (box.min + p * (box.max - box.min)) + frame.place);
+  };
+  const Shape& shape = model.shapes[joint.segment->shape];
+  for (const node::Patch& patch : shape.patches)
     for (int i = 0; i < kGrid; ++i)
-      for (int j = 0; j < kGrid; ++j) {
-        const glm::dvec3 p = patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1));
-        points.push_back(frame.turn * (box.min + p * (box.max - box.min)) + frame.place);
-      }
+      for (int j = 0; j < kGrid; ++j) add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
+  if (shape.mesh)
+    for (const Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }
 
 bool is_below(const Model& model, std::size_t joint, std::size_t ancestor) {

@@ -32,6 +32,16 @@ fur       1 0.5 0  0.1      0.65     0.45      32        2
 )");
 }
 
+TEST(Describe, MeshesHaveFacesAndASizeAtRest) {
+  const Document document(R"({"shapes": {"tip": {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]],
+      "faces": [[0, 1, 2], [0, 2, 3]]}}}, "joints": [{"name": "a", "segment": {"shape": "tip", "sbb": [[0, 0, 0], [2, 3, 4]]}},
+      {"name": "b", "parent": "a", "place": [2, 0, 0], "segment": {"shape": "tip"}}]})", "m.json");
+  const std::string text = describe_model(read_model(document.root()));
+  EXPECT_NE(text.find("faces     4, 2 of them stored"), std::string::npos) << text;
+  EXPECT_NE(text.find("tip    2 faces"), std::string::npos) << text;
+  EXPECT_NE(text.find("at rest   3 x 3 x 2"), std::string::npos) << text;
+}
+
 TEST(Describe, TellsSkewedAxes) {
   const Model model = model_of(R"({"name": "a", "y_axis": [0.5, 0.8660254037844386, 0], "segment": {"shape": "box"}},
                                   {"name": "b", "x_axis": [0, 1, 0], "y_axis": [-1, 0, 0]})");
