@@ -99,10 +99,10 @@ TEST(Examples, FiguresOfOtherProportionsShareTheirShapes) {
   EXPECT_EQ(five.view().segments().size(), one.view().segments().size() + 4 * 37);
 }
 
-// The first block of JSON on a page of docs/.
-std::string worked_example(const char* page) {
+// The first block of JSON on a page of docs/ that begins with `first`.
+std::string worked_example(const char* page, const std::string& first = "{") {
   const std::string text = read_file(fs::path(MARS_SOURCE_DIR) / "docs" / page);
-  const std::size_t start = text.find("```json") + 7;
+  const std::size_t start = text.find("```json\n" + first) + 8;
   return text.substr(start, text.find("```", start) - start);
 }
 
@@ -111,6 +111,10 @@ TEST(Examples, ThoseOfTheDocumentationAreTrue) {
   EXPECT_EQ(compile(read_film(film.root(), ".")).view().segments().size(), 2u);
   const Document model(worked_example("model-format.md"), "model-format.md");
   EXPECT_EQ(read_model(model.root()).joints.size(), 3u);
+  const Document sail(R"({"joints": [{"name": "mast", "segment": {"shape": "sail"}}], )" +
+                          worked_example("model-format.md", "\"shapes\"") + "}",
+                      "model-format.md");
+  EXPECT_EQ(read_model(sail.root()).shapes[0].patches.size(), 1u);
 }
 
 TEST(Examples, MeasuringScenesHaveTheirTriangles) {
