@@ -43,7 +43,8 @@ class LimbReader {
     const auto element = fields.find(key);
     if (!element) return kNone;
     const std::string name = read_text(*element);
-    const auto found = std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.name == name; });
+    const auto found =
+        std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.name == name; });
     if (found == joints_.end()) {
       std::vector<std::string_view> names;
       for (const Joint& joint : joints_) names.push_back(joint.name);
@@ -86,7 +87,9 @@ Limbs::Limbs() {
   for (auto& side : sides) side.fill(kNone);
 }
 
-Limbs read_limbs(const Element& element, std::span<const Joint> joints) { return LimbReader(joints).read(element); }
+Limbs read_limbs(const Element& element, std::span<const Joint> joints) {
+  return LimbReader(joints).read(element);
+}
 
 std::span<const Keys> limb_keys() { return kKeys; }
 

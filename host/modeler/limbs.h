@@ -17,7 +17,8 @@ enum class Trunk : std::size_t { pelvis, spine, chest, neck, head };
 enum class Limb : std::size_t { hip, knee, ankle, toes, shoulder, elbow, wrist };  // of either side
 
 inline constexpr std::string_view kTrunkNames[] = {"pelvis", "spine", "chest", "neck", "head"};
-inline constexpr std::string_view kLimbNames[] = {"hip", "knee", "ankle", "toes", "shoulder", "elbow", "wrist"};
+inline constexpr std::string_view kLimbNames[] = {"hip",      "knee",  "ankle", "toes",
+                                                  "shoulder", "elbow", "wrist"};
 inline constexpr std::string_view kLimbsNames[] = {"pelvis", "spine", "chest", "neck",
                                                    "head",   "left",  "right"};
 

@@ -55,24 +55,31 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
     const std::string name = "--" + std::string(parameter.name);
     std::string help(parameter.meaning);
     help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
-    command->add_option(name, typed->values[i], help + ". Example: " + name + " " + std::string(parameter.example))
+    command
+        ->add_option(name, typed->values[i],
+                     help + ". Example: " + name + " " + std::string(parameter.example))
         ->expected(static_cast<int>(parameter.count()))
         ->type_name(std::string(parameter.value));
   }
   const CLI::Option* at =
-      command->add_option("--at", typed->at, "The frame at which it begins; default: the actor's last key. Example: --at 24")
+      command
+          ->add_option("--at", typed->at,
+                       "The frame at which it begins; default: the actor's last key. Example: --at 24")
           ->type_name("FRAME")
           ->check(CLI::Range(0u, node::kMostFrames).description(""));
-  command->add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
+  command->add_flag("--lengthen", typed->lengthen,
+                    "Give the film as many frames as this needs. Example: --lengthen");
   command->callback([&film, &action, typed, at] {
     Wishes::Values values;
     for (std::size_t i = 0; i < typed->values.size(); ++i)
       if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
     Json json = open(film);
-    const Performed done = perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
-                                   Wishes(std::move(values), std::string(action.name)));
+    const Performed done =
+        perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
+                Wishes(std::move(values), std::string(action.name)));
     write(film, json, done.last, typed->lengthen);
-    std::cout << "frames " << done.first << " to " << done.last << (done.told.empty() ? "" : ": " + done.told) << '\n';
+    std::cout << "frames " << done.first << " to " << done.last << (done.told.empty() ? "" : ": " + done.told)
+              << '\n';
   });
 }
 
@@ -80,8 +87,10 @@ void add_script(CLI::App& animate, const std::string& film) {
   CLI::App* command = animate.add_subcommand("script", "Have a script's actors act, each at its cue");
   const auto script = std::make_shared<std::string>();
   const auto lengthen = std::make_shared<bool>(false);
-  command->add_option("SCRIPT", *script, "The script; docs/motion.md tells its form. Example: cubes.script")->required();
-  command->add_flag("--lengthen", *lengthen, "Give the film as many frames as the script needs. Example: --lengthen");
+  command->add_option("SCRIPT", *script, "The script; docs/motion.md tells its form. Example: cubes.script")
+      ->required();
+  command->add_flag("--lengthen", *lengthen,
+                    "Give the film as many frames as the script needs. Example: --lengthen");
   command->callback([&film, script, lengthen] {
     Json json = open(film);
     const Played played = play_script(json, film, read_file(*script), *script);

@@ -19,19 +19,22 @@ namespace {
 constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
 
 constexpr Parameter kWalk[] = {
-    {"steps", "N", "so many steps, and one that brings the feet together; default: 4, or as many as the way needs", "6"},
+    {"steps", "N",
+     "so many steps, and one that brings the feet together; default: 4, or as many as the way needs", "6"},
     {"distance", "D", "so far; default: as far as the steps go", "3.5"},
     {"to", "X Y", "to a place of the floor; the figure turns to it first", "2 -1"},
     {"turn", "DEGREES", "along a bow that turns so far, to the left; default: straight on", "90"},
     {"step-length", "D", "default: 0.62 of the leg", "0.7"},
     kPace,
-    {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right", "left"},
+    {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right",
+     "left"},
     {"arm-swing", "N", "times an ordinary walk's, 0 to 3; default: 1", "1.5"},
     {"bounce", "N", "up and down, times an ordinary walk's, 0 to 3; default: 1", "0.5"},
     {"knee-lift", "N", "of the swinging leg, times an ordinary walk's, 0 to 3; default: 1", "1.4"},
     {"lean", "DEGREES", "of the trunk, forward; default: 0", "8"}};
-constexpr Parameter kTurn[] = {
-    {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
+constexpr Parameter kTurn[] = {{"by", "DEGREES", "to the left; default: 90", "-90"},
+                               {"to", "X Y", "to face a place of the floor", "2 -1"},
+                               kPace};
 constexpr Parameter kSit[] = {
     {"seat-height", "H", "of the seat over the floor; default: so that the thighs are level", "0.45"},
     {"back", "D", "how far behind the feet the hips go; default: so that the shins stand upright", "0.4"},
@@ -43,11 +46,13 @@ constexpr Parameter kNod[] = {{"times", "N", "default: 2", "3"},
 constexpr Parameter kWave[] = {{"hand", "SIDE", "left or right; default: right", "left"},
                                {"times", "N", "default: 3", "5"},
                                {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
-constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"};
+constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none",
+                              "0 360 0"};
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
 constexpr Parameter kThrow[] = {
     kVelocity,
-    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre", "0 0 -28"},
+    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre",
+     "0 0 -28"},
     kSpinning,
     {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kBounce[] = {
@@ -55,7 +60,8 @@ constexpr Parameter kBounce[] = {
     {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28"},
     {"floor", "Z", "height of the floor, which the figure's lowest point meets; default: 0", "0.5"},
     {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
-    {"friction", "N", "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},
+    {"friction", "N",
+     "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},
     kSpinning,
     {"seconds", "S", "default: until it lies", "3"}};
 constexpr Parameter kSpin[] = {{"axis", "AXIS", "of the world: x, y or z; default: z", "x"},
@@ -140,35 +146,41 @@ std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return std::nullopt;
   glm::dvec3 vector(0);
-  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i) vector[int(i)] = parsed(name, found->second[i], {});
+  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i)
+    vector[int(i)] = parsed(name, found->second[i], {});
   return vector;
 }
 
-std::size_t Wishes::choice(std::string_view name, std::size_t otherwise, std::span<const std::string_view> choices) const {
+std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
+                           std::span<const std::string_view> choices) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return otherwise;
   const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
   if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
   std::string all;
   for (const std::string_view each : choices) all += (all.empty() ? "" : ", ") + std::string(each);
-  refuse(name, "is '" + found->second.at(0) + "'", did_you_mean(found->second.at(0), choices, "one of " + all));
+  refuse(name, "is '" + found->second.at(0) + "'",
+         did_you_mean(found->second.at(0), choices, "one of " + all));
 }
 
 std::span<const Action> actions() { return kActions; }
 
 const Action* find_action(std::string_view name) {
-  const auto found = std::find_if(std::begin(kActions), std::end(kActions), [&](const Action& a) { return a.name == name; });
+  const auto found =
+      std::find_if(std::begin(kActions), std::end(kActions), [&](const Action& a) { return a.name == name; });
   return found == std::end(kActions) ? nullptr : found;
 }
 
-Performed perform(Json& json, const std::filesystem::path& path, const std::string& name, const Action& action,
-                  std::optional<std::uint32_t> at, const Wishes& wishes) {
+Performed perform(Json& json, const std::filesystem::path& path, const std::string& name,
+                  const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes) {
   actor_of(json, name);  // refuses what is no actor
   const Document document(laid_out(json), path.string());
   const Film film = read_film(document.root(), path.parent_path());
-  const Actor& actor = *std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == name; });
+  const Actor& actor =
+      *std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == name; });
   if (!actor.matrices.empty())
-    throw Failure("is moved by matrices", "actor '" + name + "'", "take its matrices out of the film, or name another actor");
+    throw Failure("is moved by matrices", "actor '" + name + "'",
+                  "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : last_key_of(actor), wishes};
   const Motion motion = action.perform(scene);
   // Where it is elsewhere afterwards, what followed was meant for another place.

@@ -1,5 +1,5 @@
-// The actions that a command or a line of a script starts: walk, turn, sit ... Each is an entry of one table, with
-// its parameters, from which command line, scripts and help come.
+// The actions that a command or a line of a script starts: walk, turn, sit ... Each is an entry of one table,
+// with its parameters, from which command line, scripts and help come.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,8 @@ class Wishes {
   double number(std::string_view name, double otherwise, Range range) const;
   std::uint32_t count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const;
   std::optional<glm::dvec3> vector(std::string_view name) const;  // of two or three numbers, z then 0
-  std::size_t choice(std::string_view name, std::size_t otherwise, std::span<const std::string_view> choices) const;
+  std::size_t choice(std::string_view name, std::size_t otherwise,
+                     std::span<const std::string_view> choices) const;
 
   const std::string& where() const { return where_; }
   [[noreturn]] void refuse(std::string_view name, const std::string& what, const std::string& remedy) const;
@@ -61,12 +62,12 @@ struct Scene {
   double frames(double seconds) const { return seconds * film.rate; }
 };
 
-// What comes of it. Keys of what it drives make way: up to the last frame, and all later ones if the figure's place
-// is driven.
+// What comes of it. Keys of what it drives make way: up to the last frame, and all later ones if the figure's
+// place is driven.
 struct Motion {
   std::vector<ActorKey> keys;
-  std::uint32_t last = 0;   // frame
-  std::string told;         // more for the person who asked: "the seat is ..."; "" if nothing
+  std::uint32_t last = 0;  // frame
+  std::string told;        // more for the person who asked: "the seat is ..."; "" if nothing
 };
 
 struct Action {
@@ -84,9 +85,9 @@ struct Performed {
   std::string told;
 };
 
-// Has an actor of the film do something; the film is made longer where it ends before that does. Without `at` the
-// action begins at the actor's last key.
-Performed perform(Json& film, const std::filesystem::path& folder, const std::string& actor, const Action& action,
-                  std::optional<std::uint32_t> at, const Wishes& wishes);
+// Has an actor of the film do something; the film is made longer where it ends before that does. Without `at`
+// the action begins at the actor's last key.
+Performed perform(Json& film, const std::filesystem::path& folder, const std::string& actor,
+                  const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes);
 
 }  // namespace mars::host

@@ -12,9 +12,9 @@
 namespace mars::host {
 namespace {
 
-constexpr int kGrid = 4;            // points along each side of a patch, of which a sole's shape is known
-constexpr double kStrikes = -15;    // degrees of pitch at which the heel is what touches
-constexpr double kLeaves = 25;      // and the tip of a foot without toes
+constexpr int kGrid = 4;          // points along each side of a patch, of which a sole's shape is known
+constexpr double kStrikes = -15;  // degrees of pitch at which the heel is what touches
+constexpr double kLeaves = 25;    // and the tip of a foot without toes
 
 glm::dvec3 patch_point(const node::Patch& patch, double u, double v) {
   const auto weights = [](double t) {
@@ -29,7 +29,8 @@ glm::dvec3 patch_point(const node::Patch& patch, double u, double v) {
 }
 
 // Points of a joint's segment, in the world.
-void add_points(const Model& model, const Posture& posture, std::size_t number, std::vector<glm::dvec3>& points) {
+void add_points(const Model& model, const Posture& posture, std::size_t number,
+                std::vector<glm::dvec3>& points) {
   const Joint& joint = model.joints[number];
   if (!joint.segment) return;
   const Axes frame = segment_frame(frame_in(model, posture, number), joint);
@@ -64,7 +65,8 @@ glm::dvec3 lowest_point(const Sole& sole, double pitch) {
   return {least.x, 0, least.z};
 }
 
-Sole sole_of(const Model& model, const Posture& drawn, const glm::dmat3& axes, std::size_t ankle, std::size_t toes) {
+Sole sole_of(const Model& model, const Posture& drawn, const glm::dmat3& axes, std::size_t ankle,
+             std::size_t toes) {
   std::vector<glm::dvec3> foot, front;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
     if (is_below(model, joint, ankle))
@@ -97,10 +99,13 @@ glm::dmat3 nearly_square(const glm::dmat3& axes) {
 }  // namespace
 
 glm::dmat3 canonical_turn(double a, double b, double c) {
-  return rotation_by_degrees({1, 0, 0}, a) * rotation_by_degrees({0, 1, 0}, b) * rotation_by_degrees({0, 0, 1}, c);
+  return rotation_by_degrees({1, 0, 0}, a) * rotation_by_degrees({0, 1, 0}, b) *
+         rotation_by_degrees({0, 0, 1}, c);
 }
 
-glm::dmat3 canonical_turn(const glm::dvec3& degrees) { return canonical_turn(degrees.x, degrees.y, degrees.z); }
+glm::dmat3 canonical_turn(const glm::dvec3& degrees) {
+  return canonical_turn(degrees.x, degrees.y, degrees.z);
+}
 
 glm::dvec3 canonical_degrees(const glm::dmat3& m) {
   return glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(std::clamp(m[2][0], -1.0, 1.0)),
@@ -109,11 +114,13 @@ glm::dvec3 canonical_degrees(const glm::dmat3& m) {
 
 double Sole::height(double pitch, double bent) const {
   const glm::dmat3 turn = canonical_turn(0, pitch, 0);
-  return -std::min(lowest(foot, turn, {0, 0, 0}), lowest(toes, turn * canonical_turn(0, bent, 0), turn * bend));
+  return -std::min(lowest(foot, turn, {0, 0, 0}),
+                   lowest(toes, turn * canonical_turn(0, bent, 0), turn * bend));
 }
 
 bool Body::planar() const {
-  return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) { return model->joints[leg.hip].freedoms() < 2; });
+  return std::any_of(legs.begin(), legs.end(),
+                     [&](const Leg& leg) { return model->joints[leg.hip].freedoms() < 2; });
 }
 
 std::vector<std::size_t> Body::joints() const {
@@ -172,8 +179,14 @@ Body body_of(const Model& model, const std::string& actor, const std::string& co
   const glm::dmat3 back = glm::transpose(body.axes);
   for (const Side side : kSides) {
     Leg& leg = body.legs[index_of(side)];
-    leg = {model.limbs.of(Limb::hip, side), model.limbs.of(Limb::knee, side), model.limbs.of(Limb::ankle, side),
-           model.limbs.of(Limb::toes, side), 0, 0, 0, {}};
+    leg = {model.limbs.of(Limb::hip, side),
+           model.limbs.of(Limb::knee, side),
+           model.limbs.of(Limb::ankle, side),
+           model.limbs.of(Limb::toes, side),
+           0,
+           0,
+           0,
+           {}};
     const glm::dvec3 hip = hips[index_of(side)], ankle = frame_in(model, drawn, leg.ankle).place;
     const glm::dvec3 knee = leg.knee == kNone ? ankle : frame_in(model, drawn, leg.knee).place;
     leg.thigh = glm::distance(hip, knee);
@@ -195,8 +208,9 @@ std::size_t needed(const Body& body, Trunk part, const std::string& command) {
 std::size_t needed(const Body& body, Limb limb, Side side, const std::string& command) {
   const std::size_t joint = body.find(limb, side);
   if (joint == kNone)
-    fail_limb(body.name, command, std::string(side == Side::left ? "left " : "right ") +
-                                      std::string(kLimbNames[static_cast<std::size_t>(limb)]));
+    fail_limb(body.name, command,
+              std::string(side == Side::left ? "left " : "right ") +
+                  std::string(kLimbNames[static_cast<std::size_t>(limb)]));
   return joint;
 }
 

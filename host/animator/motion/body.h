@@ -1,5 +1,6 @@
-// A figure whose model names its limbs: what is forward, how long its legs are, what its soles are like. Commands
-// are written once, for a body along x with y to its left and z up ("canonical"), and drive any figure.
+// A figure whose model names its limbs: what is forward, how long its legs are, what its soles are like.
+// Commands are written once, for a body along x with y to its left and z up ("canonical"), and drive any
+// figure.
 #pragma once
 
 #include <array>
@@ -25,8 +26,8 @@ glm::dvec3 canonical_degrees(const glm::dmat3& turn);
 // The foot's underside, canonical, from the ankle; toes from the joint that bends them.
 struct Sole {
   std::vector<glm::dvec3> foot, toes;
-  glm::dvec3 bend;                  // of the toes, from the ankle
-  glm::dvec3 heel, ball;            // on what the foot comes down, and on what it leaves
+  glm::dvec3 bend;        // of the toes, from the ankle
+  glm::dvec3 heel, ball;  // on what the foot comes down, and on what it leaves
 
   // How high the ankle is over the floor when the foot, pitched with its toes down by so many degrees and the
   // toes bent against it, touches it.
@@ -44,11 +45,11 @@ struct Leg {
 
 struct Body {
   const Model* model;
-  std::string name;     // of the actor, for messages
-  glm::dmat3 axes;      // forward, left, up in the model's own frame
-  std::size_t pelvis;   // named, or the joint that carries the hips
+  std::string name;    // of the actor, for messages
+  glm::dmat3 axes;     // forward, left, up in the model's own frame
+  std::size_t pelvis;  // named, or the joint that carries the hips
   std::array<Leg, 2> legs;
-  double height;        // of the pelvis over the floor as drawn, where it stands
+  double height;  // of the pelvis over the floor as drawn, where it stands
 
   const Leg& leg(Side side) const { return legs[index_of(side)]; }
   double leg_length() const { return legs[0].length(); }

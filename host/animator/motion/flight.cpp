@@ -45,7 +45,8 @@ Flight::Flight(const Launch& launch, const Floor& floor, double low) : arcs_{{.l
   slide(floor);
 }
 
-// What is left of the bounces, 2 up / |down| (1 + e + e^2 + ...) seconds, is too low to be seen; then friction brakes.
+// What is left of the bounces, 2 up / |down| (1 + e + e^2 + ...) seconds, is too low to be seen; then
+// friction brakes.
 void Flight::slide(const Floor& floor) {
   Arc& last = arcs_.back();
   const double down = -last.launch.acceleration.z;
@@ -63,7 +64,8 @@ void Flight::slide(const Floor& floor) {
 }
 
 const Arc& Flight::arc_at(double time) const {
-  const auto later = std::upper_bound(arcs_.begin(), arcs_.end(), time, [](double t, const Arc& arc) { return t < arc.time; });
+  const auto later = std::upper_bound(arcs_.begin(), arcs_.end(), time,
+                                      [](double t, const Arc& arc) { return t < arc.time; });
   return later == arcs_.begin() ? arcs_.front() : *(later - 1);
 }
 

@@ -1,5 +1,5 @@
-// Kinematic laws (thesis 3.2.1): where something is that has a velocity and an acceleration, and what a floor does to
-// it. Closed forms from impact to impact: nothing is summed up step by step.
+// Kinematic laws (thesis 3.2.1): where something is that has a velocity and an acceleration, and what a floor
+// does to it. Closed forms from impact to impact: nothing is summed up step by step.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,8 +21,8 @@ struct Floor {
   double friction = 0.1;     // of the speed along the floor that an impact takes, 0 to 1
 };
 
-// From `time` on, until the next: place, velocity and acceleration there; and the turning, whose speed is counted in
-// first turning speeds.
+// From `time` on, until the next: place, velocity and acceleration there; and the turning, whose speed is
+// counted in first turning speeds.
 struct Arc {
   double time = 0;
   Launch launch;
@@ -35,8 +35,9 @@ class Flight {
  public:
   // Free, for ever.
   explicit Flight(const Launch& launch) : arcs_{{.launch = launch}} {}
-  // Falls to the floor and bounces until a bounce is lower than `low`; then all bounces that would follow, infinitely
-  // many in finite time, are left to their end, and it slides or lies. The acceleration is downward.
+  // Falls to the floor and bounces until a bounce is lower than `low`; then all bounces that would follow,
+  // infinitely many in finite time, are left to their end, and it slides or lies. The acceleration is
+  // downward.
   Flight(const Launch& launch, const Floor& floor, double low);
 
   glm::dvec3 place_at(double time) const;

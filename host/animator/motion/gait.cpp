@@ -26,10 +26,13 @@ constexpr double kLiftTime = 0.12;     // of a swing, until they have it
 constexpr double kUpright = 0.02;      // of a swing, at either end, that a foot moves up or down alone
 constexpr double kStiffRise = 0.05;    // of legs without knees
 constexpr CurvePoint kPitches[] = {{0, 50}, {0.184, 63}, {0.424, 38}, {0.688, 0}, {0.88, -19}, {1, -20}};
-constexpr CurvePoint kRises[] = {{0, 0.070}, {0.1, 0.112}, {0.28, 0.136}, {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
+constexpr CurvePoint kRises[] = {{0, 0.070},    {0.1, 0.112},  {0.28, 0.136},
+                                 {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
 constexpr CurvePoint kBends[] = {{0, -50}, {0.2, -46}, {0.328, -18}, {0.472, -3}, {0.664, 0}, {1, 0}};
 
-glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
+glm::dvec2 ahead(double heading) {
+  return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))};
+}
 
 class Walker {
  public:
@@ -100,7 +103,8 @@ class Walker {
 
   double strike_pitch(const Step& step, const Footprint& from) const {
     if (body_.stiff()) return 0;
-    const double forward = glm::dot(step.to.place - from.place, ahead(step.to.heading)) / (2 * kStride * body_.leg_length());
+    const double forward =
+        glm::dot(step.to.place - from.place, ahead(step.to.heading)) / (2 * kStride * body_.leg_length());
     return kStrike * std::clamp(forward * 1.25 - 0.25, 0.0, 1.0);
   }
 
@@ -112,8 +116,8 @@ class Walker {
     return {{place.x, place.y, floor_ + sole.height(pitch, bent)}, print.heading, pitch, bent, true};
   }
 
-  Foot standing(Side side, const Footprint& print, const Step* before, const Footprint& from, const Step* next,
-                double time) const {
+  Foot standing(Side side, const Footprint& print, const Step* before, const Footprint& from,
+                const Step* next, double time) const {
     const Sole& sole = body_.leg(side).sole;
     const double flat = kFlat * gait_.period, rise = kRise * gait_.period;
     if (before && time < before->land + flat) {
@@ -142,10 +146,12 @@ class Walker {
     foot.pitch = way > 0 ? way * off.pitch / kOff : way * land.pitch / kStrike;
     foot.bent = off.bent == 0 ? 0 : -curve_through(kBends, 0, 0, u) * off.bent / kOff;
     foot.stands = false;
-    foot.ankle.z = floor_ + std::max(rise(step, from, off, land, u) * body_.leg_length(),
-                                     body_.leg(side).sole.height(foot.pitch, foot.bent) - body_.leg(side).sole.height(0, 0) +
-                                         std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * kClearance * body_.leg_length()) +
-                   body_.leg(side).sole.height(0, 0);
+    foot.ankle.z =
+        floor_ +
+        std::max(rise(step, from, off, land, u) * body_.leg_length(),
+                 body_.leg(side).sole.height(foot.pitch, foot.bent) - body_.leg(side).sole.height(0, 0) +
+                     std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * kClearance * body_.leg_length()) +
+        body_.leg(side).sole.height(0, 0);
     return foot;
   }
 
@@ -153,7 +159,8 @@ class Walker {
   static double carried(double from, double leaves, double to, double lands, double u) {
     if (u < kUpright) return from + leaves * u;
     if (u > 1 - kUpright) return to - lands * (1 - u);
-    return hermite({kUpright, from + leaves * kUpright}, {1 - kUpright, to - lands * kUpright}, leaves, lands, u);
+    return hermite({kUpright, from + leaves * kUpright}, {1 - kUpright, to - lands * kUpright}, leaves, lands,
+                   u);
   }
 
   // Of the ankle over where it is when the foot is flat.
@@ -191,7 +198,8 @@ class Walker {
 
   // Of the swings of a walk: they grow with the first step and end with the last.
   double fullness(double time) const {
-    return smooth(0, gait_.steps.front().land, time) * (1 - smooth(gait_.end() - 1.6 * gait_.period, gait_.end(), time));
+    return smooth(0, gait_.steps.front().land, time) *
+           (1 - smooth(gait_.end() - 1.6 * gait_.period, gait_.end(), time));
   }
 
   Stance body_at(double time) const {
@@ -204,15 +212,16 @@ class Walker {
     const double settle = smooth(0, gait_.steps.front().land, time);
     const double height = start_.pelvis.z - floor_ + (body_.height - start_.pelvis.z + floor_) * settle;
     const glm::dvec2 forward = ahead(stance.heading), left(-forward.y, forward.x);
-    const glm::dvec2 sway = 0.013 * leg * swing * wave(0.015, 2) * forward +
-                            loose * 0.0216 * leg * full * wave(0.31) * left;
+    const glm::dvec2 sway =
+        0.013 * leg * swing * wave(0.015, 2) * forward + loose * 0.0216 * leg * full * wave(0.31) * left;
     stance.pelvis.x += sway.x;
     stance.pelvis.y += sway.y;
-    stance.pelvis.z = floor_ + height - leg * (0.0216 * swing + 0.0124 * swing * gait_.style.bounce * wave(0.056, 2));
+    stance.pelvis.z =
+        floor_ + height - leg * (0.0216 * swing + 0.0124 * swing * gait_.style.bounce * wave(0.056, 2));
     const double lean = full * gait_.style.lean;
-    stance.tilt = (1 - settle) * start_.tilt +
-                  glm::dvec3(loose * 2.5 * swing * wave(0.18) + waddle(time), swing * (3 + wave(0.05, 2)) + 0.4 * lean,
-                             -5 * loose * swing * wave(0));
+    stance.tilt = (1 - settle) * start_.tilt + glm::dvec3(loose * 2.5 * swing * wave(0.18) + waddle(time),
+                                                          swing * (3 + wave(0.05, 2)) + 0.4 * lean,
+                                                          -5 * loose * swing * wave(0));
     add_trunk(stance, p, swing, lean);
     for (const Side side : kSides) add_arm(stance, side, p, swing);
     return stance;
@@ -224,7 +233,8 @@ class Walker {
     for (const Step& step : gait_.steps) {
       if (time <= step.off || time >= step.land) continue;
       const double u = (time - step.off) / (step.land - step.off);
-      const double sine = std::min(kStiffRise * body_.leg_length() / (2 * std::abs(body_.leg(step.side).aside)), 0.3);
+      const double sine =
+          std::min(kStiffRise * body_.leg_length() / (2 * std::abs(body_.leg(step.side).aside)), 0.3);
       return sign_of(step.side) * glm::degrees(std::asin(sine)) * std::sin(M_PI * u);
     }
     return 0;
@@ -235,7 +245,8 @@ class Walker {
     while (i + 2 < gait_.way.size() && time > gait_.way[i + 1].time) ++i;
     const Waypoint &a = gait_.way[i], &b = gait_.way[i + 1];
     for (int axis = 0; axis < 2; ++axis)
-      stance.pelvis[axis] = hermite({a.time, a.place[axis]}, {b.time, b.place[axis]}, a.velocity[axis], b.velocity[axis], time);
+      stance.pelvis[axis] =
+          hermite({a.time, a.place[axis]}, {b.time, b.place[axis]}, a.velocity[axis], b.velocity[axis], time);
     std::vector<CurvePoint> headings;
     for (const Waypoint& point : gait_.way) headings.push_back({point.time, point.heading});
     stance.heading = curve_through(headings, 0, 0, time);
@@ -254,15 +265,18 @@ class Walker {
   }
 
   void add_arm(Stance& stance, Side side, double p, double swing) const {
-    const double own = side == Side::left ? p : p + 0.5, s = sign_of(side), much = swing * gait_.style.arm_swing;
+    const double own = side == Side::left ? p : p + 0.5, s = sign_of(side),
+                 much = swing * gait_.style.arm_swing;
     const auto wave = [&](double late) { return std::cos(2 * M_PI * (own - late)); };
     if (const std::size_t joint = body_.find(Limb::shoulder, side); joint != kNone)
       stance.turns[joint] = hanging_shoulder(
           body_, side, {s * (8 + 1.5 * much * wave(0.5)), -3 * swing + 21 * much * wave(0.02), s * -12});
     if (const std::size_t joint = body_.find(Limb::elbow, side); joint != kNone)
-      stance.turns[joint] = hanging_elbow(body_, side, {0, -14 - 14 * swing + 15 * much * wave(0.09), s * -14});
+      stance.turns[joint] =
+          hanging_elbow(body_, side, {0, -14 - 14 * swing + 15 * much * wave(0.09), s * -14});
     if (const std::size_t joint = body_.find(Limb::wrist, side); joint != kNone)
-      stance.turns[joint] = hanging_elbow(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
+      stance.turns[joint] =
+          hanging_elbow(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
   }
 
   const Body& body_;
@@ -272,7 +286,8 @@ class Walker {
   std::array<Footprint, 2> prints_;
 };
 
-// The lowest curve over all values that changes no faster than a moving mean over `reach` values to each side.
+// The lowest curve over all values that changes no faster than a moving mean over `reach` values to each
+// side.
 std::vector<double> smooth_cover(const std::vector<double>& values, int reach) {
   const auto over = [&](const std::vector<double>& from, auto take) {
     std::vector<double> result(from.size());
@@ -323,8 +338,9 @@ std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
   return turns;
 }
 
-std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait, std::uint32_t first_frame,
-                                 const std::string& doing, const std::string& remedy) {
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
+                                 std::uint32_t first_frame, const std::string& doing,
+                                 const std::string& remedy) {
   const Walker walker(body, start, gait);
   std::vector<Stance> stances;
   std::vector<double> high;
@@ -337,7 +353,8 @@ std::vector<Posture> postures_of(const Body& body, const Posture& start, const G
   Posture posture = start;
   for (std::size_t frame = 0; frame < stances.size(); ++frame) {
     stances[frame].pelvis.z += body.stiff() ? walker.off_height(stances[frame]) : -high[frame];
-    take_stance(body, stances[frame], posture, doing + " at frame " + std::to_string(first_frame + frame), remedy);
+    take_stance(body, stances[frame], posture, doing + " at frame " + std::to_string(first_frame + frame),
+                remedy);
     postures.push_back(posture);
   }
   return postures;

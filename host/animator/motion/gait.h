@@ -1,4 +1,5 @@
-// Steps: from a plan of footprints and times to a stance at every moment. Walking and turning are plans of steps.
+// Steps: from a plan of footprints and times to a stance at every moment. Walking and turning are plans of
+// steps.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -23,32 +24,33 @@ struct Step {
 
 // Through which the pelvis goes.
 struct Waypoint {
-  double time;           // frames from the start
+  double time;  // frames from the start
   glm::dvec2 place;
-  double heading;        // degrees, not wrapped: more than a turn is more than a turn
-  glm::dvec2 velocity;   // per frame
+  double heading;       // degrees, not wrapped: more than a turn is more than a turn
+  glm::dvec2 velocity;  // per frame
 };
 
 struct Style {
   double arm_swing = 1;  // shares of an ordinary walk's
   double bounce = 1;
   double knee_lift = 1;
-  double lean = 0;       // degrees, forward, beyond an ordinary walk's
+  double lean = 0;  // degrees, forward, beyond an ordinary walk's
 };
 
 struct Gait {
-  std::vector<Step> steps;      // in the order of landing
-  std::vector<Waypoint> way;    // from 0 to the end
-  double period;                // frames from landing to landing
-  double stride;                // a step's length over the leg's, for how much the body swings
+  std::vector<Step> steps;    // in the order of landing
+  std::vector<Waypoint> way;  // from 0 to the end
+  double period;              // frames from landing to landing
+  double stride;              // a step's length over the leg's, for how much the body swings
   Style style;
 
   double end() const { return way.back().time; }
 };
 
 // The postures of frames 0 to the gait's end, from `start` on. `doing` and `remedy` are for failures.
-std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait, std::uint32_t first_frame,
-                                 const std::string& doing, const std::string& remedy);
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
+                                 std::uint32_t first_frame, const std::string& doing,
+                                 const std::string& remedy);
 
 // Share of a period for which a foot is off the floor.
 double swing_share(const Body& body);

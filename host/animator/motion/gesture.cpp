@@ -16,14 +16,14 @@
 namespace mars::host {
 namespace {
 
-constexpr double kEnough = 1;     // degrees that a nod may fall short
-constexpr double kOff = 0.1;      // of the arm's length, that a waving hand may be off its place
-constexpr double kRaise = 0.5;    // seconds
+constexpr double kEnough = 1;       // degrees that a nod may fall short
+constexpr double kOff = 0.1;        // of the arm's length, that a waving hand may be off its place
+constexpr double kRaise = 0.5;      // seconds
 constexpr double kTolerance = 0.1;  // degrees between keys
 constexpr double kInward = -14, kOutward = 34;  // degrees of the forearm from upright
 
-// Postures of some joints at some moments. The numbers of a pose go straight from moment to moment, so that they keep
-// within limits all the way: joints that turn between far keys would not.
+// Postures of some joints at some moments. The numbers of a pose go straight from moment to moment, so that
+// they keep within limits all the way: joints that turn between far keys would not.
 class Gesture {
  public:
   Gesture(const Scene& scene, std::vector<std::size_t> joints) : scene_(scene), joints_(std::move(joints)) {}
@@ -58,15 +58,20 @@ class Gesture {
       while (from + 2 < moments_.size() && frame >= moments_[from + 1].frame) ++from;
       const Moment &a = moments_[from], &b = moments_[from + 1];
       const double part = smooth(a.frame, std::max(b.frame, a.frame + 1), frame);
-      numbers.push_back(two_digits(scene_.model().joints[joint], glm::mix(a.posture.pose[joint], b.posture.pose[joint], part)));
+      numbers.push_back(two_digits(scene_.model().joints[joint],
+                                   glm::mix(a.posture.pose[joint], b.posture.pose[joint], part)));
     }
     return numbers;
   }
 
   static void add(const Joint& joint, const std::vector<glm::dvec3>& numbers, std::vector<ActorKey>& keys) {
-    choose_keys(numbers.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
-      return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at], kTolerance);
-    }, [&](std::size_t at) { keys[at].pose[joint.name] = numbers[at]; });
+    choose_keys(
+        numbers.size(),
+        [&](std::size_t a, std::size_t b, std::size_t at) {
+          return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at],
+                        kTolerance);
+        },
+        [&](std::size_t at) { keys[at].pose[joint.name] = numbers[at]; });
   }
 
   const Scene& scene_;
@@ -96,10 +101,12 @@ Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::si
   }
   const double left = depth - by_neck - by_head;
   if (left > kEnough)
-    wishes.refuse("depth", "is " + shown(depth) + " degrees, but " + (neck == kNone ? "" : "'" + body.joint_name(neck) + "'") +
-                               (neck == kNone || head == kNone ? "" : " and ") +
-                               (head == kNone ? "" : "'" + body.joint_name(head) + "'") + " can bend " +
-                               shown(std::floor(depth - left)) + " from where they are",
+    wishes.refuse("depth",
+                  "is " + shown(depth) + " degrees, but " +
+                      (neck == kNone ? "" : "'" + body.joint_name(neck) + "'") +
+                      (neck == kNone || head == kNone ? "" : " and ") +
+                      (head == kNone ? "" : "'" + body.joint_name(head) + "'") + " can bend " +
+                      shown(std::floor(depth - left)) + " from where they are",
                   "nod less, or widen the joint's limits in its model");
   return down;
 }
@@ -111,15 +118,19 @@ struct Arm {
   double upper, fore;
 };
 
-Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm, double outward, const std::string& where) {
+Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm, double outward,
+               const std::string& where) {
   Posture posture = start;
   const double s = sign_of(side), tilt = glm::radians(outward);
   const glm::dmat3 facing = canonical_turn(0, 0, body.heading_of(start));
   const glm::dvec3 shoulder = frame_in(*body.model, start, arm.shoulder).place;
   const glm::dvec3 elbow = shoulder + arm.upper * (facing * glm::normalize(glm::dvec3(0.22, s, -0.05)));
-  const glm::dvec3 wrist = elbow + arm.fore * (facing * glm::normalize(glm::dvec3(0.12, s * std::sin(tilt), std::cos(tilt))));
-  posture.pose[arm.shoulder] = numbers_for(body, arm.shoulder, hanging_shoulder(body, side, {s * 95, 0, s * 80}), start.pose[arm.shoulder]);
-  posture.pose[arm.elbow] = numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);
+  const glm::dvec3 wrist =
+      elbow + arm.fore * (facing * glm::normalize(glm::dvec3(0.12, s * std::sin(tilt), std::cos(tilt))));
+  posture.pose[arm.shoulder] = numbers_for(
+      body, arm.shoulder, hanging_shoulder(body, side, {s * 95, 0, s * 80}), start.pose[arm.shoulder]);
+  posture.pose[arm.elbow] =
+      numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);
   posture.pose[arm.wrist] = numbers_for(body, arm.wrist, glm::dmat3(1), start.pose[arm.wrist]);
   const std::size_t joints[] = {arm.shoulder, arm.elbow};
   const Goal goals[] = {{.joint = arm.elbow, .place = elbow}, {.joint = arm.wrist, .place = wrist}};
@@ -127,8 +138,8 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
   if (glm::distance(frame_in(*body.model, posture, arm.wrist).place, wrist) > kOff * (arm.upper + arm.fore))
     throw Failure("cannot raise its " + std::string(side == Side::left ? "left" : "right") + " hand to wave",
                   "actor '" + body.name + "', " + where,
-                  "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" + body.joint_name(arm.elbow) +
-                      "' in its model, or take the other hand");
+                  "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" +
+                      body.joint_name(arm.elbow) + "' in its model, or take the other hand");
   return posture;
 }
 

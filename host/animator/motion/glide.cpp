@@ -23,13 +23,18 @@ glm::dvec3 rounded_to(const glm::dvec3& v, double digit) {
 }
 
 // A power of ten that is small against the figure.
-double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4))); }
+double place_digit(const Body& body) {
+  return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4)));
+}
 
-double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
+double share(std::size_t from, std::size_t to, std::size_t at) {
+  return double(at - from) / double(to - from);
+}
 
 class Keying {
  public:
-  Keying(std::span<const Posture> postures, std::uint32_t first) : postures_(postures), keys_(postures.size()) {
+  Keying(std::span<const Posture> postures, std::uint32_t first)
+      : postures_(postures), keys_(postures.size()) {
     for (std::size_t i = 0; i < keys_.size(); ++i) keys_[i].frame = first + std::uint32_t(i);
   }
 
@@ -37,16 +42,22 @@ class Keying {
   void add_turns(const Joint& joint, double tolerance, Value value, Put put) {
     std::vector<glm::dvec3> values;
     for (const Posture& posture : postures_) values.push_back(two_digits(joint, value(posture)));
-    choose_keys(values.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
-      return strays(joint, values[a], values[b], share(a, b, at), values[at], tolerance);
-    }, [&](std::size_t at) { put(keys_[at], values[at]); });
+    choose_keys(
+        values.size(),
+        [&](std::size_t a, std::size_t b, std::size_t at) {
+          return strays(joint, values[a], values[b], share(a, b, at), values[at], tolerance);
+        },
+        [&](std::size_t at) { put(keys_[at], values[at]); });
   }
 
   void add_places(double digit, double tolerance) {
-    choose_keys(postures_.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
-      const glm::dvec3 way = glm::mix(postures_[a].place, postures_[b].place, share(a, b, at));
-      return glm::distance(way, postures_[at].place) > tolerance;
-    }, [&](std::size_t at) { keys_[at].place = rounded_to(postures_[at].place, digit); });
+    choose_keys(
+        postures_.size(),
+        [&](std::size_t a, std::size_t b, std::size_t at) {
+          const glm::dvec3 way = glm::mix(postures_[a].place, postures_[b].place, share(a, b, at));
+          return glm::distance(way, postures_[at].place) > tolerance;
+        },
+        [&](std::size_t at) { keys_[at].place = rounded_to(postures_[at].place, digit); });
   }
 
   std::vector<ActorKey> take() {
@@ -97,7 +108,9 @@ bool strays(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, double
          largest_excess(joint, pose_of(joint, shown, is)) > kAngleRounding;
 }
 
-glm::dvec3 two_digits(const Joint& joint, const glm::dvec3& pose) { return clamped(joint, rounded_to(pose, 0.01)); }
+glm::dvec3 two_digits(const Joint& joint, const glm::dvec3& pose) {
+  return clamped(joint, rounded_to(pose, 0.01));
+}
 
 void begin_at(const Model& model, const Posture& start, double frames, std::vector<Posture>& postures) {
   const Posture first = postures.front();
@@ -108,22 +121,24 @@ void begin_at(const Model& model, const Posture& start, double frames, std::vect
     posture.place += left * off(start.place, first.place);
     for (std::size_t joint = 0; joint < posture.pose.size(); ++joint)
       posture.pose[joint] = clamped(model.joints[joint],
-                                   posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
+                                    posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
   }
 }
 
-std::vector<ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints, std::span<const Posture> postures,
-                              std::uint32_t first) {
+std::vector<ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
+                              std::span<const Posture> postures, std::uint32_t first) {
   Keying keying(postures, first);
   keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
-  keying.add_turns(Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
-                   [](ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
+  keying.add_turns(
+      Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
+      [](ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
   for (const std::size_t number : joints) {
     const Joint& joint = body.model->joints[number];
     if (joint.freedoms() == 0) continue;
-    keying.add_turns(joint, carries_legs(body, number) ? kLegTolerance : kTolerance,
-                     [&](const Posture& p) { return p.pose[number]; },
-                     [&](ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
+    keying.add_turns(
+        joint, carries_legs(body, number) ? kLegTolerance : kTolerance,
+        [&](const Posture& p) { return p.pose[number]; },
+        [&](ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
   }
   return keying.take();
 }

@@ -43,9 +43,13 @@ class Sampled {
       high = glm::max(high, places.back());
     }
     const double tolerance = kPlaceTolerance * glm::distance(low, high);
-    choose_keys(places.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
-      return glm::distance(glm::mix(places[a], places[b], double(at - a) / double(b - a)), places[at]) > tolerance;
-    }, [&](std::size_t at) { keys_[at].place = rounded(places[at]); });
+    choose_keys(
+        places.size(),
+        [&](std::size_t a, std::size_t b, std::size_t at) {
+          return glm::distance(glm::mix(places[a], places[b], double(at - a) / double(b - a)), places[at]) >
+                 tolerance;
+        },
+        [&](std::size_t at) { keys_[at].place = rounded(places[at]); });
   }
 
   // About an axis of the world, at so many degrees a second.
@@ -55,11 +59,16 @@ class Sampled {
     const glm::dmat3 start = actor_turn(posture_at(scene_.model(), scene_.actor.motion, scene_.at));
     std::vector<glm::dvec3> turns;
     for (std::size_t i = 0; i < keys_.size(); ++i)
-      turns.push_back(rounded(canonical_degrees(rotation_by_degrees(spin / speed, speed * turned_at(seconds(i))) * start)));
+      turns.push_back(rounded(
+          canonical_degrees(rotation_by_degrees(spin / speed, speed * turned_at(seconds(i))) * start)));
     turns.front() = posture_at(scene_.model(), scene_.actor.motion, scene_.at).turn;
-    choose_keys(turns.size(), [&](std::size_t a, std::size_t b, std::size_t at) {
-      return strays(Joint{}, turns[a], turns[b], double(at - a) / double(b - a), turns[at], kTurnTolerance);
-    }, [&](std::size_t at) { keys_[at].turn = turns[at]; });
+    choose_keys(
+        turns.size(),
+        [&](std::size_t a, std::size_t b, std::size_t at) {
+          return strays(Joint{}, turns[a], turns[b], double(at - a) / double(b - a), turns[at],
+                        kTurnTolerance);
+        },
+        [&](std::size_t at) { keys_[at].turn = turns[at]; });
   }
 
   Motion motion() {
@@ -81,7 +90,8 @@ Posture posture_of(const Scene& scene) { return posture_at(scene.model(), scene.
 Motion flown(const Scene& scene, const Flight& flight, double seconds) {
   Sampled sampled(scene, frames_of(scene, seconds));
   sampled.add_places([&](double time) { return flight.place_at(time); });
-  sampled.add_turns(scene.wishes.vector("spin").value_or(glm::dvec3(0)), [&](double time) { return flight.turned_at(time); });
+  sampled.add_turns(scene.wishes.vector("spin").value_or(glm::dvec3(0)),
+                    [&](double time) { return flight.turned_at(time); });
   return sampled.motion();
 }
 
@@ -98,14 +108,17 @@ Motion bounce(const Scene& scene) {
   const Wishes& wishes = scene.wishes;
   const Posture posture = posture_of(scene);
   const double below = posture.place.z - lowest_of(scene.model(), posture);
-  const Launch launch{posture.place, wishes.vector("velocity").value_or(glm::dvec3(0)),
+  const Launch launch{posture.place,
+                      wishes.vector("velocity").value_or(glm::dvec3(0)),
                       {0, 0, -wishes.number("gravity", kGravity, {1e-6, kFarthest})}};
   const Floor floor{wishes.number("floor", 0, {}) + below, wishes.number("restitution", 0.7, {0, 0.99}),
                     wishes.number("friction", 0.1, {0, 1})};
   const double height = launch.place.z - floor.height;
   if (height < -1e-9 * (1 + std::abs(floor.height)))
-    wishes.refuse("floor", "is " + shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name + "'",
-                  "start higher, or lower the floor");
+    wishes.refuse(
+        "floor",
+        "is " + shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name + "'",
+        "start higher, or lower the floor");
   const double up = std::max(0.0, launch.velocity.z);
   const double top = std::max(1e-9, height + up * up / (2 * -launch.acceleration.z));
   const Flight flight(launch, floor, kLow * top);
@@ -137,7 +150,8 @@ Motion go(const Scene& scene) {
   if (!to) scene.wishes.refuse("to", "is missing", "say where: to 2 0 0");
   constexpr std::string_view names[] = {"linear", "in", "out", "both"};
   constexpr Ease eases[] = {kLinear, kIn, kOut, kBoth};
-  const std::uint32_t last = scene.at + frames_of(scene, scene.wishes.number("seconds", 1, {0.001, kLongest}));
+  const std::uint32_t last =
+      scene.at + frames_of(scene, scene.wishes.number("seconds", 1, {0.001, kLongest}));
   ActorKey from, there;
   from.frame = scene.at;
   there.frame = last;

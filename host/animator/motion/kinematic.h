@@ -1,4 +1,5 @@
-// Motion by kinematic laws (thesis 3.2.1), and the plain motions that scripts start: spinning and going straight.
+// Motion by kinematic laws (thesis 3.2.1), and the plain motions that scripts start: spinning and going
+// straight.
 #pragma once
 
 #include "host/animator/motion/action.h"

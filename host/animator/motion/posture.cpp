@@ -30,8 +30,8 @@ glm::dmat3 actor_turn(const Posture& posture) { return orientation(kFree, postur
 
 Axes socket_in(const Model& model, const Posture& posture, std::size_t joint) {
   const Joint& j = model.joints[joint];
-  const Axes parent = j.parent == kNone ? Axes{actor_turn(posture), posture.place}
-                                        : frame_in(model, posture, j.parent);
+  const Axes parent =
+      j.parent == kNone ? Axes{actor_turn(posture), posture.place} : frame_in(model, posture, j.parent);
   return {parent.turn, parent.turn * j.place + parent.place};
 }
 

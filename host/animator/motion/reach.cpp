@@ -28,7 +28,8 @@ bool is_above(const Model& model, std::size_t ancestor, std::size_t joint) {
   return joint == ancestor;
 }
 
-std::vector<Freedom> freedoms_of(const Model& model, const Posture& posture, std::span<const std::size_t> joints) {
+std::vector<Freedom> freedoms_of(const Model& model, const Posture& posture,
+                                 std::span<const std::size_t> joints) {
   std::vector<Freedom> freedoms;
   for (const std::size_t number : joints) {
     const Joint& joint = model.joints[number];
@@ -67,17 +68,18 @@ class Equations {
 
  private:
   void add(const Goal& goal, const Axes& frame) {
-    if (goal.place) add_vector(goal, *goal.place - frame.place, [&](const Freedom& f) {
-      return glm::cross(f.about, frame.place - f.through);
-    });
-    if (goal.turn) add_vector(goal, goal.turn_weight * turn_left(*goal.turn, frame.turn), [&](const Freedom& f) {
-      return goal.turn_weight * f.about;
-    });
+    if (goal.place)
+      add_vector(goal, *goal.place - frame.place,
+                 [&](const Freedom& f) { return glm::cross(f.about, frame.place - f.through); });
+    if (goal.turn)
+      add_vector(goal, goal.turn_weight * turn_left(*goal.turn, frame.turn),
+                 [&](const Freedom& f) { return goal.turn_weight * f.about; });
     if (goal.direction) {
       const glm::dvec3 direction = frame.turn * *goal.direction;
       left.push_back(-goal.turn_weight * glm::dot(direction, goal.across));
       for (const Freedom& f : freedoms)
-        rates.push_back(moves(f, goal) ? goal.turn_weight * glm::dot(glm::cross(f.about, direction), goal.across) : 0);
+        rates.push_back(
+            moves(f, goal) ? goal.turn_weight * glm::dot(glm::cross(f.about, direction), goal.across) : 0);
     }
   }
 
@@ -107,8 +109,8 @@ std::vector<double> step_of(const Equations& equations, const std::vector<char>&
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= n; ++j)
       for (std::size_t row = 0; row < rows; ++row)
-        a[i * (n + 1) + j] += equations.rates[row * n + i] *
-                              (j < n ? equations.rates[row * n + j] : equations.left[row]);
+        a[i * (n + 1) + j] +=
+            equations.rates[row * n + i] * (j < n ? equations.rates[row * n + j] : equations.left[row]);
     largest = std::max(largest, a[i * (n + 1) + i]);
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -136,7 +138,8 @@ const Limits& limits_of(const Model& model, const Freedom& freedom) {
 }
 
 // Freedoms that stand at a limit and would go beyond it are held there.
-std::vector<double> step_within(const Model& model, Posture& posture, const Equations& equations, double damping) {
+std::vector<double> step_within(const Model& model, Posture& posture, const Equations& equations,
+                                double damping) {
   std::vector<char> held(equations.freedoms.size(), false);
   for (;;) {
     std::vector<double> step = step_of(equations, held, damping);
@@ -144,7 +147,8 @@ std::vector<double> step_within(const Model& model, Posture& posture, const Equa
     for (std::size_t i = 0; i < held.size(); ++i) {
       const Limits& limits = limits_of(model, equations.freedoms[i]);
       const double now = number(posture, equations.freedoms[i]);
-      if (held[i] || !((now <= limits.lower && step[i] < 0) || (now >= limits.upper && step[i] > 0))) continue;
+      if (held[i] || !((now <= limits.lower && step[i] < 0) || (now >= limits.upper && step[i] > 0)))
+        continue;
       held[i] = more = true;
     }
     if (!more) return step;
@@ -153,7 +157,8 @@ std::vector<double> step_within(const Model& model, Posture& posture, const Equa
 
 }  // namespace
 
-void reach(const Model& model, Posture& posture, std::span<const std::size_t> joints, std::span<const Goal> goals) {
+void reach(const Model& model, Posture& posture, std::span<const std::size_t> joints,
+           std::span<const Goal> goals) {
   double damping = 1e-4;
   Equations now(model, posture, joints, goals);
   for (int round = 0; round < kRounds && damping < 1e8; ++round) {

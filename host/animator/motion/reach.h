@@ -1,5 +1,6 @@
-// Inverse kinematics: the turns of a chain of joints, within their limits, that bring its end where it shall be.
-// Any axes and any freedoms: damped least squares (Levenberg, Marquardt) on the numbers of the pose themselves.
+// Inverse kinematics: the turns of a chain of joints, within their limits, that bring its end where it shall
+// be. Any axes and any freedoms: damped least squares (Levenberg, Marquardt) on the numbers of the pose
+// themselves.
 #pragma once
 
 #include <optional>
@@ -22,7 +23,8 @@ struct Goal {
 
 // Turns `joints`, each an ancestor of a goal's or itself, from where they are to where the goals are met as
 // nearly as limits allow.
-void reach(const Model& model, Posture& posture, std::span<const std::size_t> joints, std::span<const Goal> goals);
+void reach(const Model& model, Posture& posture, std::span<const std::size_t> joints,
+           std::span<const Goal> goals);
 
 // The numbers within the joint's limits whose turn is nearest to `turn`, found from `near`.
 glm::dvec3 nearest_turns(const Joint& joint, const glm::dmat3& turn, const glm::dvec3& near);

@@ -49,20 +49,25 @@ class Player {
   Played played() { return std::move(played_); }
 
  private:
-  bool is_actor(const std::string& name) const { return std::count(actors_.begin(), actors_.end(), name) > 0; }
+  bool is_actor(const std::string& name) const {
+    return std::count(actors_.begin(), actors_.end(), name) > 0;
+  }
 
   void let(ScriptLine& line) {
     const std::string name = line.take("a name");
     if (!line.take_if("=")) line.refuse("has no '=' after the name", "write: let midpoint = runtime / 2");
     times_[name] = line.take_time(times_, rate_);
-    if (!line.empty()) line.refuse("goes on with '" + line.take("") + "'", "write one time, as in: let end = 4s + 12");
+    if (!line.empty())
+      line.refuse("goes on with '" + line.take("") + "'", "write one time, as in: let end = 4s + 12");
   }
 
   std::uint32_t take_cue(ScriptLine& line) {
     const std::string cue = line.take("a cue");
     if (cue == "then") return last_;
-    if (cue == "at" || cue == "after") return static_cast<std::uint32_t>(std::lround(line.take_time(times_, rate_)));
-    line.refuse("begins with '" + cue + "', which is no cue", did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
+    if (cue == "at" || cue == "after")
+      return static_cast<std::uint32_t>(std::lround(line.take_time(times_, rate_)));
+    line.refuse("begins with '" + cue + "', which is no cue",
+                did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
   }
 
   void cut_film(ScriptLine& line, std::uint32_t at) {
@@ -77,17 +82,20 @@ class Player {
   std::uint32_t start(ScriptLine& line, const std::string& who, std::uint32_t at) {
     if (!is_actor(who))
       line.refuse("names '" + who + "', who is no actor of the film",
-                  did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()), "name an actor, or camera"));
+                  did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()),
+                               "name an actor, or camera"));
     const std::string verb = line.take("an action");
     const Action* action = find_action(verb);
     std::vector<std::string_view> verbs;
     for (const Action& each : actions()) verbs.push_back(each.name);
-    if (!action) line.refuse("has '" + verb + "', which is no action", did_you_mean(verb, verbs, "see: mars animate --help"));
+    if (!action)
+      line.refuse("has '" + verb + "', which is no action",
+                  did_you_mean(verb, verbs, "see: mars animate --help"));
     const Wishes wishes(take_values(line, *action, at), line.where() + ": " + verb);
     if (begun_.insert(who).second) clear_after(who, at);
     const Performed done = in_line(line, [&] { return perform(film_, path_, who, *action, at, wishes); });
-    played_.told.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) + " to " +
-                           std::to_string(done.last) + (done.told.empty() ? "" : ": " + done.told));
+    played_.told.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) +
+                           " to " + std::to_string(done.last) + (done.told.empty() ? "" : ": " + done.told));
     return done.last;
   }
 
@@ -104,8 +112,9 @@ class Player {
       }
       const auto found = std::find(names.begin(), names.end(), word);
       if (found == names.end())
-        line.refuse("has '" + word + "', which '" + std::string(action.name) + "' does not know",
-                    did_you_mean(word, names, "see: mars animate FILM " + std::string(action.name) + " --help"));
+        line.refuse(
+            "has '" + word + "', which '" + std::string(action.name) + "' does not know",
+            did_you_mean(word, names, "see: mars animate FILM " + std::string(action.name) + " --help"));
       const Parameter& parameter = action.parameters[std::size_t(found - names.begin())];
       std::vector<std::string>& taken = values[word];
       taken.clear();
@@ -126,7 +135,8 @@ class Player {
     constexpr std::string_view verbs[] = {"cut", "move"}, parts[] = {"eye", "at", "fov", "seconds", "until"};
     const std::string verb = line.take("cut or move");
     if (verb != "cut" && verb != "move")
-      line.refuse("has '" + verb + "' after camera", did_you_mean(verb, verbs, "write camera cut or camera move"));
+      line.refuse("has '" + verb + "' after camera",
+                  did_you_mean(verb, verbs, "write camera cut or camera move"));
     std::vector<std::string> wishes;
     double seconds = 1;
     while (!line.empty() && !line.next_is("as")) {
@@ -138,16 +148,18 @@ class Player {
       else if (part == "eye" || part == "at" || part == "fov")
         wishes.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
       else
-        line.refuse("has '" + part + "', which the camera does not know", did_you_mean(part, parts, "write eye, at or fov"));
+        line.refuse("has '" + part + "', which the camera does not know",
+                    did_you_mean(part, parts, "write eye, at or fov"));
     }
     if (wishes.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
     if (begun_.insert(kCamera).second) clear_camera_after(at);
-    const std::uint32_t end = verb == "cut" ? at : at + std::uint32_t(std::max(1L, std::lround(seconds * rate_)));
+    const std::uint32_t end =
+        verb == "cut" ? at : at + std::uint32_t(std::max(1L, std::lround(seconds * rate_)));
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before, verb == "cut" ? kLinear : kBoth,
-                  Beyond::refused);
+        make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before,
+                  verb == "cut" ? kLinear : kBoth, Beyond::refused);
       pose(film_, meaning_of(film_, path_), kCamera, wishes, end, kLinear, Beyond::refused);
       return 0;
     });
@@ -170,7 +182,8 @@ class Player {
   // What an earlier version of the script had left there.
   void clear_after(const std::string& who, std::uint32_t at) {
     const Film film = meaning_of(film_, path_);
-    const auto actor = std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == who; });
+    const auto actor =
+        std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == who; });
     ActorKey all;
     all.place = all.turn = glm::dvec3(0);
     for (const Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
@@ -210,7 +223,8 @@ class Player {
 
 }  // namespace
 
-Played play_script(Json& film, const std::filesystem::path& path, const std::string& script, const std::string& name) {
+Played play_script(Json& film, const std::filesystem::path& path, const std::string& script,
+                   const std::string& name) {
   Json changed = film;
   Player player(changed, path, name);
   int number = 0;

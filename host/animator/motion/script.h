@@ -1,5 +1,6 @@
-// Scripts (thesis 3.2.3): lines that say when who does what; docs/motion.md has the form. A script is applied to a
-// film, and again after it was changed: from its first cue of an actor on, the actor's keys are the script's.
+// Scripts (thesis 3.2.3): lines that say when who does what; docs/motion.md has the form. A script is applied
+// to a film, and again after it was changed: from its first cue of an actor on, the actor's keys are the
+// script's.
 #pragma once
 
 #include <string>
@@ -10,13 +11,14 @@
 namespace mars::host {
 
 struct Played {
-  std::uint32_t last = 0;          // frame at which the last action ends
+  std::uint32_t last = 0;         // frame at which the last action ends
   bool cut = false;               // whether it said itself where the film ends
   std::vector<std::string> told;  // a line for each action: "play.script:4: anna walk, frames 10 to 82"
 };
 
-// Changes the film, or throws with the script's file and line; the film is then as it was. `path` is the film's,
-// `name` the script's, for messages.
-Played play_script(Json& film, const std::filesystem::path& path, const std::string& script, const std::string& name);
+// Changes the film, or throws with the script's file and line; the film is then as it was. `path` is the
+// film's, `name` the script's, for messages.
+Played play_script(Json& film, const std::filesystem::path& path, const std::string& script,
+                   const std::string& name);
 
 }  // namespace mars::host

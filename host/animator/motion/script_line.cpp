@@ -56,15 +56,20 @@ double ScriptLine::take_term(const Times& times, double rate) {
   if (const auto found = times.find(word); found != times.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [name, time] : times) names.push_back(name);
-  refuse("has '" + word + "', which is no time", did_you_mean(word, names, "write a frame, seconds as in 1.5s, or a name from a line 'let'"));
+  refuse("has '" + word + "', which is no time",
+         did_you_mean(word, names, "write a frame, seconds as in 1.5s, or a name from a line 'let'"));
 }
 
 double ScriptLine::take_time(const Times& times, double rate) {
   double time = take_term(times, rate);
-  while (!empty() && words_[next_].size() == 1 && kOperators.find(words_[next_][0]) != std::string_view::npos) {
+  while (!empty() && words_[next_].size() == 1 &&
+         kOperators.find(words_[next_][0]) != std::string_view::npos) {
     const char what = words_[next_++][0];
     const double other = take_term(times, rate);
-    time = what == '+' ? time + other : what == '-' ? time - other : what == '*' ? time * other : time / other;
+    time = what == '+'   ? time + other
+           : what == '-' ? time - other
+           : what == '*' ? time * other
+                         : time / other;
   }
   if (!(time >= 0) || time > 1e6) refuse("has a time before frame 0 or after 1000000", "write another");
   return time;

@@ -17,10 +17,10 @@ namespace mars::host {
 namespace {
 
 constexpr double kSeconds = 1.6;
-constexpr double kLean = 44;          // degrees of the trunk, so that its weight stays over the feet
-constexpr double kUpright = 0.8;      // of its height: what is lower sits
-constexpr double kHandAlong = 0.6;    // of the thigh, where a wrist lies
-constexpr double kHandOut = 0.6;      // of the way from above the hip to below the shoulder
+constexpr double kLean = 44;        // degrees of the trunk, so that its weight stays over the feet
+constexpr double kUpright = 0.8;    // of its height: what is lower sits
+constexpr double kHandAlong = 0.6;  // of the thigh, where a wrist lies
+constexpr double kHandOut = 0.6;    // of the way from above the hip to below the shoulder
 constexpr const char* kRemedy = "choose another seat-height, or widen the joint's limits in its model";
 
 glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.heading); }
@@ -34,23 +34,29 @@ double extent(const Body& body, std::size_t number, const glm::dvec3& direction)
     const Box& box = joint.segment->sbb;
     const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                            corner & 4 ? box.max.z : box.min.z);
-    most = std::max(most, glm::dot(glm::transpose(body.axes) * segment_frame({}, joint).turn * point, direction));
+    most = std::max(most,
+                    glm::dot(glm::transpose(body.axes) * segment_frame({}, joint).turn * point, direction));
   }
   return most;
 }
 
 // Of the hips over the seat: what is between them, of the pelvis and of the thighs as they lie.
 double cushion(const Body& body, double hips_below_pelvis) {
-  return std::max(extent(body, body.pelvis, {0, 0, -1}) - hips_below_pelvis, extent(body, body.legs[0].hip, {-1, 0, 0}));
+  return std::max(extent(body, body.pelvis, {0, 0, -1}) - hips_below_pelvis,
+                  extent(body, body.legs[0].hip, {-1, 0, 0}));
 }
 
 class Chair {
  public:
   Chair(const Scene& scene, const char* command)
-      : scene_(scene), command_(command), body_(body_of(scene.model(), scene.actor.name, command)),
-        start_(posture_at(scene.model(), scene.actor.motion, scene.at)), from_(stance_of(body_, start_)),
+      : scene_(scene),
+        command_(command),
+        body_(body_of(scene.model(), scene.actor.name, command)),
+        start_(posture_at(scene.model(), scene.actor.motion, scene.at)),
+        from_(stance_of(body_, start_)),
         floor_(body_.floor_under(start_)),
-        frames_(static_cast<int>(std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
+        frames_(static_cast<int>(
+            std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
     if (body_.stiff()) needed(body_, Limb::knee, Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
   }
@@ -74,7 +80,8 @@ class Chair {
       const double lean = kLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
       stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
       bend(stance, lean);
-      take_stance(body_, stance, posture, std::string(command_) + " at frame " + std::to_string(scene_.at + frame), kRemedy);
+      take_stance(body_, stance, posture,
+                  std::string(command_) + " at frame " + std::to_string(scene_.at + frame), kRemedy);
       move_arms(arms, u, posture);
       postures.push_back(posture);
     }
@@ -85,7 +92,8 @@ class Chair {
   // Arms as they are in the end: `start_` with turns of joints.
   Posture with_arms(const std::map<std::size_t, glm::dmat3>& turns) const {
     Posture posture = start_;
-    for (const auto& [joint, turn] : turns) posture.pose[joint] = numbers_for(body_, joint, turn, posture.pose[joint]);
+    for (const auto& [joint, turn] : turns)
+      posture.pose[joint] = numbers_for(body_, joint, turn, posture.pose[joint]);
     return posture;
   }
 
@@ -107,7 +115,8 @@ class Chair {
 
  private:
   // The wrist over the thigh, a little to the outside, and the palm down.
-  void lay_hand(Side side, std::size_t shoulder, std::size_t elbow, std::size_t wrist, Posture& posture) const {
+  void lay_hand(Side side, std::size_t shoulder, std::size_t elbow, std::size_t wrist,
+                Posture& posture) const {
     const double s = sign_of(side);
     const auto place = [&](std::size_t joint) { return frame_in(*body_.model, posture, joint).place; };
     const auto pose = [&](std::size_t joint, const glm::dmat3& turn) {
@@ -120,16 +129,19 @@ class Chair {
     const glm::dvec3 left = facing(from_)[1], hip = place(leg.hip);
     const double out = kHandOut * glm::dot(place(shoulder) - hip, left);
     const double thick = extent(body_, leg.hip, {1, 0, 0}) * 0.8 + extent(body_, wrist, {0, -s, 0});
-    const double arm = glm::distance(place(shoulder), place(elbow)) + glm::distance(place(elbow), place(wrist));
+    const double arm =
+        glm::distance(place(shoulder), place(elbow)) + glm::distance(place(elbow), place(wrist));
     const std::size_t joints[] = {shoulder, elbow};
     const Goal goals[] = {
-        {.joint = wrist, .place = glm::mix(hip, place(leg.knee), kHandAlong) + out * left + glm::dvec3(0, 0, thick)},
+        {.joint = wrist,
+         .place = glm::mix(hip, place(leg.knee), kHandAlong) + out * left + glm::dvec3(0, 0, thick)},
         {.joint = wrist, .turn_weight = 0.2 * arm, .direction = body_.axes[1], .across = left}};
     reach(*body_.model, posture, joints, goals);
   }
 
   glm::dvec3 hip_middle() const {
-    return 0.5 * (frame_in(*body_.model, start_, body_.legs[0].hip).place + frame_in(*body_.model, start_, body_.legs[1].hip).place);
+    return 0.5 * (frame_in(*body_.model, start_, body_.legs[0].hip).place +
+                  frame_in(*body_.model, start_, body_.legs[1].hip).place);
   }
 
   // Of the pelvis, so that both legs reach their feet.
@@ -138,7 +150,8 @@ class Chair {
     for (const Side side : kSides) {
       const glm::dvec3 hip = stance.pelvis + facing(stance) * glm::dvec3(0, body_.leg(side).aside, -drop_);
       const glm::dvec3& ankle = stance.feet[index_of(side)].ankle;
-      const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y), reach = 0.9995 * body_.leg(side).length();
+      const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y),
+                   reach = 0.9995 * body_.leg(side).length();
       least = std::min(least, ankle.z + std::sqrt(std::max(0.0, reach * reach - far * far)) + drop_);
     }
     return least;
@@ -146,7 +159,8 @@ class Chair {
 
   void bend(Stance& stance, double lean) const {
     const auto add = [&](Trunk part, double share) {
-      if (const std::size_t joint = body_.find(part); joint != kNone) stance.turns[joint] = canonical_turn(0, share * lean, 0);
+      if (const std::size_t joint = body_.find(part); joint != kNone)
+        stance.turns[joint] = canonical_turn(0, share * lean, 0);
     };
     add(Trunk::spine, 0.3);
     add(Trunk::chest, 0.25);
@@ -174,7 +188,8 @@ class Chair {
 glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ankle + stance.feet[1].ankle); }
 
 [[noreturn]] void fail(const Scene& scene, const char* what, const char* command, const char* remedy) {
-  throw Failure(what + (" at frame " + std::to_string(scene.at)), "actor '" + scene.actor.name + "', " + command, remedy);
+  throw Failure(what + (" at frame " + std::to_string(scene.at)),
+                "actor '" + scene.actor.name + "', " + command, remedy);
 }
 
 }  // namespace
@@ -191,12 +206,15 @@ Motion sit(const Scene& scene) {
     scene.wishes.refuse("seat-height", "is " + shown(*wanted) + ", out of this figure's reach",
                         "its thighs are level at " + shown(rounded(level - soft - chair.floor())));
   const double back = std::sqrt(leg.thigh * leg.thigh - (hips - level) * (hips - level));
-  const glm::dvec3 behind = facing(chair.from()) * glm::dvec3(-scene.wishes.number("back", back, {0, kFarthest}), 0, 0);
+  const glm::dvec3 behind =
+      facing(chair.from()) * glm::dvec3(-scene.wishes.number("back", back, {0, kFarthest}), 0, 0);
   const glm::dvec3 pelvis(ankle.x + behind.x, ankle.y + behind.y, hips + chair.hip_drop());
-  Motion motion = chair.move(pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
-                             chair.with_hands_on_thighs(pelvis));
-  motion.told = "sits at " + shown(std::round(pelvis.x * 1e4) / 1e4) + " " + shown(std::round(pelvis.y * 1e4) / 1e4) +
-                ", on a seat of height " + shown(std::round((hips - soft - chair.floor()) * 1e4) / 1e4);
+  Motion motion = chair.move(
+      pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
+      chair.with_hands_on_thighs(pelvis));
+  motion.told = "sits at " + shown(std::round(pelvis.x * 1e4) / 1e4) + " " +
+                shown(std::round(pelvis.y * 1e4) / 1e4) + ", on a seat of height " +
+                shown(std::round((hips - soft - chair.floor()) * 1e4) / 1e4);
   return motion;
 }
 
@@ -206,12 +224,14 @@ Motion stand(const Scene& scene) {
   const glm::dvec3 middle = between_feet(chair.from());
   const Body& body = chair.body();
   const Posture drawn = drawn_posture(*body.model);
-  const glm::dvec3 ahead = glm::transpose(body.axes) * (frame_in(*body.model, drawn, body.legs[0].ankle).place -
-                                                        frame_in(*body.model, drawn, body.pelvis).place);
+  const glm::dvec3 ahead =
+      glm::transpose(body.axes) * (frame_in(*body.model, drawn, body.legs[0].ankle).place -
+                                   frame_in(*body.model, drawn, body.pelvis).place);
   const glm::dvec3 pelvis = glm::dvec3(middle.x, middle.y, chair.floor() + body.height) -
                             facing(chair.from()) * glm::dvec3(ahead.x, 0, 0);
-  return chair.move(pelvis, 0.4, [](double u) { return smooth(0.05, 0.95, u); }, [](double u) { return smooth(0.15, 1, u); },
-                    chair.with_arms(at_ease(body)));
+  return chair.move(
+      pelvis, 0.4, [](double u) { return smooth(0.05, 0.95, u); },
+      [](double u) { return smooth(0.15, 1, u); }, chair.with_arms(at_ease(body)));
 }
 
 }  // namespace mars::host

@@ -13,12 +13,13 @@
 namespace mars::host {
 namespace {
 
-constexpr double kNearEnough = 0.003;  // of the leg's length: how far a standing foot may be from where it should
-constexpr double kFlatEnough = 3;      // degrees
-constexpr double kTurnWeight = 0.3;    // of the leg's length, for a radian of the foot's turn
-constexpr double kKneeWeight = 0.1;    // and of the knee's
-constexpr double kKneeShare = 0.7;     // of the foot's heading against the pelvis, to which the knee points
-constexpr double kAtLimit = 1e-3;      // degrees
+constexpr double kNearEnough =
+    0.003;                         // of the leg's length: how far a standing foot may be from where it should
+constexpr double kFlatEnough = 3;  // degrees
+constexpr double kTurnWeight = 0.3;  // of the leg's length, for a radian of the foot's turn
+constexpr double kKneeWeight = 0.1;  // and of the knee's
+constexpr double kKneeShare = 0.7;   // of the foot's heading against the pelvis, to which the knee points
+constexpr double kAtLimit = 1e-3;    // degrees
 
 glm::dmat3 heading_turn(double degrees) { return rotation_by_degrees({0, 0, 1}, degrees); }
 
@@ -27,8 +28,9 @@ glm::dmat3 to_hang(const Body& body, Limb from, Limb to, Side side) {
   const Posture drawn = drawn_posture(*body.model);
   const std::size_t upper = body.find(from, side), lower = body.find(to, side);
   if (lower == kNone) return glm::dmat3(1);
-  const glm::dvec3 along = glm::normalize(glm::transpose(body.axes) * (frame_in(*body.model, drawn, lower).place -
-                                                                       frame_in(*body.model, drawn, upper).place));
+  const glm::dvec3 along =
+      glm::normalize(glm::transpose(body.axes) *
+                     (frame_in(*body.model, drawn, lower).place - frame_in(*body.model, drawn, upper).place));
   const glm::dvec3 down(0, 0, -1), axis = glm::cross(along, down);
   const double sine = glm::length(axis);
   return sine < 0.1 ? glm::dmat3(1) : rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
@@ -45,8 +47,9 @@ void turn_actor(const Body& body, double heading, Posture& posture) {
 void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
   turn_actor(body, stance.heading, posture);
   const std::size_t joints[] = {body.pelvis};
-  const Goal goals[] = {{.joint = body.pelvis,
-                         .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
+  const Goal goals[] = {
+      {.joint = body.pelvis,
+       .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
   reach(*body.model, posture, joints, goals);
   posture.place += stance.pelvis - frame_in(*body.model, posture, body.pelvis).place;
 }
@@ -74,7 +77,8 @@ Hinge hinge_of(const Body& body, const Leg& leg) {
 
 // A leg that is straight does not know which way to bend: the knee begins where the hip's distance wants it.
 void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double distance, Posture& posture) {
-  const double cosine = (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);
+  const double cosine =
+      (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);
   const double bend = 180 - glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
   const Limits& limits = body.model->joints[leg.knee].limits[hinge.axis];
   const double forward = hinge.sign * bend, now = std::clamp(forward, limits.lower, limits.upper);
@@ -92,8 +96,9 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
       const Limits& limits = joint.limits[axis];
       if (value > limits.lower + kAtLimit && value < limits.upper - kAtLimit) continue;
       if (!limits.free() && axis == 2 && joint.freedoms() > 0) continue;  // few joints twist: never the cause
-      const std::string what = limits.free() ? "is at its limit of " + shown(value) + " degrees about " + "xyz"[axis]
-                                             : std::string("cannot turn about ") + "xyz"[axis];
+      const std::string what = limits.free()
+                                   ? "is at its limit of " + shown(value) + " degrees about " + "xyz"[axis]
+                                   : std::string("cannot turn about ") + "xyz"[axis];
       all += (all.empty() ? "'" : ", '") + joint.name + "' " + what;
     }
   }
@@ -103,7 +108,11 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
 class LegReach {
  public:
   LegReach(const Body& body, Side side, const Stance& stance, Posture& posture)
-      : body_(body), leg_(body.leg(side)), side_(side), foot_(stance.feet[index_of(side)]), stance_(stance),
+      : body_(body),
+        leg_(body.leg(side)),
+        side_(side),
+        foot_(stance.feet[index_of(side)]),
+        stance_(stance),
         posture_(posture) {}
 
   // A leg of one piece that swings goes in the foot's direction as far as it goes.
@@ -111,8 +120,10 @@ class LegReach {
     const glm::dvec3 hip = frame_in(*body_.model, posture_, leg_.hip).place;
     glm::dvec3 to = foot_.ankle;
     if (leg_.knee == kNone && !foot_.stands) to = hip + leg_.length() * glm::normalize(to - hip);
-    const glm::dmat3 turn = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0) * glm::transpose(body_.axes);
-    std::vector<Goal> goals{{.joint = leg_.ankle, .place = to, .turn = turn, .turn_weight = kTurnWeight * leg_.length()}};
+    const glm::dmat3 turn =
+        heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0) * glm::transpose(body_.axes);
+    std::vector<Goal> goals{
+        {.joint = leg_.ankle, .place = to, .turn = turn, .turn_weight = kTurnWeight * leg_.length()}};
     std::vector<std::size_t> leg{leg_.hip};
     if (leg_.knee != kNone) add_knee(hip, to, leg, goals);
     std::vector<std::size_t> all = leg;
@@ -120,12 +131,14 @@ class LegReach {
     reach(*body_.model, posture_, all, goals);
     // Where not everything can be had, the foot's place comes first.
     goals[0].turn.reset();
-    if (error_of(to) > kNearEnough * leg_.length() / 10) reach(*body_.model, posture_, leg, std::span(goals).first(1));
+    if (error_of(to) > kNearEnough * leg_.length() / 10)
+      reach(*body_.model, posture_, leg, std::span(goals).first(1));
     const std::size_t ankle[] = {leg_.ankle};
     const Goal flat[] = {{.joint = leg_.ankle, .turn = turn}};
     reach(*body_.model, posture_, ankle, flat);
     if (leg_.toes != kNone)
-      posture_.pose[leg_.toes] = numbers_for(body_, leg_.toes, canonical_turn(0, foot_.bent, 0), posture_.pose[leg_.toes]);
+      posture_.pose[leg_.toes] =
+          numbers_for(body_, leg_.toes, canonical_turn(0, foot_.bent, 0), posture_.pose[leg_.toes]);
   }
 
   void require_footing(const std::string& doing, const std::string& remedy) const {
@@ -136,25 +149,30 @@ class LegReach {
     if (leg_.knee != kNone) joints.push_back(leg_.knee);
     if (far > kNearEnough * leg_.length()) {
       const std::string limit = limit_in_the_way(body_, posture_, joints);
-      fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit, doing, remedy);
+      fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit,
+           doing, remedy);
     }
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
     const double off = turn_between(body_.turn_of(posture_, leg_.ankle), wanted).angle;
     if (glm::degrees(off) > kFlatEnough) {
       joints.assign(1, leg_.ankle);
       joints.push_back(leg_.hip);
-      fail("its " + whose + " foot cannot stand on its sole", limit_in_the_way(body_, posture_, joints), doing, remedy);
+      fail("its " + whose + " foot cannot stand on its sole", limit_in_the_way(body_, posture_, joints),
+           doing, remedy);
     }
   }
 
  private:
-  void add_knee(const glm::dvec3& hip, const glm::dvec3& to, std::vector<std::size_t>& leg, std::vector<Goal>& goals) {
+  void add_knee(const glm::dvec3& hip, const glm::dvec3& to, std::vector<std::size_t>& leg,
+                std::vector<Goal>& goals) {
     const Hinge hinge = hinge_of(body_, leg_);
     bend_knee(body_, leg_, hinge, glm::distance(hip, to), posture_);
     leg.push_back(leg_.knee);
     const double knees = stance_.heading + stance_.tilt.z +
                          kKneeShare * std::remainder(foot_.heading - stance_.heading - stance_.tilt.z, 360.0);
-    goals.push_back({.joint = leg_.knee, .turn_weight = kKneeWeight * leg_.length(), .direction = hinge.direction,
+    goals.push_back({.joint = leg_.knee,
+                     .turn_weight = kKneeWeight * leg_.length(),
+                     .direction = hinge.direction,
                      .across = heading_turn(knees)[0]});
   }
 

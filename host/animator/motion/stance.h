@@ -37,9 +37,9 @@ glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees)
 // The joint's numbers within its limits, nearest to a canonical turn against its parent; `near` begins.
 glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& turn, const glm::dvec3& near);
 
-// Changes `posture`, that of the moment before, to the stance, by inverse kinematics of the legs. Where a standing
-// foot cannot be as wanted it is a Failure that names the joint in the way; `doing` says what is being done,
-// "walk at frame 12", `remedy` what to change.
+// Changes `posture`, that of the moment before, to the stance, by inverse kinematics of the legs. Where a
+// standing foot cannot be as wanted it is a Failure that names the joint in the way; `doing` says what is
+// being done, "walk at frame 12", `remedy` what to change.
 void take_stance(const Body& body, const Stance& stance, Posture& posture, const std::string& doing,
                  const std::string& remedy);
 

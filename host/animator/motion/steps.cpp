@@ -13,23 +13,27 @@
 namespace mars::host {
 namespace {
 
-constexpr double kStride = 0.616;    // of a leg: an ordinary step
-constexpr double kPace = 2;          // steps a second
-constexpr double kLead = 0.35;       // of a period: weight goes to one foot before the first step
-constexpr double kSettle = 0.5;      // and to both after the last
-constexpr double kBehind = 0.526;    // of a step: the pelvis is behind the foot that lands
+constexpr double kStride = 0.616;      // of a leg: an ordinary step
+constexpr double kPace = 2;            // steps a second
+constexpr double kLead = 0.35;         // of a period: weight goes to one foot before the first step
+constexpr double kSettle = 0.5;        // and to both after the last
+constexpr double kBehind = 0.526;      // of a step: the pelvis is behind the foot that lands
 constexpr double kFirstBehind = 0.44;  // the first foot, from standing
-constexpr double kApart = 0.67;      // of the hips' width: feet of a walk
-constexpr double kToeOut = 6;        // degrees
-constexpr double kTurnAtOnce = 50;   // degrees between two feet
-constexpr double kUpright = 0.8;     // of its height: what is lower sits
-constexpr double kNothing = 0.2;      // degrees
-constexpr double kOnTheWay = 25;     // degrees that the first step can turn
+constexpr double kApart = 0.67;        // of the hips' width: feet of a walk
+constexpr double kToeOut = 6;          // degrees
+constexpr double kTurnAtOnce = 50;     // degrees between two feet
+constexpr double kUpright = 0.8;       // of its height: what is lower sits
+constexpr double kNothing = 0.2;       // degrees
+constexpr double kOnTheWay = 25;       // degrees that the first step can turn
 
-constexpr const char* kWalkRemedy = "take shorter steps (step-length), or widen the joint's limits in its model";
-constexpr const char* kTurnRemedy = "widen the joint's limits in its model, or turn the figure by keys of its turn";
+constexpr const char* kWalkRemedy =
+    "take shorter steps (step-length), or widen the joint's limits in its model";
+constexpr const char* kTurnRemedy =
+    "widen the joint's limits in its model, or turn the figure by keys of its turn";
 
-glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
+glm::dvec2 ahead(double heading) {
+  return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))};
+}
 glm::dvec2 left_of(const glm::dvec2& v) { return {-v.y, v.x}; }
 
 // Where a body stands, as steps see it.
@@ -105,15 +109,18 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
   gait.way.push_back({0, {from.pelvis.x, from.pelvis.y}, from.heading, {0, 0}});
   Side side = first;
   for (int k = 1; k <= steps; ++k, side = other(side)) {
-    gait.steps.push_back(planner.step(k, side, planner.print(path.at(k * length), path.heading(k * length), side)));
+    gait.steps.push_back(
+        planner.step(k, side, planner.print(path.at(k * length), path.heading(k * length), side)));
     const double s = (k - (k == 1 && !body.stiff() ? kFirstBehind : behind)) * length;
     gait.way.push_back(planner.waypoint(planner.landing(k), path.at(s), path.heading(s), speed));
   }
   const double end = path.heading(path.length);
   gait.steps.push_back(planner.step(steps + 1, side, planner.print(path.at(path.length), end, side)));
   const double near = path.length - 0.06 * length;
-  gait.way.push_back(planner.waypoint(planner.landing(steps + 1), path.at(near), path.heading(near), 0.12 * speed));
-  gait.way.push_back(planner.waypoint(std::ceil(planner.landing(steps + 1) + kSettle * period), path.at(path.length), end, 0));
+  gait.way.push_back(
+      planner.waypoint(planner.landing(steps + 1), path.at(near), path.heading(near), 0.12 * speed));
+  gait.way.push_back(planner.waypoint(std::ceil(planner.landing(steps + 1) + kSettle * period),
+                                      path.at(path.length), end, 0));
   return gait;
 }
 
@@ -128,7 +135,8 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double period) {
     const Side side = (by > 0) == leads ? Side::left : Side::right;
     const double heading = start.heading + by * ((k + 1) / 2) / pairs;
     gait.steps.push_back(planner.step(k, side, planner.print(start.middle, heading, side)));
-    gait.way.push_back(planner.waypoint(planner.landing(k), start.middle, start.heading + by * (k - 0.5) / (2 * pairs), 0));
+    gait.way.push_back(
+        planner.waypoint(planner.landing(k), start.middle, start.heading + by * (k - 0.5) / (2 * pairs), 0));
   }
   gait.way.push_back(planner.waypoint(std::ceil(planner.landing(2 * pairs) + kSettle * period), start.middle,
                                       start.heading + by, 0));
@@ -139,12 +147,15 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double period) {
 class Going {
  public:
   Going(const Scene& scene, const char* command)
-      : scene_(scene), command_(command), body_(body_of(scene.model(), scene.actor.name, command)),
+      : scene_(scene),
+        command_(command),
+        body_(body_of(scene.model(), scene.actor.name, command)),
         period_(std::max(4.0, std::round(scene.film.rate / scene.wishes.number("pace", kPace, {0.1, 10})))) {
     postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
     const Stance stance = now();
     if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
-      throw Failure("does not stand at frame " + std::to_string(scene.at), "actor '" + scene.actor.name + "', " + command,
+      throw Failure("does not stand at frame " + std::to_string(scene.at),
+                    "actor '" + scene.actor.name + "', " + command,
                     "let it stand up first, by the action stand");
   }
 
@@ -154,8 +165,8 @@ class Going {
 
   void go(const Gait& gait, const char* remedy) {
     const Posture start = postures_.back();
-    std::vector<Posture> more = postures_of(body_, start, gait, scene_.at + std::uint32_t(postures_.size()) - 1,
-                                            command_, remedy);
+    std::vector<Posture> more =
+        postures_of(body_, start, gait, scene_.at + std::uint32_t(postures_.size()) - 1, command_, remedy);
     begin_at(*body_.model, start, gait.steps.front().off, more);
     postures_.insert(postures_.end(), more.begin() + 1, more.end());
   }
@@ -163,7 +174,8 @@ class Going {
   void turn(double by) { go(turn_gait(body_, now(), by, period_), kTurnRemedy); }
 
   Motion motion() const {
-    return {keys_of(body_, body_.joints(), postures_, scene_.at), scene_.at + std::uint32_t(postures_.size()) - 1, ""};
+    return {keys_of(body_, body_.joints(), postures_, scene_.at),
+            scene_.at + std::uint32_t(postures_.size()) - 1, ""};
   }
 
  private:
@@ -180,12 +192,13 @@ double bearing(const Stand& from, const glm::dvec3& to) {
 }
 
 Style style_of(const Wishes& wishes) {
-  return {wishes.number("arm-swing", 1, {0, 3}), wishes.number("bounce", 1, {0, 3}), wishes.number("knee-lift", 1, {0, 3}),
-          wishes.number("lean", 0, {-30, 45})};
+  return {wishes.number("arm-swing", 1, {0, 3}), wishes.number("bounce", 1, {0, 3}),
+          wishes.number("knee-lift", 1, {0, 3}), wishes.number("lean", 0, {-30, 45})};
 }
 
 void refuse_both(const Wishes& wishes, std::string_view one, std::string_view other) {
-  if (wishes.has(one) && wishes.has(other)) wishes.refuse(one, "stands beside " + std::string(other), "give one of them");
+  if (wishes.has(one) && wishes.has(other))
+    wishes.refuse(one, "stands beside " + std::string(other), "give one of them");
 }
 
 }  // namespace
@@ -206,15 +219,17 @@ Motion walk(const Scene& scene) {
     far = glm::distance(stand_of(going.now()).middle, glm::dvec2(to->x, to->y));
     if (*far < 0.05 * going.body().leg_length()) return going.motion();
   }
-  const double ordinary = wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, kFarthest});
+  const double ordinary =
+      wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, kFarthest});
   const auto few = static_cast<std::uint32_t>(far ? std::clamp(std::round(*far / ordinary), 1.0, 1e4) : 4);
   const std::uint32_t steps = wishes.count("steps", few, 10000);
   constexpr std::string_view sides[] = {"left", "right"};
-  const Side first = kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
+  const Side first =
+      kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
   Path path{stand_of(going.now()), far ? *far : steps * ordinary, wishes.number("turn", 0, {-3600, 3600})};
-  if (const auto to = wishes.vector("to"))
-    path.start.heading = path.start.heading + bearing(path.start, *to);
-  going.go(walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first, style_of(wishes)),
+  if (const auto to = wishes.vector("to")) path.start.heading = path.start.heading + bearing(path.start, *to);
+  going.go(walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first,
+                     style_of(wishes)),
            kWalkRemedy);
   return going.motion();
 }

@@ -12,7 +12,8 @@ namespace {
 
 Model model_with(const std::string& limbs) {
   const Document document(R"({"joints": [{"name": "thigh", "parent": "hips"}, {"name": "hips"},
-                                         {"name": "shin", "parent": "thigh"}], "limbs": )" + limbs + "}",
+                                         {"name": "shin", "parent": "thigh"}], "limbs": )" +
+                              limbs + "}",
                           "m.json");
   return read_model(document.root());
 }

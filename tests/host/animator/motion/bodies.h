@@ -48,38 +48,50 @@ inline Json jointed(const std::string& name, const std::string& parent, const Js
 
 // Of boxes, every joint a hinge: it can neither sway nor turn.
 inline Json robot() {
-  Json joints = Json::array({jointed("hull", "", {0, 0, 95}, Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
+  Json joints =
+      Json::array({jointed("hull", "", {0, 0, 95}, Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
   Json limbs{{"pelvis", "hull"}};
   for (const std::string side : {"left", "right"}) {
     const double y = side == "left" ? 18 : -18;
-    joints.push_back(jointed(side + " thigh", "hull", {0, y, 0}, {{"y", {-100, 60}}}, {{-6, -6, -45}, {6, 6, 5}}));
-    joints.push_back(jointed(side + " shin", side + " thigh", {0, 0, -45}, {{"y", {0, 120}}}, {{-5, -5, -42}, {5, 5, 5}}));
-    joints.push_back(jointed(side + " foot", side + " shin", {0, 0, -42}, {{"y", {-60, 60}}}, {{-10, -8, -8}, {20, 8, 2}}));
-    joints.push_back(jointed(side + " arm", "hull", {0, 1.7 * y, 55}, {{"y", {-170, 90}}}, {{-4, -4, -30}, {4, 4, 4}}));
-    limbs[side] = {{"hip", side + " thigh"}, {"knee", side + " shin"}, {"ankle", side + " foot"}, {"shoulder", side + " arm"}};
+    joints.push_back(
+        jointed(side + " thigh", "hull", {0, y, 0}, {{"y", {-100, 60}}}, {{-6, -6, -45}, {6, 6, 5}}));
+    joints.push_back(
+        jointed(side + " shin", side + " thigh", {0, 0, -45}, {{"y", {0, 120}}}, {{-5, -5, -42}, {5, 5, 5}}));
+    joints.push_back(jointed(side + " foot", side + " shin", {0, 0, -42}, {{"y", {-60, 60}}},
+                             {{-10, -8, -8}, {20, 8, 2}}));
+    joints.push_back(
+        jointed(side + " arm", "hull", {0, 1.7 * y, 55}, {{"y", {-170, 90}}}, {{-4, -4, -30}, {4, 4, 4}}));
+    limbs[side] = {{"hip", side + " thigh"},
+                   {"knee", side + " shin"},
+                   {"ankle", side + " foot"},
+                   {"shoulder", side + " arm"}};
   }
   return {{"limbs", limbs}, {"joints", joints}};
 }
 
 // It is drawn looking along -y, and its legs are of one piece.
 inline Json bird() {
-  Json joints = Json::array({jointed("body", "", {0, 0, 1.04}, {}, {{-0.5, -0.7, -0.3}, {0.5, 0.6, 0.6}}, "sphere"),
-                             jointed("head", "body", {0, -0.6, 0.6}, {{"x", {-40, 40}}}, {{-0.2, -0.3, -0.1}, {0.2, 0.2, 0.3}})});
+  Json joints = Json::array(
+      {jointed("body", "", {0, 0, 1.04}, {}, {{-0.5, -0.7, -0.3}, {0.5, 0.6, 0.6}}, "sphere"),
+       jointed("head", "body", {0, -0.6, 0.6}, {{"x", {-40, 40}}}, {{-0.2, -0.3, -0.1}, {0.2, 0.2, 0.3}})});
   Json limbs{{"pelvis", "body"}, {"head", "head"}};
   for (const std::string side : {"left", "right"}) {
     const double x = side == "left" ? 0.25 : -0.25;
     joints.push_back(jointed(side + " leg", "body", {x, 0, 0}, {}, {{-0.05, -0.05, -1}, {0.05, 0.05, 0}}));
-    joints.push_back(jointed(side + " foot", side + " leg", {0, 0, -1}, {}, {{-0.1, -0.3, -0.04}, {0.1, 0.1, 0.02}}));
+    joints.push_back(
+        jointed(side + " foot", side + " leg", {0, 0, -1}, {}, {{-0.1, -0.3, -0.04}, {0.1, 0.1, 0.02}}));
     limbs[side] = {{"hip", side + " leg"}, {"ankle", side + " foot"}};
   }
   return {{"limbs", limbs}, {"joints", joints}};
 }
 
 inline Json film_with(const Json& model) {
-  return {{"frames", 1000},
-          {"camera", {{"eye", {0, -9, 2}}}},
-          {"models", {{"figure", model}}},
-          {"actors", Json::array({{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
+  return {
+      {"frames", 1000},
+      {"camera", {{"eye", {0, -9, 2}}}},
+      {"models", {{"figure", model}}},
+      {"actors",
+       Json::array({{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
 }
 
 // "walk steps 4 lean 5", from a frame on, or else from the last key.

@@ -1,5 +1,5 @@
-// Feet on the floor stay where they are, none goes through it, one at least is down: for bodies of several builds,
-// measured on the soles' surfaces in compiled films.
+// Feet on the floor stay where they are, none goes through it, one at least is down: for bodies of several
+// builds, measured on the soles' surfaces in compiled films.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace mars::host {
 namespace {
 
-// Of a leg's length, which is 835 mm on a man of 1.75 m: what is lower is on the floor; how far it may slide, and go
-// through.
+// Of a leg's length, which is 835 mm on a man of 1.75 m: what is lower is on the floor; how far it may slide,
+// and go through.
 constexpr double kDown = 0.003, kSlide = 0.002, kThrough = 0.003;
 
 using Points = std::vector<glm::dvec3>;
@@ -25,7 +25,8 @@ Points sole(const CompiledFilm& film, const std::string& side, std::uint32_t fra
   Points points;
   for (const node::Segment& segment : film.view().segments()) {
     const std::string name(film.view().name(segment));
-    if (!name.starts_with("anna/" + side) || !(name.ends_with("foot") || name.ends_with("toes") || name.ends_with("sole")))
+    if (!name.starts_with("anna/" + side) ||
+        !(name.ends_with("foot") || name.ends_with("toes") || name.ends_with("sole")))
       continue;
     const auto& m = film.view().matrix_at(segment, frame).m;
     const node::Shape& shape = film.view().shapes()[segment.shape];
@@ -33,7 +34,9 @@ Points sole(const CompiledFilm& film, const std::string& side, std::uint32_t fra
       for (const double u : {0.0, 0.5, 1.0})
         for (const double v : {0.0, 0.5, 1.0}) {
           const glm::dvec3 p = point_of(patch, u, v);
-          const auto at = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
+          const auto at = [&](std::size_t r) {
+            return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3];
+          };
           points.emplace_back(at(0), at(1), at(2));
         }
   }
@@ -55,7 +58,9 @@ glm::dvec3 middle(const Points& points) {
 class Feet {
  public:
   Feet(const Json& film, const Performed& performed, double leg)
-      : film_(compile(read(film))), performed_(performed), leg_(leg),
+      : film_(compile(read(film))),
+        performed_(performed),
+        leg_(leg),
         floor_(std::min(lowest(sole(film_, "left", 0)), lowest(sole(film_, "right", 0)))) {}
 
   void expect_footing(const std::string& what) {
@@ -64,7 +69,8 @@ class Feet {
     EXPECT_LT(through_, kThrough) << what;
     EXPECT_LT(floating_, kDown) << what;
     EXPECT_GT(held_, 300u) << what << ": points that were measured";
-    ::testing::Test::RecordProperty(what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
+    ::testing::Test::RecordProperty(
+        what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
   }
 
   glm::dvec3 at(std::uint32_t frame) const {
@@ -125,8 +131,9 @@ TEST(Feet, OfAllBuildsStayWhereTheyStandInAWalk) {
 }
 
 TEST(Feet, StayInOtherStylesAndOnBows) {
-  for (const char* words : {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
-                            "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
+  for (const char* words :
+       {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
+        "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
     for (const Build& build : people()) {
       Json film = film_with(build.model);
       const Performed performed = act(film, words, 5);

@@ -23,7 +23,8 @@ TEST(Flight, ThrownRisesToItsApexAndComesBack) {
 
 TEST(Flight, BouncesAreAGeometricSeries) {
   const double height = 2, e = 0.8, first = std::sqrt(2 * height / kG);
-  const Flight flight({{0, 0, height}, {0, 0, 0}, {0, 0, -kG}}, {.height = 0, .restitution = e, .friction = 0}, 1e-3);
+  const Flight flight({{0, 0, height}, {0, 0, 0}, {0, 0, -kG}},
+                      {.height = 0, .restitution = e, .friction = 0}, 1e-3);
   double impact = first, up = 2 * first;
   for (int bounce = 1; bounce <= 10; ++bounce) {
     EXPECT_NEAR(flight.place_at(impact).z, 0, 1e-9) << bounce;
@@ -51,10 +52,14 @@ TEST(Flight, FrictionTakesItsShareAndThenBrakesToRest) {
 }
 
 // What the film shows at a frame.
-glm::dvec3 shown(const Json& json, std::uint32_t frame) { return value_at(read(json).actors[0].motion.place, frame); }
+glm::dvec3 shown(const Json& json, std::uint32_t frame) {
+  return value_at(read(json).actors[0].motion.place, frame);
+}
 
 Json ball_at(double height) {
-  Json film = film_with({{"joints", Json::array({jointed("ball", "", {0, 0, 0}, {}, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, "sphere")})}});
+  Json film = film_with(
+      {{"joints",
+        Json::array({jointed("ball", "", {0, 0, 0}, {}, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, "sphere")})}});
   film["actors"][0]["place"] = {0, 0, height};
   return film;
 }
@@ -62,8 +67,8 @@ Json ball_at(double height) {
 TEST(Bounce, FilmsFollowTheLawAtEveryFrameWithinTheTolerance) {
   Json film = ball_at(3.5);
   const Performed done = act(film, "bounce velocity 2 0 1 restitution 0.75 friction 0.1 spin 0 300 0", 10);
-  const Flight flight({{0, 0, 3}, {2, 0, 1}, {0, 0, -kG}}, {.height = 0, .restitution = 0.75, .friction = 0.1},
-                      1e-3 * (3 + 1 / (2 * kG)));
+  const Flight flight({{0, 0, 3}, {2, 0, 1}, {0, 0, -kG}},
+                      {.height = 0, .restitution = 0.75, .friction = 0.1}, 1e-3 * (3 + 1 / (2 * kG)));
   for (std::uint32_t frame = done.first; frame <= done.last; ++frame) {
     const glm::dvec3 there = shown(film, frame), law = flight.place_at((frame - 10) / 24.0);
     EXPECT_NEAR(there.x, law.x, 5e-3) << frame;

@@ -19,15 +19,25 @@ struct Shown {
 
   const Model& film_model() const { return film.models[0]; }
   Posture at(std::uint32_t frame) const { return posture_at(film_model(), film.actors[0].motion, frame); }
-  glm::dvec3 place(std::size_t joint, std::uint32_t frame) const { return frame_in(film_model(), at(frame), joint).place; }
+  glm::dvec3 place(std::size_t joint, std::uint32_t frame) const {
+    return frame_in(film_model(), at(frame), joint).place;
+  }
 
   Film film;
   Body body;
 };
 
-const char* const kAll[] = {"walk steps 4",          "walk steps 4 turn -90", "turn by 120", "wave",
-                            "wave hand left times 1", "nod depth 40",         "sit",         "wave",
-                            "nod",                   "stand",                "walk to 9 9 arm-swing 1.5"};
+const char* const kAll[] = {"walk steps 4",
+                            "walk steps 4 turn -90",
+                            "turn by 120",
+                            "wave",
+                            "wave hand left times 1",
+                            "nod depth 40",
+                            "sit",
+                            "wave",
+                            "nod",
+                            "stand",
+                            "walk to 9 9 arm-swing 1.5"};
 
 TEST(Actions, KeepTheLimitsAtEveryFrame) {
   Json film = film_with(human());
@@ -39,8 +49,10 @@ TEST(Actions, KeepTheLimitsAtEveryFrame) {
       for (std::size_t i = 0; i < posture.pose.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) {
           const Limits& limits = shown.film_model().joints[i].limits[axis];
-          EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding) << words << " " << frame << shown.body.joint_name(i);
-          EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding) << words << " " << frame << shown.body.joint_name(i);
+          EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding)
+              << words << " " << frame << shown.body.joint_name(i);
+          EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding)
+              << words << " " << frame << shown.body.joint_name(i);
         }
     }
   }
@@ -56,7 +68,8 @@ TEST(Actions, GoOnWithoutAJump) {
     std::vector<glm::dvec3> places;
     for (std::uint32_t frame = 0; frame <= last; ++frame) places.push_back(shown.place(joint, frame));
     for (std::size_t frame = 1; frame < last; ++frame)
-      EXPECT_LT(glm::length(places[frame - 1] - 2.0 * places[frame] + places[frame + 1]), 0.07 * shown.body.leg_length())
+      EXPECT_LT(glm::length(places[frame - 1] - 2.0 * places[frame] + places[frame + 1]),
+                0.07 * shown.body.leg_length())
           << shown.body.joint_name(joint) << " at frame " << frame;
   }
 }
@@ -68,7 +81,8 @@ TEST(Actions, BeginWithWhatTheFigureDoes) {
   act(film, "walk steps 2", 12);
   const Shown after(film);
   for (const std::size_t joint : before.body.joints())
-    EXPECT_LT(glm::distance(before.place(joint, 12), after.place(joint, 12)), 0.003) << before.body.joint_name(joint);
+    EXPECT_LT(glm::distance(before.place(joint, 12), after.place(joint, 12)), 0.003)
+        << before.body.joint_name(joint);
 }
 
 TEST(Actions, AskedAgainReplaceWhatTheyHadMade) {
@@ -88,11 +102,13 @@ TEST(Walk, SwingsArmsAgainstLegsAndBendsKneesForward) {
   for (std::uint32_t frame = 30; frame + 30 < done.last; ++frame, ++frames) {
     const auto ahead = [&](Limb limb) {
       return glm::dot(shown.place(shown.body.find(limb, Side::left), frame) -
-                          shown.place(shown.body.find(limb, Side::right), frame), forward);
+                          shown.place(shown.body.find(limb, Side::right), frame),
+                      forward);
     };
     opposite += ahead(Limb::ankle) * ahead(Limb::wrist) < 0;
     for (const Side side : kSides) {
-      const glm::dvec3 hip = shown.place(shown.body.leg(side).hip, frame), knee = shown.place(shown.body.leg(side).knee, frame),
+      const glm::dvec3 hip = shown.place(shown.body.leg(side).hip, frame),
+                       knee = shown.place(shown.body.leg(side).knee, frame),
                        ankle = shown.place(shown.body.leg(side).ankle, frame);
       EXPECT_GT(glm::dot(knee - 0.5 * (hip + ankle), forward), -1e-3) << frame;
     }
@@ -108,7 +124,8 @@ TEST(Sit, HasThighsLevelFeetDownAndHandsOnThighs) {
     const Leg& leg = shown.body.leg(side);
     const glm::dvec3 hip = shown.place(leg.hip, done.last), knee = shown.place(leg.knee, done.last);
     EXPECT_NEAR(hip.z, knee.z, 0.01 * leg.thigh);
-    EXPECT_NEAR(glm::distance(glm::dvec2(knee), glm::dvec2(shown.place(leg.ankle, done.last))), 0, 0.2 * leg.shin);
+    EXPECT_NEAR(glm::distance(glm::dvec2(knee), glm::dvec2(shown.place(leg.ankle, done.last))), 0,
+                0.2 * leg.shin);
     const glm::dvec3 hand = shown.place(shown.body.find(Limb::wrist, side), done.last);
     EXPECT_GT(hand.z, knee.z);
     EXPECT_LT(glm::distance(hand, 0.5 * (hip + knee)), 0.5 * leg.thigh);
@@ -131,7 +148,8 @@ TEST(Wave, RaisesTheHandAndMovesItToAndFro) {
     const Performed done = act(film, "wave times 2 hand " + hand, 0);
     const Shown shown(film);
     const Side side = hand == "left" ? Side::left : Side::right;
-    const std::size_t wrist = shown.body.find(Limb::wrist, side), shoulder = shown.body.find(Limb::shoulder, side);
+    const std::size_t wrist = shown.body.find(Limb::wrist, side),
+                      shoulder = shown.body.find(Limb::shoulder, side);
     EXPECT_GT(shown.place(wrist, 12).z, shown.place(shoulder, 12).z + 0.2 * shown.body.leg_length());
     EXPECT_GT(glm::distance(shown.place(wrist, 12), shown.place(wrist, 18)), 0.15 * shown.body.leg_length());
     EXPECT_LT(glm::distance(shown.place(wrist, 0), shown.place(wrist, done.last)), 1e-3);
@@ -144,7 +162,8 @@ TEST(Nod, BendsTheHeadAsDeepAsAskedAndComesBack) {
   const Shown shown(film);
   const std::size_t head = shown.body.find(Trunk::head);
   const auto bent = [&](std::uint32_t frame) {
-    return glm::degrees(turn_between(shown.body.turn_of(shown.at(0), head), shown.body.turn_of(shown.at(frame), head)).angle);
+    return glm::degrees(
+        turn_between(shown.body.turn_of(shown.at(0), head), shown.body.turn_of(shown.at(frame), head)).angle);
   };
   EXPECT_NEAR(bent(11), 30, 0.25);
   EXPECT_NEAR(bent(done.last), 0, 0.01);
@@ -156,17 +175,24 @@ std::string refused(const Json& model, const std::string& words) {
 }
 
 TEST(Actions, SayWhatIsInTheWay) {
-  EXPECT_EQ(refused(human(), "stand"), "actor 'anna', stand: stands already at frame 0 (let it sit down first, by the action sit)");
-  EXPECT_NE(refused(robot(), "turn").find("cannot turn about"), std::string::npos) << refused(robot(), "turn");
-  EXPECT_NE(refused(human(), "walk step-length 2.6").find("at its limit of"), std::string::npos) << refused(human(), "walk step-length 2.6");
-  EXPECT_EQ(refused(robot(), "wave"), "actor 'anna': its model names no right elbow, which 'wave' needs "
-                                      "(add it to the model's limbs: docs/model-format.md)");
-  EXPECT_EQ(refused(bird(), "sit"), "actor 'anna': its model names no left knee, which 'sit' needs "
-                                    "(add it to the model's limbs: docs/model-format.md)");
-  EXPECT_EQ(refused(human(), "nod depth 100"), "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
-                                               "(nod less, or widen the joint's limits in its model)");
+  EXPECT_EQ(refused(human(), "stand"),
+            "actor 'anna', stand: stands already at frame 0 (let it sit down first, by the action sit)");
+  EXPECT_NE(refused(robot(), "turn").find("cannot turn about"), std::string::npos)
+      << refused(robot(), "turn");
+  EXPECT_NE(refused(human(), "walk step-length 2.6").find("at its limit of"), std::string::npos)
+      << refused(human(), "walk step-length 2.6");
+  EXPECT_EQ(refused(robot(), "wave"),
+            "actor 'anna': its model names no right elbow, which 'wave' needs "
+            "(add it to the model's limbs: docs/model-format.md)");
+  EXPECT_EQ(refused(bird(), "sit"),
+            "actor 'anna': its model names no left knee, which 'sit' needs "
+            "(add it to the model's limbs: docs/model-format.md)");
+  EXPECT_EQ(refused(human(), "nod depth 100"),
+            "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
+            "(nod less, or widen the joint's limits in its model)");
   EXPECT_EQ(refused(human(), "walk steps 0"), "walk: 'steps' is 0 (give a number from 1 to 10000)");
-  EXPECT_EQ(refused(human(), "walk to 1 1 distance 3"), "walk: 'to' stands beside distance (give one of them)");
+  EXPECT_EQ(refused(human(), "walk to 1 1 distance 3"),
+            "walk: 'to' stands beside distance (give one of them)");
   EXPECT_EQ(refused(human(), "wave hand lft"), "wave: 'hand' is 'lft' (did you mean 'left'?)");
 }
 

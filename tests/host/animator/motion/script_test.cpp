@@ -13,8 +13,10 @@ namespace {
 
 const Json& cubes() {
   static const Json film = [] {
-    Json made = film_with({{"joints", Json::array({jointed("cube", "", {0, 0, 0}, {}, {{-1, -1, -1}, {1, 1, 1}})})}});
-    made["actors"] = Json::array({{{"name", "green"}, {"model", "figure"}}, {{"name", "the blue"}, {"model", "figure"}}});
+    Json made =
+        film_with({{"joints", Json::array({jointed("cube", "", {0, 0, 0}, {}, {{-1, -1, -1}, {1, 1, 1}})})}});
+    made["actors"] =
+        Json::array({{{"name", "green"}, {"model", "figure"}}, {{"name", "the blue"}, {"model", "figure"}}});
     return made;
   }();
   return film;
@@ -51,9 +53,10 @@ at runtime   cut)");
 }
 
 TEST(Script, CuesFollowOneAnother) {
-  const Json film = played("at 1s green go to 1 0 0 seconds 0.5 as there\n"
-                           "then green go to 2 0 0\n"
-                           "after there + 0.5s \"the blue\" go to 0 1 0 seconds 1");
+  const Json film = played(
+      "at 1s green go to 1 0 0 seconds 0.5 as there\n"
+      "then green go to 2 0 0\n"
+      "after there + 0.5s \"the blue\" go to 0 1 0 seconds 1");
   EXPECT_EQ(frames_of(film.at("actors")[0]), (std::vector<std::uint32_t>{24, 36, 60}));
   EXPECT_EQ(frames_of(film.at("actors")[1]), (std::vector<std::uint32_t>{48, 72}));
 }
@@ -77,23 +80,33 @@ TEST(Script, TheCameraCutsFromOneFrameToTheNextAndMoves) {
 }
 
 TEST(Script, SaysLineAndRemedyOfWhatIsWrong) {
-  EXPECT_EQ(failure("\nfrom 3 green spin"), "a.script:2: this line begins with 'from', which is no cue "
-                                            "(begin with at TIME, then, after NAME, or let)");
-  EXPECT_EQ(failure("at 3 gren spin"), "a.script:1: this line names 'gren', who is no actor of the film (did you mean 'green'?)");
-  EXPECT_EQ(failure("at 3 green spinn"), "a.script:1: this line has 'spinn', which is no action (did you mean 'spin'?)");
-  EXPECT_EQ(failure("at 3 green spin axes x"), "a.script:1: this line has 'axes', which 'spin' does not know (did you mean 'axis'?)");
-  EXPECT_EQ(failure("at 3 green spin axis"), "a.script:1: this line ends where axis AXIS is missing (write it, or take the line out)");
-  EXPECT_EQ(failure("at 3 green spin degrees two"), "a.script:1: spin: 'degrees' is 'two', which is no number (write a number, as in 1.5)");
-  EXPECT_EQ(failure("let end = 30\nat ende green spin"), "a.script:2: this line has 'ende', which is no time (did you mean 'end'?)");
-  EXPECT_EQ(failure("at 30 green spin until 20"), "a.script:1: this line ends before it begins (write a later time after until)");
+  EXPECT_EQ(failure("\nfrom 3 green spin"),
+            "a.script:2: this line begins with 'from', which is no cue "
+            "(begin with at TIME, then, after NAME, or let)");
+  EXPECT_EQ(failure("at 3 gren spin"),
+            "a.script:1: this line names 'gren', who is no actor of the film (did you mean 'green'?)");
+  EXPECT_EQ(failure("at 3 green spinn"),
+            "a.script:1: this line has 'spinn', which is no action (did you mean 'spin'?)");
+  EXPECT_EQ(failure("at 3 green spin axes x"),
+            "a.script:1: this line has 'axes', which 'spin' does not know (did you mean 'axis'?)");
+  EXPECT_EQ(failure("at 3 green spin axis"),
+            "a.script:1: this line ends where axis AXIS is missing (write it, or take the line out)");
+  EXPECT_EQ(failure("at 3 green spin degrees two"),
+            "a.script:1: spin: 'degrees' is 'two', which is no number (write a number, as in 1.5)");
+  EXPECT_EQ(failure("let end = 30\nat ende green spin"),
+            "a.script:2: this line has 'ende', which is no time (did you mean 'end'?)");
+  EXPECT_EQ(failure("at 30 green spin until 20"),
+            "a.script:1: this line ends before it begins (write a later time after until)");
   EXPECT_EQ(failure("at 0 cut"), "a.script:1: this line ends the film before it begins (cut later)");
-  EXPECT_EQ(failure("at 0 green walk"), "a.script:1: actor 'green': its model names no left hip, which 'walk' needs "
-                                        "(add it to the model's limbs: docs/model-format.md)");
+  EXPECT_EQ(failure("at 0 green walk"),
+            "a.script:1: actor 'green': its model names no left hip, which 'walk' needs "
+            "(add it to the model's limbs: docs/model-format.md)");
 }
 
 TEST(Script, WhatFailsLeavesTheFilmAsItWas) {
   Json film = cubes();
-  EXPECT_NE(failure_of([&] { play_script(film, "film.json", "at 0 green spin\nat 5 red spin", "a.script"); }), "");
+  EXPECT_NE(failure_of([&] { play_script(film, "film.json", "at 0 green spin\nat 5 red spin", "a.script"); }),
+            "");
   EXPECT_EQ(film, cubes());
 }
 
@@ -110,11 +123,13 @@ TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
     for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
       for (std::uint32_t frame = 0; frame < a.frames; ++frame) {
         const auto place = [&](const Film& film) { return value_at(film.actors[actor].motion.place, frame); };
-        EXPECT_LT(glm::distance(place(a), place(b)), 1e-3) << name << " " << a.actors[actor].name << " " << frame;
+        EXPECT_LT(glm::distance(place(a), place(b)), 1e-3)
+            << name << " " << a.actors[actor].name << " " << frame;
       }
     for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
       EXPECT_EQ(kept["actors"][actor].contains("keys") ? kept["actors"][actor]["keys"].size() : 0u,
-                made["actors"][actor].contains("keys") ? made["actors"][actor]["keys"].size() : 0u) << name;
+                made["actors"][actor].contains("keys") ? made["actors"][actor]["keys"].size() : 0u)
+          << name;
   }
 }
 
