@@ -35,14 +35,28 @@ std::string axes_of(const Joint& joint) {
   return own ? "its own" : "-";
 }
 
-Row row_of(const Model& model, const Joint& joint, std::size_t depth) {
-  Row row{std::string(2 * depth, ' ') + joint.name, turns_of(joint), axes_of(joint), "-", "-", "-", "-"};
+// Which limb each joint is: "left.knee", "-" if none.
+std::vector<std::string> limbs_of(const Model& model) {
+  std::vector<std::string> limbs(model.joints.size(), "-");
+  const auto name = [&](std::size_t joint, const std::string& limb) {
+    if (joint != kNone) limbs[joint] = limb;
+  };
+  for (std::size_t part = 0; part < std::size(kTrunkNames); ++part)
+    name(model.limbs.trunk[part], std::string(kTrunkNames[part]));
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t limb = 0; limb < std::size(kLimbNames); ++limb)
+      name(model.limbs.sides[side][limb], (side == 0 ? "left." : "right.") + std::string(kLimbNames[limb]));
+  return limbs;
+}
+
+Row row_of(const Model& model, const Joint& joint, std::size_t depth, const std::string& limb) {
+  Row row{std::string(2 * depth, ' ') + joint.name, turns_of(joint), axes_of(joint), limb, "-", "-", "-", "-"};
   if (!joint.segment) return row;
   const Shape& shape = model.shapes[joint.segment->shape];
-  row[3] = shape.name;
-  row[4] = shape.mesh ? std::to_string(shape.mesh->ends.size()) + " faces" : std::to_string(shape.patches.size());
-  row[5] = size_text(joint.segment->sbb.max - joint.segment->sbb.min);
-  if (!joint.segment->material.empty()) row[6] = joint.segment->material;
+  row[4] = shape.name;
+  row[5] = shape.mesh ? std::to_string(shape.mesh->ends.size()) + " faces" : std::to_string(shape.patches.size());
+  row[6] = size_text(joint.segment->sbb.max - joint.segment->sbb.min);
+  if (!joint.segment->material.empty()) row[7] = joint.segment->material;
   return row;
 }
 
@@ -55,14 +69,15 @@ class Tree {
   }
 
   std::vector<Row> rows() const {
-    std::vector<Row> rows{{"joint", "turns", "axes", "shape", "patches", "sbb", "material"}};
+    std::vector<Row> rows{{"joint", "turns", "axes", "limb", "shape", "patches", "sbb", "material"}};
+    const std::vector<std::string> limbs = limbs_of(model_);
     std::vector<std::pair<std::size_t, std::size_t>> waiting;  // joints and their depths, the next one last
     for (std::size_t number = model_.joints.size(); number-- > 0;)
       if (model_.joints[number].parent == kNone) waiting.emplace_back(number, 0);
     while (!waiting.empty()) {
       const auto [number, depth] = waiting.back();
       waiting.pop_back();
-      rows.push_back(row_of(model_, model_.joints[number], depth));
+      rows.push_back(row_of(model_, model_.joints[number], depth, limbs[number]));
       for (auto child = children_[number].rbegin(); child != children_[number].rend(); ++child)
         waiting.emplace_back(*child, depth + 1);
     }

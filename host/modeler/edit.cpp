@@ -10,6 +10,7 @@
 
 #include "hal/failure.h"
 #include "host/document/fields.h"
+#include "host/modeler/edit_limbs.h"
 #include "host/modeler/shape_library.h"
 
 namespace mars::host {
@@ -175,7 +176,7 @@ void reset(Json& joint, const std::string& what) {
 
 // Everything but the name.
 void change_joint(Json& model, Json& joint, const JointChange& change) {
-  for (const std::string& what : change.reset) reset(joint, what);
+  for (const std::string& what : change.reset) what == "limb" ? forget_limb(model, joint["name"]) : reset(joint, what);
   if (change.parent) {
     if (!find_joint(model, *change.parent)) no_such_joint(model, *change.parent);
     joint["parent"] = *change.parent;
@@ -193,24 +194,13 @@ void refuse_known(Json& model, const std::string& name) {
     throw Failure("is in the model already", joint_of(name), "choose another name, or change it: mars model set");
 }
 
-// Calls `visit` with every text within `json` and with the path to it.
-void for_each_text(Json& json, const std::string& path, const std::function<void(Json&, const std::string&)>& visit) {
-  if (json.is_string()) visit(json, path);
-  if (!json.is_structured()) return;
-  for (auto item = json.begin(); item != json.end(); ++item)
-    for_each_text(*item, json.is_object() ? path + (path.empty() ? "" : ".") + item.key() : path, visit);
-}
-
 void rename_joint(Json& model, const std::string& from, const std::string& to) {
   refuse_known(model, to);
   for (Json& joint : joints_of(model)) {
     if (joint["name"] == from) joint["name"] = to;
     if (joint.value("parent", "") == from) joint["parent"] = to;
   }
-  if (model.contains("limbs"))
-    for_each_text(model["limbs"], "", [&](Json& text, const std::string&) {
-      if (text == from) text = to;
-    });
+  rename_limb(model, from, to);
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -226,12 +216,10 @@ std::vector<std::string> children_of(const Json& joints, const std::string& name
   return children;
 }
 
-void refuse_limb(Json& model, const std::string& name) {
-  if (!model.contains("limbs")) return;
-  for_each_text(model["limbs"], "limbs", [&](Json& text, const std::string& path) {
-    if (text == name)
-      throw Failure("is one of the model's limbs: " + path, joint_of(name), "name another joint there, or take the limbs out");
-  });
+void refuse_limb(const Json& model, const std::string& name) {
+  if (const std::string limb = limb_of(model, name); !limb.empty())
+    throw Failure("is one of the model's limbs: " + limb, joint_of(name),
+                  "make another joint it, --limb " + limb + ", or this one none, --reset limb");
 }
 
 Json& materials_of(Json& model) {
@@ -283,10 +271,12 @@ void add_joint(Json& model, const std::string& name, const JointChange& change) 
   if (!change.limits.empty()) joint["limits"] = Json::object();
   change_joint(model, joint, change);
   joints_of(model).push_back(joint);
+  if (change.limb) name_limb(model, name, *change.limb);
 }
 
 void set_joint(Json& model, const std::string& name, const JointChange& change) {
   change_joint(model, joint_named(model, name), change);
+  if (change.limb) name_limb(model, name, *change.limb);
   if (change.name && *change.name != name) rename_joint(model, name, *change.name);
 }
 

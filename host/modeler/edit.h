@@ -30,9 +30,10 @@ struct JointChange {
   std::vector<std::pair<std::string, std::vector<double>>> options;  // of the shape: top, ...
   std::optional<Box> sbb;
   std::optional<std::string> material;
+  std::optional<std::string> limb;  // it becomes the figure's "pelvis", "left.knee", ...
 };
 
-inline constexpr std::string_view kResets[] = {"parent", "place", "axes", "limits", "segment", "sbb", "material"};
+inline constexpr std::string_view kResets[] = {"parent", "place", "axes", "limits", "segment", "sbb", "material", "limb"};
 
 struct MaterialChange {
   std::optional<glm::dvec3> color;

@@ -31,7 +31,7 @@ A file is changed whole or not at all. docs/modeling.md goes on from here.
 
 // What a person typed after any of the commands; what was not typed is empty.
 struct Words {
-  std::string file, joint, from, parent, shape, material, name;
+  std::string file, joint, from, parent, shape, material, name, limb;
   std::vector<double> place, x_axis, y_axis, sbb, color, factors;
   std::vector<std::tuple<std::string, double, double>> limits;
   std::vector<std::string> options, resets, joints, branches;
@@ -78,6 +78,7 @@ JointChange change_of(const Words& words) {
   if (!words.sbb.empty())
     change.sbb = Box{{words.sbb[0], words.sbb[1], words.sbb[2]}, {words.sbb[3], words.sbb[4], words.sbb[5]}};
   change.material = given(words.material);
+  change.limb = given(words.limb);
   return change;
 }
 
@@ -88,7 +89,7 @@ MaterialChange look_of(const Words& words) {
 }
 
 bool of_a_joint(const Words& words) {
-  return words.fixed || words.free || !(words.parent + words.shape).empty() || !words.place.empty() || !words.x_axis.empty() ||
+  return words.fixed || words.free || !(words.parent + words.shape + words.limb).empty() || !words.place.empty() || !words.x_axis.empty() ||
          !words.y_axis.empty() || !words.sbb.empty() || !words.limits.empty() || !words.options.empty() || !words.resets.empty();
 }
 
@@ -221,6 +222,9 @@ void add_joint_options(CLI::App& app, Words& words) {
   add_several(app, "--with", words.options, "KEY=NUMBER", "An option of the shape. Example: --with top=0.5");
   add_numbers(app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
               "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
+  app.add_option("--limb", words.limb,
+                 "What limb of a figure it is, so that commands can make it walk: pelvis, head, left.knee ... Example: --limb left.hip")
+      ->type_name("LIMB");
   app.footer(shapes_text());
 }
 
@@ -265,7 +269,7 @@ constexpr Verb kVerbs[] = {
        app.add_option("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
            ->type_name("NAME");
        add_joint_options(app, words);
-       add_several(app, "--reset", words.resets, "parent|place|axes|limits|segment|sbb|material",
+       add_several(app, "--reset", words.resets, "parent|place|axes|limits|segment|sbb|material|limb",
                    "Back to what it is where nothing is told. Example: --reset axes")
            ->check(CLI::IsMember(std::vector<std::string>(std::begin(kResets), std::end(kResets))).description(""));
        add_look_options(app, words);

@@ -109,7 +109,7 @@ TEST(Edit, ANewNameIsPutWhereOthersNameTheJoint) {
 TEST(Edit, WhatCarriesOthersIsRemovedOnlyWithThem) {
   EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "leg", false); }), "joint 'leg': carries 'paw'"));
   EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "leg", true); }),
-                    "is one of the model's limbs: limbs.left.hip"));
+                    "is one of the model's limbs: left.hip"));
   EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "body", true); }), "a model has at least one joint"));
   Json model = dog();
   model.erase("limbs");
@@ -157,6 +157,32 @@ TEST(Edit, NumbersAreShort) {
   EXPECT_EQ(plain_number(-2).dump(), "-2");
   EXPECT_EQ(plain_number(1e9).dump(), "1000000000");
   EXPECT_EQ(plain_number(-0.0).dump(), "0");
+}
+
+TEST(EditLimbs, AJointIsOneLimbAndALimbOneJoint) {
+  Json model = Json::parse(R"({"joints": [{"name": "a"}, {"name": "b", "parent": "a"}]})");
+  JointChange knee;
+  knee.limb = "left.knee";
+  set_joint(model, "b", knee);
+  EXPECT_EQ(model["limbs"], Json::parse(R"({"left": {"knee": "b"}})"));
+  set_joint(model, "a", knee);
+  EXPECT_EQ(model["limbs"], Json::parse(R"({"left": {"knee": "a"}})"));
+  JointChange pelvis;
+  pelvis.limb = "pelvis";
+  set_joint(model, "a", pelvis);
+  EXPECT_EQ(model["limbs"], Json::parse(R"({"pelvis": "a"})"));
+  JointChange none;
+  none.reset = {"limb"};
+  set_joint(model, "a", none);
+  EXPECT_FALSE(model.contains("limbs"));
+}
+
+TEST(EditLimbs, RefuseWhatIsNoLimb) {
+  Json model = Json::parse(R"({"joints": [{"name": "a"}]})");
+  JointChange change;
+  change.limb = "left.kne";
+  EXPECT_EQ(failure_of([&] { set_joint(model, "a", change); }),
+            "joint 'a': cannot be 'left.kne', which is no limb (did you mean 'left.knee'?)");
 }
 
 }  // namespace

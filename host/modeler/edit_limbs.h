@@ -1,0 +1,20 @@
+// The part of a model's JSON that names its limbs (limbs.h), for the steps of edit.h. A limb is written "pelvis" or
+// "left.knee".
+#pragma once
+
+#include <string>
+
+#include "host/document/json_file.h"
+
+namespace mars::host {
+
+// The joint is this limb from now on, no other, and no other joint is. Throws Failure where there is no such limb.
+void name_limb(Json& model, const std::string& joint, const std::string& limb);
+// It is no limb any more, if it was one.
+void forget_limb(Json& model, const std::string& joint);
+// The joint has another name now.
+void rename_limb(Json& model, const std::string& from, const std::string& to);
+// "left.knee", or "" if it is none.
+std::string limb_of(const Json& model, const std::string& joint);
+
+}  // namespace mars::host
