@@ -165,7 +165,7 @@ Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::ui
   for (const Chosen& one : chosen) {
     Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
     for (const std::string& name : one.parts) {
-      const Part& part = one.thing.part(name);
+      const KeyedPart& part = one.thing.part(name);
       if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
       Json value = part.value_at(frame);
       if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond));
@@ -209,7 +209,7 @@ Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_
       film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
         const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
         if (moves_there) {
-          const Part& part = one.thing.part(name);
+          const KeyedPart& part = one.thing.part(name);
           Json value = part.value_at(frame);
           if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused));
           split_way(track, frame, std::move(value));

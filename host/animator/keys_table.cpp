@@ -14,7 +14,7 @@ struct Row {
   std::string part, value, ease;
 };
 
-std::string shown_value(const Part& part, const Json& value) {
+std::string shown_value(const KeyedPart& part, const Json& value) {
   if (!value.is_array()) return shown(value.get<double>());
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {

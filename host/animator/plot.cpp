@@ -18,7 +18,7 @@ constexpr std::array kColors = {"#c0392b", "#1e8449", "#2e5fa3"};       // x, y,
 // A part of a thing, as it is drawn.
 struct Panel {
   std::string title;
-  const Part* part;
+  const KeyedPart* part;
   const Track* track;
   double lowest = std::numeric_limits<double>::max(), highest = -std::numeric_limits<double>::max();
 };
@@ -27,7 +27,7 @@ double number_of(const Json& value, int axis) {
   return value.is_array() ? value.at(axis).get<double>() : value.get<double>();
 }
 
-bool drawn(const Part& part, const Json& value, int axis) {
+bool drawn(const KeyedPart& part, const Json& value, int axis) {
   if (!value.is_array()) return axis == 0;
   return !part.joint || part.joint->limits[axis].free();
 }
@@ -111,7 +111,7 @@ std::string plot_script(Json& film, const Film& meaning, const Choice& choice, P
   for (std::size_t i = 0; i < chosen.size(); ++i)
     for (const std::string& name : chosen[i].parts) {
       const auto track = tracks[i].find(name);
-      const Part& part = chosen[i].thing.part(name);
+      const KeyedPart& part = chosen[i].thing.part(name);
       if (track == tracks[i].end() || (part.joint && part.joint->freedoms() == 0)) continue;
       panels.push_back({chosen[i].thing.name + ": " + shown_part(name), &part, &track->second});
     }

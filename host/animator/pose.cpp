@@ -38,7 +38,7 @@ std::vector<double> numbers_of(const std::string& list, const std::string& text)
 }
 
 bool has_part(const Thing& thing, const std::string& name) {
-  for (const Part& part : thing.parts)
+  for (const KeyedPart& part : thing.parts)
     if (part.name == name || part.name == "/" + name) return true;
   return false;
 }
@@ -46,7 +46,7 @@ bool has_part(const Thing& thing, const std::string& name) {
 glm::dvec3 vector_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
 
 // What the part is to be: its numbers at the frame, those wished for exchanged.
-Json wished(const Wish& wish, const Thing& thing, const Part& part, std::uint32_t frame, Beyond beyond) {
+Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond) {
   Json value = part.value_at(frame);
   if (!value.is_array()) return written(*wish.numbers[0]);
   glm::dvec3 numbers = vector_of(value);
@@ -100,7 +100,7 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
   std::set<std::string> touched;
   for (const std::string& text : wishes) {
     const Wish wish = Wish::read(text, thing);
-    const Part& part = thing.part(wish.part);
+    const KeyedPart& part = thing.part(wish.part);
     Track& track = tracks[part.name];
     if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
     Json value = wished(wish, thing, part, frame, beyond);

@@ -15,7 +15,7 @@ namespace mars::host {
 namespace {
 
 template <typename Value>
-Part plain(const char* name, const Channel<Value>& channel) {
+KeyedPart plain(const char* name, const Channel<Value>& channel) {
   return {name, nullptr, [&channel](std::uint32_t frame) {
             const Stretch stretch = stretch_at(channel, frame);
             if (stretch.from == stretch.to) return written(channel[stretch.from].value);
@@ -23,12 +23,12 @@ Part plain(const char* name, const Channel<Value>& channel) {
           }};
 }
 
-Part direction(const Channel<glm::dvec3>& channel) {
+KeyedPart direction(const Channel<glm::dvec3>& channel) {
   return {"direction", nullptr,
           [&channel](std::uint32_t frame) { return written(rounded(direction_at(channel, frame))); }};
 }
 
-Part turning(const std::string& name, const Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
+KeyedPart turning(const std::string& name, const Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
   const auto motion = std::make_shared<JointMotion>(joint, poses);
   return {name, limited ? &joint : nullptr, [motion, &poses](std::uint32_t frame) {
             const glm::dvec3 pose = motion->pose_at(frame);
@@ -72,7 +72,7 @@ Thing actor_of(Json& json, const Actor& actor, const Model& model) {
 
 std::vector<std::string> names_of(const Thing& thing) {
   std::vector<std::string> names;
-  for (const Part& part : thing.parts) names.push_back(part.name);
+  for (const KeyedPart& part : thing.parts) names.push_back(part.name);
   return names;
 }
 
@@ -118,18 +118,18 @@ Thing thing_named(Json& film, const Film& meaning, const std::string& name) {
 
 }  // namespace
 
-const Part& Thing::part(const std::string& wanted) const {
-  const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == wanted; });
+const KeyedPart& Thing::part(const std::string& wanted) const {
+  const auto found = std::find_if(parts.begin(), parts.end(), [&](const KeyedPart& p) { return p.name == wanted; });
   check(found != parts.end(), "a thing has the part it was asked for");
   return *found;
 }
 
 std::string part_named(const Thing& thing, const std::string& name) {
   for (const std::string& candidate : {name, "/" + name})
-    for (const Part& part : thing.parts)
+    for (const KeyedPart& part : thing.parts)
       if (part.name == candidate) return part.name;
   std::vector<std::string> names;
-  for (const Part& part : thing.parts) names.push_back(part.name[0] == '/' ? part.name.substr(1) : part.name);
+  for (const KeyedPart& part : thing.parts) names.push_back(part.name[0] == '/' ? part.name.substr(1) : part.name);
   throw Failure("has no part '" + name + "'", thing.name,
                 did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
                              thing.name == "camera" ? "its parts are: eye, at, up, fov"

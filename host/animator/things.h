@@ -13,7 +13,7 @@
 namespace mars::host {
 
 // A part of a thing that can change: "place", "eye"; a joint's pose is "/" and its name.
-struct Part {
+struct KeyedPart {
   std::string name;
   const Joint* joint;                                // whose limits bound it; null: no joint
   std::function<Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
@@ -23,9 +23,9 @@ struct Thing {
   std::string name;  // for messages: "actor 'robot'", "camera", "light 2"
   Json* json;
   bool actor;
-  std::vector<Part> parts;  // of an actor: place, turn and all joints
+  std::vector<KeyedPart> parts;  // of an actor: place, turn and all joints
 
-  const Part& part(const std::string& name) const;  // which it has
+  const KeyedPart& part(const std::string& name) const;  // which it has
 };
 
 // Either everything in the film, or "camera" or an actor, and of it these parts: all if none are named. A joint

@@ -1,11 +1,13 @@
 """mars animate and mars plot, as a person types them: what the film file says afterwards, and what is told."""
 
 import json
+import os
 import re
 import shutil
+import subprocess
 import unittest
 
-from harness import EXAMPLES, SOURCES, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main
 
 ARM = {"joints": [
     {"name": "shoulder", "limits": {"x": [-90, 90], "y": [-90, 90], "z": [-90, 90]}, "segment": {"shape": "box"}},
@@ -150,6 +152,23 @@ class Animate(ProgramTest):
         for name in ["robot-arm", "teapot", "demo"]:
             ended = self.mars("animate", EXAMPLES / f"{name}.json", "check")
             self.assertEqual(ended.returncode, 0, ended.stdout)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "there is no gnuplot")
+    def test_the_page_about_it_holds_what_it_says(self):
+        page = (SOURCES / "docs/animating.md").read_text()
+        blocks = re.findall(r"^```(\w+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+        self.assertGreater(len(blocks), 8)
+        told = ""
+        for kind, text in blocks:
+            if kind == "text":
+                self.assertEqual(told, text)
+                continue
+            path = {**ENVIRONMENT, "PATH": f"{PROGRAMS}:{os.environ['PATH']}"}
+            ended = subprocess.run(["bash", "-ec", text], cwd=self.folder, env=path, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            self.assertEqual(ended.returncode, 0, ended.stdout)
+            told = ended.stdout
+        self.assertTrue((self.folder / "lamp.png").exists())
 
     @unittest.skipUnless(shutil.which("gnuplot"), "there is no gnuplot")
     def test_plot(self):

@@ -1,0 +1,25 @@
+// How an actor stands at a frame, whatever moves it: for tools and the studio, which compute no pose, limit or
+// matrix of their own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "host/animator/film.h"
+
+namespace mars::host {
+
+struct ActorState {
+  glm::dvec3 place, turn;        // of the whole figure; those of an actor moved by matrices are 0
+  std::vector<glm::dvec3> pose;  // of each joint, degrees, as the film file would say it
+  std::vector<Axes> joints;      // where each stands in the world; none if matrices move it
+  std::vector<std::optional<node::Matrix>> segments;  // of each joint, the T-matrix of its segment, if it has one
+};
+
+// `actor` is its number in the film. Bit for bit what the compiled film has.
+ActorState state_at(const Film& film, std::size_t actor, std::uint32_t frame);
+
+}  // namespace mars::host
