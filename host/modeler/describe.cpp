@@ -81,10 +81,14 @@ class Tree {
       for (auto child = children_[number].rbegin(); child != children_[number].rend(); ++child)
         waiting.emplace_back(*child, depth + 1);
     }
+    if (std::ranges::all_of(limbs, [](const std::string& limb) { return limb == "-"; }))
+      for (Row& row : rows) row.erase(row.begin() + kLimbColumn);
     return rows;
   }
 
  private:
+  static constexpr int kLimbColumn = 3;
+
   const Model& model_;
   std::vector<std::vector<std::size_t>> children_;
 };

@@ -269,8 +269,9 @@ constexpr Verb kVerbs[] = {
        app.add_option("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
            ->type_name("NAME");
        add_joint_options(app, words);
-       add_several(app, "--reset", words.resets, "parent|place|axes|limits|segment|sbb|material|limb",
-                   "Back to what it is where nothing is told. Example: --reset axes")
+       add_several(app, "--reset", words.resets, "WHAT",
+                   "Back to what it is where nothing is told: parent, place, axes, limits, segment, sbb, material or limb. "
+                   "Example: --reset axes")
            ->check(CLI::IsMember(std::vector<std::string>(std::begin(kResets), std::end(kResets))).description(""));
        add_look_options(app, words);
      }},

@@ -32,6 +32,14 @@ fur       1 0.5 0  0.1      0.65     0.45      32        2
 )");
 }
 
+TEST(Describe, TellsLimbsWhereAModelHasThem) {
+  const Document document(R"({"joints": [{"name": "hip"}, {"name": "calf", "parent": "hip"}],
+                              "limbs": {"left": {"knee": "calf"}}})", "m.json");
+  const std::string text = describe_model(read_model(document.root()));
+  EXPECT_NE(text.find("hip     free   -     -          -"), std::string::npos) << text;
+  EXPECT_NE(text.find("calf  free   -     left.knee  -"), std::string::npos) << text;
+}
+
 TEST(Describe, MeshesHaveFacesAndASizeAtRest) {
   const Document document(R"({"shapes": {"tip": {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]],
       "faces": [[0, 1, 2], [0, 2, 3]]}}}, "joints": [{"name": "a", "segment": {"shape": "tip", "sbb": [[0, 0, 0], [2, 3, 4]]}},
