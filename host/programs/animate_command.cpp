@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
   mars animate film.json list                              what is keyed
-  mars animate film.json pose robot elbow.y=90 --frame 24  the elbow, at frame 24
+  mars animate film.json pose robot elbow.y=90 --frame 24  the elbow there
   mars animate film.json time robot --frame 0 --ease both  begin and end slowly
 docs/animating.md tells more.
 )";
