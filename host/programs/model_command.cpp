@@ -22,7 +22,7 @@ namespace mars::host {
 namespace {
 
 constexpr const char* kWay = R"(A figure from nothing:
-  mars model new dog.json body --shape ellipsoid --sbb -0.6 -0.2 -0.2 0.6 0.2 0.2
+  mars model new dog.json --shape ellipsoid --sbb -0.6 -0.2 -0.2 0.6 0.2 0.2
   mars model add dog.json leg --parent body --place 0.4 0.1 -0.1 \
       --shape capsule --sbb -0.06 -0.06 -0.5 0.06 0.06 0.06 --limits y -60 60
   mars model show dog.json
