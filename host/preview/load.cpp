@@ -3,20 +3,20 @@
 #include "host/animator/read_film.h"
 #include "host/document/document.h"
 #include "host/film/film_file.h"
-#include "host/modeler/read_model.h"
+#include "host/modeler/model_file.h"
 #include "host/preview/viewpoint.h"
 
 namespace mars::host {
 namespace {
 
 bool is_model(const Element& root) {
-  return root.kind() == Kind::object && root.find("joints") && !root.find("actors");
+  return root.kind() == Kind::object && (root.find("joints") || root.find("from")) && !root.find("actors");
 }
 
 Film read_film_or_model(const std::filesystem::path& path) {
   const Document document = read_document(path);
   const Element root = document.root();
-  if (is_model(root)) return turntable(read_model(root), path.string());
+  if (is_model(root)) return turntable(read_own_model(root), path.string());
   return read_film(root, path.parent_path());
 }
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace mars::host {
 namespace {
@@ -17,6 +20,21 @@ const double kFocal = 1 / std::tan(kFov / 2 * kDegree);
 glm::dvec3 outward(const Orbit& orbit) {
   const double turn = orbit.turn * kDegree, height = orbit.height * kDegree;
   return {std::cos(height) * std::cos(turn), std::cos(height) * std::sin(turn), std::sin(height)};
+}
+
+// Plain ones in place of those that a model leaves to its film.
+std::vector<MaterialMotion> lent_materials(const Model& model) {
+  std::set<std::string> names;
+  for (const Joint& joint : model.joints)
+    if (joint.segment && !joint.segment->material.empty()) names.insert(joint.segment->material);
+  for (const NamedMaterial& own : model.materials) names.erase(own.name);
+  std::vector<MaterialMotion> materials;
+  for (const std::string& name : names) {
+    const node::Material& m = kDefaultMaterial;
+    materials.push_back({name, constant(glm::dvec3(m.color[0], m.color[1], m.color[2])), constant(double(m.ambient)),
+                         constant(double(m.diffuse)), constant(double(m.specular)), constant(double(m.exponent)), m.sides});
+  }
+  return materials;
 }
 
 }  // namespace
@@ -67,6 +85,7 @@ Film turntable(Model model, const std::string& source) {
   film.frames = kFrames;
   film.background = {0.12, 0.14, 0.20};
   film.lights.push_back({true, constant(glm::dvec3(0, 0, 1)), constant(glm::dvec3(1)), constant(1.2)});
+  film.materials = lent_materials(model);
   Actor actor;
   actor.name = "model";
   actor.model = 0;

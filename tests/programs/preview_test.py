@@ -268,6 +268,14 @@ class Written(ProgramTest):
         self.assertEqual(len({path.read_bytes() for path in self.folder.glob("*.png")}), 1)
         self.succeed("mars", "preview", "film.mars", "--as", "stick", "-o", "stick.png")
 
+    def test_a_model_alone(self):
+        """Also one of other proportions, and one whose material its film will have."""
+        self.write("box.json", {"joints": [{"name": "a", "segment": {"shape": "box", "material": "of the film"}}]})
+        self.write("tall.json", {"from": "box.json", "proportions": {"scale": [1, 1, 3]}})
+        for model in ["box.json", "tall.json"]:
+            self.succeed("mars", "preview", model, "--frames", "3", "--size", "96x54", "-o", f"{model}.png")
+        self.assertEqual(len({path.read_bytes() for path in self.folder.glob("*.png")}), 2)
+
     def probe(self, file):
         told = self.run_program("ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                 "stream=codec_name,width,height,nb_read_frames,r_frame_rate", "-of", "json", file)
