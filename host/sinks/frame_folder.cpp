@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 
 #include "hal/failure.h"
@@ -84,13 +86,21 @@ Manifest from_json(const json& from) {
 
 namespace {
 
-// Whether the folder's manifest, if it has a sound one, is of this very film.
-bool holds_same_film(const fs::path& folder, const Manifest& manifest) {
-  if (!fs::exists(folder / kManifestName)) return false;
-  const std::vector<std::byte> bytes = read_whole_file(folder / kManifestName);
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  const json old = json::parse(text, text + bytes.size(), nullptr, false);
-  return old.is_object() && old.contains("checksum") && old["checksum"] == manifest.checksum;
+// The folder's manifest, if it has a sound one and that is of this very film.
+std::optional<Manifest> manifest_of_same_film(const fs::path& folder, const Manifest& manifest) {
+  if (!fs::exists(folder / kManifestName)) return std::nullopt;
+  try {
+    Manifest old = read_manifest(folder);
+    if (old.checksum == manifest.checksum) return old;
+  } catch (const Failure&) {
+  }
+  return std::nullopt;
+}
+
+std::vector<std::uint32_t> together(const std::vector<std::uint32_t>& some, const std::vector<std::uint32_t>& others) {
+  std::vector<std::uint32_t> frames;
+  std::ranges::set_union(some, others, std::back_inserter(frames));
+  return frames;
 }
 
 }  // namespace
@@ -99,11 +109,12 @@ FrameFolder::FrameFolder(fs::path path, const Manifest& manifest)
     : path_(std::move(path)), film_frames_(manifest.film_frames) {
   create_folder(path_);
   remove_parts(path_);
-  // Another film's frames under the names to come would pass as this one's if the run were interrupted.
-  if (!holds_same_film(path_, manifest))
+  Manifest all = manifest;
+  if (const auto before = manifest_of_same_film(path_, manifest))
+    all.frames = together(before->frames, manifest.frames);
+  else  // another film's frames under the names to come would pass as this one's if the run were interrupted
     for (const std::uint32_t frame : manifest.frames) fs::remove(file_of(frame));
-  write_whole_file(path_ / kManifestName,
-                   to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+  write_whole_file(path_ / kManifestName, to_json(all).dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 fs::path FrameFolder::file_of(std::uint32_t frame) const {

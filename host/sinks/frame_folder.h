@@ -19,14 +19,15 @@ struct Manifest {
   std::uint32_t height = 0;
   double rate = 0;                    // frames a second
   std::uint32_t film_frames = 0;      // of the whole film
-  std::vector<std::uint32_t> frames;  // asked for, ascending
+  std::vector<std::uint32_t> frames;  // asked for, by one run or several, ascending
 
   bool operator==(const Manifest&) const = default;
 };
 
 class FrameFolder {
  public:
-  // Creates the folder where it is missing, clears away what a killed run left, and writes the manifest.
+  // Creates the folder where it is missing, clears away what a killed run left, and writes the manifest; where
+  // there is one of the same compiled film, its frames belong there too.
   FrameFolder(std::filesystem::path path, const Manifest& manifest);
 
   const std::filesystem::path& path() const { return path_; }

@@ -72,6 +72,20 @@ TEST(FrameFolder, AnotherFilmsFramesDoNotPassAsThisOnes) {
   EXPECT_TRUE(std::filesystem::exists(other.file_of(2))) << "what was not asked for is left alone";
 }
 
+TEST(FrameFolder, FramesOfTheSameFilmAreAdded) {
+  const TemporaryFolder folder;
+  Manifest manifest = small_manifest();
+  manifest.frames = {1, 2, 5};
+  fill(FrameFolder(folder / "f", manifest), manifest, 7);
+  manifest.frames = {2, 3};
+  fill(FrameFolder(folder / "f", manifest), manifest, 7);
+  EXPECT_EQ(read_manifest(folder / "f").frames, (std::vector<std::uint32_t>{1, 2, 3, 5}));
+  EXPECT_TRUE(verify_folder(folder / "f").troubles.empty());
+  manifest.checksum = std::string(32, 'b');
+  const FrameFolder other(folder / "f", manifest);
+  EXPECT_EQ(read_manifest(folder / "f").frames, manifest.frames);
+}
+
 TEST(FrameFolder, TellsWhereItCannotBe) {
   const TemporaryFolder folder;
   write_whole_file(folder / "file", "x");
