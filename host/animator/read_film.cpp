@@ -320,7 +320,12 @@ class ActorReader {
 Model read_film_model(const Element& element, const Film& film, const std::filesystem::path& folder) {
   std::vector<std::string_view> materials;
   for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
-  if (element.kind() == Kind::text) return load_model(folder / read_text(element), materials);
+  if (element.kind() == Kind::text) {
+    const std::filesystem::path path = folder / read_text(element);
+    if (!std::filesystem::exists(path))
+      element.refuse("is '" + path.string() + "', which does not exist", "name a model file as seen from the film's folder");
+    return load_model(path, materials);
+  }
   if (element.kind() != Kind::object)
     element.refuse(std::string("is ") + name_of(element.kind()),
                    "name a model file, or write the model here");
@@ -342,6 +347,9 @@ void read_settings(const Fields& fields, Film& film) {
 std::span<const Keys> film_keys() { return kKeys; }
 
 Film read_film(const Element& element, const std::filesystem::path& folder) {
+  if (element.find("joints") || element.find("from"))
+    element.refuse("is a model, not a film",
+                   "look at it with mars preview, or name it in a film: \"models\": {\"dog\": \"dog.json\"}");
   const Fields fields(element, kKeys[kFilm]);
   Film film;
   film.source = element.document().name();

@@ -271,7 +271,11 @@ void add_joint(Json& model, const std::string& name, const JointChange& change) 
   if (!change.limits.empty()) joint["limits"] = Json::object();
   change_joint(model, joint, change);
   joints_of(model).push_back(joint);
-  if (change.limb) name_limb(model, name, *change.limb);
+  if (!change.limb) return;
+  if (const std::string other = joint_that_is(model, *change.limb); !other.empty())
+    throw Failure("cannot be " + *change.limb + " too: '" + other + "' is", joint_of(name),
+                  "leave --limb out; mars model set ... --limb gives it to another joint");
+  name_limb(model, name, *change.limb);
 }
 
 void set_joint(Json& model, const std::string& name, const JointChange& change) {
@@ -302,10 +306,12 @@ void remove_joint(Json& model, const std::string& name, bool branch) {
 }
 
 void add_material(Json& model, const std::string& name, const MaterialChange& change) {
-  if (model.contains("materials") && model["materials"].contains(name))
-    throw Failure("is in the model already", material_of(name), "change it: mars model set");
-  Json& material = materials_of(model)[name] = Json::object();
+  Json material = Json::object();
   change_material(material, change);
+  Json& materials = materials_of(model);
+  if (materials.contains(name) && materials[name] != material)
+    throw Failure("is in the model already, and looks otherwise", material_of(name), "change it: mars model set");
+  materials[name] = material;
 }
 
 void set_material(Json& model, const std::string& name, const MaterialChange& change,

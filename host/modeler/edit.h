@@ -58,6 +58,7 @@ void set_joint(Json& model, const std::string& name, const JointChange& change);
 // Joints that hang on it are removed too if `branch`, else they are in the way.
 void remove_joint(Json& model, const std::string& name, bool branch);
 
+// One that is there already must look the same.
 void add_material(Json& model, const std::string& name, const MaterialChange& change);
 // `new_name` is also put into the segments made of it.
 void set_material(Json& model, const std::string& name, const MaterialChange& change,

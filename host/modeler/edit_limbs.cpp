@@ -86,4 +86,12 @@ std::string limb_of(const Json& model, const std::string& joint) {
   return found;
 }
 
+std::string joint_that_is(const Json& model, const std::string& limb) {
+  std::string found;
+  for_each_limb(model, [&](const Json& limbs, const std::string& key, const std::string& name) {
+    if (name == limb) found = limbs[key];
+  });
+  return found;
+}
+
 }  // namespace mars::host

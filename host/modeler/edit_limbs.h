@@ -16,5 +16,7 @@ void forget_limb(Json& model, const std::string& joint);
 void rename_limb(Json& model, const std::string& from, const std::string& to);
 // "left.knee", or "" if it is none.
 std::string limb_of(const Json& model, const std::string& joint);
+// The other way round.
+std::string joint_that_is(const Json& model, const std::string& limb);
 
 }  // namespace mars::host

@@ -1,6 +1,7 @@
 #include "host/modeler/review.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -44,6 +45,7 @@ class Review {
     }
     doubt_roots();
     doubt_freedom();
+    doubt_stance();
     doubt_unused();
     return std::move(doubts_);
   }
@@ -109,6 +111,25 @@ class Review {
     const auto hangs = [](const Joint& joint) { return joint.parent != kNone; };
     if (std::ranges::any_of(model_.joints, hangs) && std::ranges::none_of(model_.joints, turns))
       doubts_.push_back("no joint can turn: give those that shall some limits");
+  }
+
+  // What is to walk stands on the floor, and its feet reach to where its hips make it look.
+  void doubt_stance() {
+    const std::size_t left = model_.limbs.of(Limb::hip, Side::left), right = model_.limbs.of(Limb::hip, Side::right);
+    if (left == kNone || right == kNone) return;
+    const double lowest = rest_bounds(model_).value_or(Box{}).min.z;
+    if (std::abs(lowest) > kApart * size_)
+      doubts_.push_back("the figure stands " + short_text(std::abs(lowest)) + (lowest < 0 ? " under" : " over") +
+                        " the floor, z = 0, which commands take it to stand on: change the place of its root");
+    const std::vector<Axes> frames = rest_frames(model_);
+    const glm::dvec3 forward = glm::cross(frames[left].place - frames[right].place, glm::dvec3(0, 0, 1));
+    for (const Side side : {Side::left, Side::right}) {
+      const std::size_t ankle = model_.limbs.of(Limb::ankle, side);
+      if (ankle == kNone || !bounds_[ankle]) continue;
+      const glm::dvec3 middle = 0.5 * (bounds_[ankle]->min + bounds_[ankle]->max);
+      if (glm::dot(middle - frames[ankle].place, forward) < -kApart * size_ * glm::length(forward))
+        doubts_.push_back(of(model_.joints[ankle]) + "points backward: are left and right limbs exchanged?");
+    }
   }
 
   void doubt_unused() {

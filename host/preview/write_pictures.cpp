@@ -10,8 +10,8 @@
 namespace mars::host {
 namespace {
 
-constexpr PictureSize kUsual{960, 540};
-constexpr PictureSize kUsualOnSheet{320, 180};
+constexpr PictureSize kLargestGif{960, 540};  // unless a size is asked for: they are large files
+constexpr PictureSize kOnSheet{320, 180};
 
 bool is_picture(const WriteWishes& wishes) { return wishes.file.extension() == ".png"; }
 
@@ -53,7 +53,10 @@ std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint3
 }
 
 PictureSize extent_to_write(const WriteWishes& wishes, PictureSize film, std::size_t frames) {
-  return wishes.extent.value_or(fitted(film, is_picture(wishes) && frames > 1 ? kUsualOnSheet : kUsual));
+  if (wishes.extent) return *wishes.extent;
+  if (is_picture(wishes) && frames > 1) return fitted(film, kOnSheet);
+  const bool large = film.width > kLargestGif.width || film.height > kLargestGif.height;
+  return large && wishes.file.extension() == ".gif" ? fitted(film, kLargestGif) : film;
 }
 
 void write_pictures(Pictures& pictures, const WriteWishes& wishes) {

@@ -16,7 +16,7 @@ struct WriteWishes {
   std::optional<FrameSet> frames;  // none: all, or for a sheet kSheetFrames at most
   std::uint32_t every = 1;         // of these, each so manieth
   std::uint32_t columns = 0;       // of a sheet; 0: about as many as rows
-  std::optional<PictureSize> extent;    // of each picture; none: as the film's shape fits into what is usual
+  std::optional<PictureSize> extent;    // of each picture; none: the film's, smaller on a sheet and in a GIF
 };
 
 inline constexpr std::uint32_t kSheetFrames = 12;

@@ -53,7 +53,7 @@ void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
             const PictureSize size = read_picture_size(text);
             wishes->write.extent = PictureSize{size.width, size.height};
           }),
-          "Pixels of each picture that is written; default: at most 960x540, on a sheet 320x180. Example: --size 480x270")
+          "Pixels of each picture that is written; default: the film's own; on a sheet 320x180, in a GIF at most 960x540. Example: --size 480x270")
       ->type_name("WxH");
   command
       .add_option_function<std::string>(

@@ -94,6 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                "has 1 items"}));
 
 TEST(ReadFilm, TellsWhatElseIsWrong) {
+  EXPECT_TRUE(holds(told(R"({"joints": [{"name": "a"}]})"), "is a model, not a film (look at it with mars preview"));
   const auto told = [](const std::string& json) { return failure_of([&] { film_of(json); }); };
   const std::string rest = R"(, "models": {}, "actors": []})";
   EXPECT_TRUE(holds(told("{}"), "has no 'frames'"));
@@ -111,7 +112,7 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
   EXPECT_TRUE(holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
   EXPECT_TRUE(
       holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
-            "/nowhere/m.json: there is no such file"));
+            "models.m: is '/nowhere/m.json', which does not exist"));
 }
 
 std::string outcome_of(const std::string& json) {

@@ -177,6 +177,13 @@ TEST(EditLimbs, AJointIsOneLimbAndALimbOneJoint) {
   EXPECT_FALSE(model.contains("limbs"));
 }
 
+TEST(EditLimbs, ANewJointTakesNoLimbFromAnother) {
+  Json model = Json::parse(R"({"joints": [{"name": "a"}], "limbs": {"head": "a"}})");
+  JointChange change;
+  change.limb = "head";
+  EXPECT_TRUE(holds(failure_of([&] { add_joint(model, "b", change); }), "joint 'b': cannot be head too: 'a' is"));
+}
+
 TEST(EditLimbs, RefuseWhatIsNoLimb) {
   Json model = Json::parse(R"({"joints": [{"name": "a"}]})");
   JointChange change;

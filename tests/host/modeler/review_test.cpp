@@ -52,5 +52,28 @@ TEST(Review, AFloorOfTilesIsNotDoubted) {
                         {"name": "b", "limits": {}, "place": [5, 0, 0], "segment": {"shape": "box"}})").empty());
 }
 
+// Legs whose hips stand at y and -y, with feet that reach forward.
+std::vector<std::string> walker(double y, double root) {
+  const auto leg = [&](const std::string& side, double at) {
+    return R"(, {"name": ")" + side + R"(-leg", "parent": "body", "place": [0, )" + std::to_string(at) +
+           R"(, -1], "segment": {"shape": "box", "sbb": [[-0.2, -0.2, -1], [0.2, 0.2, 0]]}},
+           {"name": ")" + side + R"(-foot", "parent": ")" + side + R"(-leg", "place": [0, 0, -1],
+            "segment": {"shape": "box", "sbb": [[-0.2, -0.2, 0], [0.8, 0.2, 0.1]]}})";
+  };
+  return doubts(R"({"name": "body", "place": [0, 0, )" + std::to_string(root) +
+                    R"(], "segment": {"shape": "box", "sbb": [[-1, -1, -1], [1, 1, 1]]}})" + leg("left", y) + leg("right", -y),
+                R"(, "limbs": {"left": {"hip": "left-leg", "ankle": "left-foot"},
+                               "right": {"hip": "right-leg", "ankle": "right-foot"}})");
+}
+
+TEST(Review, TellsFiguresThatWouldWalkBackwardOrUnderTheFloor) {
+  EXPECT_TRUE(walker(0.5, 2).empty());
+  expect_one(walker(0.5, 1.5), "the figure stands 0.5 under the floor, z = 0");
+  expect_one(walker(0.5, 2.25), "the figure stands 0.25 over the floor");
+  const std::vector<std::string> backward = walker(-0.5, 2);
+  ASSERT_EQ(backward.size(), 2u);
+  EXPECT_TRUE(holds(backward[0], "joint 'left-foot' points backward: are left and right limbs exchanged?"));
+}
+
 }  // namespace
 }  // namespace mars::host
