@@ -4,6 +4,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 #include "host/document/file.h"
 #include "host/document/whole_file.h"
 
@@ -90,6 +92,7 @@ void change_json(const std::filesystem::path& path, const std::function<void(Jso
                  const std::function<void(const Element&)>& check) {
   const FolderLock lock(path);
   Json json = read_json(path);
+  if (access(path.c_str(), W_OK) != 0) fail_file("write", path, errno);
   change(json);
   write_json(path, json, check);
 }

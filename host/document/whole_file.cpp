@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include "hal/failure.h"
@@ -17,8 +18,9 @@ namespace {
 // A file descriptor that closes itself. `path` is what failures name, `file` what is opened.
 class Descriptor {
  public:
-  Descriptor(const std::filesystem::path& path, const std::filesystem::path& file, int flags, const char* act)
-      : path_(path), act_(act), number_(open(file.c_str(), flags | O_CLOEXEC, 0666)) {
+  Descriptor(const std::filesystem::path& path, const std::filesystem::path& file, int flags, const char* act,
+             mode_t mode = 0666)
+      : path_(path), act_(act), number_(open(file.c_str(), flags | O_CLOEXEC, mode)) {
     if (number_ < 0) fail_file(act, path, errno);
   }
   ~Descriptor() {
@@ -84,26 +86,42 @@ const char* remedy_for(int error) {
   }
 }
 
-// Removes the temporary file unless it was renamed.
+// Removes the temporary file unless it was renamed. A file that it replaces is found through links and keeps its
+// permissions; what is no file is not replaced.
 class Part {
  public:
-  explicit Part(const std::filesystem::path& path) : target_(path), path_(path) { path_ += kPartSuffix; }
+  explicit Part(const std::filesystem::path& path) : target_(path), replaced_(path) {
+    std::error_code none;
+    if (std::filesystem::is_symlink(path, none) && std::filesystem::exists(path, none))
+      replaced_ = std::filesystem::canonical(path);
+    path_ = replaced_;
+    path_ += kPartSuffix;
+    struct stat old{};
+    if (stat(replaced_.c_str(), &old) != 0) return;
+    if (S_ISDIR(old.st_mode)) fail_file("write", target_, EISDIR);
+    if (!S_ISREG(old.st_mode)) throw Failure("cannot write: is not a regular file", target_.string(), remedy_for(EEXIST));
+    mode_ = old.st_mode & 0777;
+  }
   ~Part() {
     if (!renamed_) unlink(path_.c_str());
   }
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  Descriptor create() const { return {target_, path_, O_WRONLY | O_CREAT | O_TRUNC, "write"}; }
+  Descriptor create() const {
+    return {target_, path_, O_WRONLY | O_CREAT | O_TRUNC, "write", mode_.value_or(0666) | S_IRUSR | S_IWUSR};
+  }
 
   void rename_to_target() {
-    if (rename(path_.c_str(), target_.c_str()) != 0) fail_file("write", target_, errno);
+    if (mode_) chmod(path_.c_str(), *mode_);
+    if (rename(path_.c_str(), replaced_.c_str()) != 0) fail_file("write", target_, errno);
     renamed_ = true;
   }
 
  private:
   const std::filesystem::path& target_;
-  std::filesystem::path path_;
+  std::filesystem::path replaced_, path_;
+  std::optional<mode_t> mode_;
   bool renamed_ = false;
 };
 
@@ -128,6 +146,12 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
 void check_can_write(const std::filesystem::path& path) {
   const Part part(path);
   part.create();
+}
+
+void refuse_same_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code none;
+  if (std::filesystem::equivalent(from, to, none))
+    throw Failure("is the file that is read", to.string(), "write to another");
 }
 
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path) {

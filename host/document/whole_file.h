@@ -23,6 +23,9 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
 // Throws as writing `path` would, as far as can be told before; leaves nothing behind.
 void check_can_write(const std::filesystem::path& path);
 
+// Refuses to write `to` where it is the file `from` that is read.
+void refuse_same_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path);
 
 // Throws Failure("cannot <act>: <the system's reason>", path, what to do about it) for `error`, an errno.

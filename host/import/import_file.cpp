@@ -156,6 +156,7 @@ std::string import_model(const std::filesystem::path& from, const std::filesyste
                      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
   if (!plain) throw Failure("cannot name a joint", joint, "choose a name of 1 to 90 bytes without '/' with --joint");
   check_can_write(to);
+  refuse_same_file(from, to);
   const std::string told = is_mesh_file(from) ? import_mesh_apart(from, to, joint) : import_patches(from, to, joint);
   return to.string() + ": " + told;
 }

@@ -9,9 +9,8 @@
 #include "host/animator/check.h"
 #include "host/animator/keys_table.h"
 #include "host/animator/pose.h"
-#include "host/animator/read_film.h"
 #include "host/animator/read_keys.h"
-#include "host/film/film_file.h"
+#include "host/film/film_json.h"
 #include "host/options/command_line.h"
 #include "host/programs/motion_command.h"
 #include "node/film.h"
@@ -72,31 +71,20 @@ std::optional<Ease> ease_of_words(const std::string& text) {
   return read_ease(Fields(document.root(), Keys{"option", names}));
 }
 
-struct FilmFile {
-  Json json;
-  Film film;
-};
-
-FilmFile open_film(const std::string& path) {
-  if (is_compiled_film(path))
-    throw Failure("is compiled: it has matrices, no keys", path, "name the film file that it was made from");
-  Film film = read_film(path);
-  return {read_json(path), std::move(film)};
-}
-
 // Changes the film file by `change`; it stays as it was where that fails or the result is no film.
 void edit(const Words& words, const std::function<Remarks(Json&, const Film&)>& change) {
-  FilmFile file = open_film(words.film);
-  const std::uint32_t before = last_key(file.json);
-  const Remarks remarks = change(file.json, file.film);
-  const std::uint32_t last = last_key(file.json);
-  if (words.lengthen && last >= file.film.frames) file.json["frames"] = last + 1;
-  const std::filesystem::path path = words.film;
-  write_json(path, file.json, [&](const Element& root) { read_film(root, path.parent_path()); });
+  Remarks remarks;
+  const auto changed = [&](Json& json, const Film& film) {
+    const std::uint32_t before = last_key(json);
+    remarks = change(json, film);
+    const std::uint32_t last = last_key(json);
+    if (words.lengthen && last >= film.frames) json["frames"] = last + 1;
+    if (!words.lengthen && last >= film.frames && last > before)
+      remarks.push_back(words.film + ": the last key, at frame " + std::to_string(last) + ", lies behind the last of " +
+                        std::to_string(film.frames) + " frames (--lengthen makes the film long enough)");
+  };
+  change_film(words.film, changed);
   for (const std::string& remark : remarks) std::cerr << "mars: " << remark << '\n';
-  if (!words.lengthen && last >= file.film.frames && last > before)
-    std::cerr << "mars: " << words.film << ": the last key, at frame " << last << ", lies behind the last of "
-              << file.film.frames << " frames (--lengthen makes the film long enough)\n";
 }
 
 // The options that several commands have.

@@ -10,6 +10,7 @@
 #include "host/animator/check.h"
 #include "host/animator/read_film.h"
 #include "host/doctor/doctor.h"
+#include "host/document/whole_file.h"
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
@@ -99,7 +100,10 @@ void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
   command->add_option("-o,--output", names.to, "The compiled film. Example: -o film.mars")
       ->required()
       ->type_name("FILE");
-  command->callback([&] { save_film(load_film_of(options), names.to); });
+  command->callback([&] {
+    refuse_same_file(options.film, names.to);
+    save_film(load_film_of(options), names.to);
+  });
 }
 
 void add_info(CLI::App& app, Names& names) {

@@ -8,9 +8,8 @@
 #include "hal/failure.h"
 #include "host/animator/motion/action.h"
 #include "host/animator/motion/script.h"
-#include "host/animator/read_film.h"
 #include "host/document/file.h"
-#include "host/film/film_file.h"
+#include "host/film/film_json.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -24,25 +23,14 @@ struct Typed {
   bool lengthen = false;
 };
 
-Json open(const std::string& path) {
-  if (is_compiled_film(path))
-    throw Failure("is compiled: it has matrices, no keys", path, "name the film file that it was made from");
-  read_film(path);
-  return read_json(path);
-}
-
-void write(const std::filesystem::path& file, const Json& film) {
-  write_json(file, film, [&](const Element& root) { read_film(root, file.parent_path()); });
-}
-
-// The film file, changed; with as many frames as `last` needs, if that is wanted.
-void write(const std::string& file, Json& film, std::uint32_t last, bool lengthen) {
+// With as many frames as `last` needs, if that is wanted; else told, if it lies behind the film's end.
+std::string grown(Json& film, const std::string& file, std::uint32_t last, bool lengthen) {
   const auto frames = film.at("frames").get<std::uint32_t>();
-  if (lengthen && last >= frames) film["frames"] = last + 1;
-  write(file, film);
-  if (!lengthen && last >= frames)
-    std::cerr << "mars: " << file << ": that ends at frame " << last << ", behind the last of " << frames
-              << " frames (--lengthen makes the film long enough)\n";
+  if (last < frames) return "";
+  if (lengthen) film["frames"] = last + 1;
+  return lengthen ? ""
+                  : "mars: " + file + ": that ends at frame " + std::to_string(last) + ", behind the last of " +
+                        std::to_string(frames) + " frames (--lengthen makes the film long enough)\n";
 }
 
 void add_action(CLI::App& animate, const std::string& film, const Action& action) {
@@ -73,11 +61,14 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
     Wishes::Values values;
     for (std::size_t i = 0; i < typed->values.size(); ++i)
       if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
-    Json json = open(film);
-    const Performed done =
-        perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
-                Wishes(std::move(values), std::string(action.name)));
-    write(film, json, done.last, typed->lengthen);
+    Performed done;
+    std::string remark;
+    change_film(film, [&](Json& json, const Film&) {
+      done = perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
+                     Wishes(values, std::string(action.name)));
+      remark = grown(json, film, done.last, typed->lengthen);
+    });
+    std::cerr << remark;
     std::cout << "frames " << done.first << " to " << done.last << (done.told.empty() ? "" : ": " + done.told)
               << '\n';
   });
@@ -92,12 +83,13 @@ void add_script(CLI::App& animate, const std::string& film) {
   command->add_flag("--lengthen", *lengthen,
                     "Give the film as many frames as the script needs. Example: --lengthen");
   command->callback([&film, script, lengthen] {
-    Json json = open(film);
-    const Played played = play_script(json, film, read_file(*script), *script);
-    if (played.cut)
-      write(film, json);
-    else
-      write(film, json, played.last, *lengthen);
+    Played played;
+    std::string remark;
+    change_film(film, [&](Json& json, const Film&) {
+      played = play_script(json, film, read_file(*script), *script);
+      if (!played.cut) remark = grown(json, film, played.last, *lengthen);
+    });
+    std::cerr << remark;
     for (const std::string& line : played.told) std::cout << line << '\n';
   });
 }

@@ -12,9 +12,8 @@
 
 #include "hal/failure.h"
 #include "host/animator/plot.h"
-#include "host/animator/read_film.h"
 #include "host/document/whole_file.h"
-#include "host/film/film_file.h"
+#include "host/film/film_json.h"
 
 extern char** environ;
 
@@ -86,14 +85,11 @@ void plot(const Words& words) {
   const std::filesystem::path output = words.output;
   if (output.extension() != ".png" && output.extension() != ".svg")
     throw Failure("is neither .png nor .svg", words.output, "name the picture like angles.png or angles.svg");
-  if (is_compiled_film(words.film))
-    throw Failure("is compiled: it has matrices, no keys", words.film, "name the film file that it was made from");
-  const Film film = read_film(words.film);
-  Json json = read_json(words.film);
+  FilmFile file = open_film(words.film);
   const Choice choice{words.thing.empty(), words.thing, words.parts};
   const PlotAs as = output.extension() == ".png" ? PlotAs::png : PlotAs::svg;
   check_can_write(output);
-  const std::string picture = drawn_by_gnuplot(plot_script(json, film, choice, as));
+  const std::string picture = drawn_by_gnuplot(plot_script(file.json, file.film, choice, as));
   write_whole_file(output, picture);
 }
 

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, SOURCES, ProgramTest, main
 
 ARM = {"joints": [
     {"name": "shoulder", "limits": {"x": [-90, 90], "y": [-90, 90], "z": [-90, 90]}, "segment": {"shape": "box"}},
@@ -147,6 +147,17 @@ class Animate(ProgramTest):
         self.write("film.json", film(actors=[{"name": "robot", "model": "arm", "matrices": [
             {"frame": 0, "segments": {"shoulder": rows, "elbow": rows}}]}]))
         self.assertIn("is moved by matrices", self.refused("pose", "robot", "elbow.y=9", "--frame", 3))
+
+    def test_of_changes_at_once_none_is_lost(self):
+        self.write("film.json", film(frames=200))
+        wishes = [["pose", "robot", "elbow.y=9", "--frame", str(frame)] for frame in range(0, 60, 5)]
+        wishes += [["spin", "robot", "--at", str(frame), "--seconds", "0.1"] for frame in range(100, 160, 5)]
+        running = [subprocess.Popen([PROGRAMS / "mars", "animate", "film.json", *words], cwd=self.folder,
+                                    stdout=subprocess.DEVNULL) for words in wishes]
+        self.assertEqual([each.wait(SECONDS) for each in running], [0] * len(running))
+        frames = set(self.frames())
+        self.assertLessEqual(set(range(0, 60, 5)) | set(range(100, 160, 5)), frames)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["film.json"])
 
     def test_examples_are_sound(self):
         for name in ["robot-arm", "teapot", "demo"]:

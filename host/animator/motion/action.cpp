@@ -183,6 +183,9 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
                   "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : last_key_of(actor), wishes};
   const Motion motion = action.perform(scene);
+  if (motion.last >= node::kMostFrames)
+    throw Failure("would end at frame " + std::to_string(motion.last), "actor '" + name + "', " + std::string(action.name),
+                  "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) + " frames");
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const ActorKey driven = all_of(motion.keys);
   clear_keys(json, name, scene.at + 1, driven.place ? node::kMostFrames : motion.last, driven);

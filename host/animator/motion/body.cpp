@@ -96,6 +96,24 @@ glm::dmat3 nearly_square(const glm::dmat3& axes) {
                 "add it to the model's limbs: docs/model-format.md");
 }
 
+// The axes of a figure follow from where its hips and left ankle are, which must tell them.
+void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips, const std::array<glm::dvec3, 2>& ankles) {
+  const auto fail = [&](const std::string& problem) {
+    throw Failure(problem, "actor '" + actor + "'",
+                  "in its model, place the hips beside each other and the ankles below them");
+  };
+  constexpr double kLeast = 1e-3;  // of the leg
+  for (const Side side : kSides) {
+    const glm::dvec3 leg = ankles[index_of(side)] - hips[index_of(side)], across = hips[0] - hips[1];
+    const double length = glm::length(leg);
+    const std::string name = side == Side::left ? "left" : "right";
+    if (!(length > 0) || !std::isfinite(length)) fail("its " + name + " leg has no length from hip to ankle");
+    if (!(glm::length(across) > kLeast * length)) fail("its hips are at one place");
+    if (!(glm::length(glm::cross(across, leg)) > kLeast * glm::length(across) * length))
+      fail("its " + name + " leg points from one hip to the other");
+  }
+}
+
 }  // namespace
 
 glm::dmat3 canonical_turn(double a, double b, double c) {
@@ -164,16 +182,17 @@ double lowest_of(const Model& model, const Posture& posture) {
 Body body_of(const Model& model, const std::string& actor, const std::string& command) {
   Body body{&model, actor, glm::dmat3(1), model.limbs.of(Trunk::pelvis), {}, 0};
   const Posture drawn = drawn_posture(model);
-  std::array<glm::dvec3, 2> hips;
+  std::array<glm::dvec3, 2> hips, ankles;
   for (const Side side : kSides) {
     hips[index_of(side)] = frame_in(model, drawn, needed(body, Limb::hip, side, command)).place;
-    needed(body, Limb::ankle, side, command);
+    ankles[index_of(side)] = frame_in(model, drawn, needed(body, Limb::ankle, side, command)).place;
   }
+  check_legs(actor, hips, ankles);
   if (body.pelvis == kNone) body.pelvis = model.joints[model.limbs.of(Limb::hip, Side::left)].parent;
   if (body.pelvis == kNone) fail_limb(actor, command, "pelvis");
   const glm::dvec3 pelvis = frame_in(model, drawn, body.pelvis).place;
   const glm::dvec3 left = glm::normalize(hips[0] - hips[1]);
-  const glm::dvec3 legs = frame_in(model, drawn, model.limbs.of(Limb::ankle, Side::left)).place - hips[0];
+  const glm::dvec3 legs = ankles[0] - hips[0];
   const glm::dvec3 up = glm::normalize(glm::dot(legs, left) * left - legs);
   body.axes = nearly_square({glm::cross(left, up), left, up});
   const glm::dmat3 back = glm::transpose(body.axes);
@@ -187,7 +206,7 @@ Body body_of(const Model& model, const std::string& actor, const std::string& co
            0,
            0,
            {}};
-    const glm::dvec3 hip = hips[index_of(side)], ankle = frame_in(model, drawn, leg.ankle).place;
+    const glm::dvec3 hip = hips[index_of(side)], ankle = ankles[index_of(side)];
     const glm::dvec3 knee = leg.knee == kNone ? ankle : frame_in(model, drawn, leg.knee).place;
     leg.thigh = glm::distance(hip, knee);
     leg.shin = glm::distance(knee, ankle);

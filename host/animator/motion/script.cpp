@@ -161,7 +161,7 @@ class Player {
         make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before,
                   verb == "cut" ? kLinear : kBoth, Beyond::refused);
       pose(film_, meaning_of(film_, path_), kCamera, wishes, end, kLinear, Beyond::refused);
-      return 0;
+      return meaning_of(film_, path_).frames;
     });
     played_.told.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));
     return end;

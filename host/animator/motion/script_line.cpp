@@ -1,5 +1,6 @@
 #include "host/animator/motion/script_line.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -14,9 +15,13 @@ constexpr std::string_view kOperators = "+-*/";
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
+bool no_text(char c) { return std::iscntrl(static_cast<unsigned char>(c)) && !blank(c); }
+
 }  // namespace
 
 ScriptLine::ScriptLine(std::string_view text, std::string where) : where_(std::move(where)) {
+  if (std::any_of(text.begin(), text.end(), no_text))
+    refuse("holds control characters", "is it a script? Write plain text");
   for (std::size_t i = 0; i < text.size();) {
     if (blank(text[i])) {
       ++i;

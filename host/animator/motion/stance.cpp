@@ -97,7 +97,7 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
       if (value > limits.lower + kAtLimit && value < limits.upper - kAtLimit) continue;
       if (!limits.free() && axis == 2 && joint.freedoms() > 0) continue;  // few joints twist: never the cause
       const std::string what = limits.free()
-                                   ? "is at its limit of " + shown(value) + " degrees about " + "xyz"[axis]
+                                   ? "is at its limit of " + shown(std::round(value * 1e4) / 1e4 + 0.0) + " degrees about " + "xyz"[axis]
                                    : std::string("cannot turn about ") + "xyz"[axis];
       all += (all.empty() ? "'" : ", '") + joint.name + "' " + what;
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 
 #include "tests/host/document/failure_of.h"
 #include "tests/host/sinks/temporary_folder.h"
@@ -39,6 +40,29 @@ TEST(WholeFile, TellsWhatCannotBeReadOrWritten) {
   std::filesystem::create_directory(folder / "folder");
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "folder", "x"); }), "cannot write"));
   EXPECT_EQ(folder.entries(), 2u) << "no temporary file is left";
+}
+
+TEST(WholeFile, LinksAndPermissionsStay) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "file", "old");
+  std::filesystem::permissions(folder / "file", std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  std::filesystem::create_symlink("file", folder / "link");
+  write_whole_file(folder / "link", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(text_of(folder / "file"), "new");
+  EXPECT_EQ(std::filesystem::status(folder / "file").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(pipe, "x"); }), "pipe: cannot write: is not a regular file"));
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  std::filesystem::create_directory(folder / "folder");
+  EXPECT_TRUE(holds(failure_of([&] { check_can_write(folder / "folder"); }), "Is a directory"));
 }
 
 // A disk of 64 KiB, where the system lets us have one.

@@ -202,6 +202,13 @@ TEST_F(ImportTest, PatchFilesAreModelsToo) {
   EXPECT_EQ(model.shapes[0].patches[0].points, read_patch_file(from).patches[0].points);
 }
 
+TEST_F(ImportTest, TheFileItselfIsNotOverwritten) {
+  const fs::path from = write("in.bpt", "1\n");
+  EXPECT_NE(failure_of([&] { import_model(from, from, "a"); }).find("is the file that is read (write to another)"),
+            std::string::npos);
+  EXPECT_EQ(read_whole_file(from).size(), 2u);
+}
+
 // Files of others, where they lie beside the project.
 TEST_F(ImportTest, GltfFilesOfOthers) {
   const fs::path data = fs::path(MARS_SOURCE_DIR) / "../shared/data";

@@ -196,5 +196,33 @@ TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(human(), "wave hand lft"), "wave: 'hand' is 'lft' (did you mean 'left'?)");
 }
 
+Json with_places(const std::vector<std::pair<std::string, Json>>& places) {
+  Json model = human();
+  for (Json& joint : model["joints"])
+    for (const auto& [name, place] : places)
+      if (joint["name"] == name) joint["place"] = place;
+  return model;
+}
+
+TEST(Actions, LegsThatTellNoDirectionAreRefused) {
+  const Json together = with_places({{"left-thigh", {0, 0, -0.2}}, {"right-thigh", {0, 0, -0.2}}});
+  const Json above = with_places({{"left-thigh", {0, 0, 0}}, {"right-thigh", {0, 0, -0.5}}});
+  const Json none = with_places({{"right-shin", {0, 0, 0}}, {"right-foot", {0, 0, 0}}});
+  for (const char* words : {"walk", "turn", "sit", "nod", "wave"}) {
+    EXPECT_EQ(refused(together, words),
+              "actor 'anna': its hips are at one place "
+              "(in its model, place the hips beside each other and the ankles below them)");
+    EXPECT_NE(refused(above, words).find("leg points from one hip to the other"), std::string::npos);
+    EXPECT_NE(refused(none, words).find("its right leg has no length"), std::string::npos);
+  }
+}
+
+TEST(Actions, DoNotEndBehindWhatAFilmCanHave) {
+  Json film = film_with(human());
+  EXPECT_EQ(failure_of([&] { act(film, "spin seconds 600", 999'000); }),
+            "actor 'anna', spin: would end at frame 1013400 "
+            "(begin earlier, or make it shorter: a film has at most 1000000 frames)");
+}
+
 }  // namespace
 }  // namespace mars::host

@@ -97,6 +97,9 @@ TEST(Script, SaysLineAndRemedyOfWhatIsWrong) {
             "a.script:2: this line has 'ende', which is no time (did you mean 'end'?)");
   EXPECT_EQ(failure("at 30 green spin until 20"),
             "a.script:1: this line ends before it begins (write a later time after until)");
+  EXPECT_EQ(failure(std::string("at 0 \0", 6)),
+            "a.script:1: this line holds control characters (is it a script? Write plain text)");
+  EXPECT_EQ(failure("at 0 camera cut fov 30\nat 5 camera cut fov 0\nat 9 green spin").find("a.script:2: "), 0u);
   EXPECT_EQ(failure("at 0 cut"), "a.script:1: this line ends the film before it begins (cut later)");
   EXPECT_EQ(failure("at 0 green walk"),
             "a.script:1: actor 'green': its model names no left hip, which 'walk' needs "

@@ -1,0 +1,31 @@
+#include "host/film/film_json.h"
+
+#include "hal/failure.h"
+#include "host/animator/read_film.h"
+#include "host/film/film_file.h"
+
+namespace mars::host {
+namespace {
+
+Film meaning_of(const std::filesystem::path& path) {
+  if (is_compiled_film(path))
+    throw Failure("is compiled: it has matrices, no keys", path.string(),
+                  "name the film file that it was made from");
+  return read_film(path);
+}
+
+}  // namespace
+
+FilmFile open_film(const std::filesystem::path& path) {
+  Film film = meaning_of(path);
+  return {read_json(path), std::move(film)};
+}
+
+void change_film(const std::filesystem::path& path, const std::function<void(Json&, const Film&)>& change) {
+  meaning_of(path);  // tells what a file of another kind is
+  change_json(
+      path, [&](Json& json) { change(json, read_film(path)); },
+      [&](const Element& root) { read_film(root, path.parent_path()); });
+}
+
+}  // namespace mars::host

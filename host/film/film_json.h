@@ -1,0 +1,24 @@
+// Film files as people write them, read with what they mean, and changed in place.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "host/animator/film.h"
+#include "host/document/json_file.h"
+
+namespace mars::host {
+
+struct FilmFile {
+  Json json;
+  Film film;
+};
+
+// Refuses compiled films, and what read_film() refuses.
+FilmFile open_film(const std::filesystem::path& path);
+
+// Changes the film file; it stays as it was where `change` fails or the result is no film. Of several at a time no
+// change is lost (change_json()).
+void change_film(const std::filesystem::path& path, const std::function<void(Json& json, const Film& film)>& change);
+
+}  // namespace mars::host
