@@ -2,48 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <regex>
 #include <set>
 #include <string>
-#include <vector>
+
+#include "tests/architecture/sources.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Source {
-  std::string path;  // from the root, with /
-  std::vector<std::string> includes;
-  std::string text;
-};
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<Source> read_sources() {
-  std::vector<Source> sources;
-  const std::regex include(R"((?:^|\n)\s*#\s*include\s*[<"]([^>"]+)[>"])");
-  for (const char* folder : {"hal", "host", "node", "topology"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(MARS_SOURCE_DIR) / folder)) {
-      const std::string ending = entry.path().extension().string();
-      if (ending != ".h" && ending != ".cpp") continue;
-      Source source{fs::relative(entry.path(), MARS_SOURCE_DIR).generic_string(), {}, read(entry.path())};
-      for (std::sregex_iterator i(source.text.begin(), source.text.end(), include), end; i != end; ++i)
-        source.includes.push_back((*i)[1]);
-      sources.push_back(std::move(source));
-    }
-  }
-  return sources;
-}
-
-const std::vector<Source>& sources() {
-  static const std::vector<Source> all = read_sources();
-  return all;
-}
+using mars::test::read;
+using mars::test::Source;
+using mars::test::sources;
 
 bool begins(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
 
