@@ -1,11 +1,13 @@
 // Which folder may know what: scans the includes of every source file. MAP.md says the same in words.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "tests/architecture/sources.h"
 
@@ -100,6 +102,31 @@ TEST(Boundaries, HostAndNodeShareTheProtocol) {
       EXPECT_FALSE(begins(include, "hal/mpi/") || begins(include, "hal/threads/")) << source.path;
     }
   }
+}
+
+// From a model to what is seen of it, each tool knows only those before it; none knows the programs.
+TEST(Boundaries, HostsToolsStandOnOneAnother) {
+  const auto below = [](const std::string& from, const std::vector<std::string>& known) {
+    expect_includes(from, [&](const std::string& include) {
+      if (!begins(include, "host/")) return true;
+      return std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
+    });
+  };
+  const std::string document = "host/document/", modeler = "host/modeler/", animator = "host/animator/";
+  const std::string film = "host/film/", preview = "host/preview/", sinks = "host/sinks/", options = "host/options/";
+  below(document, {document});
+  below(modeler, {document, modeler});
+  below("host/import/", {document, modeler, "host/import/"});
+  below(animator, {document, modeler, animator});
+  below(film, {document, modeler, animator, film, sinks});
+  below(preview, {document, modeler, animator, film, preview, sinks, options});
+  for (const Source& source : sources())
+    for (const std::string& include : source.includes) {
+      EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;
+      EXPECT_TRUE(!begins(include, animator + "motion/") || begins(source.path, animator + "motion/") ||
+                  begins(source.path, "host/programs/"))
+          << source.path;
+    }
 }
 
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide
