@@ -100,17 +100,6 @@ bool changes(const Channel<Value>& channel) {
   return std::any_of(channel.begin(), channel.end(), [&](const auto& key) { return key.value != channel[0].value; });
 }
 
-std::uint32_t last_key_of(const Actor& actor) {
-  std::uint32_t last = 0;
-  const auto look = [&](const auto& channel) {
-    if (!channel.empty()) last = std::max(last, channel.back().frame);
-  };
-  look(actor.motion.place);
-  look(actor.motion.turn);
-  for (const auto& poses : actor.motion.pose) look(poses);
-  return last;
-}
-
 bool keyed(const Actor& actor) {
   const auto several = [](const auto& channel) { return channel.size() > 1; };
   return several(actor.motion.place) || several(actor.motion.turn) ||
@@ -165,7 +154,7 @@ Findings check_film(const Film& film) {
   for (const Actor& actor : film.actors) {
     const std::string name = "actor '" + actor.name + "': ";
     // A key just behind the end is where a film that is played round and round begins again.
-    if (const std::uint32_t last = last_key_of(actor); last > film.frames)
+    if (const std::uint32_t last = last_key(actor.motion); last > film.frames)
       lines.push_back(name + "has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
                       std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
     if (keyed(actor) && !moves(actor))

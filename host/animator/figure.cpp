@@ -24,6 +24,17 @@ const Joint kFree = whole_figure();
 
 const Joint& free_joint() { return kFree; }
 
+std::uint32_t last_key(const FigureMotion& motion) {
+  std::uint32_t last = 0;
+  const auto look = [&](const auto& channel) {
+    if (!channel.empty()) last = std::max(last, channel.back().frame);
+  };
+  look(motion.place);
+  look(motion.turn);
+  for (const auto& poses : motion.pose) look(poses);
+  return last;
+}
+
 std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose) {
   for (int axis = 0; axis < 3; ++axis) {
     const Limits& limits = joint.limits[axis];

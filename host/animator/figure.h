@@ -2,6 +2,8 @@
 // T-matrices of its segments. Joints turn relative to their parents, so limbs never come apart (thesis 3.4).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -28,7 +30,11 @@ struct FigureMotion {
   std::vector<Channel<glm::dvec3>> pose;  // one a joint; without a key it rests
 };
 
-// A joint's turn over the frames. An ease that overshoots stops at the joint's limits. Keeps the turn between the two keys it was last asked about.
+// The last frame at which anything of it has a key; 0 if nothing has.
+std::uint32_t last_key(const FigureMotion& motion);
+
+// A joint's turn over the frames. An ease that overshoots stops at the joint's limits. Keeps the turn between the two
+// keys it was last asked about.
 class JointMotion {
  public:
   // Both must outlive it. `poses` may be empty.

@@ -141,14 +141,6 @@ void split_way(Track& track, std::uint32_t frame, Json value) {
   put_key(track, std::move(key));
 }
 
-// The ease of the key item at the frame, of all parts: an item of a film file has only one.
-void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease) {
-  for (auto& [part, track] : tracks)
-    if (TrackKey* key = key_at(track, frame)) key->ease = ease;
-}
-
-glm::dvec3 vector_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
-
 }  // namespace
 
 Remarks put(const Thing& thing, const Tracks& tracks) {

@@ -43,8 +43,6 @@ bool has_part(const Thing& thing, const std::string& name) {
   return false;
 }
 
-glm::dvec3 vector_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
-
 // What the part is to be: its numbers at the frame, those wished for exchanged.
 Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond) {
   Json value = part.value_at(frame);
@@ -114,9 +112,7 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
     }
     touched.insert(part.name);
   }
-  if (ease)
-    for (auto& [part, track] : tracks)
-      if (TrackKey* key = key_at(track, frame)) key->ease = *ease;
+  if (ease) set_ease(tracks, frame, *ease);
   return put(thing, tracks);
 }
 

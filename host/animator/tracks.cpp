@@ -134,6 +134,11 @@ void put_key(Track& track, TrackKey key) {
     track.insert(place, std::move(key));
 }
 
+void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease) {
+  for (auto& [part, track] : tracks)
+    if (TrackKey* key = key_at(track, frame)) key->ease = ease;
+}
+
 std::string shown_part(const std::string& part) { return part[0] == '/' ? part.substr(1) : part; }
 
 }  // namespace mars::host

@@ -35,6 +35,9 @@ TrackKey* key_at(Track& track, std::uint32_t frame);
 // Puts a key in its place, instead of one at its frame.
 void put_key(Track& track, TrackKey key);
 
+// The ease of the key of the file at the frame, and so of all its parts.
+void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease);
+
 // As people name a part: joints without the slash.
 std::string shown_part(const std::string& part);
 

@@ -35,4 +35,6 @@ Ease ease_of(const Json& key) {
   return kLinear;
 }
 
+glm::dvec3 vector_of(const Json& array) { return {array.at(0), array.at(1), array.at(2)}; }
+
 }  // namespace mars::host

@@ -1,4 +1,4 @@
-// How values stand in a film file, and eases read back from it.
+// How values stand in a film file, and how they are read back from it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,5 +14,7 @@ Json written(const Ease& ease);  // by its name, if it has one
 
 // Of a key, as read_film accepts it.
 Ease ease_of(const Json& key);
+// Of three numbers.
+glm::dvec3 vector_of(const Json& array);
 
 }  // namespace mars::host

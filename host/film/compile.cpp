@@ -8,16 +8,15 @@
 #include <unordered_map>
 
 #include "hal/failure.h"
+#include "host/animator/direction.h"
+#include "host/animator/read_film.h"
 #include "host/film/film_file.h"
 #include "host/film/intervals.h"
 #include "host/film/motion_writer.h"
-#include "host/animator/direction.h"
 #include "host/film/shape_writer.h"
-#include "host/animator/read_film.h"
 
 namespace mars::host {
 namespace {
-
 
 // Appends to a film's values and to one track of changes those that differ from the one before.
 template <typename Value>

@@ -29,6 +29,21 @@ std::string size_text(const glm::dvec3& size) {
   return formatted("%.4g x %.4g x %.4g", size.x, size.y, size.z);
 }
 
+// "free", "fixed", or what its limits leave it: "y -60..60, z at 20". Degrees.
+std::string turns_of(const Joint& joint) {
+  std::string text;
+  bool all_round = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Limits& limits = joint.limits[axis];
+    all_round = all_round && limits.lower == -180 && limits.upper == 180;
+    if (!limits.free() && limits.lower == 0) continue;
+    text += text.empty() ? "" : ", ";
+    text += "xyz"[axis];
+    text += limits.free() ? " " + shown(limits.lower) + ".." + shown(limits.upper) : " at " + shown(limits.lower);
+  }
+  return all_round ? "free" : text.empty() ? "fixed" : text;
+}
+
 std::string axes_of(const Joint& joint) {
   if (skew_of(joint) != 0) return formatted("skewed, %.4g degrees", skew_of(joint));
   const bool own = joint.x_axis != Joint().x_axis || joint.y_axis != Joint().y_axis;
@@ -147,22 +162,9 @@ std::string materials_of(const Model& model) {
 }  // namespace
 
 double skew_of(const Joint& joint) {
-  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / 3.14159265358979323846;
+  constexpr double kPi = 3.14159265358979323846;
+  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / kPi;
   return std::abs(angle - 90) < kSquare ? 0 : angle;
-}
-
-std::string turns_of(const Joint& joint) {
-  std::string text;
-  bool all_round = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Limits& limits = joint.limits[axis];
-    all_round = all_round && limits.lower == -180 && limits.upper == 180;
-    if (!limits.free() && limits.lower == 0) continue;
-    text += text.empty() ? "" : ", ";
-    text += "xyz"[axis];
-    text += limits.free() ? " " + shown(limits.lower) + ".." + shown(limits.upper) : " at " + shown(limits.lower);
-  }
-  return all_round ? "free" : text.empty() ? "fixed" : text;
 }
 
 std::string describe_model(const Model& model) {

@@ -10,9 +10,6 @@ namespace mars::host {
 // Lines, each ended. Children stand two columns further right than their parent, in the file's order.
 std::string describe_model(const Model& model);
 
-// "free", "fixed", or what its limits leave it: "y -60..60, z at 20". Degrees.
-std::string turns_of(const Joint& joint);
-
 // The angle between the joint's x and y axes in degrees if they are not square to each other, which shears the
 // base segment; else 0.
 double skew_of(const Joint& joint);

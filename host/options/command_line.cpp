@@ -52,9 +52,43 @@ std::string option_list(const CLI::App& app) {
   return text;
 }
 
+// "mars animate FILM pose": a command as it is typed, after the arguments of those it is within.
+std::string typed(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  if (parent == nullptr) return command.get_name();
+  std::string text = typed(*parent) + " ";
+  for (const CLI::Option* each : parent->get_options())
+    if (each->get_positional()) text += each->get_name(true) + " ";
+  return text + command.get_name();
+}
+
+// The command that was named where an argument of `app` belongs, as in `mars animate pose --help`; null if none was.
+const CLI::App* named_too_early(const CLI::App& app) {
+  for (const CLI::Option* each : app.get_options()) {
+    if (!each->get_positional() || each->count() == 0) continue;
+    for (const CLI::App* command : commands_in(app))
+      if (command->get_name() == each->results().front()) return command;
+  }
+  return nullptr;
+}
+
 // Help as wide as a terminal, each example on a line of its own.
 class Help : public CLI::Formatter {
  public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    const CLI::App* meant = named_too_early(*app);
+    return Formatter::make_help(meant == nullptr ? app : meant, name, mode);
+  }
+
+  std::string make_usage(const CLI::App* app, std::string) const override {
+    return Formatter::make_usage(app, typed(*app));
+  }
+
+  std::string make_option_usage(const CLI::Option* option) const override {
+    const std::string name = option->get_name(true) + (option->get_items_expected_max() > 1 ? "..." : "");
+    return option->get_required() ? name : "[" + name + "]";
+  }
+
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string text = option->get_description();
     const std::size_t example = text.find("Example: ");

@@ -21,14 +21,15 @@ bool cut(Spot& from, Spot& to, float at_from, float at_to) {
   return true;
 }
 
-}  // namespace
-
 std::uint32_t pixel_of_color(const Color& color) {
   std::uint32_t pixel = 0;
   for (int i = 2; i >= 0; --i)
-    pixel = pixel << 8 | static_cast<std::uint32_t>(std::clamp(color[static_cast<std::size_t>(i)], 0.0f, 1.0f) * 255 + 0.5f);
+    pixel = pixel << 8 |
+            static_cast<std::uint32_t>(std::clamp(color[static_cast<std::size_t>(i)], 0.0f, 1.0f) * 255 + 0.5f);
   return pixel;
 }
+
+}  // namespace
 
 Drawing::Drawing(std::uint32_t width, std::uint32_t height)
     : image_{width, height, std::vector<std::uint32_t>(std::size_t{width} * height)},

@@ -11,8 +11,6 @@
 
 namespace mars::host {
 
-std::uint32_t pixel_of_color(const Color& color);
-
 struct Stroke {
   std::uint32_t line = 1;  // pixels wide
   std::uint32_t dot = 1;

@@ -281,7 +281,6 @@ void add_animate(CLI::App& app, int& code) {
   CLI::App* animate = app.add_subcommand("animate", "Set, move, time, list and check the keys of a film");
   animate->add_option("FILM", words->film, "The film file, changed in place. Example: film.json")->required();
   animate->require_subcommand(1);
-  animate->footer(kFooter);
   add_pose(*animate, *words);
   add_key(*animate, *words);
   add_displacing(*animate, *words, "move", "Move keys to other frames", false);
@@ -291,6 +290,7 @@ void add_animate(CLI::App& app, int& code) {
   add_list(*animate, *words);
   add_check(*animate, *words, code);
   add_motion(*animate, words->film);
+  animate->footer(kFooter);  // last, or each of its commands would have it
   animate->parse_complete_callback([words] {});  // keeps what was typed
 }
 

@@ -178,7 +178,6 @@ int run(int argc, char** argv) {
   CLI::App app("Models, animates and renders films in parallel", "mars");
   app.set_version_flag("--version", "mars " MARS_VERSION, "Print the version. Example: --version");
   app.require_subcommand(0, 1);
-  app.footer(std::string("mars COMMAND --help tells every option with an example.\n") + kEnds);
   RenderOptions options;
   Names names;
   int code = 0;
@@ -199,6 +198,8 @@ int run(int argc, char** argv) {
   std::vector<const char*> words = help_as_option(argc, argv);
   const std::vector<std::string> benchmark_words = take_benchmark_words(words);
   add_bench(app, names.from, benchmark_words);
+  // Last, or each command would have it.
+  app.footer(std::string("mars COMMAND --help tells every option with an example.\n") + kEnds);
   if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;

@@ -304,7 +304,6 @@ constexpr Verb kVerbs[] = {
 
 void add_model(CLI::App& app) {
   CLI::App* model = app.add_subcommand("model", "Make a model, or change it step by step");
-  model->footer(kWay);
   for (const Verb& verb : kVerbs) {
     const auto words = std::make_shared<Words>();
     CLI::App* command = model->add_subcommand(verb.name, verb.purpose);
@@ -312,6 +311,7 @@ void add_model(CLI::App& app) {
     verb.add(*command, *words);
     command->callback([words, run = verb.run] { run(*words); });
   }
+  model->footer(kWay);  // last, or each of its commands would have it
 }
 
 }  // namespace mars::host

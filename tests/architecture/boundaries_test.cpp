@@ -1,49 +1,23 @@
 // Which folder may know what: scans the includes of every source file. MAP.md says the same in words.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/architecture/sources.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Source {
-  std::string path;  // from the root, with /
-  std::vector<std::string> includes;
-  std::string text;
-};
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<Source> read_sources() {
-  std::vector<Source> sources;
-  const std::regex include(R"((?:^|\n)\s*#\s*include\s*[<"]([^>"]+)[>"])");
-  for (const char* folder : {"hal", "host", "node", "topology"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(MARS_SOURCE_DIR) / folder)) {
-      const std::string ending = entry.path().extension().string();
-      if (ending != ".h" && ending != ".cpp") continue;
-      Source source{fs::relative(entry.path(), MARS_SOURCE_DIR).generic_string(), {}, read(entry.path())};
-      for (std::sregex_iterator i(source.text.begin(), source.text.end(), include), end; i != end; ++i)
-        source.includes.push_back((*i)[1]);
-      sources.push_back(std::move(source));
-    }
-  }
-  return sources;
-}
-
-const std::vector<Source>& sources() {
-  static const std::vector<Source> all = read_sources();
-  return all;
-}
+using mars::test::read;
+using mars::test::Source;
+using mars::test::sources;
 
 bool begins(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
 
@@ -128,6 +102,31 @@ TEST(Boundaries, HostAndNodeShareTheProtocol) {
       EXPECT_FALSE(begins(include, "hal/mpi/") || begins(include, "hal/threads/")) << source.path;
     }
   }
+}
+
+// From a model to what is seen of it, each tool knows only those before it; none knows the programs.
+TEST(Boundaries, HostsToolsStandOnOneAnother) {
+  const auto below = [](const std::string& from, const std::vector<std::string>& known) {
+    expect_includes(from, [&](const std::string& include) {
+      if (!begins(include, "host/")) return true;
+      return std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
+    });
+  };
+  const std::string document = "host/document/", modeler = "host/modeler/", animator = "host/animator/";
+  const std::string film = "host/film/", preview = "host/preview/", sinks = "host/sinks/", options = "host/options/";
+  below(document, {document});
+  below(modeler, {document, modeler});
+  below("host/import/", {document, modeler, "host/import/"});
+  below(animator, {document, modeler, animator});
+  below(film, {document, modeler, animator, film, sinks});
+  below(preview, {document, modeler, animator, film, preview, sinks, options});
+  for (const Source& source : sources())
+    for (const std::string& include : source.includes) {
+      EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;
+      EXPECT_TRUE(!begins(include, animator + "motion/") || begins(source.path, animator + "motion/") ||
+                  begins(source.path, "host/programs/"))
+          << source.path;
+    }
 }
 
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide

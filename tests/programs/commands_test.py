@@ -52,6 +52,15 @@ class Commands(ProgramTest):
         self.fail_clearly(2, "model", "show", "--hlep", says="'--hlep' is not an option (did you mean '--help'?)")
         self.fail_clearly(2, "model", "show", says="MODEL is required")
 
+    def test_help_of_a_command_within_another_is_its_own(self):
+        for words in [["pose", "--help"], ["film.json", "pose", "--help"]]:
+            told = self.succeed("mars", "animate", *words)
+            self.assertIn("Usage: mars animate FILM pose [OPTIONS] ACTOR PART=NUMBERS...\n", told)
+            self.assertNotIn("docs/animating.md", told)  # which stands below that of animate
+        self.assertIn("docs/animating.md", self.succeed("mars", "animate", "--help"))
+        self.assertIn("Usage: mars model scale [OPTIONS] MODEL [FACTOR...]\n",
+                      self.succeed("mars", "model", "scale", "--help"))
+
     def test_help_tells_exit_codes_and_settings(self):
         for words in [["--help"], ["render", "--help"]]:
             self.assertIn("Exit codes: 0", self.succeed("mars", *words))

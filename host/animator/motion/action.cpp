@@ -84,17 +84,6 @@ constexpr Action kActions[] = {
     {"go", "Go straight to a place", kGo, go},
 };
 
-std::uint32_t last_key_of(const Actor& actor) {
-  std::uint32_t last = 0;
-  const auto look = [&](const auto& channel) {
-    if (!channel.empty()) last = std::max(last, channel.back().frame);
-  };
-  look(actor.motion.place);
-  look(actor.motion.turn);
-  for (const auto& pose : actor.motion.pose) look(pose);
-  return last;
-}
-
 // Everything that the keys hold, as one key.
 ActorKey all_of(std::span<const ActorKey> keys) {
   ActorKey all;
@@ -181,7 +170,7 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
   if (!actor.matrices.empty())
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
-  const Scene scene{film, actor, at ? *at : last_key_of(actor), wishes};
+  const Scene scene{film, actor, at ? *at : last_key(actor.motion), wishes};
   const Motion motion = action.perform(scene);
   if (motion.last >= node::kMostFrames)
     throw Failure("would end at frame " + std::to_string(motion.last), "actor '" + name + "', " + std::string(action.name),

@@ -85,9 +85,9 @@ struct Performed {
   std::string told;
 };
 
-// Has an actor of the film do something; the film is made longer where it ends before that does. Without `at`
-// the action begins at the actor's last key.
-Performed perform(Json& film, const std::filesystem::path& folder, const std::string& actor,
+// Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
+// models are. Without `at` the action begins at the actor's last key.
+Performed perform(Json& film, const std::filesystem::path& path, const std::string& actor,
                   const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes);
 
 }  // namespace mars::host

@@ -1,15 +1,6 @@
 #include "host/animator/motion/posture.h"
 
 namespace mars::host {
-namespace {
-
-const Joint kFree{};
-
-glm::dvec3 numbers_at(const Joint& joint, const Channel<glm::dvec3>& channel, std::uint32_t frame) {
-  return channel.empty() ? joint.rest() : JointMotion(joint, channel).pose_at(frame);
-}
-
-}  // namespace
 
 Posture drawn_posture(const Model& model) {
   Posture posture;
@@ -20,13 +11,13 @@ Posture drawn_posture(const Model& model) {
 Posture posture_at(const Model& model, const FigureMotion& motion, std::uint32_t frame) {
   Posture posture;
   posture.place = value_at(motion.place, frame);
-  posture.turn = numbers_at(kFree, motion.turn, frame);
+  posture.turn = JointMotion(free_joint(), motion.turn).pose_at(frame);
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    posture.pose.push_back(numbers_at(model.joints[joint], motion.pose[joint], frame));
+    posture.pose.push_back(JointMotion(model.joints[joint], motion.pose[joint]).pose_at(frame));
   return posture;
 }
 
-glm::dmat3 actor_turn(const Posture& posture) { return orientation(kFree, posture.turn); }
+glm::dmat3 actor_turn(const Posture& posture) { return orientation(free_joint(), posture.turn); }
 
 Axes socket_in(const Model& model, const Posture& posture, std::size_t joint) {
   const Joint& j = model.joints[joint];
