@@ -43,15 +43,14 @@ std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
   std::vector<Row> rows;
   const auto keys = chosen.thing.json->find("keys");
   if (keys == chosen.thing.json->end()) return rows;
-  const Tracks tracks = tracks_of(*chosen.thing.json);
+  Tracks tracks = tracks_of(*chosen.thing.json);
   for (const Json& key : *keys) {
     const std::uint32_t frame = key.at("frame");
     if (!range.holds(frame)) continue;
     for (const std::string& name : chosen.parts) {
       const auto track = tracks.find(name);
       if (track == tracks.end()) continue;
-      Track copy = track->second;
-      if (const TrackKey* found = key_at(copy, frame))
+      if (const TrackKey* found = key_at(track->second, frame))
         rows.push_back({frame, shown_part(name), shown_value(chosen.thing.part(name), found->value), shown_ease(key)});
     }
   }

@@ -14,6 +14,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFov = 30;     // vertical, degrees
 constexpr double kMargin = 1.08;
+constexpr double kNearPlane = 1e-9, kFarPlane = 1e12;  // that a compiled film allows
 
 const double kFocal = 1 / std::tan(kFov / 2 * kDegree);
 
@@ -73,8 +74,8 @@ node::Camera camera_of(const Orbit& orbit) {
   for (std::size_t row = 0; row < 3; ++row)
     camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
   camera.focal = kFocal;
-  camera.near = orbit.distance / 1000;
-  camera.far = orbit.distance * 1000;
+  camera.near = std::max(orbit.distance / 1000, kNearPlane);
+  camera.far = std::min(orbit.distance * 1000, kFarPlane);
   return camera;
 }
 
@@ -110,8 +111,8 @@ Film turntable(Model model, const std::string& source) {
     film.camera.eye.push_back({frame, ball.center + orbit.distance * outward(orbit), kLinear});
     film.lights.front().vector.push_back({frame, outward({{}, orbit.turn - 35, 40}), kLinear});
   }
-  film.camera.near = orbit.distance / 1000;
-  film.camera.far = orbit.distance * 1000;
+  film.camera.near = std::max(orbit.distance / 1000, kNearPlane);
+  film.camera.far = std::min(orbit.distance * 1000, kFarPlane);
   return film;
 }
 

@@ -159,6 +159,14 @@ class Animate(ProgramTest):
         self.assertLessEqual(set(range(0, 60, 5)) | set(range(100, 160, 5)), frames)
         self.assertEqual(sorted(os.listdir(self.folder)), ["film.json"])
 
+    def test_films_of_very_many_keys_and_frames(self):
+        turns = [{"frame": frame, "turn": [0, 0, frame % 90]} for frame in range(100000)]
+        self.write("film.json", film(frames=1000000, actors=[{"name": "robot", "model": "arm", "keys": turns}]))
+        self.assertEqual(len(self.succeed("mars", "animate", "film.json", "list").splitlines()), 100003)
+        if shutil.which("gnuplot"):
+            self.succeed("mars", "plot", "film.json", "-o", "a.svg")
+            self.assertLess((self.folder / "a.svg").stat().st_size, 100_000_000)
+
     def test_examples_are_sound(self):
         for name in ["robot-arm", "teapot", "demo"]:
             ended = self.mars("animate", EXAMPLES / f"{name}.json", "check")

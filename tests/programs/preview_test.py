@@ -276,6 +276,11 @@ class Written(ProgramTest):
             self.succeed("mars", "preview", model, "--frames", "3", "--size", "96x54", "-o", f"{model}.png")
         self.assertEqual(len({path.read_bytes() for path in self.folder.glob("*.png")}), 2)
 
+    def test_a_model_as_large_as_may_be(self):
+        segment = {"shape": "sphere", "sbb": [[-1e9] * 3, [1e9] * 3]}
+        self.write("large.json", {"joints": [{"name": "a", "place": [1e9] * 3, "segment": segment}]})
+        self.succeed("mars", "preview", "large.json", "--frames", "3", "--size", "96x54", "-o", "large.png")
+
     def probe(self, file):
         told = self.run_program("ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                 "stream=codec_name,width,height,nb_read_frames,r_frame_rate", "-of", "json", file)
