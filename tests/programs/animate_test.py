@@ -165,7 +165,6 @@ class Animate(ProgramTest):
         self.assertEqual(len(self.succeed("mars", "animate", "film.json", "list").splitlines()), 100003)
         if shutil.which("gnuplot"):
             self.succeed("mars", "plot", "film.json", "-o", "a.svg")
-            self.assertLess((self.folder / "a.svg").stat().st_size, 100_000_000)
 
     def test_examples_are_sound(self):
         for name in ["robot-arm", "teapot", "demo"]:
