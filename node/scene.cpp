@@ -100,7 +100,9 @@ LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame) const {
   for (int corner = 0; corner < 8; ++corner) {
     float place[3];
     for (int axis = 0; axis < 3; ++axis) place[axis] = (corner >> axis & 1 ? box.high : box.low)[axis];
-    const auto row = [&](int r) { return m.m[r][0] * place[0] + m.m[r][1] * place[1] + m.m[r][2] * place[2] + m.m[r][3]; };
+    const auto row = [&](int r) {
+      return m.m[r][0] * place[0] + m.m[r][1] * place[1] + m.m[r][2] * place[2] + m.m[r][3];
+    };
     const float w = -row(2);
     if (!(w >= p.near)) return {0, film_.settings().height};
     const float y = p.center[1] - p.scale * row(1) / w;

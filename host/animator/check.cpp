@@ -150,7 +150,8 @@ Findings check_film(const Film& film) {
   Findings findings;
   std::vector<std::string>& lines = findings.lines;
   std::size_t small = 0;
-  for (const LimitsLeft& left : limits_left(film)) left.outside > kSeen ? lines.push_back(line_of(film, left)) : void(++small);
+  for (const LimitsLeft& left : limits_left(film))
+    left.outside > kSeen ? lines.push_back(line_of(film, left)) : void(++small);
   for (const Actor& actor : film.actors) {
     const std::string name = "actor '" + actor.name + "': ";
     // A key just behind the end is where a film that is played round and round begins again.

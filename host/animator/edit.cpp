@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/failure.h"
+#include "host/animator/tracks.h"
 #include "host/animator/written.h"
 #include "host/document/fields.h"
 
@@ -109,21 +110,15 @@ void put_keys(Json& film, const std::string& actor, std::span<const ActorKey> ke
 
 void clear_keys(Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like) {
   Json& object = actor_of(film, actor);
-  if (!object.contains("keys")) return;
-  Json left = Json::array();
-  for (Json& key : object["keys"]) {
-    if (const auto frame = key.at("frame").get<std::uint32_t>(); frame >= first && frame <= last) {
-      if (like.place) key.erase("place");
-      if (like.turn) key.erase("turn");
-      if (const auto pose = key.find("pose"); pose != key.end()) {
-        for (const auto& [joint, angles] : like.pose) pose->erase(joint);
-        if (pose->empty()) key.erase("pose");
-      }
-      if (!key.contains("place") && !key.contains("turn") && !key.contains("pose")) continue;
-    }
-    left.push_back(std::move(key));
-  }
-  object["keys"] = std::move(left);
+  Tracks tracks = tracks_of(object);
+  const auto clear = [&](const std::string& part) {
+    if (const auto track = tracks.find(part); track != tracks.end())
+      std::erase_if(track->second, [&](const TrackKey& key) { return key.frame >= first && key.frame <= last; });
+  };
+  if (like.place) clear("place");
+  if (like.turn) clear("turn");
+  for (const auto& [joint, angles] : like.pose) clear("/" + joint);
+  put_tracks(object, tracks);
 }
 
 double rounded(double value) {

@@ -203,7 +203,8 @@ Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_
         if (moves_there) {
           const KeyedPart& part = one.thing.part(name);
           Json value = part.value_at(frame);
-          if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused));
+          if (part.joint)
+            value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused));
           split_way(track, frame, std::move(value));
         }
         remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });

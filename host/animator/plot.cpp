@@ -67,7 +67,8 @@ std::string data_of(Panel& panel, std::size_t i, std::uint32_t frames) {
 std::string bands_of(const Panel& panel, const Json& value) {
   std::string text;
   const bool angles = panel.part->joint || panel.part->name == "turn";
-  const double room = std::max(0.1 * (panel.highest - panel.lowest), angles ? 10.0 : 1e-3 + 0.05 * std::abs(panel.highest));
+  const double room =
+      std::max(0.1 * (panel.highest - panel.lowest), angles ? 10.0 : 1e-3 + 0.05 * std::abs(panel.highest));
   const double low = panel.lowest - room, high = panel.highest + room;
   text += "set yrange [" + shown(low) + ":" + shown(high) + "]\n";
   for (int axis = 0; axis < 3; ++axis) {
@@ -95,8 +96,8 @@ std::string panel_text(const Panel& panel, std::size_t i) {
     if (!drawn(*panel.part, value, axis)) continue;
     const std::string column = std::to_string(axis + 2), color = std::string("linecolor rgb \"") + kColors[axis] + "\"";
     const std::string name = value.is_array() ? std::string(1, "xyz"[axis]) : panel.part->name;
-    plots += (plots.empty() ? "plot " : ", ") + ("$curve" + number) + " using 1:" + column + " with lines linewidth 2 " +
-             color + " title \"" + name + "\", $keys" + number + " using 1:" + column +
+    plots += (plots.empty() ? "plot " : ", ") + ("$curve" + number) + " using 1:" + column +
+             " with lines linewidth 2 " + color + " title \"" + name + "\", $keys" + number + " using 1:" + column +
              " with points pointtype 7 pointsize 1 " + color + " notitle";
   }
   return text + plots + "\n";
@@ -125,9 +126,10 @@ std::string plot_script(Json& film, const Film& meaning, const Choice& choice, P
   std::string text = std::string("set terminal ") + (as == PlotAs::png ? "pngcairo" : "svg") + " size " + size +
                      " noenhanced background rgb \"white\"\n";
   for (std::size_t i = 0; i < panels.size(); ++i) text += data_of(panels[i], i, meaning.frames);
-  text += "set multiplot layout " + std::to_string(panels.size()) +
-          ",1\nset grid linecolor rgb \"#dddddd\"\nset key outside right\nset lmargin 10\nset rmargin 12\nset xrange [0:" +
-          std::to_string(std::max(meaning.frames - 1, 1u)) + "]\n";
+  text +=
+      "set multiplot layout " + std::to_string(panels.size()) +
+      ",1\nset grid linecolor rgb \"#dddddd\"\nset key outside right\nset lmargin 10\nset rmargin 12\nset xrange [0:" +
+      std::to_string(std::max(meaning.frames - 1, 1u)) + "]\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     if (i + 1 == panels.size()) text += "set xlabel \"frame\"\n";
     text += panel_text(panels[i], i);

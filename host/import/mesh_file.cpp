@@ -69,8 +69,8 @@ class MeshFileReader {
     takes_normals_ = ending_ != ".stl";  // STL's are its facets'
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) takes_normals_ &= scene->mMeshes[i]->HasNormals();
     // glTF's x, y, z are ours x, z, -y.
-    const aiMatrix4x4t<double> upright = is_gltf_ ? aiMatrix4x4t<double>(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1)
-                                                  : aiMatrix4x4t<double>();
+    const aiMatrix4x4t<double> upright =
+        is_gltf_ ? aiMatrix4x4t<double>(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1) : aiMatrix4x4t<double>();
     visit(*scene->mRootNode, upright);
     return scaled();
   }

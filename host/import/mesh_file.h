@@ -1,5 +1,5 @@
-// Mesh files of other programs - OBJ, STL, PLY, glTF, GLB - as meshes in the unit cube. What stands still is read; bones,
-// animations, textures, lines and points are not.
+// Mesh files of other programs - OBJ, STL, PLY, glTF, GLB - as meshes in the unit cube. What stands still is read;
+// bones, animations, textures, lines and points are not.
 #pragma once
 
 #include <array>

@@ -33,7 +33,8 @@ struct JointChange {
   std::optional<std::string> limb;  // it becomes the figure's "pelvis", "left.knee", ...
 };
 
-inline constexpr std::string_view kResets[] = {"parent", "place", "axes", "limits", "segment", "sbb", "material", "limb"};
+inline constexpr std::string_view kResets[] = {"parent",  "place", "axes",     "limits",
+                                               "segment", "sbb",   "material", "limb"};
 
 struct MaterialChange {
   std::optional<glm::dvec3> color;

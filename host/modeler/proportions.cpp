@@ -136,7 +136,8 @@ Proportions read_proportions(const Element& element) {
     const auto list = fields.find(branch ? "branches" : "joints");
     if (!list) continue;
     require_kind(*list, Kind::object);
-    for (const Element item : *list) proportions.joints.push_back({std::string(item.key()), branch, read_factors(item)});
+    for (const Element item : *list)
+      proportions.joints.push_back({std::string(item.key()), branch, read_factors(item)});
   }
   if (const auto scale = fields.find("scale")) proportions.scale = read_factors(*scale);
   if (const auto height = fields.find("height")) proportions.height = read_number(*height, {1e-6, kFarthest});

@@ -31,7 +31,8 @@ std::string of(const Joint& joint) { return "joint '" + joint.name + "' "; }
 
 class Review {
  public:
-  explicit Review(const Model& model) : model_(model), bounds_(segment_rest_bounds(model)), children_(model.joints.size()) {
+  explicit Review(const Model& model)
+      : model_(model), bounds_(segment_rest_bounds(model)), children_(model.joints.size()) {
     for (const Joint& joint : model.joints)
       if (joint.parent != kNone) ++children_[joint.parent];
     if (const auto all = rest_bounds(model)) size_ = glm::length(all->max - all->min);
@@ -141,7 +142,8 @@ class Review {
       used.insert(joint.segment->material);
     }
     for (std::size_t number = 0; number < model_.shapes.size(); ++number)
-      if (!shapes.contains(number)) doubts_.push_back("shape '" + model_.shapes[number].name + "' is used by no segment");
+      if (!shapes.contains(number))
+        doubts_.push_back("shape '" + model_.shapes[number].name + "' is used by no segment");
     for (const NamedMaterial& material : model_.materials) {
       own.insert(material.name);
       if (!used.contains(material.name)) doubts_.push_back("material '" + material.name + "' is used by no segment");

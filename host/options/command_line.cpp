@@ -25,9 +25,9 @@ std::string line_of(const std::vector<std::string>& fields) {
 
 std::vector<const CLI::App*> commands_in(const CLI::App& app) { return app.get_subcommands({}); }
 
-// "JOINT...": an argument that takes any number of words.
+// "JOINT...": an argument that takes several words.
 std::string name_of(const CLI::Option& option) {
-  const bool many = option.get_positional() && option.get_expected_max() == CLI::detail::expected_max_vector_size;
+  const bool many = option.get_positional() && option.get_items_expected_max() > 1;
   return option.get_name(false, true) + (many ? "..." : "");
 }
 
@@ -85,8 +85,7 @@ class Help : public CLI::Formatter {
   }
 
   std::string make_option_usage(const CLI::Option* option) const override {
-    const std::string name = option->get_name(true) + (option->get_items_expected_max() > 1 ? "..." : "");
-    return option->get_required() ? name : "[" + name + "]";
+    return option->get_required() ? name_of(*option) : "[" + name_of(*option) + "]";
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {
@@ -168,7 +167,8 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
     return 0;
   } catch (const CLI::ParseError& error) {
     // A word that is not known is told first: what is missing may be what it was meant for.
-    const bool misfits = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
+    const bool misfits =
+        dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
     if (misfits && app.remaining_size(true) > 0) {
       app.exit(CLI::ValidationError(misfit(app)), std::cout, std::cerr);
       return kUsage;

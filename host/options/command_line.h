@@ -16,9 +16,9 @@ inline constexpr int kUsage = 2;
 // None: go on. Otherwise the exit code, everything already told (0 after --help, --version and --list-options, and
 // after a command that only holds others: `mars model` prints its help).
 // --list-options is for manuals and completion (cluster/install/): lines of fields between tabs, none of them empty:
-//   command   NAME     PURPOSE                    the program, then each of its commands: mars, mars model, mars model show
-//   argument  COMMAND  NAME   VALUE  NEED  HELP   NAME ends in ... where several may be given; NEED is required or optional
-//   option    COMMAND  NAMES  VALUE  NEED  HELP   NAMES like -o,--output; VALUE is - where none follows, X Y Z for three
+//   command   NAME     PURPOSE                    the program and its commands: mars, mars model, mars model show
+//   argument  COMMAND  NAME   VALUE  NEED  HELP   NAME ends in ... where several may be; NEED is required or optional
+//   option    COMMAND  NAMES  VALUE  NEED  HELP   NAMES like -o,--output; VALUE is - where none is, X Y Z for three
 //   setting   NAME     MEANING                    of the environment
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
 

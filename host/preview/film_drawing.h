@@ -16,8 +16,8 @@ class FilmDrawing {
   // `view` must outlive it.
   explicit FilmDrawing(const View& view);
 
-  // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at height 0 beneath it all, and the world's axes in the corner (x red, y green,
-  // z blue).
+  // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at
+  // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue).
   void draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
             bool ground) const;
 

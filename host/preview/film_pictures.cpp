@@ -64,7 +64,8 @@ Image FilmPictures::drawn(As as, std::uint32_t frame, PictureSize extent) {
 
 SharedImage FilmPictures::rendered(std::uint32_t frame, PictureSize extent) {
   Aim aim{extent, std::nullopt};
-  if (look_.from != From::camera || orbit_ || zoom_ != 1) aim.camera = camera(frame, double(extent.width) / extent.height);
+  if (look_.from != From::camera || orbit_ || zoom_ != 1)
+    aim.camera = camera(frame, double(extent.width) / extent.height);
   if (!aim_ || *aim_ != aim) {
     std::vector<std::uint32_t> frames = look_.frames;
     if (frames.empty()) {

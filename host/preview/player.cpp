@@ -78,7 +78,8 @@ class Player {
     char numbers[120];
     std::snprintf(numbers, sizeof numbers, " %u/%u  %g frames/s%s%s  ", shown_frame_, pictures_.frames() - 1,
                   pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
-    std::string status = numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit");
+    std::string status =
+        numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit");
     const std::uint32_t lines = terminal_.cells().height;
     const std::vector<std::string> help = this->help();
     for (std::uint32_t i = 0; i < help.size(); ++i)

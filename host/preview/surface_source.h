@@ -16,7 +16,8 @@ class SurfaceSource {
 
   // From now on renders these frames, in this order, at this size, seen by `camera` or else the film's; what was
   // being rendered is dropped.
-  virtual void aim(PictureSize extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) = 0;
+  virtual void aim(PictureSize extent, const std::optional<node::Camera>& camera,
+                   std::vector<std::uint32_t> frames) = 0;
 
   // nullptr: not rendered yet. Throws what ended the rendering.
   virtual SharedImage frame(std::uint32_t number) = 0;

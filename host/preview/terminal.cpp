@@ -43,7 +43,8 @@ bool is_complete(const std::string& answer) {
 
 Terminal::Terminal(Graphics wanted, const std::string& kind, bool colors24) : graphics_(wanted) {
   if (!isatty(0) || !isatty(1))
-    throw Failure("there is no terminal to play in", "", "write a file instead: -o sheet.png, -o film.gif or -o film.mp4");
+    throw Failure("there is no terminal to play in", "",
+                  "write a file instead: -o sheet.png, -o film.gif or -o film.mp4");
   if (kind.empty() || kind == "dumb")
     throw Failure("the terminal cannot place pictures (TERM is '" + kind + "')", "",
                   "write a file instead: -o sheet.png, -o film.gif or -o film.mp4");
@@ -155,7 +156,8 @@ std::string Terminal::answers(std::string_view questions) {
 TerminalEvents Terminal::wait(std::chrono::nanoseconds time) {
   TerminalEvents events;
   std::array<pollfd, 2> sources{{{0, POLLIN, 0}, {signals_, POLLIN, 0}}};
-  const timespec limit{static_cast<time_t>(time.count() / 1'000'000'000), static_cast<long>(time.count() % 1'000'000'000)};
+  const timespec limit{static_cast<time_t>(time.count() / 1'000'000'000),
+                       static_cast<long>(time.count() % 1'000'000'000)};
   ppoll(sources.data(), sources.size(), &limit, nullptr);
   signalfd_siginfo signal;
   while (read(signals_, &signal, sizeof signal) == sizeof signal) {

@@ -1,5 +1,6 @@
 // The terminal a person sits at: taken over while this lives, and given back as it was however it ends (an error, a
-// signal, a suspension). Signals that end, stop or resize us come in as events, so nothing happens behind anyone's back.
+// signal, a suspension). Signals that end, stop or resize us come in as events, so nothing happens behind anyone's
+// back.
 #pragma once
 
 #include <signal.h>

@@ -56,7 +56,9 @@ class Holder {
   }
 
   bool empty() const { return low_.x > high_.x; }
-  Ball ball() const { return empty() ? Ball{{0, 0, 0}, 1} : Ball{0.5 * (low_ + high_), glm::length(high_ - low_) / 2 + radius_}; }
+  Ball ball() const {
+    return empty() ? Ball{{0, 0, 0}, 1} : Ball{0.5 * (low_ + high_), glm::length(high_ - low_) / 2 + radius_};
+  }
 
  private:
   static constexpr double kFar = std::numeric_limits<double>::max();

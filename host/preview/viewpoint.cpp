@@ -33,7 +33,8 @@ std::vector<MaterialMotion> lent_materials(const Model& model) {
   for (const std::string& name : names) {
     const node::Material& m = kDefaultMaterial;
     materials.push_back({name, constant(glm::dvec3(m.color[0], m.color[1], m.color[2])), constant(double(m.ambient)),
-                         constant(double(m.diffuse)), constant(double(m.specular)), constant(double(m.exponent)), m.sides});
+                         constant(double(m.diffuse)), constant(double(m.specular)), constant(double(m.exponent)),
+                         m.sides});
   }
   return materials;
 }

@@ -29,7 +29,8 @@ void write_video(Pictures& pictures, const WriteWishes& wishes, const std::vecto
                  PictureSize extent) {
   SharedImage image = ready(pictures, frames.front(), extent);
   Video video(wishes.file, {image->width, image->height}, pictures.rate() / wishes.every);
-  for (const std::uint32_t frame : frames) video.add(*(frame == frames.front() ? image : ready(pictures, frame, extent)));
+  for (const std::uint32_t frame : frames)
+    video.add(*(frame == frames.front() ? image : ready(pictures, frame, extent)));
   video.finish();
 }
 

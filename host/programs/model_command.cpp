@@ -89,8 +89,9 @@ MaterialChange look_of(const Words& words) {
 }
 
 bool of_a_joint(const Words& words) {
-  return words.fixed || words.free || !(words.parent + words.shape + words.limb).empty() || !words.place.empty() || !words.x_axis.empty() ||
-         !words.y_axis.empty() || !words.sbb.empty() || !words.limits.empty() || !words.options.empty() || !words.resets.empty();
+  return words.fixed || words.free || !(words.parent + words.shape + words.limb).empty() || !words.place.empty() ||
+         !words.x_axis.empty() || !words.y_axis.empty() || !words.sbb.empty() || !words.limits.empty() ||
+         !words.options.empty() || !words.resets.empty();
 }
 
 void require_sense_of_options(const Words& words) {
@@ -157,7 +158,9 @@ void run_remove(const Words& words) {
 void run_scale(const Words& words) {
   Proportions proportions;
   const bool alike = words.factors.size() == 1;
-  const glm::dvec3 factors = words.factors.empty() ? glm::dvec3(1) : alike ? glm::dvec3(words.factors[0]) : *vector_of(words.factors);
+  const glm::dvec3 factors = words.factors.empty() ? glm::dvec3(1)
+                             : alike               ? glm::dvec3(words.factors[0])
+                                                   : *vector_of(words.factors);
   for (const std::string& pattern : words.joints) proportions.joints.push_back({pattern, false, factors});
   for (const std::string& pattern : words.branches) proportions.joints.push_back({pattern, true, factors});
   if (proportions.joints.empty()) proportions.scale = factors;
@@ -172,7 +175,8 @@ void run_check(const Words& words) {
   const Model model = load_own_model(words.file);
   const std::vector<std::string> doubts = doubts_about(model);
   for (const std::string& doubt : doubts) std::cout << words.file << ": " << doubt << '\n';
-  std::cout << words.file << ": a model of " << model.joints.size() << (model.joints.size() == 1 ? " joint, " : " joints, ")
+  std::cout << words.file << ": a model of " << model.joints.size()
+            << (model.joints.size() == 1 ? " joint, " : " joints, ")
             << (doubts.empty() ? "nothing to remark" : std::to_string(doubts.size()) + " to look at") << '\n';
 }
 
@@ -185,13 +189,15 @@ std::string shapes_text() {
   return "Shapes of the library, and what may be given --with:\n  " + wrapped(text, 2) + "\n";
 }
 
-void add_numbers(CLI::App& app, const char* name, std::vector<double>& numbers, int count, const char* type, const char* help) {
+void add_numbers(CLI::App& app, const char* name, std::vector<double>& numbers, int count, const char* type,
+                 const char* help) {
   app.add_option(name, numbers, help)->expected(count)->type_name(type);
 }
 
 // May be given several times.
 template <typename Value>
-CLI::Option* add_several(CLI::App& app, const char* name, std::vector<Value>& values, const char* type, const char* help) {
+CLI::Option* add_several(CLI::App& app, const char* name, std::vector<Value>& values, const char* type,
+                         const char* help) {
   return app.add_option(name, values, help)
       ->expected(1)
       ->allow_extra_args(false)
@@ -201,10 +207,12 @@ CLI::Option* add_several(CLI::App& app, const char* name, std::vector<Value>& va
 
 void add_limits(CLI::App& app, Words& words) {
   add_several(app, "--limits", words.limits, "x|y|z LOWER UPPER",
-              "How far it can turn about one of its axes, in degrees; equal: it is held there. Once for each axis. Example: --limits y -30 60")
+              "How far it can turn about one of its axes, in degrees; equal: it is held there. Once for each axis. "
+              "Example: --limits y -30 60")
       ->check([](const std::string& word) {
         const bool number = word.find_first_of("0123456789") != std::string::npos;
-        return number || word == "x" || word == "y" || word == "z" ? std::string() : "'" + word + "' is no axis: write x, y or z";
+        return number || word == "x" || word == "y" || word == "z" ? std::string()
+                                                                   : "'" + word + "' is no axis: write x, y or z";
       });
   app.add_flag("--fixed", words.fixed, "It cannot turn, but for what --limits gives. Example: --fixed");
   app.add_flag("--free", words.free, "It can turn about all axes, but for what --limits gives. Example: --free");
@@ -217,26 +225,32 @@ void add_joint_options(CLI::App& app, Words& words) {
   add_numbers(app, "--y-axis", words.y_axis, 3, "X Y Z",
               "Its y axis; if it is not square to x, the segment is sheared. Example: --y-axis 0.5 1 0");
   add_limits(app, words);
-  app.add_option("--shape", words.shape, "Its segment: a shape of the library or of the model. Example: --shape capsule")
+  app.add_option("--shape", words.shape,
+                 "Its segment: a shape of the library or of the model. Example: --shape capsule")
       ->type_name("SHAPE");
   add_several(app, "--with", words.options, "KEY=NUMBER", "An option of the shape. Example: --with top=0.5");
-  add_numbers(app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
-              "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
+  add_numbers(
+      app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
+      "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
   app.add_option("--limb", words.limb,
-                 "What limb of a figure it is, so that commands can make it walk: pelvis, head, left.knee ... Example: --limb left.hip")
+                 "What limb of a figure it is, so that commands can make it walk: pelvis, head, left.knee ... Example: "
+                 "--limb left.hip")
       ->type_name("LIMB");
   app.footer(shapes_text());
 }
 
 void add_look_options(CLI::App& app, Words& words) {
   app.add_option("--material", words.material, "What it is made of. Example: --material fur")->type_name("NAME");
-  add_numbers(app, "--color", words.color, 3, "R G B", "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
+  add_numbers(app, "--color", words.color, 3, "R G B",
+              "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
   app.add_option("--ambient", words.look.ambient, "Share of the colour that is always there. Example: --ambient 0.2")
       ->type_name("SHARE");
-  app.add_option("--diffuse", words.look.diffuse, "Share where light falls straight. Example: --diffuse 0.7")->type_name("SHARE");
+  app.add_option("--diffuse", words.look.diffuse, "Share where light falls straight. Example: --diffuse 0.7")
+      ->type_name("SHARE");
   app.add_option("--specular", words.look.specular, "White in the middle of a highlight. Example: --specular 0.1")
       ->type_name("SHARE");
-  app.add_option("--exponent", words.look.exponent, "How narrow a highlight is. Example: --exponent 16")->type_name("NUMBER");
+  app.add_option("--exponent", words.look.exponent, "How narrow a highlight is. Example: --exponent 16")
+      ->type_name("NUMBER");
   app.add_option("--sides", words.look.sides, "1: seen from outside only. Example: --sides 1")->type_name("1|2");
 }
 
@@ -251,7 +265,8 @@ constexpr Verb kVerbs[] = {
     {"new", "Make a model of one joint, or one that differs from another by proportions", run_new,
      [](CLI::App& app, Words& words) {
        app.add_option("JOINT", words.joint, "The joint's name; default: body. Example: body");
-       app.add_option("--from", words.from, "Another model file, named from where the new one stands. Example: --from human.json")
+       app.add_option("--from", words.from,
+                      "Another model file, named from where the new one stands. Example: --from human.json")
            ->type_name("MODEL");
        add_joint_options(app, words);
        add_look_options(app, words);
@@ -269,9 +284,10 @@ constexpr Verb kVerbs[] = {
        app.add_option("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
            ->type_name("NAME");
        add_joint_options(app, words);
-       add_several(app, "--reset", words.resets, "WHAT",
-                   "Back to what it is where nothing is told: parent, place, axes, limits, segment, sbb, material or limb. "
-                   "Example: --reset axes")
+       add_several(
+           app, "--reset", words.resets, "WHAT",
+           "Back to what it is where nothing is told: parent, place, axes, limits, segment, sbb, material or limb. "
+           "Example: --reset axes")
            ->check(CLI::IsMember(std::vector<std::string>(std::begin(kResets), std::end(kResets))).description(""));
        add_look_options(app, words);
      }},
@@ -280,10 +296,12 @@ constexpr Verb kVerbs[] = {
        app.add_option("FACTOR", words.factors, "One for all axes, or three for x, y and z. Example: 1.2")
            ->expected(0, 3)
            ->check(CLI::Range(1e-3, 1e3).description(""));
-       add_several(app, "--joint", words.joints, "PATTERN", "Only these joints; * stands for any text. Example: --joint '*-thigh'");
+       add_several(app, "--joint", words.joints, "PATTERN",
+                   "Only these joints; * stands for any text. Example: --joint '*-thigh'");
        add_several(app, "--branch", words.branches, "PATTERN",
                    "Only these joints and all that hangs on them. Example: --branch head");
-       app.add_option("--height", words.height, "Then all alike to this height at rest. Example: --height 1.2")->type_name("LENGTH");
+       app.add_option("--height", words.height, "Then all alike to this height at rest. Example: --height 1.2")
+           ->type_name("LENGTH");
        app.add_flag("--no-ground", words.no_ground,
                     "The lowest point at rest may rise or sink; else it stays at its height. Example: --no-ground");
        app.parse_complete_callback([&words] {
@@ -295,7 +313,8 @@ constexpr Verb kVerbs[] = {
      [](CLI::App& app, Words& words) {
        app.add_option("JOINT", words.joint, "The joint. Example: leg");
        app.add_flag("--branch", words.branch, "With all joints that hang on it. Example: --branch");
-       app.add_option("--material", words.material, "The material that is to go. Example: --material fur")->type_name("NAME");
+       app.add_option("--material", words.material, "The material that is to go. Example: --material fur")
+           ->type_name("NAME");
      }},
     {"check", "Tell whether a model is right, and what is probably not meant", run_check, [](CLI::App&, Words&) {}},
 };

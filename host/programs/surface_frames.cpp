@@ -34,7 +34,8 @@ class SurfaceFrames::Taker : public Sink {
   SurfaceFrames& frames_;
 };
 
-void SurfaceFrames::aim(PictureSize extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) {
+void SurfaceFrames::aim(PictureSize extent, const std::optional<node::Camera>& camera,
+                        std::vector<std::uint32_t> frames) {
   stop();
   taken_.clear();
   failure_ = nullptr;

@@ -179,6 +179,11 @@ class Manual(Installation):
         for page in text.values():
             self.assertIsNone(re.search("@[A-Z]+", page))
 
+    def test_tells_commands_as_they_are_typed(self):
+        text = gzip.decompress(self.page("mars").read_bytes()).decode()
+        self.assertIn(".Nm Cm animate Ar FILM Cm walk Oo Ar options Oc Ar ACTOR\n", text)
+        self.assertIn(".Nm Cm model Cm scale Oo Ar options Oc Ar MODEL Oo Ar FACTOR... Oc\n", text)
+
     def test_every_program_has_a_page(self):
         for program in harness.PROGRAMS.iterdir():
             self.assertTrue(self.page(program.name).is_file(), program.name)

@@ -81,8 +81,16 @@ function subsections(program,    i, name, text) {
   return text
 }
 
+# "mars animate FILM pose": as it is typed, after the arguments of the commands it is within.
+function typed(program, name,    parent) {
+  parent = name
+  sub(/ [^ ]*$/, "", parent)
+  return (parent == program ? "" : typed(program, parent) synopsis[parent]) " Cm " substr(name, length(parent) + 2)
+}
+
 function synopsis_of(program, name) {
-  return ".Nm Cm " substr(name, length(program) + 2) (optional[name] ? " Oo Ar options Oc" : "") synopsis[name] (holds[name] ? " Ar command" : "") "\n.Pp\n"
+  return ".Nm" typed(program, name) (optional[name] ? " Oo Ar options Oc" : "") synopsis[name] \
+         (holds[name] ? " Ar command" : "") "\n.Pp\n"
 }
 
 /^@OPTIONS / { gsub(/^@OPTIONS |@$/, ""); print ".Sh OPTIONS\n" list(items[$0]); next }

@@ -67,7 +67,7 @@ class Chair {
   double floor() const { return floor_; }
   double hip_drop() const { return drop_; }
 
-  // From where it is to a place of the pelvis; `back` and `down` say how much of the way is done.
+  // From where it is to a place of the pelvis; `across` and `down` say how much of the way is done.
   Motion move(const glm::dvec3& pelvis, double leans_at, const std::function<double(double)>& across,
               const std::function<double(double)>& down, const Posture& arms) {
     std::vector<Posture> postures;

@@ -14,14 +14,15 @@ namespace mars::host {
 namespace {
 
 Film film_of(const std::string& joint, const std::string& actor) {
-  const std::string json = R"({"frames": 41, "camera": {"eye": [0, -9, 2]}, "models": {"m": {"joints": [{"name": "j", )" +
-                           joint + R"(, "segment": {"shape": "box"}}]}}, "actors": [{"name": "a b", "model": "m", )" + actor +
-                           "}]}";
+  const std::string json =
+      R"({"frames": 41, "camera": {"eye": [0, -9, 2]}, "models": {"m": {"joints": [{"name": "j", )" + joint +
+      R"(, "segment": {"shape": "box"}}]}}, "actors": [{"name": "a b", "model": "m", )" + actor + "}]}";
   const Document document(json, "f.json");
   return read_film(document.root(), {});
 }
 
-constexpr const char* kSideways = R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 40, "pose": {"j": [90, 80, -90]}}])";
+constexpr const char* kSideways =
+    R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 40, "pose": {"j": [90, 80, -90]}}])";
 
 // z goes from near x (10 degrees off) a small turn to another such place, and is nearer to x half the way.
 TEST(LimitsLeft, TheWorstIsWhereGeometrySaysItIs) {
@@ -43,15 +44,18 @@ TEST(LimitsLeft, TheWorstIsWhereGeometrySaysItIs) {
 }
 
 TEST(LimitsLeft, NoneWhereTheyAreWideEnough) {
-  EXPECT_TRUE(limits_left(film_of(R"("limits": {"x": [-180, 180], "y": [-90, 90], "z": [-180, 180]})", kSideways)).empty());
-  EXPECT_EQ(limits_remark(film_of(R"("limits": {"x": [0, 0], "y": [-81, 81], "z": [0, 0]})",
-                                  R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 40, "pose": {"j": [0, -80, 0]}}])")),
+  EXPECT_TRUE(
+      limits_left(film_of(R"("limits": {"x": [-180, 180], "y": [-90, 90], "z": [-180, 180]})", kSideways)).empty());
+  EXPECT_EQ(limits_remark(film_of(
+                R"("limits": {"x": [0, 0], "y": [-81, 81], "z": [0, 0]})",
+                R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 40, "pose": {"j": [0, -80, 0]}}])")),
             "");
 }
 
 TEST(LimitsLeft, ALockedAxisOfAJointWithTwoFreedomsTurnsOnTheWay) {
-  const Film film = film_of(R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [0, 0]})",
-                            R"("keys": [{"frame": 0, "pose": {"j": [60, 0, 0]}}, {"frame": 20, "pose": {"j": [0, 60, 0]}}])");
+  const Film film =
+      film_of(R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [0, 0]})",
+              R"("keys": [{"frame": 0, "pose": {"j": [60, 0, 0]}}, {"frame": 20, "pose": {"j": [0, 60, 0]}}])");
   const auto left = limits_left(film);
   ASSERT_EQ(left.size(), 1u);
   EXPECT_EQ(left[0].axis, 2);
@@ -85,23 +89,27 @@ TEST(LimitsLeft, SkewedAxesThatDoNotReachAreTold) {
 }
 
 TEST(LimitsLeft, AKeyThereMendsIt) {
-  const Film film = film_of(R"("limits": {"x": [-180, 180], "y": [-81, 81], "z": [-180, 180]})",
-                            R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 20, "pose": {"j": [45, 81, 0]}},
+  const Film film =
+      film_of(R"("limits": {"x": [-180, 180], "y": [-81, 81], "z": [-180, 180]})",
+              R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 20, "pose": {"j": [45, 81, 0]}},
                                         {"frame": 40, "pose": {"j": [90, 80, 0]}}])");
   for (const LimitsLeft& left : limits_left(film)) EXPECT_LT(left.angle, 81.5);
 }
 
 TEST(Check, TellsKeysBehindTheEndAndThoseThatDoNothing) {
-  const auto lines = check_film(film_of(R"("limits": {"x": [0, 9]})",
-                                        R"("keys": [{"frame": 3, "place": [1, 1, 1]}, {"frame": 50, "place": [1, 1, 1]}])")).lines;
+  const auto lines =
+      check_film(film_of(R"("limits": {"x": [0, 9]})",
+                         R"("keys": [{"frame": 3, "place": [1, 1, 1]}, {"frame": 50, "place": [1, 1, 1]}])"))
+          .lines;
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_TRUE(holds(lines[0], "actor 'a b': has keys up to frame 50, behind the film's last, 40")) << lines[0];
   EXPECT_TRUE(holds(lines[1], "never moves")) << lines[1];
 }
 
 TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
-  const Film film = film_of(R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [0, 0]})",
-                            R"("keys": [{"frame": 0, "pose": {"j": [8, 0, 0]}}, {"frame": 20, "pose": {"j": [0, 8, 0]}}])");
+  const Film film =
+      film_of(R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [0, 0]})",
+              R"("keys": [{"frame": 0, "pose": {"j": [8, 0, 0]}}, {"frame": 20, "pose": {"j": [0, 8, 0]}}])");
   const Findings findings = check_film(film);
   EXPECT_FALSE(findings.trouble);
   ASSERT_EQ(findings.lines.size(), 1u);
@@ -110,9 +118,9 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
 }
 
 TEST(Check, TellsJumps) {
-  const auto lines = check_film(film_of(
-      R"("limits": {"x": [0, 9]})",
-      R"("keys": [{"frame": 3, "place": [1, 1, 1]}, {"frame": 4, "place": [1, 1, 4]}, {"frame": 9, "place": [1, 1, 40]}])")).lines;
+  const Film film = film_of(R"("limits": {"x": [0, 9]})", R"("keys": [{"frame": 3, "place": [1, 1, 1]},
+      {"frame": 4, "place": [1, 1, 4]}, {"frame": 9, "place": [1, 1, 40]}])");
+  const auto lines = check_film(film).lines;
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0], "actor 'a b': jumps 3 from frame 3 to the next, farther than it is long");
 }

@@ -80,8 +80,9 @@ TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
   Scene scene(kMoving);
   const std::vector<std::string> wishes = {"shoulder.y=-20", "place.z=1", "elbow=0,45,0"};
   scene([&](Json& j, const Film& f) { return pose(j, f, "it", wishes, 24, {}, Beyond::refused); });
-  EXPECT_EQ(scene.keys()[1].dump(),
-            R"({"frame":24,"place":[3,0,1],"turn":[10,20,30],"pose":{"shoulder":[30,-20,50],"elbow":[0,45,0]},"ease":"in"})");
+  EXPECT_EQ(
+      scene.keys()[1].dump(),
+      R"({"frame":24,"place":[3,0,1],"turn":[10,20,30],"pose":{"shoulder":[30,-20,50],"elbow":[0,45,0]},"ease":"in"})");
 }
 
 TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
@@ -89,10 +90,11 @@ TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
   const std::vector<std::string> wishes = {"place.x=5", "elbow.y=60", "shoulder.z=7", "/turn.z=-4"};
   scene([&](Json& j, const Film& f) { return pose(j, f, "it", wishes, 12, kBoth, Beyond::refused); });
   Json actor = scene.json["actors"][0];
-  EXPECT_EQ(actor.dump(),
-            R"({"name":"it","model":"arm","keys":[)"
-            R"({"frame":0,"place":[1,2,3],"pose":{"elbow":[0,30,0],"shoulder":[0,0,0],"turn":[0,0,0]}},)"
-            R"({"frame":12,"place":[5,2,3],"pose":{"elbow":[0,60,0],"shoulder":[0,0,7],"turn":[0,0,-4]},"ease":"both"}]})");
+  EXPECT_EQ(
+      actor.dump(),
+      R"({"name":"it","model":"arm","keys":[)"
+      R"({"frame":0,"place":[1,2,3],"pose":{"elbow":[0,30,0],"shoulder":[0,0,0],"turn":[0,0,0]}},)"
+      R"({"frame":12,"place":[5,2,3],"pose":{"elbow":[0,60,0],"shoulder":[0,0,7],"turn":[0,0,-4]},"ease":"both"}]})");
 }
 
 TEST(Pose, LimitsAreHeldAndTold) {
@@ -137,9 +139,11 @@ TEST(MakeKeys, TheFilmMovesAsBefore) {
   const Scene before(kMoving);
   Scene scene(kMoving);
   for (const std::uint32_t frame : {7u, 12u, 40u})
-    EXPECT_TRUE(scene([&](Json& j, const Film& f) { return make_keys(j, f, kIt, frame, {}, Beyond::refused); }).empty());
+    EXPECT_TRUE(
+        scene([&](Json& j, const Film& f) { return make_keys(j, f, kIt, frame, {}, Beyond::refused); }).empty());
   EXPECT_EQ(scene.frames(), "0 7 12 24 40 48");
-  for (std::uint32_t frame = 0; frame <= 48; ++frame) EXPECT_LT(farthest_apart(scene, before, frame, frame), 1e-7) << frame;
+  for (std::uint32_t frame = 0; frame <= 48; ++frame)
+    EXPECT_LT(farthest_apart(scene, before, frame, frame), 1e-7) << frame;
   EXPECT_FALSE(scene.keys()[1]["pose"].contains("bolt")) << "it has no freedom";
 }
 

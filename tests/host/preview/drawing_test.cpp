@@ -106,8 +106,10 @@ TEST(Drawing, RandomLinesPassNextToTheirPixelsMiddles) {
     const bool flat = std::abs(bx - ax) >= std::abs(by - ay);
     std::set<int> along;
     for (const auto& [x, y] : pixels) {
-      const double at = flat ? ay + (x + 0.5 - ax) * (by - ay) / (bx - ax) : ax + (y + 0.5 - ay) * (bx - ax) / (by - ay);
-      EXPECT_NEAR(at, (flat ? y : x) + 0.5, 0.51 + (flat ? std::abs((by - ay) / (bx - ax)) : std::abs((bx - ax) / (by - ay))) * 0.5);
+      const double at =
+          flat ? ay + (x + 0.5 - ax) * (by - ay) / (bx - ax) : ax + (y + 0.5 - ay) * (bx - ax) / (by - ay);
+      EXPECT_NEAR(at, (flat ? y : x) + 0.5,
+                  0.51 + (flat ? std::abs((by - ay) / (bx - ax)) : std::abs((bx - ax) / (by - ay))) * 0.5);
       EXPECT_TRUE(along.insert(flat ? x : y).second) << "two pixels in one column";
     }
     if (!along.empty()) { EXPECT_EQ(*along.rbegin() - *along.begin() + 1, int(along.size())) << "a gap"; }
@@ -146,7 +148,8 @@ TEST(Drawing, DotsMarkTheFirstPoints) {
   EXPECT_EQ(drawn_alone(points, {1, 1}), (Pixels{{50, 50}}));
   EXPECT_EQ(drawn_alone(points, {1, 3}).size(), 9u);
   points = {{-2, 2, -2, 5, 5, -2, 0, 0, 2}, {}, 3};  // in the corner; outside; behind
-  EXPECT_EQ(drawn_alone(points, {1, 3}), (Pixels{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}));
+  EXPECT_EQ(drawn_alone(points, {1, 3}),
+            (Pixels{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}));
 }
 
 TEST(FilmDrawing, DarkMaterialsAreLiftedAboveThePaper) {

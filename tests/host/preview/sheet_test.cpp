@@ -34,7 +34,8 @@ TEST(Sheet, ATooLargeOneIsRefused) { EXPECT_THROW(contact_sheet(plain(400, {100,
 TEST(Scaled, TakesTheMeanOrTheNearest) {
   const Image image{4, 2, {0, 8, 16, 24, 8, 16, 24, 32}};
   EXPECT_EQ(scaled(image, {2, 1}).pixels, (std::vector<std::uint32_t>{8, 24}));
-  EXPECT_EQ(scaled(image, {8, 2}).pixels, (std::vector<std::uint32_t>{0, 0, 8, 8, 16, 16, 24, 24, 8, 8, 16, 16, 24, 24, 32, 32}));
+  EXPECT_EQ(scaled(image, {8, 2}).pixels,
+            (std::vector<std::uint32_t>{0, 0, 8, 8, 16, 16, 24, 24, 8, 8, 16, 16, 24, 24, 32, 32}));
   EXPECT_EQ(scaled(image, {4, 2}).pixels, image.pixels);
 }
 

@@ -164,6 +164,30 @@ TEST(ControlNet, LeavesOutLinesOfNoLength) {
   EXPECT_EQ(net.ends.size(), 2u * 21);
 }
 
+// A tetrahedron with a meshlet for each sharp face, and a sheet of two B-spline patches, in all representations.
+TEST(View, MeshesAndSplinesHaveAllRepresentations) {
+  const char* const json = R"({"frames": 1, "camera": {"eye": [0, -6, 3]}, "models": {"m": {
+    "shapes": {"solid": {"mesh": {"vertices": [[0,0,0], [1,0,0], [0,1,0], [0,0,1]],
+                                  "faces": [[0,2,1], [0,1,3], [1,2,3], [0,3,2]]}},
+               "sheet": {"bspline": {"points": [[[0,0,0], [0.25,0,1], [0.5,0,0], [0.75,0,1], [1,0,0]],
+                                                [[0,1,0], [0.25,1,1], [0.5,1,0], [0.75,1,1], [1,1,0]]],
+                                     "v": {"degree": 1}}}},
+    "joints": [{"name": "a", "segment": {"shape": "solid", "sbb": [[0, 0, 0], [2, 2, 2]]}},
+               {"name": "b", "parent": "a", "segment": {"shape": "sheet"}}]}},
+    "actors": [{"name": "a", "model": "m"}]})";
+  const Film film = read_film(Document(json, "film").root(), {});
+  const CompiledFilm compiled = compile(film);
+  const View view = view_of(compiled, &film);
+  for (const As as : {As::stick, As::vertices, As::prisms}) ASSERT_EQ(parts(view, as).size(), 2u);
+  const Lines& solid = view.lines[parts(view, As::vertices)[0].lines];
+  EXPECT_EQ(solid.points.size(), 3u * 4);
+  EXPECT_EQ(solid.ends.size(), 2u * 6);
+  const Lines& sheet = view.lines[parts(view, As::vertices)[1].lines];
+  EXPECT_EQ(sheet.points.size(), 3u * (2 * 16 - 4));
+  EXPECT_EQ(sheet.ends.size(), 2u * (2 * 24 - 3));
+  expect_near(placed(view, parts(view, As::prisms)[0], 0, 7), {2, 2, 2});
+}
+
 TEST(View, ShapesAreStoredOnce) {
   const Film film = arm_film();
   const View view = view_of(compile(film), &film);
