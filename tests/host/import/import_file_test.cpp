@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 
+#include "host/document/whole_file.h"
 #include "host/import/mesh_file.h"
 #include "host/modeler/meshlets.h"
 #include "host/modeler/patch_file.h"
