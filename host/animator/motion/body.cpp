@@ -218,6 +218,14 @@ Body body_of(const Model& model, const std::string& actor, const std::string& co
   return body;
 }
 
+Body body_without_legs(const Model& model, const std::string& actor) {
+  for (const Side side : kSides)
+    if (model.limbs.of(Limb::hip, side) == kNone || model.limbs.of(Limb::ankle, side) == kNone ||
+        model.joints[model.limbs.of(Limb::hip, side)].parent == kNone)
+      return {&model, actor, glm::dmat3(1), model.limbs.of(Trunk::pelvis), {}, 0};
+  return body_of(model, actor, "");
+}
+
 std::size_t needed(const Body& body, Trunk part, const std::string& command) {
   const std::size_t joint = body.find(part);
   if (joint == kNone) fail_limb(body.name, command, std::string(kTrunkNames[static_cast<std::size_t>(part)]));
