@@ -21,6 +21,7 @@ constexpr double kLean = 44;        // degrees of the trunk, so that its weight 
 constexpr double kUpright = 0.8;    // of its height: what is lower sits
 constexpr double kHandAlong = 0.6;  // of the thigh, where a wrist lies
 constexpr double kHandOut = 0.6;    // of the way from above the hip to below the shoulder
+constexpr double kAskew = 10;       // degrees: see Foot
 constexpr const char* kWiden = "widen the joint's limits in its model";
 constexpr const char* kSitRemedy = "choose another seat-height, or widen the joint's limits in its model";
 
@@ -61,6 +62,7 @@ class Chair {
             std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
     if (body_.stiff()) needed(body_, Limb::knee, Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
+    for (Foot& foot : from_.feet) foot.askew = kAskew;
   }
 
   bool upright() const { return from_.pelvis.z - floor_ >= kUpright * body_.height; }

@@ -44,16 +44,6 @@ void turn_actor(const Body& body, double heading, Posture& posture) {
     posture.turn = canonical_degrees(heading_turn(more) * actor_turn(posture));
 }
 
-void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
-  turn_actor(body, stance.heading, posture);
-  const std::size_t joints[] = {body.pelvis};
-  const Goal goals[] = {
-      {.joint = body.pelvis,
-       .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
-  reach(*body.model, posture, joints, goals);
-  posture.place += stance.pelvis - frame_in(*body.model, posture, body.pelvis).place;
-}
-
 // About which of the knee's axes it bends, and the direction of its axis in its own frame, to the left.
 struct Hinge {
   int axis;
@@ -170,8 +160,11 @@ class LegReach {
            doing, remedy);
     }
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
-    const double off = turn_between(body_.turn_of(posture_, leg_.ankle), wanted).angle;
-    if (glm::degrees(off) > kFlatEnough) {
+    const glm::dmat3 is = body_.turn_of(posture_, leg_.ankle);
+    const bool twists = twist_room(body_, body_.model->joints[leg_.ankle]) > 0;
+    const double tilted = glm::degrees(std::acos(std::min(1.0, glm::dot(is[2], wanted[2]))));
+    const double off = glm::degrees(turn_between(is, wanted).angle);
+    if (tilted > kFlatEnough || off > std::max(kFlatEnough, twists ? 0 : foot_.askew)) {
       joints.assign(1, leg_.ankle);
       joints.push_back(leg_.hip);
       const std::string limit = limit_in_the_way(body_, posture_, joints);
@@ -258,6 +251,16 @@ glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees)
 
 glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& turn, const glm::dvec3& near) {
   return nearest_turns(body.model->joints[joint], body.axes * turn * glm::transpose(body.axes), near);
+}
+
+void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
+  turn_actor(body, stance.heading, posture);
+  const std::size_t joints[] = {body.pelvis};
+  const Goal goals[] = {
+      {.joint = body.pelvis,
+       .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
+  reach(*body.model, posture, joints, goals);
+  posture.place += stance.pelvis - frame_in(*body.model, posture, body.pelvis).place;
 }
 
 void take_stance(const Body& body, const Stance& stance, Posture& posture, const std::string& doing,
