@@ -41,7 +41,8 @@ void add_points(const Model& model, const Posture& posture, std::size_t number,
   const Shape& shape = model.shapes[joint.segment->shape];
   for (const node::Patch& patch : shape.patches)
     for (int i = 0; i < kGrid; ++i)
-      for (int j = 0; j < kGrid; ++j) add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
+      for (int j = 0; j < kGrid; ++j)
+        add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
   if (shape.mesh)
     for (const Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }

@@ -41,7 +41,11 @@ glm::dvec2 ahead(double heading) {
 class Walker {
  public:
   Walker(const Body& body, const Posture& start, const Gait& gait, bool rolls)
-      : body_(body), gait_(gait), rolls_(rolls), start_(stance_of(body, start)), floor_(body.floor_under(start)) {
+      : body_(body),
+        gait_(gait),
+        rolls_(rolls),
+        start_(stance_of(body, start)),
+        floor_(body.floor_under(start)) {
     for (const Side side : kSides) {
       const Foot& foot = start_.feet[index_of(side)];
       prints_[index_of(side)] = {{foot.ankle.x, foot.ankle.y}, foot.heading};
@@ -204,8 +208,8 @@ class Walker {
     const double settle = smooth(0, gait_.steps.front().land, time);
     const double height = start_.pelvis.z - floor_ + (body_.height - start_.pelvis.z + floor_) * settle;
     const glm::dvec2 forward = ahead(stance.heading), left(-forward.y, forward.x);
-    const glm::dvec2 sway =
-        0.013 * leg * swing * (body_.stiff() ? 0 : wave(0.015, 2)) * forward + loose * 0.0216 * leg * full * wave(0.31) * left;
+    const glm::dvec2 sway = 0.013 * leg * swing * (body_.stiff() ? 0 : wave(0.015, 2)) * forward +
+                            loose * 0.0216 * leg * full * wave(0.31) * left;
     stance.pelvis.x += sway.x;
     stance.pelvis.y += sway.y;
     stance.pelvis.z =
@@ -237,7 +241,8 @@ class Walker {
   // How far aside a leg of one piece is carried, that it may rise as far as the roll does not lift it.
   double round_about(Side side) const {
     if (!body_.stiff() || body_.planar()) return 0;
-    const double leg = body_.leg_length(), lifted = rolls_ ? 2 * std::abs(body_.leg(side).aside) * roll(side) : 0;
+    const double leg = body_.leg_length(),
+                 lifted = rolls_ ? 2 * std::abs(body_.leg(side).aside) * roll(side) : 0;
     return leg * std::sqrt(2 * std::max(0.0, kStiffLift - lifted / leg));
   }
 

@@ -142,15 +142,16 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
       goals.push_back({.joint = arm.elbow,
                        .turn_weight = arm.fore,
                        .direction = along,
-                       .across = glm::normalize(across - glm::dot(across, wrist - elbow) / arm.fore / arm.fore *
-                                                             (wrist - elbow))});
+                       .across = glm::normalize(across - glm::dot(across, wrist - elbow) / arm.fore /
+                                                             arm.fore * (wrist - elbow))});
   } else {
     posture.pose[arm.wrist] = numbers_for(body, arm.wrist, glm::dmat3(1), start.pose[arm.wrist]);
     goals.push_back({.joint = arm.wrist, .place = wrist});
   }
   reach(*body.model, posture, joints, goals);
   const Goal& end = arm.wrist == kNone ? goals.front() : goals.back();
-  if (glm::distance(frame_in(*body.model, posture, end.joint).place, *end.place) > kOff * (arm.upper + arm.fore))
+  if (glm::distance(frame_in(*body.model, posture, end.joint).place, *end.place) >
+      kOff * (arm.upper + arm.fore))
     throw Failure("cannot raise its " + std::string(side == Side::left ? "left" : "right") + " hand to wave",
                   "actor '" + body.name + "', " + where,
                   "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" +

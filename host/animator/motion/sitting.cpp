@@ -201,7 +201,10 @@ glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ank
 
 Motion sit(const Scene& scene) {
   Chair chair(scene, "sit", kSitRemedy);
-  if (!chair.upright()) fail(scene, "does not stand", "sit", "let it stand up first, by the action stand; to do it again otherwise, give at with the frame where it began");
+  if (!chair.upright())
+    fail(scene, "does not stand", "sit",
+         "let it stand up first, by the action stand; to do it again otherwise, give --at with the frame "
+         "where it began");
   const Leg& leg = chair.body().legs[0];
   const glm::dvec3 ankle = between_feet(chair.from());
   const double soft = cushion(chair.body(), chair.hip_drop()), level = ankle.z + leg.shin;
@@ -217,9 +220,9 @@ Motion sit(const Scene& scene) {
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
       chair.with_hands_on_thighs(pelvis));
-  motion.told = "sits at " + shown(std::round(pelvis.x * 1e4) / 1e4) + " " +
-                shown(std::round(pelvis.y * 1e4) / 1e4) + ", on a seat of height " +
-                shown(std::round((hips - soft - chair.floor()) * 1e4) / 1e4);
+  const auto told = [](double value) { return shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
+  motion.told = "sits at " + told(pelvis.x) + " " + told(pelvis.y) + ", on a seat of height " +
+                told(hips - soft - chair.floor());
   return motion;
 }
 

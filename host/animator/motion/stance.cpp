@@ -84,7 +84,8 @@ int twist_axis(const Body& body, const Joint& joint) {
   const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis)};
   int best = 2;
   for (int axis = 0; axis < 2; ++axis)
-    if (std::abs(glm::dot(axes[axis], body.axes[2])) > std::abs(glm::dot(axes[best], body.axes[2]))) best = axis;
+    if (std::abs(glm::dot(axes[axis], body.axes[2])) > std::abs(glm::dot(axes[best], body.axes[2])))
+      best = axis;
   return best;
 }
 
@@ -194,14 +195,16 @@ class LegReach {
     const Joint& ankle = body_.model->joints[leg_.ankle];
     const glm::dmat3 frame = frame_in(*body_.model, posture_, leg_.ankle).turn;
     const Turn turn = turn_between(frame, wanted * glm::transpose(body_.axes));
-    const glm::dvec3 axes[] = {ankle.x_axis, ankle.y_axis, glm::normalize(glm::cross(ankle.x_axis, ankle.y_axis))};
+    const glm::dvec3 axes[] = {ankle.x_axis, ankle.y_axis,
+                               glm::normalize(glm::cross(ankle.x_axis, ankle.y_axis))};
     int most = 0;
     std::array<double, 3> along;
     for (int axis = 0; axis < 3; ++axis) {
       along[axis] = glm::degrees(turn.angle) * glm::dot(turn.axis, frame * axes[axis]);
       if (std::abs(along[axis]) > std::abs(along[most])) most = axis;
     }
-    return "'" + ankle.name + "' would have to turn " + degrees_of(along[most]) + " more about " + "xyz"[most];
+    return "'" + ankle.name + "' would have to turn " + degrees_of(along[most]) + " more about " +
+           "xyz"[most];
   }
 
   double error_of(const glm::dvec3& to) const {

@@ -158,10 +158,11 @@ class Going {
     postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
     const Stance stance = now();
     if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
-      throw Failure("does not stand at frame " + std::to_string(scene.at),
-                    "actor '" + scene.actor.name + "', " + command,
-                    "let it stand up first, by the action stand; to do it again otherwise, give at with the "
-                    "frame where it began");
+      throw Failure(
+          "does not stand at frame " + std::to_string(scene.at),
+          "actor '" + scene.actor.name + "', " + command,
+          "let it stand up first, by the action stand; to do it again otherwise, give --at with the "
+          "frame where it began");
   }
 
   Stance now() const { return stance_of(body_, postures_.back()); }

@@ -150,7 +150,8 @@ TEST(Feet, OfLegsOfOnePieceStayWhateverTheProportions) {
       }
 }
 
-// The foot that passes the other brushes the floor, for hips that are hinges neither lift it nor carry it round.
+// The foot that passes the other brushes the floor, for hips that are hinges neither lift it nor carry it
+// round.
 TEST(Feet, OfLegsOfOnePieceOnHingesDoNotSink) {
   for (const double aside : {0.02, 0.1, 0.3}) {
     Json film = film_with(stilts(1, aside, {{"y", {-60, 60}}}));

@@ -205,9 +205,10 @@ TEST(Gestures, NeedNoLegsAndNoHands) {
   const Model& model = b.models[0];
   const std::size_t wrist = model.limbs.of(Limb::wrist, Side::left);
   for (const std::uint32_t frame : {12u, 18u})
-    EXPECT_LT(glm::distance(frame_in(a.models[0], posture_at(a.models[0], a.actors[0].motion, frame), wrist).place,
-                            frame_in(model, posture_at(model, b.actors[0].motion, frame), wrist).place),
-              0.25);
+    EXPECT_LT(
+        glm::distance(frame_in(a.models[0], posture_at(a.models[0], a.actors[0].motion, frame), wrist).place,
+                      frame_in(model, posture_at(model, b.actors[0].motion, frame), wrist).place),
+        0.25);
 }
 
 std::string refused(const Json& model, const std::string& words) {
@@ -231,6 +232,10 @@ TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(bird(), "sit"),
             "actor 'anna': its model names no left knee, which 'sit' needs "
             "(add it to the model's limbs: docs/model-format.md)");
+  Json seated = film_with(human());
+  act(seated, "sit", 0);
+  EXPECT_NE(failure_of([&] { act(seated, "sit"); }).find("give --at with the frame where it began"),
+            std::string::npos);
   EXPECT_EQ(refused(human(), "nod depth 100"),
             "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
             "(nod less, or widen the joint's limits in its model)");
