@@ -74,17 +74,20 @@ std::optional<Ease> ease_of_words(const std::string& text) {
 // Changes the film file by `change`; it stays as it was where that fails or the result is no film.
 void edit(const Words& words, const std::function<Remarks(Json&, const Film&)>& change) {
   Remarks remarks;
+  std::string note;
   const auto changed = [&](Json& json, const Film& film) {
     const std::uint32_t before = last_key(json);
     remarks = change(json, film);
     const std::uint32_t last = last_key(json);
     if (words.lengthen && last >= film.frames) json["frames"] = last + 1;
     if (!words.lengthen && last >= film.frames && last > before)
-      remarks.push_back(words.film + ": the last key, at frame " + std::to_string(last) + ", lies behind the last of " +
-                        std::to_string(film.frames) + " frames (--lengthen makes the film long enough)");
+      note = "the last key is at frame " + std::to_string(last) + "; the film shows only its " +
+             std::to_string(film.frames) + (film.frames == 1 ? " frame" : " frames") +
+             ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
   };
   change_film(words.film, changed);
   for (const std::string& remark : remarks) std::cerr << "mars: " << remark << '\n';
+  std::cout << note;
 }
 
 // The options that several commands have.

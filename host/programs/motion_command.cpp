@@ -23,14 +23,24 @@ struct Typed {
   bool lengthen = false;
 };
 
-// With as many frames as `last` needs, if that is wanted; else told, if it lies behind the film's end.
-std::string grown(Json& film, const std::string& file, std::uint32_t last, bool lengthen) {
+// With as many frames as `last` needs, if that is wanted; else what a person should know of a film that is too
+// short.
+std::string grown(Json& film, std::uint32_t last, bool lengthen) {
   const auto frames = film.at("frames").get<std::uint32_t>();
   if (last < frames) return "";
   if (lengthen) film["frames"] = last + 1;
   return lengthen ? ""
-                  : "mars: " + file + ": that ends at frame " + std::to_string(last) + ", behind the last of " +
-                        std::to_string(frames) + " frames (--lengthen makes the film long enough)\n";
+                  : "; the film shows only its " + std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
+                        ": set its frames to " + std::to_string(last + 1) + ", or repeat this with ";
+}
+
+// All its values at once, or none.
+void require_all(const Action& action, const Parameter& parameter, const std::vector<std::string>& values) {
+  if (values.empty() || values.size() == parameter.count()) return;
+  const std::string name = "--" + std::string(parameter.name);
+  throw Failure(name + " has " + std::to_string(values.size()) + " of its " +
+                    std::to_string(parameter.count()) + " numbers",
+                std::string(action.name), "write " + name + " " + std::string(parameter.example));
 }
 
 void add_action(CLI::App& animate, const std::string& film, const Action& action) {
@@ -46,7 +56,7 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
     command
         ->add_option(name, typed->values[i],
                      help + ". Example: " + name + " " + std::string(parameter.example))
-        ->expected(static_cast<int>(parameter.count()))
+        ->expected(1, static_cast<int>(parameter.count()))
         ->type_name(std::string(parameter.value));
   }
   const CLI::Option* at =
@@ -59,18 +69,19 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
                     "Give the film as many frames as this needs. Example: --lengthen");
   command->callback([&film, &action, typed, at] {
     Wishes::Values values;
-    for (std::size_t i = 0; i < typed->values.size(); ++i)
+    for (std::size_t i = 0; i < typed->values.size(); ++i) {
+      require_all(action, action.parameters[i], typed->values[i]);
       if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
+    }
     Performed done;
-    std::string remark;
+    std::string note;
     change_film(film, [&](Json& json, const Film&) {
       done = perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
                      Wishes(values, std::string(action.name)));
-      remark = grown(json, film, done.last, typed->lengthen);
+      note = grown(json, done.last, typed->lengthen);
     });
-    std::cerr << remark;
     std::cout << "frames " << done.first << " to " << done.last << (done.told.empty() ? "" : ": " + done.told)
-              << '\n';
+              << note << (note.empty() ? "" : "--at " + std::to_string(done.first) + " --lengthen") << '\n';
   });
 }
 
@@ -84,13 +95,13 @@ void add_script(CLI::App& animate, const std::string& film) {
                     "Give the film as many frames as the script needs. Example: --lengthen");
   command->callback([&film, script, lengthen] {
     Played played;
-    std::string remark;
+    std::string note;
     change_film(film, [&](Json& json, const Film&) {
       played = play_script(json, film, read_file(*script), *script);
-      if (!played.cut) remark = grown(json, film, played.last, *lengthen);
+      if (!played.cut) note = grown(json, played.last, *lengthen);
     });
-    std::cerr << remark;
     for (const std::string& line : played.told) std::cout << line << '\n';
+    if (!note.empty()) std::cout << "frames up to " << played.last << note << "--lengthen\n";
   });
 }
 

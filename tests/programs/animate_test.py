@@ -87,10 +87,26 @@ class Animate(ProgramTest):
     def test_keys_behind_the_end_are_told_or_the_film_grows(self):
         ended = self.animate("pose", "robot", "elbow.y=90", "--frame", 60)
         self.assertEqual(ended.returncode, 0)
-        self.assertIn("the last key, at frame 60, lies behind the last of 48 frames (--lengthen", ended.stderr)
+        self.assertEqual(ended.stderr, "")
+        self.assertIn("the last key is at frame 60; the film shows only its 48 frames: --lengthen, or set its frames "
+                      "to 61", ended.stdout)
         self.assertIn("has keys up to frame 60", self.animate("check").stdout)
         self.changed("move", "robot", "--frame", 60, "--to", 61, "--lengthen")
         self.assertEqual(json.loads((self.folder / "film.json").read_text())["frames"], 62)
+
+    def test_a_motion_behind_the_end_is_told_and_done_again_from_where_it_began(self):
+        ended = self.animate("spin", "robot", "--at", 12)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        self.assertEqual(ended.stdout, "frames 12 to 60; the film shows only its 48 frames: set its frames to 61, "
+                                       "or repeat this with --at 12 --lengthen\n")
+        keys = self.actor()["keys"]
+        self.assertEqual(self.animate("spin", "robot", "--at", 12, "--lengthen").stdout, "frames 12 to 60\n")
+        self.assertEqual(self.actor()["keys"], keys)
+        self.assertEqual(json.loads((self.folder / "film.json").read_text())["frames"], 61)
+
+    def test_numbers_that_are_missing_are_asked_for_by_an_example(self):
+        self.assertEqual(self.refused("go", "robot", "--to", 2),
+                         "mars: go: --to has 1 of its 3 numbers (write --to 2 0 0)\n")
 
     def test_all_and_the_camera(self):
         self.changed("pose", "robot", "elbow.y=90", "--frame", 12)

@@ -41,7 +41,8 @@ void add_points(const Model& model, const Posture& posture, std::size_t number,
   const Shape& shape = model.shapes[joint.segment->shape];
   for (const node::Patch& patch : shape.patches)
     for (int i = 0; i < kGrid; ++i)
-      for (int j = 0; j < kGrid; ++j) add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
+      for (int j = 0; j < kGrid; ++j)
+        add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
   if (shape.mesh)
     for (const Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }
@@ -216,6 +217,14 @@ Body body_of(const Model& model, const std::string& actor, const std::string& co
   const double drawn_ankle = (back * (pelvis - frame_in(model, drawn, body.legs[0].ankle).place)).z;
   body.height = drawn_ankle + body.legs[0].sole.height(0, 0);
   return body;
+}
+
+Body body_without_legs(const Model& model, const std::string& actor) {
+  for (const Side side : kSides)
+    if (model.limbs.of(Limb::hip, side) == kNone || model.limbs.of(Limb::ankle, side) == kNone ||
+        model.joints[model.limbs.of(Limb::hip, side)].parent == kNone)
+      return {&model, actor, glm::dmat3(1), model.limbs.of(Trunk::pelvis), {}, 0};
+  return body_of(model, actor, "");
 }
 
 std::size_t needed(const Body& body, Trunk part, const std::string& command) {

@@ -75,6 +75,10 @@ double lowest_of(const Model& model, const Posture& posture);
 // Throws Failure where limbs that every command needs are not named.
 Body body_of(const Model& model, const std::string& actor, const std::string& command);
 
+// What a command needs that moves no legs: axes as those of the legs, or where these are not named forward
+// along x and up along z. `legs` is not to be asked.
+Body body_without_legs(const Model& model, const std::string& actor);
+
 // The joint, or a Failure that names the limb as in "limbs.left.shoulder".
 std::size_t needed(const Body& body, Trunk part, const std::string& command);
 std::size_t needed(const Body& body, Limb limb, Side side, const std::string& command);

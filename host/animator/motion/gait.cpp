@@ -7,7 +7,9 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 
+#include "hal/failure.h"
 #include "host/animator/motion/curve.h"
+#include "host/animator/motion/stiff_legs.h"
 
 namespace mars::host {
 namespace {
@@ -24,7 +26,9 @@ constexpr double kSwingReach = 0.988;  // of one that swings: its knee does not 
 constexpr double kClearance = 0.012;   // of swinging feet over the floor, at least
 constexpr double kLiftTime = 0.12;     // of a swing, until they have it
 constexpr double kUpright = 0.02;      // of a swing, at either end, that a foot moves up or down alone
-constexpr double kStiffRise = 0.05;    // of legs without knees
+constexpr double kStiffRise = 0.05;    // of legs without knees, as the pelvis rolls
+constexpr double kStiffRoll = 0.2;     // sine of that, at most
+constexpr double kStiffLift = 0.02;    // of such legs at least, if need be round the outside
 constexpr CurvePoint kPitches[] = {{0, 50}, {0.184, 63}, {0.424, 38}, {0.688, 0}, {0.88, -19}, {1, -20}};
 constexpr CurvePoint kRises[] = {{0, 0.070},    {0.1, 0.112},  {0.28, 0.136},
                                  {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
@@ -36,8 +40,12 @@ glm::dvec2 ahead(double heading) {
 
 class Walker {
  public:
-  Walker(const Body& body, const Posture& start, const Gait& gait)
-      : body_(body), gait_(gait), start_(stance_of(body, start)), floor_(body.floor_under(start)) {
+  Walker(const Body& body, const Posture& start, const Gait& gait, bool rolls)
+      : body_(body),
+        gait_(gait),
+        rolls_(rolls),
+        start_(stance_of(body, start)),
+        floor_(body.floor_under(start)) {
     for (const Side side : kSides) {
       const Foot& foot = start_.feet[index_of(side)];
       prints_[index_of(side)] = {{foot.ankle.x, foot.ankle.y}, foot.heading};
@@ -55,27 +63,12 @@ class Walker {
     double most = 0;
     for (const Side side : kSides) {
       const Foot& foot = stance.feet[index_of(side)];
-      if (body_.stiff() && !foot.stands) continue;
       const glm::dvec3 hip = hip_of(stance, side), way = hip - foot.ankle;
       const double reach = (foot.stands ? kReach : kSwingReach) * body_.leg(side).length();
       const double across = std::min(std::hypot(way.x, way.y), reach);
       most = std::max(most, way.z - std::sqrt(reach * reach - across * across));
     }
     return most;
-  }
-
-  // How far the hip of a leg without a knee is from the height that the leg gives it.
-  double off_height(const Stance& stance) const {
-    double least = 1e300;
-    for (const Side side : kSides) {
-      const Foot& foot = stance.feet[index_of(side)];
-      if (!foot.stands) continue;
-      const glm::dvec3 way = hip_of(stance, side) - foot.ankle;
-      const double reach = body_.leg(side).length();
-      const double across = std::min(std::hypot(way.x, way.y), reach);
-      least = std::min(least, std::sqrt(reach * reach - across * across) - way.z);
-    }
-    return least;
   }
 
  private:
@@ -146,6 +139,9 @@ class Walker {
     foot.pitch = way > 0 ? way * off.pitch / kOff : way * land.pitch / kStrike;
     foot.bent = off.bent == 0 ? 0 : -curve_through(kBends, 0, 0, u) * off.bent / kOff;
     foot.stands = false;
+    const glm::dvec2 forward = ahead(foot.heading);
+    const double aside = sign_of(side) * round_about(side) * std::sin(M_PI * u);
+    foot.ankle += glm::dvec3(-forward.y * aside, forward.x * aside, 0);
     foot.ankle.z =
         floor_ +
         std::max(rise(step, from, off, land, u) * body_.leg_length(),
@@ -207,13 +203,13 @@ class Walker {
     const double full = fullness(time), leg = body_.leg_length(), p = phase(time);
     const double swing = full * std::min(gait_.stride / kStride, 1.2);
     const auto wave = [&](double at, double times = 1) { return std::cos(2 * M_PI * times * (p - at)); };
-    const double loose = body_.planar() ? 0 : 1;  // a figure that cannot sway does not
+    const double loose = body_.planar() || body_.stiff() ? 0 : 1;  // a figure that cannot sway does not
     move_along(time, stance);
     const double settle = smooth(0, gait_.steps.front().land, time);
     const double height = start_.pelvis.z - floor_ + (body_.height - start_.pelvis.z + floor_) * settle;
     const glm::dvec2 forward = ahead(stance.heading), left(-forward.y, forward.x);
-    const glm::dvec2 sway =
-        0.013 * leg * swing * wave(0.015, 2) * forward + loose * 0.0216 * leg * full * wave(0.31) * left;
+    const glm::dvec2 sway = 0.013 * leg * swing * (body_.stiff() ? 0 : wave(0.015, 2)) * forward +
+                            loose * 0.0216 * leg * full * wave(0.31) * left;
     stance.pelvis.x += sway.x;
     stance.pelvis.y += sway.y;
     stance.pelvis.z =
@@ -229,15 +225,25 @@ class Walker {
 
   // Legs without knees are lifted by the hips: degrees of roll that raise the side that swings.
   double waddle(double time) const {
-    if (!body_.stiff()) return 0;
+    if (!body_.stiff() || !rolls_ || body_.planar()) return 0;
     for (const Step& step : gait_.steps) {
       if (time <= step.off || time >= step.land) continue;
       const double u = (time - step.off) / (step.land - step.off);
-      const double sine =
-          std::min(kStiffRise * body_.leg_length() / (2 * std::abs(body_.leg(step.side).aside)), 0.3);
-      return sign_of(step.side) * glm::degrees(std::asin(sine)) * std::sin(M_PI * u);
+      return sign_of(step.side) * glm::degrees(std::asin(roll(step.side))) * std::sin(M_PI * u);
     }
     return 0;
+  }
+
+  double roll(Side side) const {  // its sine
+    return std::min(kStiffRise * body_.leg_length() / (2 * std::abs(body_.leg(side).aside)), kStiffRoll);
+  }
+
+  // How far aside a leg of one piece is carried, that it may rise as far as the roll does not lift it.
+  double round_about(Side side) const {
+    if (!body_.stiff() || body_.planar()) return 0;
+    const double leg = body_.leg_length(),
+                 lifted = rolls_ ? 2 * std::abs(body_.leg(side).aside) * roll(side) : 0;
+    return leg * std::sqrt(2 * std::max(0.0, kStiffLift - lifted / leg));
   }
 
   void move_along(double time, Stance& stance) const {
@@ -281,6 +287,7 @@ class Walker {
 
   const Body& body_;
   const Gait& gait_;
+  bool rolls_;  // the pelvis, to lift legs of one piece
   Stance start_;
   double floor_;
   std::array<Footprint, 2> prints_;
@@ -338,26 +345,50 @@ std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
   return turns;
 }
 
-std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
-                                 std::uint32_t first_frame, const std::string& doing,
-                                 const std::string& remedy) {
-  const Walker walker(body, start, gait);
+namespace {
+
+std::vector<Stance> stances_of(const Body& body, const Posture& start, const Gait& gait, bool rolls) {
+  const Walker walker(body, start, gait, rolls);
   std::vector<Stance> stances;
   std::vector<double> high;
-  for (int frame = 0; frame <= int(gait.end()); ++frame) {
-    stances.push_back(walker.at(frame));
-    high.push_back(walker.too_high(stances.back()));
+  for (int frame = 0; frame <= int(gait.end()); ++frame) stances.push_back(walker.at(frame));
+  if (body.stiff()) {
+    stand_stiffly(body, start, stances);
+    return stances;
   }
+  for (const Stance& stance : stances) high.push_back(walker.too_high(stance));
   lower_smoothly(high, gait);
+  for (std::size_t frame = 0; frame < stances.size(); ++frame) stances[frame].pelvis.z -= high[frame];
+  return stances;
+}
+
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const std::vector<Stance>& stances,
+                                 std::uint32_t first_frame, const std::string& doing,
+                                 const std::string& remedy) {
   std::vector<Posture> postures;
   Posture posture = start;
   for (std::size_t frame = 0; frame < stances.size(); ++frame) {
-    stances[frame].pelvis.z += body.stiff() ? walker.off_height(stances[frame]) : -high[frame];
     take_stance(body, stances[frame], posture, doing + " at frame " + std::to_string(first_frame + frame),
                 remedy);
     postures.push_back(posture);
   }
   return postures;
+}
+
+}  // namespace
+
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
+                                 std::uint32_t first_frame, const std::string& doing,
+                                 const std::string& remedy) {
+  const auto moved = [&](bool rolls) {
+    return postures_of(body, start, stances_of(body, start, gait, rolls), first_frame, doing, remedy);
+  };
+  if (!body.stiff()) return moved(false);
+  try {
+    return moved(true);
+  } catch (const Failure&) {
+    return moved(false);  // joints that do not allow the roll
+  }
 }
 
 }  // namespace mars::host

@@ -47,7 +47,10 @@ struct Gait {
   double end() const { return way.back().time; }
 };
 
-// The postures of frames 0 to the gait's end, from `start` on. `doing` and `remedy` are for failures.
+// Legs of one piece swing from the hips. The pelvis is where both reach the floor when both stand, and so
+// high as the one that stands lets it; the other is lifted by the pelvis' roll, or carried round the outside
+// where hips are narrow, and brushes the floor once where hips do not turn aside. The postures of frames 0 to
+// the gait's end, from `start` on. `doing` and `remedy` are for failures.
 std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
                                  std::uint32_t first_frame, const std::string& doing,
                                  const std::string& remedy);

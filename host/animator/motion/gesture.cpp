@@ -114,7 +114,7 @@ Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::si
 // ---- Waving
 
 struct Arm {
-  std::size_t shoulder, elbow, wrist;
+  std::size_t shoulder, elbow, wrist;  // the wrist may be kNone
   double upper, fore;
 };
 
@@ -131,11 +131,27 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
       body, arm.shoulder, hanging_shoulder(body, side, {s * 95, 0, s * 80}), start.pose[arm.shoulder]);
   posture.pose[arm.elbow] =
       numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);
-  posture.pose[arm.wrist] = numbers_for(body, arm.wrist, glm::dmat3(1), start.pose[arm.wrist]);
   const std::size_t joints[] = {arm.shoulder, arm.elbow};
-  const Goal goals[] = {{.joint = arm.elbow, .place = elbow}, {.joint = arm.wrist, .place = wrist}};
+  std::vector<Goal> goals{{.joint = arm.elbow, .place = elbow}};
+  if (arm.wrist == kNone) {
+    // The forearm, drawn as the upper arm goes on, lies across all that is across its way.
+    const Posture drawn = drawn_posture(*body.model);
+    const glm::dvec3 along = glm::normalize(frame_in(*body.model, drawn, arm.elbow).place -
+                                            frame_in(*body.model, drawn, arm.shoulder).place);
+    for (const glm::dvec3& across : {facing[0], facing[1]})
+      goals.push_back({.joint = arm.elbow,
+                       .turn_weight = arm.fore,
+                       .direction = along,
+                       .across = glm::normalize(across - glm::dot(across, wrist - elbow) / arm.fore /
+                                                             arm.fore * (wrist - elbow))});
+  } else {
+    posture.pose[arm.wrist] = numbers_for(body, arm.wrist, glm::dmat3(1), start.pose[arm.wrist]);
+    goals.push_back({.joint = arm.wrist, .place = wrist});
+  }
   reach(*body.model, posture, joints, goals);
-  if (glm::distance(frame_in(*body.model, posture, arm.wrist).place, wrist) > kOff * (arm.upper + arm.fore))
+  const Goal& end = arm.wrist == kNone ? goals.front() : goals.back();
+  if (glm::distance(frame_in(*body.model, posture, end.joint).place, *end.place) >
+      kOff * (arm.upper + arm.fore))
     throw Failure("cannot raise its " + std::string(side == Side::left ? "left" : "right") + " hand to wave",
                   "actor '" + body.name + "', " + where,
                   "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" +
@@ -147,7 +163,7 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
 
 Motion nod(const Scene& scene) {
   const Wishes& wishes = scene.wishes;
-  const Body body = body_of(scene.model(), scene.actor.name, "nod");
+  const Body body = body_without_legs(scene.model(), scene.actor.name);
   const std::size_t neck = body.find(Trunk::neck);
   const std::size_t head = neck == kNone ? needed(body, Trunk::head, "nod") : body.find(Trunk::head);
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
@@ -167,20 +183,22 @@ Motion nod(const Scene& scene) {
 
 Motion wave(const Scene& scene) {
   const Wishes& wishes = scene.wishes;
-  const Body body = body_of(scene.model(), scene.actor.name, "wave");
+  const Body body = body_without_legs(scene.model(), scene.actor.name);
   constexpr std::string_view hands[] = {"left", "right"};
   const Side side = kSides[wishes.choice("hand", 1, hands)];
   Arm arm{needed(body, Limb::shoulder, side, "wave"), needed(body, Limb::elbow, side, "wave"),
-          needed(body, Limb::wrist, side, "wave"), 0, 0};
+          body.find(Limb::wrist, side), 0, 0};
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
   const auto place = [&](std::size_t joint) { return frame_in(scene.model(), start, joint).place; };
   arm.upper = glm::distance(place(arm.shoulder), place(arm.elbow));
-  arm.fore = glm::distance(place(arm.elbow), place(arm.wrist));
+  arm.fore = arm.wrist == kNone ? arm.upper : glm::distance(place(arm.elbow), place(arm.wrist));
   const Posture in = waving(body, start, side, arm, kInward, wishes.where());
   const Posture out = waving(body, start, side, arm, kOutward, wishes.where());
   const std::uint32_t times = wishes.count("times", 3, 1000);
   const double seconds = wishes.number("seconds", 0.5, {0.1, 60});
-  Gesture gesture(scene, {arm.shoulder, arm.elbow, arm.wrist});
+  std::vector<std::size_t> joints{arm.shoulder, arm.elbow, arm.wrist};
+  std::erase(joints, kNone);
+  Gesture gesture(scene, joints);
   gesture.at(0, start);
   for (std::uint32_t time = 0; time < times; ++time) {
     gesture.at(kRaise + seconds * time, out);

@@ -37,7 +37,7 @@ class Player {
     ScriptLine line(text, name_ + ":" + std::to_string(number));
     if (line.empty()) return;
     if (line.take_if("let")) return let(line);
-    const std::uint32_t at = take_cue(line);
+    const std::uint32_t at = line.next_is("cut") ? last_ : take_cue(line);
     if (line.next_is("cut")) return cut_film(line, at);
     const std::string who = line.take("an actor, or cut,");
     last_ = who == kCamera && !is_actor(who) ? move_camera(line, at) : start(line, who, at);

@@ -21,7 +21,9 @@ constexpr double kLean = 44;        // degrees of the trunk, so that its weight 
 constexpr double kUpright = 0.8;    // of its height: what is lower sits
 constexpr double kHandAlong = 0.6;  // of the thigh, where a wrist lies
 constexpr double kHandOut = 0.6;    // of the way from above the hip to below the shoulder
-constexpr const char* kRemedy = "choose another seat-height, or widen the joint's limits in its model";
+constexpr double kAskew = 10;       // degrees: see Foot
+constexpr const char* kWiden = "widen the joint's limits in its model";
+constexpr const char* kSitRemedy = "choose another seat-height, or widen the joint's limits in its model";
 
 glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.heading); }
 
@@ -48,9 +50,10 @@ double cushion(const Body& body, double hips_below_pelvis) {
 
 class Chair {
  public:
-  Chair(const Scene& scene, const char* command)
+  Chair(const Scene& scene, const char* command, const char* remedy)
       : scene_(scene),
         command_(command),
+        remedy_(remedy),
         body_(body_of(scene.model(), scene.actor.name, command)),
         start_(posture_at(scene.model(), scene.actor.motion, scene.at)),
         from_(stance_of(body_, start_)),
@@ -59,6 +62,7 @@ class Chair {
             std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
     if (body_.stiff()) needed(body_, Limb::knee, Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
+    for (Foot& foot : from_.feet) foot.askew = kAskew;
   }
 
   bool upright() const { return from_.pelvis.z - floor_ >= kUpright * body_.height; }
@@ -81,7 +85,7 @@ class Chair {
       stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
       bend(stance, lean);
       take_stance(body_, stance, posture,
-                  std::string(command_) + " at frame " + std::to_string(scene_.at + frame), kRemedy);
+                  std::string(command_) + " at frame " + std::to_string(scene_.at + frame), remedy_);
       move_arms(arms, u, posture);
       postures.push_back(posture);
     }
@@ -103,7 +107,7 @@ class Chair {
     Stance stance = from_;
     stance.pelvis = pelvis;
     stance.tilt = {0, 0, 0};
-    take_stance(body_, stance, posture, std::string(command_), kRemedy);
+    take_stance(body_, stance, posture, std::string(command_), remedy_);
     for (const Side side : kSides) {
       const std::size_t shoulder = body_.find(Limb::shoulder, side), elbow = body_.find(Limb::elbow, side),
                         wrist = body_.find(Limb::wrist, side);
@@ -177,6 +181,7 @@ class Chair {
 
   const Scene& scene_;
   const char* command_;
+  const char* remedy_;  // where a foot cannot stand
   Body body_;
   Posture start_;
   Stance from_;
@@ -195,8 +200,11 @@ glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ank
 }  // namespace
 
 Motion sit(const Scene& scene) {
-  Chair chair(scene, "sit");
-  if (!chair.upright()) fail(scene, "does not stand", "sit", "let it stand up first, by the action stand");
+  Chair chair(scene, "sit", kSitRemedy);
+  if (!chair.upright())
+    fail(scene, "does not stand", "sit",
+         "let it stand up first, by the action stand; to do it again otherwise, give --at with the frame "
+         "where it began");
   const Leg& leg = chair.body().legs[0];
   const glm::dvec3 ankle = between_feet(chair.from());
   const double soft = cushion(chair.body(), chair.hip_drop()), level = ankle.z + leg.shin;
@@ -212,14 +220,14 @@ Motion sit(const Scene& scene) {
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
       chair.with_hands_on_thighs(pelvis));
-  motion.told = "sits at " + shown(std::round(pelvis.x * 1e4) / 1e4) + " " +
-                shown(std::round(pelvis.y * 1e4) / 1e4) + ", on a seat of height " +
-                shown(std::round((hips - soft - chair.floor()) * 1e4) / 1e4);
+  const auto told = [](double value) { return shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
+  motion.told = "sits at " + told(pelvis.x) + " " + told(pelvis.y) + ", on a seat of height " +
+                told(hips - soft - chair.floor());
   return motion;
 }
 
 Motion stand(const Scene& scene) {
-  Chair chair(scene, "stand");
+  Chair chair(scene, "stand", kWiden);
   if (chair.upright()) fail(scene, "stands already", "stand", "let it sit down first, by the action sit");
   const glm::dvec3 middle = between_feet(chair.from());
   const Body& body = chair.body();

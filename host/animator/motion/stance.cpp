@@ -44,16 +44,6 @@ void turn_actor(const Body& body, double heading, Posture& posture) {
     posture.turn = canonical_degrees(heading_turn(more) * actor_turn(posture));
 }
 
-void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
-  turn_actor(body, stance.heading, posture);
-  const std::size_t joints[] = {body.pelvis};
-  const Goal goals[] = {
-      {.joint = body.pelvis,
-       .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
-  reach(*body.model, posture, joints, goals);
-  posture.place += stance.pelvis - frame_in(*body.model, posture, body.pelvis).place;
-}
-
 // About which of the knee's axes it bends, and the direction of its axis in its own frame, to the left.
 struct Hinge {
   int axis;
@@ -87,6 +77,24 @@ void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double dist
   posture.pose[leg.knee][hinge.axis] = std::abs(now) >= std::abs(backward) ? now : backward;
 }
 
+std::string degrees_of(double value) { return shown(std::round(value * 100) / 100 + 0.0) + " degrees"; }
+
+// About which of the joint's axes it twists what hangs straight down from it.
+int twist_axis(const Body& body, const Joint& joint) {
+  const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis)};
+  int best = 2;
+  for (int axis = 0; axis < 2; ++axis)
+    if (std::abs(glm::dot(axes[axis], body.axes[2])) > std::abs(glm::dot(axes[best], body.axes[2])))
+      best = axis;
+  return best;
+}
+
+// How far a joint twists to either side, degrees.
+double twist_room(const Body& body, const Joint& joint) {
+  const Limits& limits = joint.limits[twist_axis(body, joint)];
+  return std::max(0.0, std::min(-limits.lower, limits.upper));
+}
+
 std::string limit_in_the_way(const Body& body, const Posture& posture, std::span<const std::size_t> joints) {
   std::string all;
   for (const std::size_t number : joints) {
@@ -97,7 +105,7 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
       if (value > limits.lower + kAtLimit && value < limits.upper - kAtLimit) continue;
       if (!limits.free() && axis == 2 && joint.freedoms() > 0) continue;  // few joints twist: never the cause
       const std::string what = limits.free()
-                                   ? "is at its limit of " + shown(std::round(value * 1e4) / 1e4 + 0.0) + " degrees about " + "xyz"[axis]
+                                   ? "is at its limit of " + degrees_of(value) + " about " + "xyz"[axis]
                                    : std::string("cannot turn about ") + "xyz"[axis];
       all += (all.empty() ? "'" : ", '") + joint.name + "' " + what;
     }
@@ -153,11 +161,15 @@ class LegReach {
            doing, remedy);
     }
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
-    const double off = turn_between(body_.turn_of(posture_, leg_.ankle), wanted).angle;
-    if (glm::degrees(off) > kFlatEnough) {
+    const glm::dmat3 is = body_.turn_of(posture_, leg_.ankle);
+    const bool twists = twist_room(body_, body_.model->joints[leg_.ankle]) > 0;
+    const double tilted = glm::degrees(std::acos(std::min(1.0, glm::dot(is[2], wanted[2]))));
+    const double off = glm::degrees(turn_between(is, wanted).angle);
+    if (tilted > kFlatEnough || off > std::max(kFlatEnough, twists ? 0 : foot_.askew)) {
       joints.assign(1, leg_.ankle);
       joints.push_back(leg_.hip);
-      fail("its " + whose + " foot cannot stand on its sole", limit_in_the_way(body_, posture_, joints),
+      const std::string limit = limit_in_the_way(body_, posture_, joints);
+      fail("its " + whose + " foot cannot stand on its sole", limit.empty() ? turn_missing(wanted) : limit,
            doing, remedy);
     }
   }
@@ -168,12 +180,31 @@ class LegReach {
     const Hinge hinge = hinge_of(body_, leg_);
     bend_knee(body_, leg_, hinge, glm::distance(hip, to), posture_);
     leg.push_back(leg_.knee);
-    const double knees = stance_.heading + stance_.tilt.z +
-                         kKneeShare * std::remainder(foot_.heading - stance_.heading - stance_.tilt.z, 360.0);
+    // What the foot points beside the knee, the ankle twists.
+    const double aside = std::remainder(foot_.heading - stance_.heading - stance_.tilt.z, 360.0);
+    const double room = twist_room(body_, body_.model->joints[leg_.ankle]);
+    const double knees = foot_.heading - std::clamp((1 - kKneeShare) * aside, -room, room);
     goals.push_back({.joint = leg_.knee,
                      .turn_weight = kKneeWeight * leg_.length(),
                      .direction = hinge.direction,
                      .across = heading_turn(knees)[0]});
+  }
+
+  // The ankle's turn that would be needed, about that of its axes where most is missing.
+  std::string turn_missing(const glm::dmat3& wanted) const {
+    const Joint& ankle = body_.model->joints[leg_.ankle];
+    const glm::dmat3 frame = frame_in(*body_.model, posture_, leg_.ankle).turn;
+    const Turn turn = turn_between(frame, wanted * glm::transpose(body_.axes));
+    const glm::dvec3 axes[] = {ankle.x_axis, ankle.y_axis,
+                               glm::normalize(glm::cross(ankle.x_axis, ankle.y_axis))};
+    int most = 0;
+    std::array<double, 3> along;
+    for (int axis = 0; axis < 3; ++axis) {
+      along[axis] = glm::degrees(turn.angle) * glm::dot(turn.axis, frame * axes[axis]);
+      if (std::abs(along[axis]) > std::abs(along[most])) most = axis;
+    }
+    return "'" + ankle.name + "' would have to turn " + degrees_of(along[most]) + " more about " +
+           "xyz"[most];
   }
 
   double error_of(const glm::dvec3& to) const {
@@ -223,6 +254,16 @@ glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees)
 
 glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& turn, const glm::dvec3& near) {
   return nearest_turns(body.model->joints[joint], body.axes * turn * glm::transpose(body.axes), near);
+}
+
+void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
+  turn_actor(body, stance.heading, posture);
+  const std::size_t joints[] = {body.pelvis};
+  const Goal goals[] = {
+      {.joint = body.pelvis,
+       .turn = heading_turn(stance.heading) * canonical_turn(stance.tilt) * glm::transpose(body.axes)}};
+  reach(*body.model, posture, joints, goals);
+  posture.place += stance.pelvis - frame_in(*body.model, posture, body.pelvis).place;
 }
 
 void take_stance(const Body& body, const Stance& stance, Posture& posture, const std::string& doing,

@@ -16,6 +16,7 @@ struct Foot {
   double pitch = 0;    // of the sole, degrees, toes down
   double bent = 0;     // of the toes, degrees, down
   bool stands = true;  // on the floor: it must be there, flat feet flat
+  double askew = 0;    // degrees that it may point beside its heading, flat, where its ankle cannot twist
 };
 
 struct Stance {
@@ -33,6 +34,9 @@ Stance stance_of(const Body& body, const Posture& posture);
 // model's arms are drawn.
 glm::dmat3 hanging_shoulder(const Body& body, Side side, const glm::dvec3& degrees);
 glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees);
+
+// Turns and places the posture's pelvis as the stance has it, as nearly as limits allow.
+void place_pelvis(const Body& body, const Stance& stance, Posture& posture);
 
 // The joint's numbers within its limits, nearest to a canonical turn against its parent; `near` begins.
 glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& turn, const glm::dvec3& near);

@@ -22,14 +22,18 @@ constexpr double kFirstBehind = 0.44;  // the first foot, from standing
 constexpr double kApart = 0.67;        // of the hips' width: feet of a walk
 constexpr double kToeOut = 6;          // degrees
 constexpr double kTurnAtOnce = 50;     // degrees between two feet
+constexpr double kLeastAtOnce = 6;     // where the joints' limits want less
+constexpr int kBowTries = 4;           // each with twice as many steps
 constexpr double kUpright = 0.8;       // of its height: what is lower sits
 constexpr double kNothing = 0.2;       // degrees
 constexpr double kOnTheWay = 25;       // degrees that the first step can turn
 
 constexpr const char* kWalkRemedy =
     "take shorter steps (step-length), or widen the joint's limits in its model";
+constexpr const char* kBowRemedy =
+    "take more and shorter steps (steps, distance), or widen the joint's limits in its model";
 constexpr const char* kTurnRemedy =
-    "widen the joint's limits in its model, or turn the figure by keys of its turn";
+    "widen the joint's limits in its model, or key its turn: mars animate FILM pose ACTOR turn.z=90";
 
 glm::dvec2 ahead(double heading) {
   return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))};
@@ -124,10 +128,10 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
   return gait;
 }
 
-Gait turn_gait(const Body& body, const Stance& from, double by, double period) {
+Gait turn_gait(const Body& body, const Stance& from, double by, double at_once, double period) {
   const Planner planner(body, period);
   const Stand start = stand_of(from);
-  const int pairs = std::max(1, static_cast<int>(std::ceil(std::abs(by) / kTurnAtOnce)));
+  const int pairs = std::max(1, static_cast<int>(std::ceil(std::abs(by) / at_once)));
   Gait gait{{}, {}, period, 0.3 * kStride, {}};
   gait.way.push_back({0, {from.pelvis.x, from.pelvis.y}, from.heading, {0, 0}});
   for (int k = 1; k <= 2 * pairs; ++k) {
@@ -154,9 +158,11 @@ class Going {
     postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
     const Stance stance = now();
     if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
-      throw Failure("does not stand at frame " + std::to_string(scene.at),
-                    "actor '" + scene.actor.name + "', " + command,
-                    "let it stand up first, by the action stand");
+      throw Failure(
+          "does not stand at frame " + std::to_string(scene.at),
+          "actor '" + scene.actor.name + "', " + command,
+          "let it stand up first, by the action stand; to do it again otherwise, give --at with the "
+          "frame where it began");
   }
 
   Stance now() const { return stance_of(body_, postures_.back()); }
@@ -171,7 +177,14 @@ class Going {
     postures_.insert(postures_.end(), more.begin() + 1, more.end());
   }
 
-  void turn(double by) { go(turn_gait(body_, now(), by, period_), kTurnRemedy); }
+  // By steps that turn less, where limits want it.
+  void turn(double by) {
+    for (double at_once = kTurnAtOnce;; at_once /= 2) try {
+        return go(turn_gait(body_, now(), by, at_once, period_), kTurnRemedy);
+      } catch (const Failure&) {
+        if (at_once / 2 < kLeastAtOnce) throw;
+      }
+  }
 
   Motion motion() const {
     return {keys_of(body_, body_.joints(), postures_, scene_.at),
@@ -222,16 +235,25 @@ Motion walk(const Scene& scene) {
   const double ordinary =
       wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, kFarthest});
   const auto few = static_cast<std::uint32_t>(far ? std::clamp(std::round(*far / ordinary), 1.0, 1e4) : 4);
-  const std::uint32_t steps = wishes.count("steps", few, 10000);
+  std::uint32_t steps = wishes.count("steps", few, 10000);
   constexpr std::string_view sides[] = {"left", "right"};
   const Side first =
       kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
   Path path{stand_of(going.now()), far ? *far : steps * ordinary, wishes.number("turn", 0, {-3600, 3600})};
   if (const auto to = wishes.vector("to")) path.start.heading = path.start.heading + bearing(path.start, *to);
-  going.go(walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first,
-                     style_of(wishes)),
-           kWalkRemedy);
-  return going.motion();
+  const auto go = [&] {
+    going.go(walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first,
+                       style_of(wishes)),
+             wishes.has("turn") ? kBowRemedy : kWalkRemedy);
+  };
+  // A bow is walked in shorter steps, where limits want it and nobody has said how many.
+  const bool may_shorten = wishes.has("turn") && !wishes.has("steps") && !wishes.has("step-length");
+  for (int tries = may_shorten ? kBowTries : 1;; --tries, steps *= 2) try {
+      go();
+      return going.motion();
+    } catch (const Failure&) {
+      if (tries == 1) throw;
+    }
 }
 
 Motion turn(const Scene& scene) {

@@ -85,6 +85,30 @@ inline Json bird() {
   return {{"limbs", limbs}, {"joints", joints}};
 }
 
+// Legs of one piece in a box, with hips so far aside, that turn freely or about one axis.
+inline Json stilts(double leg, double aside, const Json& limits) {
+  const double wide = 0.9 * std::min(aside, 0.1 * leg);
+  Json joints =
+      Json::array({jointed("hull", "", {0, 0, 1.1 * leg}, {}, {{-0.1, -aside, 0}, {0.1, aside, leg / 2}})});
+  Json limbs{{"pelvis", "hull"}};
+  for (const std::string side : {"left", "right"}) {
+    const double y = side == "left" ? aside : -aside;
+    joints.push_back(
+        jointed(side + " leg", "hull", {0, y, 0}, limits, {{-0.02, -wide, -leg}, {0.02, wide, 0}}));
+    joints.push_back(jointed(side + " foot", side + " leg", {0, 0, -leg}, limits,
+                             {{-0.1 * leg, -wide, -0.1 * leg}, {0.2 * leg, wide, 0.02}}));
+    limbs[side] = {{"hip", side + " leg"}, {"ankle", side + " foot"}};
+  }
+  return {{"limbs", limbs}, {"joints", joints}};
+}
+
+// The man, changed: limits of all joints whose names end so.
+inline Json limited(Json model, const std::string& end, const char* axis, const Json& limits) {
+  for (Json& joint : model["joints"])
+    if (joint["name"].get<std::string>().ends_with(end)) joint["limits"][axis] = limits;
+  return model;
+}
+
 inline Json film_with(const Json& model) {
   return {
       {"frames", 1000},

@@ -169,6 +169,48 @@ TEST(Nod, BendsTheHeadAsDeepAsAskedAndComesBack) {
   EXPECT_NEAR(bent(done.last), 0, 0.01);
 }
 
+// After a turn its feet point outward, which such ankles cannot do for a figure that sits.
+TEST(Sit, IsDoneByFiguresWhoseAnklesDoNotTwist) {
+  for (const char* before : {"turn", "walk steps 2"}) {
+    Json film = film_with(limited(human(), "-foot", "z", {0, 0}));
+    for (const char* words : {before, "sit", "stand"}) EXPECT_NO_THROW(act(film, words)) << before << words;
+  }
+}
+
+TEST(Turn, TakesSmallerStepsWhereLimitsWantIt) {
+  for (const char* words : {"turn by 90", "walk turn 200"}) {
+    Json free = film_with(human()), narrow = film_with(limited(human(), "-thigh", "z", {-10, 10}));
+    const Performed quick = act(free, words, 0), slow = act(narrow, words, 0);
+    EXPECT_GT(slow.last, quick.last) << words;
+    const Shown a(free), b(narrow);
+    EXPECT_NEAR(a.body.heading_of(a.at(quick.last)), b.body.heading_of(b.at(slow.last)), 0.1) << words;
+  }
+}
+
+// "head", "left shoulder" and "left elbow" only.
+Json bust() {
+  Json model = human();
+  const Json limbs = model["limbs"];
+  model["limbs"] = {{"head", limbs["head"]},
+                    {"left", {{"shoulder", limbs["left"]["shoulder"]}, {"elbow", limbs["left"]["elbow"]}}}};
+  return model;
+}
+
+TEST(Gestures, NeedNoLegsAndNoHands) {
+  Json film = film_with(bust()), whole = film_with(human());
+  EXPECT_NO_THROW(act(film, "nod", 0));
+  act(film, "wave hand left", 0);
+  act(whole, "wave hand left", 0);
+  const Film a = read(film), b = read(whole);
+  const Model& model = b.models[0];
+  const std::size_t wrist = model.limbs.of(Limb::wrist, Side::left);
+  for (const std::uint32_t frame : {12u, 18u})
+    EXPECT_LT(
+        glm::distance(frame_in(a.models[0], posture_at(a.models[0], a.actors[0].motion, frame), wrist).place,
+                      frame_in(model, posture_at(model, b.actors[0].motion, frame), wrist).place),
+        0.25);
+}
+
 std::string refused(const Json& model, const std::string& words) {
   Json film = film_with(model);
   return failure_of([&] { act(film, words, 0); });
@@ -181,12 +223,19 @@ TEST(Actions, SayWhatIsInTheWay) {
       << refused(robot(), "turn");
   EXPECT_NE(refused(human(), "walk step-length 2.6").find("at its limit of"), std::string::npos)
       << refused(human(), "walk step-length 2.6");
+  EXPECT_NE(refused(limited(human(), "-foot", "y", {0, 0}), "sit back 0.1").find("'left-foot'"),
+            std::string::npos)
+      << refused(limited(human(), "-foot", "y", {0, 0}), "sit back 0.1");
   EXPECT_EQ(refused(robot(), "wave"),
             "actor 'anna': its model names no right elbow, which 'wave' needs "
             "(add it to the model's limbs: docs/model-format.md)");
   EXPECT_EQ(refused(bird(), "sit"),
             "actor 'anna': its model names no left knee, which 'sit' needs "
             "(add it to the model's limbs: docs/model-format.md)");
+  Json seated = film_with(human());
+  act(seated, "sit", 0);
+  EXPECT_NE(failure_of([&] { act(seated, "sit"); }).find("give --at with the frame where it began"),
+            std::string::npos);
   EXPECT_EQ(refused(human(), "nod depth 100"),
             "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
             "(nod less, or widen the joint's limits in its model)");

@@ -52,6 +52,10 @@ at runtime   cut)");
   EXPECT_EQ(film.at("actors")[1].at("keys").back().at("turn")[2], 90);
 }
 
+TEST(Script, CutAloneEndsTheFilmWhenTheLineBeforeEnds) {
+  EXPECT_EQ(played("at 10 green spin seconds 1\ncut").at("frames"), 34);
+}
+
 TEST(Script, CuesFollowOneAnother) {
   const Json film = played(
       "at 1s green go to 1 0 0 seconds 0.5 as there\n"
