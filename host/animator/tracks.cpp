@@ -60,7 +60,10 @@ class Composer {
           if (!chosen) chosen = key->ease;
         }
     if (chosen) return *chosen;
-    return old.contains("ease") || held.empty() ? ease_of(old) : held.begin()->second->ease;
+    // The last key of all its parts: its ease rules once others follow.
+    for (const auto& [part, key] : held)
+      if (!old.contains("ease") || key->ease != ease_of(old)) return key->ease;
+    return ease_of(old);
   }
 
   const Tracks& tracks_;

@@ -261,6 +261,13 @@ TEST(All, IsCameraLightsMaterialsAndActorsButMatrices) {
   EXPECT_EQ(scene.json["materials"]["red"]["keys"][0]["frame"], 10);
 }
 
+TEST(EaseKeys, ALastKeyTakesAnotherEaseToo) {
+  Scene scene(R"(, "keys": [{"frame": 0, "pose": {"elbow": [0, 0, 0]}},
+                            {"frame": 10, "pose": {"elbow": [0, 50, 0]}, "ease": "in"}])");
+  ease_keys(scene.json, scene.film, {.thing = "it"}, {10, 10}, kOut);
+  EXPECT_EQ(scene.keys()[1]["ease"], "out");
+}
+
 TEST(KeysTable, ShowsWhatIsFree) {
   Scene scene(kMoving);
   const std::string table = keys_table(scene.json, scene.film, {true, "", {}}, {20, 48});
