@@ -61,9 +61,9 @@ class Composer {
         }
     if (chosen) return *chosen;
     // The last key of all its parts: its ease rules once others follow.
-    for (const auto& [part, key] : held)
-      if (!old.contains("ease") || key->ease != ease_of(old)) return key->ease;
-    return ease_of(old);
+    const auto agrees = [&](const auto& each) { return each.second->ease == held.begin()->second->ease; };
+    return held.empty() || (old.contains("ease") && !std::ranges::all_of(held, agrees)) ? ease_of(old)
+                                                                                       : held.begin()->second->ease;
   }
 
   const Tracks& tracks_;
