@@ -5,7 +5,7 @@
 
 #include "hal/failure.h"
 #include "hal/message_types.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 
 namespace mars::hal {
 namespace {

@@ -1,4 +1,4 @@
-// One rank's message passing: the semantics of NX (nx.h) over any backend. A process belongs to the thread
+// One rank's message passing: the semantics of NX (nx/) over any backend. A process belongs to the thread
 // that made it, and the NX calls of that thread are calls on it; so ranks may be threads or processes. All
 // progress happens inside calls: a message waits in the backend until a call looks, and then goes straight
 // into the buffer of the receive that it matches, or into the queue of unexpected messages. Once warm,
@@ -35,7 +35,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  // As in nx.h.
+  // As in nx_messages.h.
   void csend(long type, const void* buffer, long length, long node, long pid);
   void crecv(long typesel, void* buffer, long length);
   long isend(long type, const void* buffer, long length, long node, long pid);

@@ -1,7 +1,7 @@
 #include "hal/recorder.h"
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 
 namespace mars::hal {

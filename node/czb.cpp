@@ -1,7 +1,7 @@
 #include "node/czb.h"
 
 #include "hal/cube.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 
 namespace mars::node {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "node/protocol.h"
 
 namespace mars::node {

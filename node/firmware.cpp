@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/shared_memory.h"
 #include "node/film.h"
 #include "node/kernels.h"

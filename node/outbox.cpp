@@ -1,6 +1,6 @@
 #include "node/outbox.h"
 
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/recorder.h"
 
 namespace mars::node {

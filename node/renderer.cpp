@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 #include "hal/recorder.h"
 

@@ -1,6 +1,6 @@
 #include "node/tracer.h"
 
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "node/protocol.h"
 
 namespace mars::node {

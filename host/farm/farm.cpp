@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "host/farm/assembly.h"
 #include "host/farm/schedule.h"
 #include "host/farm/tracing.h"

@@ -1,6 +1,6 @@
 #include "host/farm/tracing.h"
 
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 
 namespace mars::host {

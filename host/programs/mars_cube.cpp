@@ -1,6 +1,6 @@
 // mars-cube: host and nodes as one program, for starters that want only one: rank 0 is the host.
 #include "hal/mpi/start.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "host/programs/node_job.h"
 #include "host/programs/render_job.h"
 

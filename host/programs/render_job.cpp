@@ -7,7 +7,7 @@
 #include <set>
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "host/events/events.h"
 #include "host/farm/farm.h"
 #include "host/programs/film_of.h"

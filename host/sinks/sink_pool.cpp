@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 
 namespace mars::host {
 

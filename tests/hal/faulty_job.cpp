@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hal/mpi/start.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 #include "hal/shared_memory.h"
 

@@ -7,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/cube.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
 
 namespace {

@@ -15,7 +15,8 @@
 
 #include "hal/cube.h"
 #include "hal/failure.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 #include "hal/shared_memory.h"
 

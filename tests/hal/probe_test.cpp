@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 
 namespace mars::hal {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 #include "hal/threads/run_threads.h"
 

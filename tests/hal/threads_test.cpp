@@ -10,7 +10,8 @@
 
 #include "hal/failure.h"
 #include "hal/message_types.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 #include "hal/shared_memory.h"
 #include "hal/threads/run_threads.h"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/recorder.h"
 #include "host/farm/farm.h"
 #include "host/film/compile.h"

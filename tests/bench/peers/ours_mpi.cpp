@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "hal/mpi/start.h"
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 #include "host/programs/node_job.h"
 #include "tests/bench/peers/ours.h"
 

@@ -1,4 +1,4 @@
-#include "hal/nx.h"
+#include "hal/nx/nx_messages.h"
 
 #include <chrono>
 
