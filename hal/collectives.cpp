@@ -22,7 +22,7 @@ class Exchange {
  public:
   Exchange(const char* call, const Cube& cube) : call_(call), process_(process()), cube_(cube) {
     if (process_.backend().rank() == process_.backend().host()) {
-      process_.fail(call, "the host takes no part in collectives", "call it on nodes only");
+      process_.fail(call, EQNODE, "the host takes no part in collectives", "call it on nodes only");
     }
     check(0 <= cube.first && 0 < cube.count && cube.first + cube.count <= process_.backend().nodes(),
           "a cube lies within the nodes");
@@ -90,7 +90,7 @@ Cube all_nodes() { return {0, process().backend().nodes()}; }
 
 std::size_t length(const char* call, long n) {
   if (n < 0)
-    process().fail(call, "length " + std::to_string(n) + " is negative", "give the number of elements");
+    process().fail(call, EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
   return static_cast<std::size_t>(n);
 }
 
@@ -196,7 +196,7 @@ void gcol(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   add_up(lengths, scratch.offsets);
   const std::size_t all = scratch.offsets.back();
   if (all > length("gcol", ylen)) {
-    process().fail("gcol",
+    process().fail("gcol", EQMSGLONG,
                    "the " + std::to_string(all) + " bytes of all nodes do not fit " + std::to_string(ylen),
                    "give a buffer for the bytes of all nodes");
   }

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/call_failure.h"
 #include "hal/message_types.h"
 #include "hal/nx/nx_messages.h"
 
@@ -45,27 +45,34 @@ Process::Process(Backend& backend)
 
 Process::~Process() { bound_process = nullptr; }
 
-void Process::fail(const char* call, const std::string& what, const std::string& remedy) const {
-  throw Failure(what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
+void Process::fail(const char* call, int code, const std::string& what, const std::string& remedy) const {
+  throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
 }
 
-std::size_t Process::check_length(const char* call, long length) const {
-  if (length < 0) fail(call, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+std::size_t Process::check_buffer(const char* call, const void* buffer, long length) const {
+  if (length < 0) {
+    fail(call, EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+  }
+  if (buffer == nullptr && length > 0) {
+    fail(call, EQPBUF, "the buffer of " + bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
+         "give a buffer, or length 0");
+  }
   return static_cast<std::size_t>(length);
 }
 
-Process::Receivers Process::check_send(const char* call, long type, long length, long node, long pid) const {
+Process::Receivers Process::check_send(const char* call, long type, const void* buffer, long length, long node,
+                                       long pid) const {
   if (type_class(type) == TypeClass::reserved) {
-    fail(call, "message type " + std::to_string(type) + " is reserved",
+    fail(call, EQTYPE, "message type " + std::to_string(type) + " is reserved",
          "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
   }
-  check_length(call, length);
+  check_buffer(call, buffer, length);
   if (pid != 0 && pid != -1) {
-    fail(call, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
+    fail(call, EQPID, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
   }
   if (node == -1) return {0, backend_.nodes(), true};
   if (node < 0 || node > backend_.host()) {
-    fail(call, "there is no node " + std::to_string(node),
+    fail(call, EQNODE, "there is no node " + std::to_string(node),
          "nodes are 0 to " + std::to_string(backend_.nodes() - 1) +
              ", the host is myhost(), -1 is all others");
   }
@@ -75,7 +82,7 @@ Process::Receivers Process::check_send(const char* call, long type, long length,
 std::int32_t Process::check_typesel(const char* call, long typesel) const {
   const std::int32_t narrow = narrow_typesel(typesel);
   if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) {
-    fail(call, "typesel " + std::to_string(narrow) + " is a reserved type",
+    fail(call, EQTYPE, "typesel " + std::to_string(narrow) + " is a reserved type",
          "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
   }
   return narrow;
@@ -83,7 +90,7 @@ std::int32_t Process::check_typesel(const char* call, long typesel) const {
 
 void Process::check_fits(const Request& request, const Envelope& envelope) const {
   if (envelope.length <= request.capacity) return;
-  fail(request.call,
+  fail(request.call, EQMSGLONG,
        "a message of " + bytes_text(envelope.length) + ", type " + std::to_string(envelope.type) + ", from " +
            rank_name(envelope.from, backend_.host()) + " does not fit a receive of " +
            bytes_text(request.capacity),
@@ -110,12 +117,12 @@ void Process::send(const Receivers& receivers, int type, const void* data, std::
 }
 
 void Process::csend(long type, const void* buffer, long length, long node, long pid) {
-  const Receivers receivers = check_send("csend", type, length, node, pid);
+  const Receivers receivers = check_send("csend", type, buffer, length, node, pid);
   send(receivers, static_cast<int>(type), buffer, static_cast<std::size_t>(length));
 }
 
 long Process::isend(long type, const void* buffer, long length, long node, long pid) {
-  const Receivers receivers = check_send("isend", type, length, node, pid);
+  const Receivers receivers = check_send("isend", type, buffer, length, node, pid);
   const auto bytes = static_cast<std::size_t>(length);
   Request& request = new_request("isend");
   if (receivers.several) {
@@ -132,25 +139,25 @@ long Process::isend(long type, const void* buffer, long length, long node, long 
 
 void Process::crecv(long typesel, void* buffer, long length) {
   const std::int32_t narrow = check_typesel("crecv", typesel);
-  wait(receive("crecv", narrow, buffer, check_length("crecv", length)));
+  wait(receive("crecv", narrow, buffer, check_buffer("crecv", buffer, length)));
 }
 
 long Process::irecv(long typesel, void* buffer, long length) {
   const std::int32_t narrow = check_typesel("irecv", typesel);
-  return receive("irecv", narrow, buffer, check_length("irecv", length)).mid();
+  return receive("irecv", narrow, buffer, check_buffer("irecv", buffer, length)).mid();
 }
 
 Request& Process::new_request(const char* call) {
   Request* request = requests_.acquire(call);
   if (request == nullptr)
-    fail(call, "all message ids are in use", "free them by msgwait, or msgdone until it is 1");
+    fail(call, EQNOMID, "all message ids are in use", "free them by msgwait, or msgdone until it is 1");
   return *request;
 }
 
 Request& Process::known_request(const char* call, long mid) {
   Request* request = requests_.find(mid);
   if (request == nullptr) {
-    fail(call, "there is no message id " + std::to_string(mid),
+    fail(call, EQMID, "there is no message id " + std::to_string(mid),
          "an id is free after its msgwait, or its msgdone that was 1");
   }
   return *request;
@@ -309,7 +316,7 @@ void Process::receive_internal(const char* call, int from, void* data, std::size
   wait(request);
   const std::size_t came = std::exchange(info_, before).length;
   if (came == length) return;
-  fail(call,
+  fail(call, EQLEN,
        rank_name(from, backend_.host()) + " gave " + bytes_text(came) + " where " + bytes_text(length) +
            " belong",
        "all nodes call the same collectives in the same order with the same lengths");

@@ -57,8 +57,8 @@ class Process {
   // The orderly end: waits for all ranks, throws away what nobody received.
   void finish();
 
-  // Throws this process's failure: "node 3, csend: ...".
-  [[noreturn]] void fail(const char* call, const std::string& what, const std::string& remedy) const;
+  // Throws this process's CallFailure: "node 3, csend: ..."; `code` is one of nx_errno.h.
+  [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) const;
 
   Backend& backend() { return backend_; }
   const Traffic& traffic() const { return traffic_; }
@@ -75,9 +75,10 @@ class Process {
     bool several;
   };
 
-  Receivers check_send(const char* call, long type, long length, long node, long pid) const;
+  Receivers check_send(const char* call, long type, const void* buffer, long length, long node,
+                       long pid) const;
   std::int32_t check_typesel(const char* call, long typesel) const;
-  std::size_t check_length(const char* call, long length) const;
+  std::size_t check_buffer(const char* call, const void* buffer, long length) const;
   void check_fits(const Request& request, const Envelope& envelope) const;
 
   // How many messages went to and came from one rank.

@@ -2,42 +2,85 @@
 
 #include <chrono>
 
+#include "hal/nx/guard.h"
 #include "hal/process.h"
 #include "topology/hypercube.h"
 
+using mars::hal::plain;
 using mars::hal::process;
 
 extern "C" {
 
 void csend(long type, const void* buf, long len, long node, long pid) {
-  process().csend(type, buf, len, node, pid);
+  plain([&] { process().csend(type, buf, len, node, pid); });
 }
-void crecv(long typesel, void* buf, long len) { process().crecv(typesel, buf, len); }
+void crecv(long typesel, void* buf, long len) {
+  plain([&] { process().crecv(typesel, buf, len); });
+}
 long isend(long type, const void* buf, long len, long node, long pid) {
-  return process().isend(type, buf, len, node, pid);
+  return plain([&] { return process().isend(type, buf, len, node, pid); });
 }
-long irecv(long typesel, void* buf, long len) { return process().irecv(typesel, buf, len); }
-void msgwait(long mid) { process().msgwait(mid); }
-long msgdone(long mid) { return process().msgdone(mid) ? 1 : 0; }
-void cprobe(long typesel) { process().cprobe(typesel); }
-long iprobe(long typesel) { return process().iprobe(typesel) ? 1 : 0; }
+long irecv(long typesel, void* buf, long len) {
+  return plain([&] { return process().irecv(typesel, buf, len); });
+}
+void msgwait(long mid) {
+  plain([&] { process().msgwait(mid); });
+}
+long msgdone(long mid) {
+  return plain([&]() -> long { return process().msgdone(mid); });
+}
+void cprobe(long typesel) {
+  plain([&] { process().cprobe(typesel); });
+}
+long iprobe(long typesel) {
+  return plain([&]() -> long { return process().iprobe(typesel); });
+}
 
-long infocount(void) { return static_cast<long>(process().info().length); }
-long infonode(void) { return process().info().from; }
-long infotype(void) { return process().info().type; }
+long infocount(void) {
+  return plain([] { return static_cast<long>(process().info().length); });
+}
+long infonode(void) {
+  return plain([]() -> long { return process().info().from; });
+}
+long infotype(void) {
+  return plain([]() -> long { return process().info().type; });
+}
 long infopid(void) { return 0; }
 
-long mynode(void) { return process().backend().rank(); }
-long numnodes(void) { return process().backend().nodes(); }
-long nodedim(void) { return mars::topology::dimension(process().backend().nodes()); }
-long myhost(void) { return process().backend().host(); }
+long mynode(void) {
+  return plain([]() -> long { return process().backend().rank(); });
+}
+long numnodes(void) {
+  return plain([]() -> long { return process().backend().nodes(); });
+}
+long nodedim(void) {
+  return plain([]() -> long { return mars::topology::dimension(process().backend().nodes()); });
+}
+long mypid(void) { return 0; }
+long myhost(void) {
+  return plain([]() -> long { return process().backend().host(); });
+}
+
+// Of 31 bits, as NX's long had besides its sign.
+long gray(long n) { return mars::topology::gray(static_cast<int>(n & 0x7fffffff)); }
+long ginv(long code) { return mars::topology::inverse_gray(static_cast<int>(code & 0x7fffffff)); }
 
 double dclock(void) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 unsigned long mclock(void) { return static_cast<unsigned long>(dclock() * 1000); }
+void hwclock(esize_t* ticks) {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  const auto count = std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+  ticks->slow = static_cast<long>(count & 0xffffffff);
+  ticks->shigh = static_cast<long>(count >> 32);
+}
 
-void led(long state) { process().led(state != 0); }
-void flick(void) { process().flick(); }
+void led(long state) {
+  plain([&] { process().led(state != 0); });
+}
+void flick(void) {
+  plain([] { process().flick(); });
+}
 
 }  // extern "C"

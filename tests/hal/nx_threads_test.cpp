@@ -23,12 +23,14 @@ TEST_P(NxThreads, Holds) {
   run_threads(nodes, run, run);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, NxThreads,
-                         testing::Combine(testing::ValuesIn(nx_bodies()), testing::Values(1, 2, 3, 5, 8)),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_" +
-                                  std::to_string(std::get<1>(info.param));
-                         });
+constexpr auto name_of = [](const auto& info) {
+  return std::string(std::get<0>(info.param).name) + "_" + std::to_string(std::get<1>(info.param));
+};
+const auto some_nodes = testing::Values(1, 2, 3, 5, 8);
+
+INSTANTIATE_TEST_SUITE_P(All, NxThreads, testing::Combine(testing::ValuesIn(nx_bodies()), some_nodes), name_of);
+INSTANTIATE_TEST_SUITE_P(Messages, NxThreads, testing::Combine(testing::ValuesIn(messages_bodies()), some_nodes),
+                         name_of);
 
 }  // namespace
 }  // namespace mars::hal

@@ -1,0 +1,45 @@
+// What stands between an NX call as C sees it and its work: the plain form and the twin of each call are
+//   void csend(...) { plain([&] { process().csend(...); }); }
+//   long _csend(...) { return twin([&] { process().csend(...); }); }
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+#include "hal/call_failure.h"
+
+namespace mars::hal {
+
+// From now on a plain call that fails tells `end` why; `end` ends this program and all other ranks and never
+// returns. For C programs, set before their first call; without it plain calls throw.
+using EndProgram = void (*)(const std::string& reason);
+void end_program_on_failure(EndProgram end);
+
+// For the exception at hand, in a catch clause: ends the program, or throws it again.
+[[noreturn]] void fail_plainly();
+// Keeps the text for nx_perror, sets errno, returns -1.
+long fail_by_errno(const CallFailure& failure);
+
+template <class Call>
+auto plain(Call call) try {
+  return call();
+} catch (...) {
+  fail_plainly();
+}
+
+// What is no failure of this one call (another rank's end, a broken network) is none that a program can handle.
+template <class Call>
+long twin(Call call) try {
+  if constexpr (std::is_void_v<decltype(call())>) {
+    call();
+    return 0;
+  } else {
+    return static_cast<long>(call());
+  }
+} catch (const CallFailure& failure) {
+  return fail_by_errno(failure);
+} catch (...) {
+  fail_plainly();
+}
+
+}  // namespace mars::hal

@@ -1,0 +1,68 @@
+// The twins of calls.cpp.
+#include "hal/nx/guard.h"
+#include "hal/nx/nx_messages.h"
+#include "hal/process.h"
+#include "topology/hypercube.h"
+
+using mars::hal::process;
+using mars::hal::twin;
+
+extern "C" {
+
+long _csend(long type, const void* buf, long len, long node, long pid) {
+  return twin([&] { process().csend(type, buf, len, node, pid); });
+}
+long _crecv(long typesel, void* buf, long len) {
+  return twin([&] { process().crecv(typesel, buf, len); });
+}
+long _isend(long type, const void* buf, long len, long node, long pid) {
+  return twin([&] { return process().isend(type, buf, len, node, pid); });
+}
+long _irecv(long typesel, void* buf, long len) {
+  return twin([&] { return process().irecv(typesel, buf, len); });
+}
+long _msgwait(long mid) {
+  return twin([&] { process().msgwait(mid); });
+}
+long _msgdone(long mid) {
+  return twin([&] { return process().msgdone(mid); });
+}
+long _cprobe(long typesel) {
+  return twin([&] { process().cprobe(typesel); });
+}
+long _iprobe(long typesel) {
+  return twin([&] { return process().iprobe(typesel); });
+}
+
+long _infocount(void) {
+  return twin([] { return process().info().length; });
+}
+long _infonode(void) {
+  return twin([] { return process().info().from; });
+}
+long _infotype(void) {
+  return twin([] { return process().info().type; });
+}
+long _infopid(void) { return 0; }
+
+long _mynode(void) {
+  return twin([] { return process().backend().rank(); });
+}
+long _numnodes(void) {
+  return twin([] { return process().backend().nodes(); });
+}
+long _nodedim(void) {
+  return twin([] { return mars::topology::dimension(process().backend().nodes()); });
+}
+long _mypid(void) { return 0; }
+long _myhost(void) {
+  return twin([] { return process().backend().host(); });
+}
+long _led(long state) {
+  return twin([&] { process().led(state != 0); });
+}
+long _flick(void) {
+  return twin([] { process().flick(); });
+}
+
+}  // extern "C"
