@@ -1,5 +1,6 @@
-/* What iPSC programs include: all of NX/2. */
+/* What programs of the iPSC/2 and iPSC/860 include: all calls of NX/2. */
 #pragma once
 
+#include "nx_errno.h"
 #include "nx_global.h"
 #include "nx_messages.h"
