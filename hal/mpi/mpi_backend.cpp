@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cstring>
 #include <exception>
 #include <string>
 
@@ -91,7 +92,8 @@ MpiBackend::MpiBackend(int host_rank) : all_(ranks_by_id(host_rank)) {
   succeed(MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   nodes_ = size_of(all_) - 1;
   rank_ = rank_in(all_);
-  last_tag_ = highest_tag() - nodes_;
+  wide_tag_ = highest_tag();
+  last_tag_ = wide_tag_ - 1 - nodes_;
   sent_to_.resize(nodes_ + 1);
   pending_.reserve(kUsuallyPending);
   look_around();
@@ -122,13 +124,11 @@ MpiBackend::~MpiBackend() {
   MPI_Comm_free(&all_);
 }
 
-// An MPI need not have tags as large as internal types are, so these are the highest that it has.
+// An MPI need not have tags as large as types are. Internal types have the highest but one that it has; others
+// that are too large for it have the highest, and travel behind their message's bytes.
 int MpiBackend::tag(int type) const {
   if (type_class(type) == TypeClass::reserved) return last_tag_ + 1 + (type - kFirstInternalType);
-  if (type <= last_tag_) return type;
-  throw Failure("message type " + std::to_string(type) + " is above " + std::to_string(last_tag_) +
-                    ", the highest that this MPI carries",
-                "", "use lower types, or an MPI with a higher MPI_TAG_UB");
+  return type <= last_tag_ ? type : wide_tag_;
 }
 
 int MpiBackend::type(int tag) const {
@@ -161,13 +161,20 @@ void MpiBackend::wait(MPI_Request& request) {
 
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
   reclaim_some();
-  Message* message = pool_.copy({rank_, type, length}, data);
-  MPI_Request request = isend(to, type, message->bytes(), length);
+  Message* message = tag(type) == wide_tag_ ? with_type(type, data, length) : pool_.copy({rank_, type, length}, data);
+  MPI_Request request = isend(to, type, message->bytes(), message->envelope.length);
   if (test(request)) {
     pool_.release(message);
   } else {
     pending_.push_back({request, message});
   }
+}
+
+Message* MpiBackend::with_type(std::int32_t type, const void* data, std::size_t length) {
+  Message* message = pool_.acquire({rank_, type, length + sizeof type});
+  if (length > 0) std::memcpy(message->bytes(), data, length);
+  std::memcpy(message->bytes() + length, &type, sizeof type);
+  return message;
 }
 
 bool MpiBackend::all_sent() {
@@ -190,7 +197,11 @@ void MpiBackend::reclaim_some() {
 }
 
 Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
-  const MPI_Request request = isend(to, type, data, length);
+  MPI_Request request = MPI_REQUEST_NULL;
+  if (tag(type) == wide_tag_)
+    send(to, type, data, length);
+  else
+    request = isend(to, type, data, length);
   if (free_tickets_.empty()) {
     free_tickets_.push_back(static_cast<Ticket>(tickets_.size()));
     tickets_.push_back(MPI_REQUEST_NULL);
@@ -222,17 +233,36 @@ std::optional<Envelope> MpiBackend::peek() {
   int length = 0;
   succeed(MPI_Get_count(&status, MPI_BYTE, &length), "MPI_Get_count");
   peeked_ = Envelope{status.MPI_SOURCE, type(status.MPI_TAG), static_cast<std::size_t>(length)};
+  if (status.MPI_TAG == wide_tag_) peeked_ = open_wide(*peeked_);
   return peeked_;
 }
 
-void MpiBackend::take(void* buffer) {
+Envelope MpiBackend::open_wide(const Envelope& whole) {
+  opened_ = pool_.acquire(whole);
+  receive(opened_->bytes(), whole, wide_tag_);
+  std::int32_t type = 0;
+  const std::size_t length = whole.length - sizeof type;
+  std::memcpy(&type, opened_->bytes() + length, sizeof type);
+  return {whole.from, type, length};
+}
+
+void MpiBackend::receive(void* buffer, const Envelope& envelope, int tag) {
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Irecv(buffer, static_cast<int>(peeked_->length), MPI_BYTE, peeked_->from,
-                    tag(peeked_->type), all_, &request),
+  succeed(MPI_Irecv(buffer, static_cast<int>(envelope.length), MPI_BYTE, envelope.from, tag, all_, &request),
           "MPI_Irecv");
   wait(request);
   // Its sender may be waiting for just that; of a short one it does not.
-  if (peeked_->length >= kLong) bells_->ring(peeked_->from);
+  if (envelope.length >= kLong) bells_->ring(envelope.from);
+}
+
+void MpiBackend::take(void* buffer) {
+  if (opened_ == nullptr) {
+    receive(buffer, *peeked_, tag(peeked_->type));
+  } else {
+    if (peeked_->length > 0) std::memcpy(buffer, opened_->bytes(), peeked_->length);
+    pool_.release(opened_);
+    opened_ = nullptr;
+  }
   peeked_.reset();
   ++taken_;
 }

@@ -47,6 +47,9 @@ class MpiBackend : public Backend {
 
   void look_around();
   MPI_Request isend(int to, int type, const void* data, std::size_t length);
+  Message* with_type(std::int32_t type, const void* data, std::size_t length);
+  Envelope open_wide(const Envelope& whole);
+  void receive(void* buffer, const Envelope& envelope, int tag);
   void reclaim_some();
   bool test(MPI_Request& request);
   bool all_sent();
@@ -63,6 +66,7 @@ class MpiBackend : public Backend {
   int nodes_ = 0;
   int rank_ = 0;      // id of this rank
   int last_tag_ = 0;  // the tags up to it are types; those of internal types come after
+  int wide_tag_ = 0;  // of messages whose type is larger than last_tag_
   bool oversubscribed_ = false;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
   std::uint32_t heard_ = 0;     // rings of our bell before we last looked for anything
@@ -74,6 +78,7 @@ class MpiBackend : public Backend {
   std::vector<MPI_Request> tickets_;  // by ticket
   std::vector<Ticket> free_tickets_;
   std::optional<Envelope> peeked_;
+  Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type
 
   std::vector<std::int64_t> sent_to_;  // messages, by id
   std::int64_t taken_ = 0;             // messages
