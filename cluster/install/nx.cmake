@@ -18,4 +18,36 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FUL
 configure_file(mars-nx.pc.in mars-nx.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mars-nx.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
+# The manual: pages written here, with prototypes as the headers have them; one that tells of several calls is found
+# by the name of each, and of each one's twin.
+find_program(AWK awk REQUIRED)
+get_target_property(nx_calls mars_nx CALLS)
+file(GLOB pages CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/man/nx/*)
+set(filled "")
+foreach(page IN LISTS pages)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
+  cmake_path(GET page FILENAME file)
+  set(result ${CMAKE_CURRENT_BINARY_DIR}/${file}.gz)
+  add_custom_command(OUTPUT ${result}
+    COMMAND ${AWK} -f ${CMAKE_CURRENT_SOURCE_DIR}/man/nx_manual.awk ${nx_headers} ${page} > ${file}
+    COMMAND ${GZIP} -9n < ${file} > ${result}
+    DEPENDS ${nx_headers} ${page} man/nx_manual.awk
+    VERBATIM)
+  list(APPEND filled ${result})
+
+  file(STRINGS ${page} names REGEX "^\\.Nm [a-z]")
+  list(TRANSFORM names REPLACE "^\\.Nm ([a-z0-9_]+).*" "\\1")
+  set(twins ${names})
+  list(TRANSFORM twins PREPEND _)
+  set(also "")
+  foreach(name IN LISTS names twins)
+    if(name IN_LIST nx_calls AND NOT file MATCHES "^${name}\\.")
+      list(APPEND also ${name}.3nx.gz)
+    endif()
+  endforeach()
+  string(REGEX REPLACE ".*\\.([0-9]).*" "\\1" section ${file})
+  install_as(${result} ${CMAKE_INSTALL_MANDIR}/man${section} ${also})
+endforeach()
+add_custom_target(nx_manual ALL DEPENDS ${filled})
+
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME mars)

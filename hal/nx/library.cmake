@@ -4,15 +4,15 @@ foreach(umbrella cube mesh nx)
   list(APPEND nx_headers ${CMAKE_CURRENT_LIST_DIR}/${umbrella}.h)
 endforeach()
 
-set(names "")
+set(nx_calls "")
 foreach(header IN LISTS nx_headers)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
   file(READ ${header} text)
   string(REGEX MATCHALL "\n[a-z][a-z_ *]*[ *][a-z0-9_]+\\(" declarations "${text}")
   list(TRANSFORM declarations REPLACE ".*[ *]([a-z0-9_]+)\\(" "\\1")
-  list(APPEND names ${declarations})
+  list(APPEND nx_calls ${declarations})
 endforeach()
-list(JOIN names "; " names)
+list(JOIN nx_calls "; " names)
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/libmars-nx.map CONTENT "{ global: @names@; local: *; };\n" @ONLY)
 
 # Its parts can be in a shared library, and lose nothing by it.
@@ -31,4 +31,4 @@ set_target_properties(mars_nx PROPERTIES
   LINK_DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/libmars-nx.map)
 target_include_directories(mars_nx INTERFACE
   $<BUILD_INTERFACE:${CMAKE_CURRENT_LIST_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/mars-nx>)
-set_property(TARGET mars_nx PROPERTY HEADERS ${nx_headers})
+set_target_properties(mars_nx PROPERTIES HEADERS "${nx_headers}" CALLS "${nx_calls}")

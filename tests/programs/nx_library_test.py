@@ -1,20 +1,11 @@
 """NX as others get it: the installed headers are C of any age and C++, the library exports what they declare and
 nothing else, and pkg-config and CMake find both wherever they are."""
 
-import pathlib
-import re
-import shutil
-import subprocess
-import tempfile
+from harness import main
+from nx_installation import NxInstallation
 
-import harness
-from harness import ProgramTest, main
-
-BUILD = harness.PROGRAMS.parent
 STRICT = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
 LANGUAGES = [("cc", "c", ["c89", "c99", "c11", "c17"]), ("c++", "cpp", ["c++98", "c++11", "c++14", "c++17", "c++20"])]
-
-DECLARATION = re.compile(r"^(?!typedef)[a-z][a-z_ ]*[ *]+(\w+)\(", re.M)
 
 RANK = """#include <cube.h>
 #include <stdio.h>
@@ -32,28 +23,11 @@ target_link_libraries(rank PRIVATE mars-nx::nx)
 """
 
 
-class Library(ProgramTest):
-    @classmethod
-    def setUpClass(cls):
-        work = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-"))
-        cls.addClassCleanup(shutil.rmtree, work)
-        for part in ["mars-nx", "mars-nx-dev"]:
-            subprocess.run(["cmake", "--install", BUILD, "--component", part, "--prefix", work / "first", "--strip"],
-                           check=True, capture_output=True)
-        cls.prefix = (work / "first").rename(work / "moved")
-        cls.headers = sorted((cls.prefix / "include/mars-nx").iterdir())
-
-    def declared(self):
-        return {name for header in self.headers for name in DECLARATION.findall(header.read_text())}
-
+class Library(NxInstallation):
     def exported(self):
         library = next(self.prefix.rglob("libmars-nx.so"))
         lines = self.succeed("nm", "-D", "--defined-only", library).splitlines()
         return {line.split()[-1] for line in lines}
-
-    def flags(self, *words):
-        folder = next(self.prefix.rglob("mars-nx.pc")).parent
-        return self.succeed("pkg-config", *words, "mars-nx", env=dict(harness.ENVIRONMENT, PKG_CONFIG_PATH=str(folder)))
 
     def test_each_header_alone_in_every_language(self):
         for compiler, ending, standards in LANGUAGES:
@@ -64,18 +38,18 @@ class Library(ProgramTest):
                              "-I", self.headers[0].parent, *sources)
 
     def test_the_umbrellas_declare_everything(self):
-        self.assertGreater(len(self.declared()), 100)
+        self.assertGreater(len(self.prototypes()), 100)
         source = self.write("all.c", "#include <nx.h>\n#include <cube.h>\n#include <mesh.h>\n")
         seen = self.succeed("cc", "-E", "-P", "-I", self.headers[0].parent, source)
-        for name in self.declared():
+        for name in self.prototypes():
             self.assertRegex(seen, rf"\b{name}\(")
 
     def test_exports_nothing_else(self):
-        self.assertEqual(self.exported() - self.declared(), set())
+        self.assertEqual(self.exported() - set(self.prototypes()), set())
 
     def test_pkg_config(self):
         self.write("rank.c", RANK)
-        self.succeed("sh", "-c", f"cc rank.c -o rank {self.flags('--cflags', '--libs')}")
+        self.succeed("cc", "rank.c", "-o", "rank", *self.flags("--cflags", "--libs"))
 
     def test_cmake_package(self):
         self.write("rank.c", RANK)

@@ -1,0 +1,39 @@
+"""What tests of NX for other people's programs share: its components installed below a prefix that was moved, and
+what the installed headers declare."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+
+import harness
+from harness import ProgramTest
+
+DECLARATION = re.compile(r"^(?!typedef)[a-z][a-z_ ]*[ *]+(\w+)\(", re.M)
+
+
+class NxInstallation(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        work = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-"))
+        cls.addClassCleanup(shutil.rmtree, work)
+        for part in ["mars-nx", "mars-nx-dev"]:
+            subprocess.run(["cmake", "--install", harness.PROGRAMS.parent, "--component", part,
+                            "--prefix", work / "first", "--strip"], check=True, capture_output=True)
+        cls.prefix = (work / "first").rename(work / "moved")
+        cls.headers = sorted((cls.prefix / "include/mars-nx").iterdir())
+
+    def prototypes(self):
+        """Name to prototype, without comments and with single blanks, of each declared call."""
+        found = {}
+        for header in self.headers:
+            text = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.S)
+            for match in DECLARATION.finditer(text):
+                found[match[1]] = " ".join(text[match.start():text.index(";", match.end())].split())
+        return found
+
+    def flags(self, *words):
+        folder = next(self.prefix.rglob("mars-nx.pc")).parent
+        environment = dict(harness.ENVIRONMENT, PKG_CONFIG_PATH=str(folder))
+        return self.succeed("pkg-config", *words, "mars-nx", env=environment).split()
