@@ -15,6 +15,7 @@ constexpr std::chrono::microseconds kSleep{10000};
 constexpr std::chrono::microseconds kFlick{1000};
 
 thread_local Process* bound_process = nullptr;
+FindProcess find_process = nullptr;
 
 std::string bytes_text(std::size_t bytes) {
   return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
@@ -26,7 +27,10 @@ std::string rank_name(int rank, int host) {
   return rank == host ? "the host" : "node " + std::to_string(rank);
 }
 
+void find_process_by(FindProcess find) { find_process = find; }
+
 Process& process() {
+  if (bound_process == nullptr && find_process != nullptr) return find_process();
   if (bound_process == nullptr) {
     throw Failure("a message call on a thread that is neither a node nor the host", "",
                   "make NX calls only on the thread that runs a node's or the host's body");

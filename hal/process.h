@@ -123,6 +123,10 @@ class Process {
 // The calling thread's process; a Failure when it has none.
 Process& process();
 
+// Where a thread has none, `find` is asked from now on: for C programs, whose first call makes them a rank.
+using FindProcess = Process& (*)();
+void find_process_by(FindProcess find);
+
 // "node 3" or "the host".
 std::string rank_name(int rank, int host);
 

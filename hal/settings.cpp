@@ -76,6 +76,14 @@ Settings read_settings() {
   return settings;
 }
 
+std::optional<std::string> take_place_text() {
+  const char* text = std::getenv(kPlaceSetting);
+  if (text == nullptr) return std::nullopt;
+  std::string place = text;
+  unsetenv(kPlaceSetting);
+  return place;
+}
+
 TerminalKind terminal_kind() {
   const char* name = std::getenv("TERM");
   const char* colors = std::getenv("COLORTERM");

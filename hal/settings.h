@@ -26,6 +26,11 @@ struct Settings {
 // Throws a Failure that names the variable and what it may be.
 Settings read_settings();
 
+// Takes out of the environment what the process that started this one as a rank wrote there for it (hal/processes/place.h);
+// none: nothing.
+std::optional<std::string> take_place_text();
+inline constexpr const char* kPlaceSetting = "MARS_NX_PLACE";
+
 // What the environment says of the terminal.
 struct TerminalKind {
   std::string name;       // TERM; "": none

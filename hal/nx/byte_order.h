@@ -1,0 +1,21 @@
+// Numbers from one byte order to another: what the calls of nx_byte_order.h are made of.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+namespace mars::hal {
+
+// Of this machine's kind, and so of its host programs and of its nodes.
+inline constexpr std::endian kHostOrder = std::endian::native;
+inline constexpr std::endian kNodeOrder = std::endian::native;
+
+template <class Number>
+void reorder(std::span<Number> numbers, std::endian from, std::endian to) {
+  if (from == to) return;
+  for (Number& number : numbers) std::ranges::reverse(std::as_writable_bytes(std::span(&number, 1)));
+}
+
+}  // namespace mars::hal

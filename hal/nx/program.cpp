@@ -1,0 +1,86 @@
+#include "hal/nx/program.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "hal/failure.h"
+#include "hal/nx/guard.h"
+#include "hal/processes/processes_world.h"
+#include "hal/settings.h"
+
+namespace mars::hal {
+namespace {
+
+struct Program {
+  std::unique_ptr<World> world;
+  std::optional<Process> process;
+  std::thread::id thread;
+  pid_t id = 0;
+};
+
+// Never destroyed: the program's own exit functions may still call.
+Program& program() {
+  static Program* only = new Program;
+  return *only;
+}
+
+[[noreturn]] void end(const std::string& reason) {
+  if (program().world != nullptr) program().world->fail(reason);
+  std::fprintf(stderr, "%s\n", reason.c_str());
+  std::fflush(nullptr);
+  std::_Exit(1);
+}
+
+// The last of the program's exit functions, in the process itself and not in one that it forked.
+void leave(int code, void*) try {
+  if (program().world == nullptr || program().id != getpid()) return;
+  std::fflush(nullptr);
+  program().world->leave(code);
+} catch (const std::exception& failure) {
+  end(reason_of(failure));
+}
+
+std::unique_ptr<World> connect() {
+  if (const std::optional<Place> place = take_place()) return std::make_unique<ProcessesWorld>(*place);
+  return std::make_unique<ProcessesWorld>();
+}
+
+Process& find_process() {
+  world();
+  if (!program().process) renew_process();
+  return *program().process;
+}
+
+// Before main, so that it is the last that exit calls.
+[[gnu::constructor]] void prepare() {
+  find_process_by(find_process);
+  end_program_on_failure(end);
+  on_exit(leave, nullptr);
+}
+
+}  // namespace
+
+World& world() {
+  Program& program = hal::program();
+  if (program.world == nullptr) {
+    program.thread = std::this_thread::get_id();
+    program.id = getpid();
+    program.world = connect();
+  }
+  if (program.thread != std::this_thread::get_id() || program.id != getpid())
+    throw Failure("an NX call on another thread or in another process than the first", "",
+                  "make all NX calls of a program on one thread of it");
+  return *program.world;
+}
+
+void renew_process() {
+  program().process.reset();
+  program().process.emplace(world().backend());
+}
+
+}  // namespace mars::hal

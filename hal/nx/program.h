@@ -1,0 +1,16 @@
+// What makes a C program with a main function of its own, which knows nothing of jobs, a rank of one: its first
+// NX call, or its end, connects it, and exit() takes it out in order. Linked into libmars-nx only.
+#pragma once
+
+#include "hal/nx/world.h"
+#include "hal/process.h"
+
+namespace mars::hal {
+
+// The calling program's job; connects it. A Failure on any thread but the first that called.
+World& world();
+
+// Makes the program's process anew, after the cube's size has changed.
+void renew_process();
+
+}  // namespace mars::hal

@@ -1,0 +1,33 @@
+// What a process of a job over shared memory is told by the one that started it, and what its host may ask.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace mars::hal {
+
+struct Place {
+  int index = 0;     // of its slot
+  int segment = -1;  // descriptors that it inherits: of the segment,
+  int socket = -1;   // and of the socket to the job; -1: not the host
+};
+
+// For the environment of a process that is about to become another program.
+void leave_place(const Place& place);
+// Taken from there, by that program. None: nobody started it as a rank.
+std::optional<Place> take_place();
+
+// One datagram from host to job, answered by one int: 0 or an errno.
+struct Asking {
+  enum class What : std::int32_t {
+    begin,  // start every node that has not been loaded, as the job was told to
+    load,   // start `file` on `node`
+    kill,   // end the process on `node`, -1: on all, and wait until it has gone
+  };
+  What what;
+  std::int32_t node;
+  char file[4096];
+};
+
+}  // namespace mars::hal

@@ -1,0 +1,50 @@
+// Ranks as processes of one machine, over memory that they share (segment.h). A message is copied into a
+// block of its sender, pushed to the receiver, copied out and given back; who waits sleeps until it is waked, so a
+// long wait costs nothing. A rank that dies takes no other with it: whoever sees it die stops the segment, and
+// every rank's next call throws the reason.
+#pragma once
+
+#include "hal/backend.h"
+#include "hal/processes/heap.h"
+#include "hal/processes/segment.h"
+
+namespace mars::hal {
+
+class ProcessesBackend : public Backend {
+ public:
+  // The rank whose slot is the `index`-th; `segment` outlives it. One a slot and time.
+  ProcessesBackend(const Segment& segment, int index);
+
+  int rank() const override { return id(index_); }
+  int nodes() const override { return segment_.header().cube; }
+  void send(int to, int type, const void* data, std::size_t length) override;
+  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(Ticket) override { return true; }
+  std::optional<Envelope> peek() override;
+  void take(void* buffer) override;
+  void idle(int turn, std::chrono::microseconds longest) override;
+  Neighbourhood neighbourhood() override;
+  std::shared_ptr<std::byte> share(std::size_t bytes) override;
+  bool finish() override;
+  [[noreturn]] void abort(const std::string& reason) override;
+
+ private:
+  // The host's id follows the nodes of the cube; its slot follows all nodes of the machine.
+  int id(int index) const { return index == segment_.nodes() ? nodes() : index; }
+  int index(int id) const { return id == nodes() ? segment_.nodes() : id; }
+
+  void check_running() const;
+  void look_for(std::chrono::nanoseconds time);
+  void release(int share, Offset begin, std::size_t bytes);
+
+  const Segment& segment_;
+  const int index_;
+  Slot& slot_;
+  Heap heap_;
+  const bool oversubscribed_;
+  Offset next_shared_;
+  int shares_ = 0;  // so far
+  bool finishing_ = false;
+};
+
+}  // namespace mars::hal

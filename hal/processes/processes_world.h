@@ -1,0 +1,43 @@
+// A C program's job of processes over shared memory, which another process started (job.h); or of one node, this one.
+#pragma once
+
+#include <memory>
+
+#include "hal/nx/world.h"
+#include "hal/processes/place.h"
+#include "hal/processes/processes_backend.h"
+#include "hal/processes/segment.h"
+
+namespace mars::hal {
+
+class ProcessesWorld : public World {
+ public:
+  explicit ProcessesWorld(const Place& place);
+  // One node alone.
+  ProcessesWorld();
+
+  Backend& backend() override { return *backend_; }
+  void leave(int code) override;
+  [[noreturn]] void fail(const std::string& reason) override;
+
+  int all_nodes() const override { return segment_.nodes(); }
+  void resize(int nodes) override;
+  void load(const std::string& file, int node) override;
+  void kill(int node) override;
+  Status status(int node) override;
+  void wait_for_end() override;
+
+  // Has the job start what the command line named for the nodes, unless the host has loaded something.
+  void begin();
+
+ private:
+  int ask(Asking::What what, int node, const std::string& file);
+
+  Segment segment_;
+  const Place place_;
+  Slot& slot_;
+  std::unique_ptr<ProcessesBackend> backend_;
+  bool begun_ = false;
+};
+
+}  // namespace mars::hal
