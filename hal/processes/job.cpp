@@ -64,10 +64,8 @@ Job::~Job() {
 }
 
 int Job::run() {
-  if (plan_.host)
-    start(segment_.nodes(), "");
-  else
-    start_all();
+  if (plan_.host) start(segment_.nodes(), "");
+  if (plan_.at_once) start_all();
   while (running(0, segment_.slots())) {
     std::array<pollfd, 2> ready{{{signals_, POLLIN, 0}, {ours_, POLLIN, 0}}};
     poll(ready.data(), ready.size(), static_cast<int>(kTick.count()));

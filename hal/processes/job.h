@@ -21,6 +21,7 @@ namespace mars::hal {
 struct JobPlan {
   int nodes = 1;
   bool host = false;
+  bool at_once = true;      // the nodes begin with the host, not when it asks for them
   std::uint64_t limit = 0;  // bytes that messages under way may take
   // What a rank is, called in its process; returns its exit code if it returns at all. `file` is what the host
   // asked to be loaded, "" where it did not ask.
@@ -36,8 +37,8 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  // Runs it: the nodes at once where there is no host, else when the host asks for them, or has ended. Returns the
-  // worst exit code: 128 and the signal of one that died, or of the one that ended us.
+  // Runs it. Nodes that do not begin at once do when the host asks, or has ended. Returns the worst exit code: 128
+  // and the signal of one that died, or of the one that ended us.
   int run();
 
  private:

@@ -1,0 +1,54 @@
+#include "hal/processes/run_processes.h"
+
+#include <cstdio>
+
+#include "hal/failure.h"
+#include "hal/process.h"
+#include "hal/processes/job.h"
+#include "hal/processes/processes_backend.h"
+
+namespace mars::hal {
+namespace {
+
+void tell(const std::string& line) {
+  std::fprintf(stderr, "mars: %s\n", line.c_str());
+  std::fflush(stderr);
+}
+
+// One rank's whole life.
+int run_rank(const Place& place, const std::function<int()>& body) {
+  const Segment segment(place.segment);
+  Slot& slot = segment.slot(place.index);
+  slot.life = Life::joined;
+  try {
+    ProcessesBackend backend(segment, place.index);
+    Process process(backend);
+    const int code = body();
+    process.finish();
+    slot.life = Life::ended;
+    return code;
+  } catch (const std::exception& failure) {
+    const std::string reason = reason_of(failure);
+    if (!segment.stopped()) tell(reason);
+    segment.stop(reason);
+    slot.life = Life::ended;
+    return 1;
+  }
+}
+
+}  // namespace
+
+int run_processes(int nodes, const std::function<int()>& host_body, const std::function<int()>& node_body,
+                  std::uint64_t limit) {
+  JobPlan plan;
+  plan.nodes = nodes;
+  plan.host = true;
+  plan.limit = limit;
+  plan.become = [&](const Place& place, const std::string&) {
+    return run_rank(place, place.index == nodes ? host_body : node_body);
+  };
+  plan.tell = tell;
+  return Job(plan).run();
+}
+
+}  // namespace mars::hal
