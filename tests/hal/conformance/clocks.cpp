@@ -30,6 +30,17 @@ RULE(clocks_go_on, "dclock counts seconds and mclock milliseconds", "neither sta
   expect(mclock() - milliseconds >= 19, "mclock went on");
 }
 
+RULE(hwclock_is_dclock, "hwclock counts nanoseconds in two parts of 32 bits, of the same time as dclock",
+     "it is not before or after it") {
+  const double before = dclock();
+  esize_t ticks = {-1, -1};
+  hwclock(&ticks);
+  const double after = dclock();
+  expect(ticks.slow >= 0 && ticks.slow <= 0xffffffffL, "the lower part is 32 bits");
+  const double now = (static_cast<double>(ticks.shigh) * 4294967296.0 + static_cast<double>(ticks.slow)) * 1e-9;
+  expect(now >= before - 1e-6 && now <= after + 1e-6, "it is the time of dclock");
+}
+
 RULE(waiting_costs_little, "a rank that waits for a message leaves the processor to others",
      "half a second of waiting takes less than 0.15 s of it") {
   const double before = processor_seconds();

@@ -36,8 +36,17 @@ void expect_equal(const Got& got, const Wanted& wanted, const Place& at = Place:
 
 void expect_in(const std::string& text, const std::vector<std::string>& parts, const Place& at = Place::current());
 
-// `call` fails, telling all of `parts`.
-void expect_fails(const std::function<void()>& call, const std::vector<std::string>& parts,
+// `call` throws a CallFailure of `code`, one of nx_errno.h, that tells the rank and all of `parts`.
+void expect_fails(int code, const std::function<void()>& call, const std::vector<std::string>& parts,
                   const Place& at = Place::current());
+
+// `twin` returns -1 and sets errno to `code`.
+void expect_errno(int code, const std::function<long()>& twin, const Place& at = Place::current());
+
+// Both of an NX call: REFUSED(EQNODE, csend, (1, &x, 8, -2, 0), "no node -2"). They are called in this order, and the
+// plain one names itself.
+#define REFUSED(code, call, arguments, ...)                        \
+  expect_fails(code, [&] { call arguments; }, {#call, __VA_ARGS__}); \
+  expect_errno(code, [&] { return _##call arguments; })
 
 }  // namespace mars::hal::conformance

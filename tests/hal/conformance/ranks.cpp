@@ -1,4 +1,6 @@
-// The host among the ranks.
+// Who is who: ids of nodes, the host among the ranks, neighbours in the cube.
+#include <set>
+
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/conformance/expect.h"
@@ -40,15 +42,30 @@ RULE(the_host_talks_with_every_node, "the host and each node send to each other 
   for (long node = 0; node < numnodes(); ++node) expect_equal(receive_long(20 + node), 2000 + 2 * node);
 }
 
-RULE(the_host_takes_no_part, "global operations are the nodes'", "the host's call of one fails") {
+RULE(gray_codes, "gray(n) and gray(n + 1) are neighbours in the cube, and ginv is the inverse of gray",
+     "no two n have one code; the last and the first of 2^d are neighbours too") {
+  for (const long size : {2L, 8L, 32L, 1024L}) {
+    std::set<long> codes;
+    for (long n = 0; n < size; ++n) {
+      expect_equal(ginv(gray(n)), n);
+      expect(gray(n) >= 0 && gray(n) < size, "the code is a node of the cube");
+      codes.insert(gray(n));
+      const long change = gray(n) ^ gray((n + 1) % size);
+      expect(change != 0 && (change & (change - 1)) == 0, "one bit changes");
+    }
+    expect_equal(codes.size(), size);
+  }
+}
+
+RULE(the_host_takes_no_part, "global operations are the nodes'", "the host's call of one is EQNODE") {
   if (!is_host()) {
     gsync();
     return;
   }
   double x = 0, work = 0;
-  expect_fails([] { gsync(); }, {"the host", "gsync", "no part"});
-  expect_fails([&] { gdsum(&x, 1, &work); }, {"the host", "gdsum", "no part"});
-  expect_fails([&] { gcol(&x, 8, &x, 8, nullptr); }, {"the host", "gcol", "no part"});
+  expect_fails(EQNODE, [] { gsync(); }, {"gsync", "no part"});
+  expect_fails(EQNODE, [&] { gdsum(&x, 1, &work); }, {"gdsum", "no part"});
+  expect_fails(EQNODE, [&] { gcol(&x, 8, &x, 8, nullptr); }, {"gcol", "no part"});
 }
 
 }  // namespace
