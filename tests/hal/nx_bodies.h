@@ -14,7 +14,6 @@ struct NxBody {
 
 inline std::ostream& operator<<(std::ostream& out, const NxBody& body) { return out << body.name; }
 
-std::vector<NxBody> nx_bodies();
 std::vector<NxBody> messages_bodies();
 
 // Returns when all ranks have called it.

@@ -17,7 +17,6 @@ TEST_P(NxMpi, Holds) {
 
 constexpr auto name_of = [](const auto& info) { return std::string(info.param.name); };
 
-INSTANTIATE_TEST_SUITE_P(All, NxMpi, testing::ValuesIn(nx_bodies()), name_of);
 INSTANTIATE_TEST_SUITE_P(Messages, NxMpi, testing::ValuesIn(messages_bodies()), name_of);
 
 }  // namespace

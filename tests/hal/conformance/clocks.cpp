@@ -1,0 +1,65 @@
+// Clocks, and what waiting costs.
+#include <sys/resource.h>
+
+#include <chrono>
+#include <thread>
+
+#include "hal/nx/nx_messages.h"
+#include "tests/hal/conformance/expect.h"
+#include "tests/hal/conformance/rules.h"
+#include "tests/hal/conformance/talk.h"
+
+namespace mars::hal::conformance {
+namespace {
+
+// Of the calling thread.
+double processor_seconds() {
+  rusage usage = {};
+  getrusage(RUSAGE_THREAD, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+RULE(clocks_go_on, "dclock counts seconds and mclock milliseconds", "neither stands still while a process sleeps") {
+  const double seconds = dclock();
+  const unsigned long milliseconds = mclock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  expect(dclock() - seconds >= 0.019, "dclock went on");
+  expect(mclock() - milliseconds >= 19, "mclock went on");
+}
+
+RULE(hwclock_is_dclock, "hwclock counts nanoseconds in two parts of 32 bits, of the same time as dclock",
+     "it is not before or after it") {
+  const double before = dclock();
+  esize_t ticks = {-1, -1};
+  hwclock(&ticks);
+  const double after = dclock();
+  expect(ticks.slow >= 0 && ticks.slow <= 0xffffffffL, "the lower part is 32 bits");
+  const double now = (static_cast<double>(ticks.shigh) * 4294967296.0 + static_cast<double>(ticks.slow)) * 1e-9;
+  expect(now >= before - 1e-6 && now <= after + 1e-6, "it is the time of dclock");
+}
+
+RULE(waiting_costs_little, "a rank that waits for a message leaves the processor to others",
+     "half a second of waiting takes less than 0.15 s of it") {
+  const double before = processor_seconds();
+  if (mynode() == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    send_empty(95, myhost());
+    send_empty(95, -1);
+  } else {
+    receive_empty(95);
+    expect(processor_seconds() - before < 0.15, "waiting took less than 0.15 s");
+  }
+}
+
+RULE(flick_gives_time_away, "flick gives the processor away", "a loop of it does not keep a processor busy") {
+  const double before = processor_seconds();
+  const double end = dclock() + 0.3;
+  while (dclock() < end) flick();
+  expect(processor_seconds() - before < 0.1, "0.3 s of flick took less than 0.1 s");
+}
+
+}  // namespace
+}  // namespace mars::hal::conformance

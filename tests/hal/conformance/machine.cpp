@@ -1,0 +1,95 @@
+// What MARS's hal has beside NX: sums in parts of the machine, memory of a machine's nodes, counts of traffic.
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "hal/cube.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
+#include "hal/process.h"
+#include "hal/shared_memory.h"
+#include "tests/hal/conformance/expect.h"
+#include "tests/hal/conformance/rules.h"
+#include "tests/hal/conformance/talk.h"
+
+namespace mars::hal::conformance {
+namespace {
+
+// The order that hal/cube.h promises for sums, done by one.
+double sum_in_order(std::vector<double> values) {
+  const std::size_t corners = std::bit_floor(values.size());
+  for (std::size_t i = corners; i < values.size(); ++i) values[i - corners] += values[i];
+  for (std::size_t step = 1; step < corners; step <<= 1) {
+    for (std::size_t i = 0; i < corners; i += 2 * step) values[i] += values[i + step];
+  }
+  return values[0];
+}
+
+double awkward(long node) { return 1.0 / (3 + static_cast<double>(node)) + 1e10 * static_cast<double>(node % 3); }
+
+void sum_in(const Cube& cube) {
+  if (mynode() < cube.first || mynode() >= cube.first + cube.count) return;
+  std::vector<double> x = {awkward(mynode()), -awkward(mynode())};
+  std::vector<double> high = x;
+  std::vector<double> work(2), all;
+  for (int node = cube.first; node < cube.first + cube.count; ++node) all.push_back(awkward(node));
+  cube_sum(cube, x, work);
+  cube_high(cube, high, work);
+  expect_equal(x[0], sum_in_order(all));
+  expect_equal(x[1], -sum_in_order(all));
+  expect_equal(high[0], *std::max_element(all.begin(), all.end()));
+  expect_equal(high[1], -*std::min_element(all.begin(), all.end()));
+}
+
+RULE(parts_of_the_machine_sum, "cube_sum and cube_high work in any run of nodes, in the order that cube.h promises",
+     "another order would give other bits") {
+  if (is_host()) return;
+  const int nodes = static_cast<int>(numnodes());
+  const int step = std::max(1, nodes / 8);
+  for (int first = 0; first < nodes; first += step)
+    for (int count = 1; first + count <= nodes; count += step) sum_in({first, count});
+  sum_in({0, nodes});
+}
+
+RULE(a_machine_shares_memory, "the nodes of a machine see one block of memory, aligned to 64",
+     "none has a block of its own") {
+  if (is_host()) return;
+  const Neighbourhood here = neighbourhood();
+  expect_equal(here.count, numnodes());  // these tests run on one machine
+  expect_equal(here.machine, 0);
+  expect_equal(here.index, mynode());
+  for (const std::size_t size : {0, 1, 1000, 3'000'000}) {
+    const SharedMemory memory(size);
+    expect_equal(memory.bytes().size(), size);
+    expect_equal(reinterpret_cast<std::uintptr_t>(memory.bytes().data()) % 64, 0);
+    const auto wanted = [](std::size_t i) { return static_cast<std::byte>(i % 251); };
+    for (std::size_t i = here.index; i < size; i += here.count) memory.bytes()[i] = wanted(i);
+    gsync();
+    const std::size_t step = here.count > 8 ? 97 : 1;
+    for (std::size_t i = 0; i < size; i += step) expect(memory.bytes()[i] == wanted(i), "every node's bytes are seen");
+    gsync();
+  }
+}
+
+RULE(traffic_is_counted, "traffic() counts messages and bytes to nodes and to the host", "receives do not count") {
+  const Traffic before = traffic();
+  char bytes[100] = "";
+  if (mynode() == 0) {
+    csend(90, bytes, 100, -1, 0);
+    csend(90, bytes, 7, myhost(), 0);
+    msgwait(isend(90, bytes, 3, myhost(), 0));
+    const auto nodes = static_cast<std::uint64_t>(numnodes() - 1);
+    expect_equal(traffic().to_nodes.messages - before.to_nodes.messages, nodes);
+    expect_equal(traffic().to_nodes.bytes - before.to_nodes.bytes, 100 * nodes);
+    expect_equal(traffic().to_host.messages - before.to_host.messages, 2);
+    expect_equal(traffic().to_host.bytes - before.to_host.bytes, 10);
+    return;
+  }
+  crecv(90, bytes, 100);
+  if (is_host()) crecv(90, bytes, 100);
+  expect_equal(traffic().to_nodes.bytes, before.to_nodes.bytes);
+}
+
+}  // namespace
+}  // namespace mars::hal::conformance
