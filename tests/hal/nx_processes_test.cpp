@@ -29,7 +29,6 @@ constexpr auto name_of = [](const auto& info) {
 };
 const auto some_nodes = testing::Values(1, 2, 3, 4, 7, 8, 16, 32);
 
-INSTANTIATE_TEST_SUITE_P(All, NxProcesses, testing::Combine(testing::ValuesIn(nx_bodies()), some_nodes), name_of);
 INSTANTIATE_TEST_SUITE_P(Messages, NxProcesses, testing::Combine(testing::ValuesIn(messages_bodies()), some_nodes),
                          name_of);
 
