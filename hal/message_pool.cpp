@@ -26,6 +26,14 @@ void MessageList::push(Message* message) {
   last_ = message;
 }
 
+void MessageList::insert(Message* message) {
+  if (last_ == nullptr || last_->arrival < message->arrival) return push(message);
+  Message** link = &first_;
+  while ((*link)->arrival < message->arrival) link = &(*link)->next;
+  message->next = *link;
+  *link = message;
+}
+
 Message* MessageList::pop() {
   Message* message = first_;
   first_ = message->next;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct alignas(64) Message {
   Message* next = nullptr;  // in the list it is in
   Envelope envelope;
   int size_class = 0;
+  std::uint32_t number = 0;   // among all from its sender, where a receiver keeps it
+  std::uint64_t arrival = 0;  // among all of the receiver's
 
   std::byte* bytes() { return reinterpret_cast<std::byte*>(this + 1); }
 };
@@ -27,15 +30,17 @@ class MessageList {
   bool empty() const { return first_ == nullptr; }
   Message* front() const { return first_; }
   void push(Message* message);
+  // Where its arrival belongs, in a list that is in order of arrival.
+  void insert(Message* message);
   Message* pop();
   // Takes all of `other`'s.
   void append(MessageList& other);
 
-  // The first whose type is `selected`, or nullptr.
+  // The first whose envelope is `selected`, or nullptr.
   template <class Selected>
   Message* find(Selected selected) const {
     for (Message* at = first_; at != nullptr; at = at->next) {
-      if (selected(at->envelope.type)) return at;
+      if (selected(at->envelope)) return at;
     }
     return nullptr;
   }

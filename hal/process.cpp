@@ -1,25 +1,18 @@
 #include "hal/process.h"
 
-#include <cstring>
 #include <utility>
 
 #include "hal/call_failure.h"
-#include "hal/message_types.h"
-#include "hal/nx/nx_messages.h"
+#include "hal/nx/nx_errno.h"
 
 namespace mars::hal {
 namespace {
 
-// At a time: for a message, which wakes; and for what else there may be to look at.
-constexpr std::chrono::microseconds kSleep{10000};
+// At a time, for what else there may be to look at than messages, which wake.
 constexpr std::chrono::microseconds kFlick{1000};
 
 thread_local Process* bound_process = nullptr;
 FindProcess find_process = nullptr;
-
-std::string bytes_text(std::size_t bytes) {
-  return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
-}
 
 }  // namespace
 
@@ -41,9 +34,9 @@ Process& process() {
 const Traffic& traffic() { return process().traffic(); }
 
 Process::Process(Backend& backend)
-    : backend_(backend), numbers_(static_cast<std::size_t>(backend.nodes()) + 1) {
+    : backend_(backend), acknowledgement_(kFirstInternalType + backend.nodes()), ledger_(backend.host()) {
   check(bound_process == nullptr, "a thread is at most one process");
-  check(backend.nodes() <= kInternalTypes, "every node has an internal type");
+  check(backend.nodes() < kInternalTypes, "every node has an internal type, and one is left");
   bound_process = this;
 }
 
@@ -53,108 +46,11 @@ void Process::fail(const char* call, int code, const std::string& what, const st
   throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
 }
 
-std::size_t Process::check_buffer(const char* call, const void* buffer, long length) const {
-  if (length < 0) {
-    fail(call, EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+Request& Process::checked(const char* call, Request* request) const {
+  if (request == nullptr) {
+    fail(call, EQNOMID, "all " + std::to_string(kMessageIds) + " message ids are in use",
+         "free them by msgwait, or msgdone until it is 1");
   }
-  if (buffer == nullptr && length > 0) {
-    fail(call, EQPBUF, "the buffer of " + bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
-         "give a buffer, or length 0");
-  }
-  return static_cast<std::size_t>(length);
-}
-
-Process::Receivers Process::check_send(const char* call, long type, const void* buffer, long length, long node,
-                                       long pid) const {
-  if (type_class(type) == TypeClass::reserved) {
-    fail(call, EQTYPE, "message type " + std::to_string(type) + " is reserved",
-         "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
-  }
-  check_buffer(call, buffer, length);
-  if (pid != 0 && pid != -1) {
-    fail(call, EQPID, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
-  }
-  if (node == -1) return {0, backend_.nodes(), true};
-  if (node < 0 || node > backend_.host()) {
-    fail(call, EQNODE, "there is no node " + std::to_string(node),
-         "nodes are 0 to " + std::to_string(backend_.nodes() - 1) +
-             ", the host is myhost(), -1 is all others");
-  }
-  return {static_cast<int>(node), static_cast<int>(node) + 1, false};
-}
-
-std::int32_t Process::check_typesel(const char* call, long typesel) const {
-  const std::int32_t narrow = narrow_typesel(typesel);
-  if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) {
-    fail(call, EQTYPE, "typesel " + std::to_string(narrow) + " is a reserved type",
-         "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
-  }
-  return narrow;
-}
-
-void Process::check_fits(const Request& request, const Envelope& envelope) const {
-  if (envelope.length <= request.capacity) return;
-  fail(request.call, EQMSGLONG,
-       "a message of " + bytes_text(envelope.length) + ", type " + std::to_string(envelope.type) + ", from " +
-           rank_name(envelope.from, backend_.host()) + " does not fit a receive of " +
-           bytes_text(request.capacity),
-       "receive into a longer buffer, or cprobe first and ask infocount");
-}
-
-double Process::recorded_time() const { return recorder_ == nullptr ? 0 : dclock(); }
-
-void Process::note_sent(int to, int type, std::size_t length, double begin) {
-  Traffic::Count& sent = to == backend_.host() ? traffic_.to_host : traffic_.to_nodes;
-  ++sent.messages;
-  sent.bytes += length;
-  const std::uint32_t number = numbers_[static_cast<std::size_t>(to)].sent++;
-  if (recorder_ != nullptr) recorder_->message(Event::Kind::sent, begin, {to, type, length}, number);
-}
-
-void Process::send(const Receivers& receivers, int type, const void* data, std::size_t length) {
-  for (int to = receivers.first; to < receivers.last; ++to) {
-    if (receivers.several && to == backend_.rank()) continue;
-    const double begin = recorded_time();
-    backend_.send(to, type, data, length);
-    note_sent(to, type, length, begin);
-  }
-}
-
-void Process::csend(long type, const void* buffer, long length, long node, long pid) {
-  const Receivers receivers = check_send("csend", type, buffer, length, node, pid);
-  send(receivers, static_cast<int>(type), buffer, static_cast<std::size_t>(length));
-}
-
-long Process::isend(long type, const void* buffer, long length, long node, long pid) {
-  const Receivers receivers = check_send("isend", type, buffer, length, node, pid);
-  const auto bytes = static_cast<std::size_t>(length);
-  Request& request = new_request("isend");
-  if (receivers.several) {
-    send(receivers, static_cast<int>(type), buffer, bytes);
-    request.state = Request::State::sent;
-  } else {
-    const double begin = recorded_time();
-    request.ticket = backend_.start_send(receivers.first, static_cast<int>(type), buffer, bytes);
-    note_sent(receivers.first, static_cast<int>(type), bytes, begin);
-    request.state = Request::State::sending;
-  }
-  return request.mid();
-}
-
-void Process::crecv(long typesel, void* buffer, long length) {
-  const std::int32_t narrow = check_typesel("crecv", typesel);
-  wait(receive("crecv", narrow, buffer, check_buffer("crecv", buffer, length)));
-}
-
-long Process::irecv(long typesel, void* buffer, long length) {
-  const std::int32_t narrow = check_typesel("irecv", typesel);
-  return receive("irecv", narrow, buffer, check_buffer("irecv", buffer, length)).mid();
-}
-
-Request& Process::new_request(const char* call) {
-  Request* request = requests_.acquire(call);
-  if (request == nullptr)
-    fail(call, EQNOMID, "all message ids are in use", "free them by msgwait, or msgdone until it is 1");
   return *request;
 }
 
@@ -162,68 +58,107 @@ Request& Process::known_request(const char* call, long mid) {
   Request* request = requests_.find(mid);
   if (request == nullptr) {
     fail(call, EQMID, "there is no message id " + std::to_string(mid),
-         "an id is free after its msgwait, or its msgdone that was 1");
+         "an id is free after its msgwait, its msgcancel, or its msgdone that was 1");
   }
   return *request;
 }
 
-// Starts a receive: done at once if its message is here already.
-Request& Process::receive(const char* call, std::int32_t typesel, void* buffer, std::size_t length) {
-  Request& request = new_request(call);
-  request.state = Request::State::receiving;
-  request.typesel = typesel;
-  request.buffer = buffer;
-  request.capacity = length;
-  Message* message = unexpected_.find([typesel](int type) { return selects(typesel, type); });
-  if (message == nullptr) {
-    requests_.post(request);
-    return request;
+void Process::csend(long type, const void* buffer, long length, long node, long pid) {
+  const Outgoing message = check_send(*this, "csend", type, buffer, length, node, pid);
+  attend();
+  send_now("csend", message);
+}
+
+void Process::crecv(long typesel, void* buffer, long length) {
+  const Selection selection = check_selection(*this, "crecv", typesel, -1, -1);
+  receive_now("crecv", selection, check_room(*this, "crecv", buffer, length), nullptr);
+}
+
+void Process::crecvx(long typesel, void* buffer, long length, long node, long pid, long* info) {
+  const Selection selection = check_selection(*this, "crecvx", typesel, node, pid);
+  receive_now("crecvx", selection, check_room(*this, "crecvx", buffer, length), info);
+}
+
+// The answer's receive is there first, so that nothing has been sent if it fails.
+long Process::csendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                        long in_length) {
+  const Outgoing message = check_send(*this, "csendrecv", type, out, out_length, node, pid);
+  const Selection selection = check_selection(*this, "csendrecv", typesel, -1, -1);
+  const Room room = check_room(*this, "csendrecv", in, in_length);
+  attend();
+  Request& answer = checked("csendrecv", requests_.acquire("csendrecv"));
+  start_receive(selection, room, answer);
+  try {
+    send_now("csendrecv", message);
+  } catch (...) {
+    cancel(answer);
+    throw;
   }
-  if (message->envelope.length > length) requests_.release(request);
-  check_fits(request, message->envelope);
-  unexpected_.remove(message);
-  if (message->envelope.length > 0) std::memcpy(buffer, message->bytes(), message->envelope.length);
-  request.envelope = message->envelope;
-  request.state = Request::State::received;
-  pool_.release(message);
-  return request;
+  wait_or_cancel(answer);
+  return static_cast<long>(info_.length);
 }
 
-bool Process::done(Request& request) {
-  if (request.state == Request::State::sending && backend_.sent(request.ticket)) {
-    request.state = Request::State::sent;
+long Process::isend(long type, const void* buffer, long length, long node, long pid) {
+  const Outgoing message = check_send(*this, "isend", type, buffer, length, node, pid);
+  attend();
+  Request& request = checked("isend", requests_.acquire_id("isend"));
+  start_send(message, request);
+  return request.mid();
+}
+
+long Process::irecv(long typesel, void* buffer, long length) {
+  const Selection selection = check_selection(*this, "irecv", typesel, -1, -1);
+  const Room room = check_room(*this, "irecv", buffer, length);
+  attend();
+  Request& request = checked("irecv", requests_.acquire_id("irecv"));
+  start_receive(selection, room, request);
+  return request.mid();
+}
+
+long Process::irecvx(long typesel, void* buffer, long length, long node, long pid, long* info) {
+  const Selection selection = check_selection(*this, "irecvx", typesel, node, pid);
+  const Room room = check_room(*this, "irecvx", buffer, length);
+  attend();
+  Request& request = checked("irecvx", requests_.acquire_id("irecvx"));
+  request.info = info;
+  start_receive(selection, room, request);
+  return request.mid();
+}
+
+// One request for both, done when both are.
+Request& Process::start_exchange(const char* call, const Outgoing& message, const Selection& selection,
+                                 const Room& room, Request& answer) {
+  start_receive(selection, room, answer);
+  try {
+    Request& sending = checked(call, requests_.acquire(call));
+    start_send(message, sending);
+    answer.also = &sending;
+  } catch (...) {
+    cancel(answer);
+    throw;
   }
-  return request.state == Request::State::sent || request.state == Request::State::received;
+  return answer;
 }
 
-void Process::conclude(Request& request) {
-  if (request.state == Request::State::received) info_ = request.envelope;
-  requests_.release(request);
+long Process::isendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                        long in_length) {
+  const Outgoing message = check_send(*this, "isendrecv", type, out, out_length, node, pid);
+  const Selection selection = check_selection(*this, "isendrecv", typesel, -1, -1);
+  const Room room = check_room(*this, "isendrecv", in, in_length);
+  attend();
+  Request& answer = checked("isendrecv", requests_.acquire_id("isendrecv"));
+  return start_exchange("isendrecv", message, selection, room, answer).mid();
 }
 
-void Process::wait(Request& request) {
-  const double begin = recorded_time();
-  bool idle = false;
-  for (int turn = 0; !done(request);) {
-    if (arrive()) {
-      turn = 0;
-    } else {
-      idle = true;
-      backend_.idle(turn++, kSleep);
-    }
-  }
-  if (idle) note_wait(request.state == Request::State::received ? request.envelope : Envelope{-1, -1, 0}, begin);
-  conclude(request);
+void Process::msgwait(long mid) {
+  Request& request = known_request("msgwait", mid);
+  attend();
+  wait(request);
 }
-
-void Process::note_wait(const Envelope& came, double begin) {
-  if (recorder_ != nullptr) recorder_->message(Event::Kind::waited, begin, came, 0);
-}
-
-void Process::msgwait(long mid) { wait(known_request("msgwait", mid)); }
 
 bool Process::msgdone(long mid) {
   Request& request = known_request("msgdone", mid);
+  attend();
   while (!done(request) && arrive()) {
   }
   if (!done(request)) return false;
@@ -231,93 +166,111 @@ bool Process::msgdone(long mid) {
   return true;
 }
 
-void Process::cprobe(long typesel) {
-  const std::int32_t narrow = check_typesel("cprobe", typesel);
-  const double begin = recorded_time();
-  int turn = 0;
-  for (; !look(narrow); ++turn) backend_.idle(turn, kSleep);
-  if (turn > 0) note_wait(info_, begin);
+void Process::msgcancel(long mid) {
+  Request& request = known_request("msgcancel", mid);
+  attend();
+  cancel(request);
 }
 
-bool Process::iprobe(long typesel) { return look(check_typesel("iprobe", typesel)); }
+long Process::msgmerge(long mid1, long mid2) {
+  if (mid1 == -1 || mid2 == -1) return mid1 == -1 ? mid2 : mid1;
+  Request* last = &known_request("msgmerge", mid1);
+  Request& second = known_request("msgmerge", mid2);
+  if (last == &second) fail("msgmerge", EQMID, "both message ids are " + std::to_string(mid1), "give two");
+  while (last->also != nullptr) last = last->also;
+  last->also = &second;
+  requests_.forget_id(second);
+  return mid1;
+}
 
-// Leaves a message that it finds in the backend, so that the receive after a probe takes it from there.
-bool Process::look(std::int32_t typesel) {
-  if (const Message* message = unexpected_.find([typesel](int type) { return selects(typesel, type); })) {
-    info_ = message->envelope;
-    return true;
+void Process::msgignore(long mid) {
+  Request& request = known_request("msgignore", mid);
+  requests_.forget_id(request);
+  handlers_.add(request);
+  attend();
+}
+
+void Process::cprobe(long typesel) { probe("cprobe", check_selection(*this, "cprobe", typesel, -1, -1), nullptr); }
+
+void Process::cprobex(long typesel, long node, long pid, long* info) {
+  probe("cprobex", check_selection(*this, "cprobex", typesel, node, pid), info);
+}
+
+bool Process::iprobe(long typesel) {
+  return probe_once(check_selection(*this, "iprobe", typesel, -1, -1), nullptr);
+}
+
+bool Process::iprobex(long typesel, long node, long pid, long* info) {
+  return probe_once(check_selection(*this, "iprobex", typesel, node, pid), info);
+}
+
+void Process::flushmsg(long typesel, long node, long pid) {
+  const Selection selection = check_selection(*this, "flushmsg", typesel, node, pid);
+  attend();
+  while (arrive()) {
   }
-  // One look a turn: what arrived between two would be kept, and then be received before what was told of.
-  while (const std::optional<Envelope> next = backend_.peek()) {
-    if (selects(typesel, next->type) && requests_.posted_for(next->type) == nullptr) {
-      info_ = *next;
-      quiet_turns_ = 0;
-      return true;
-    }
-    settle(*next);
-  }
-  return false;
-}
-
-// Takes the next arrived message to where it belongs; false if there is none.
-bool Process::arrive() {
-  const std::optional<Envelope> next = backend_.peek();
-  if (next) settle(*next);
-  return next.has_value();
-}
-
-void Process::settle(const Envelope& next) {
-  quiet_turns_ = 0;
-  if (Request* request = requests_.posted_for(next.type)) {
-    receive_into(*request, next);
-  } else if (type_class(next.type) == TypeClass::force) {
-    discard(next);
-  } else {
-    keep(next);
+  while (Message* message = matching_.find(selection)) {
+    matching_.remove(message);
+    acknowledge(message->envelope, message->number);
+    pool_.release(message);
   }
 }
 
-void Process::receive_into(Request& request, const Envelope& envelope) {
-  requests_.unpost(request);
-  if (envelope.length > request.capacity) requests_.release(request);
-  check_fits(request, envelope);
-  take(envelope, request.buffer);
-  request.envelope = envelope;
-  request.state = Request::State::received;
+void Process::hsend(long type, const void* buffer, long length, long node, long pid, const Handler& handler) {
+  const char* call = handler.extended != nullptr ? "hsendx" : "hsend";
+  check_handler(call, handler);
+  const Outgoing message = check_send(*this, call, type, buffer, length, node, pid);
+  Request& request = checked(call, requests_.acquire(call));
+  start_send(message, request);
+  leave_to(handler, request);
 }
 
-void Process::keep(const Envelope& envelope) {
-  Message* message = pool_.acquire(envelope);
-  take(envelope, message->bytes());
-  unexpected_.push(message);
+void Process::hrecv(long typesel, void* buffer, long length, long node, long pid, const Handler& handler) {
+  const char* call = handler.extended != nullptr ? "hrecvx" : "hrecv";
+  check_handler(call, handler);
+  const Selection selection = check_selection(*this, call, typesel, node, pid);
+  const Room room = check_room(*this, call, buffer, length);
+  Request& request = checked(call, requests_.acquire(call));
+  start_receive(selection, room, request);
+  leave_to(handler, request);
 }
 
-void Process::discard(const Envelope& envelope) {
-  Message* message = pool_.acquire(envelope);
-  take(envelope, message->bytes());
-  pool_.release(message);
+void Process::hsendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                        long in_length, const Handler& handler) {
+  check_handler("hsendrecv", handler);
+  const Outgoing message = check_send(*this, "hsendrecv", type, out, out_length, node, pid);
+  const Selection selection = check_selection(*this, "hsendrecv", typesel, -1, -1);
+  const Room room = check_room(*this, "hsendrecv", in, in_length);
+  Request& answer = checked("hsendrecv", requests_.acquire("hsendrecv"));
+  leave_to(handler, start_exchange("hsendrecv", message, selection, room, answer));
 }
 
-void Process::take(const Envelope& envelope, void* buffer) {
-  const double begin = recorded_time();
-  backend_.take(buffer);
-  const std::uint32_t number = numbers_[static_cast<std::size_t>(envelope.from)].taken++;
-  if (recorder_ != nullptr) recorder_->message(Event::Kind::taken, begin, envelope, number);
+void Process::check_handler(const char* call, const Handler& handler) const {
+  if (handler) return;
+  fail(call, EQPBUF, "the handler is a null pointer", "give a function");
 }
 
-void Process::flick() { backend_.idle(quiet_turns_++, kFlick); }
+bool Process::masktrap(bool masked) {
+  const bool before = handlers_.mask(masked);
+  attend();
+  return before;
+}
+
+void Process::flick() {
+  attend();
+  backend_.idle(quiet_turns_++, kFlick);
+}
 
 void Process::send_internal(int to, const void* data, std::size_t length) {
-  const int type = kFirstInternalType + backend_.rank();
-  const double begin = recorded_time();
-  backend_.send(to, type, data, length);
-  note_sent(to, type, length, begin);
+  const Envelope sent{to, kFirstInternalType + backend_.rank(), length};
+  const double begin = ledger_.begin();
+  backend_.send(to, sent.type, data, length);
+  ledger_.sent(sent, begin);
 }
 
 void Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
-  Request& request = receive(call, kFirstInternalType + from, data, length);
   const Envelope before = std::exchange(info_, {});
-  wait(request);
+  receive_now(call, {kFirstInternalType + from, from}, {data, length}, nullptr);
   const std::size_t came = std::exchange(info_, before).length;
   if (came == length) return;
   fail(call, EQLEN,

@@ -1,31 +1,25 @@
 // One rank's message passing: the semantics of NX (nx/) over any backend. A process belongs to the thread
 // that made it, and the NX calls of that thread are calls on it; so ranks may be threads or processes. All
 // progress happens inside calls: a message waits in the backend until a call looks, and then goes straight
-// into the buffer of the receive that it matches, or into the queue of unexpected messages. Once warm,
-// nothing is allocated. Failures name node, call, what and remedy.
+// into the buffer of the receive that it matches, or into the queue of messages that wait. Once warm, nothing
+// is allocated. Failures name node, call, what and remedy. process.cpp is the calls, progress.cpp what moves.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "hal/arguments.h"
 #include "hal/backend.h"
+#include "hal/handlers.h"
+#include "hal/ledger.h"
+#include "hal/matching.h"
 #include "hal/message_pool.h"
-#include "hal/recorder.h"
+#include "hal/rendezvous.h"
 #include "hal/requests.h"
 
 namespace mars::hal {
-
-// What a process has sent, messages inside collectives included.
-struct Traffic {
-  struct Count {
-    std::uint64_t messages = 0;
-    std::uint64_t bytes = 0;
-  };
-  Count to_nodes;
-  Count to_host;
-};
 
 class Process {
  public:
@@ -38,16 +32,41 @@ class Process {
   // As in nx_messages.h.
   void csend(long type, const void* buffer, long length, long node, long pid);
   void crecv(long typesel, void* buffer, long length);
+  long csendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                 long in_length);
   long isend(long type, const void* buffer, long length, long node, long pid);
   long irecv(long typesel, void* buffer, long length);
+  long isendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                 long in_length);
   void msgwait(long mid);
   bool msgdone(long mid);
+  void msgcancel(long mid);
   void cprobe(long typesel);
   bool iprobe(long typesel);
+  void flushmsg(long typesel, long node, long pid);
   const Envelope& info() const { return info_; }
+  void hsend(long type, const void* buffer, long length, long node, long pid, const Handler& handler);
+  void hrecv(long typesel, void* buffer, long length, long node, long pid, const Handler& handler);
+  void hsendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                 long in_length, const Handler& handler);
+  bool masktrap(bool masked);
   void flick();
   void led(bool on) { led_ = on; }
   bool led() const { return led_; }
+
+  // As in nx_paragon.h.
+  void crecvx(long typesel, void* buffer, long length, long node, long pid, long* info);
+  long irecvx(long typesel, void* buffer, long length, long node, long pid, long* info);
+  void cprobex(long typesel, long node, long pid, long* info);
+  bool iprobex(long typesel, long node, long pid, long* info);
+  long msgmerge(long mid1, long mid2);
+  void msgignore(long mid);
+
+  // Calls the handlers that are due; what else has arrived goes where it belongs.
+  void attend();
+
+  // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
+  void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
 
   // For collectives, which are named `call`: one internal message from node to node; exactly `length` bytes
   // must come.
@@ -60,62 +79,66 @@ class Process {
   // Throws this process's CallFailure: "node 3, csend: ..."; `code` is one of nx_errno.h.
   [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) const;
 
-  Backend& backend() { return backend_; }
-  const Traffic& traffic() const { return traffic_; }
+  Backend& backend() const { return backend_; }
+  const Traffic& traffic() const { return ledger_.traffic(); }
 
   // Whoever records this process, or nullptr; set by the Recorder.
-  Recorder* recorder() const { return recorder_; }
-  void record(Recorder* recorder) { recorder_ = recorder; }
+  Recorder* recorder() const { return ledger_.recorder(); }
+  void record(Recorder* recorder) { ledger_.record(recorder); }
 
  private:
-  // Ranks [first, last), without this one if it is one of several.
-  struct Receivers {
-    int first;
-    int last;
-    bool several;
-  };
+  // For calls named `call`.
+  void send_now(const char* call, const Outgoing& message);
+  void send_copies(const Outgoing& message, Request* strict);
+  void start_send(const Outgoing& message, Request& request);
+  void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
+  void start_receive(const Selection& selection, const Room& room, Request& request);
+  Request& start_exchange(const char* call, const Outgoing& message, const Selection& selection,
+                          const Room& room, Request& answer);
+  void probe(const char* call, const Selection& selection, long* info);
+  bool probe_once(const Selection& selection, long* info);
 
-  Receivers check_send(const char* call, long type, const void* buffer, long length, long node,
-                       long pid) const;
-  std::int32_t check_typesel(const char* call, long typesel) const;
-  std::size_t check_buffer(const char* call, const void* buffer, long length) const;
-  void check_fits(const Request& request, const Envelope& envelope) const;
-
-  // How many messages went to and came from one rank.
-  struct Numbers {
-    std::uint32_t sent = 0;
-    std::uint32_t taken = 0;
-  };
-
-  // The time where somebody records it, else 0.
-  double recorded_time() const;
-  void note_sent(int to, int type, std::size_t length, double begin);
-  void send(const Receivers& receivers, int type, const void* data, std::size_t length);
-
-  Request& new_request(const char* call);
+  // Requests, with those merged with them.
+  Request& checked(const char* call, Request* request) const;
   Request& known_request(const char* call, long mid);
-  Request& receive(const char* call, std::int32_t typesel, void* buffer, std::size_t length);
-  bool done(Request& request);
-  void conclude(Request& request);
-  void wait(Request& request);
-  void note_wait(const Envelope& came, double begin);
+  bool done(Request& head);
+  bool done_alone(Request& request);
+  void wait(Request& head);
+  void wait_or_cancel(Request& head);
+  bool pass(int& turn);
+  void conclude(Request& head);
+  void cancel(Request& head);
+  void give_back(const Request& request);
+  void release(Request& head);
+  [[noreturn]] void fail_too_long(const Request& request) const;
 
-  bool look(std::int32_t typesel);
+  void check_handler(const char* call, const Handler& handler) const;
+  void leave_to(const Handler& handler, Request& request);
+  bool call_handlers();
+  void call_handler(Request& head);
+
+  // What has arrived.
+  bool look(const Selection& selection);
+  bool tell_of(const Message* message);
   bool arrive();
   void settle(const Envelope& next);
+  Request* claim(const Envelope& envelope);
   void receive_into(Request& request, const Envelope& envelope);
+  void deliver(Message* message, Request& request);
   void keep(const Envelope& envelope);
   void discard(const Envelope& envelope);
-  void take(const Envelope& envelope, void* buffer);
+  std::uint32_t take(const Envelope& envelope, void* buffer);
+  void acknowledge(const Envelope& envelope, std::uint32_t number);
 
   Backend& backend_;
+  const int acknowledgement_;  // the type of internal messages that say: received
   MessagePool pool_;
-  MessageList unexpected_;  // in order of arrival
+  Matching matching_;
   RequestTable requests_;
+  Handlers handlers_;
+  Rendezvous rendezvous_;
   Envelope info_;
-  Traffic traffic_;
-  std::vector<Numbers> numbers_;  // by rank
-  Recorder* recorder_ = nullptr;
+  Ledger ledger_;
   bool led_ = false;
   int quiet_turns_ = 0;  // flicks since anything arrived
 };

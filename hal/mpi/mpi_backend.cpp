@@ -93,7 +93,7 @@ MpiBackend::MpiBackend(int host_rank) : all_(ranks_by_id(host_rank)) {
   nodes_ = size_of(all_) - 1;
   rank_ = rank_in(all_);
   wide_tag_ = highest_tag();
-  last_tag_ = wide_tag_ - 1 - nodes_;
+  last_tag_ = wide_tag_ - 2 - nodes_;
   sent_to_.resize(nodes_ + 1);
   pending_.reserve(kUsuallyPending);
   look_around();

@@ -17,11 +17,19 @@ void csend(long type, const void* buf, long len, long node, long pid) {
 void crecv(long typesel, void* buf, long len) {
   plain([&] { process().crecv(typesel, buf, len); });
 }
+long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
+               long rlen) {
+  return plain([&] { return process().csendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
+}
 long isend(long type, const void* buf, long len, long node, long pid) {
   return plain([&] { return process().isend(type, buf, len, node, pid); });
 }
 long irecv(long typesel, void* buf, long len) {
   return plain([&] { return process().irecv(typesel, buf, len); });
+}
+long isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
+               long rlen) {
+  return plain([&] { return process().isendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
 }
 void msgwait(long mid) {
   plain([&] { process().msgwait(mid); });
@@ -29,11 +37,31 @@ void msgwait(long mid) {
 long msgdone(long mid) {
   return plain([&]() -> long { return process().msgdone(mid); });
 }
+void msgcancel(long mid) {
+  plain([&] { process().msgcancel(mid); });
+}
 void cprobe(long typesel) {
   plain([&] { process().cprobe(typesel); });
 }
 long iprobe(long typesel) {
   return plain([&]() -> long { return process().iprobe(typesel); });
+}
+void flushmsg(long typesel, long node, long pid) {
+  plain([&] { process().flushmsg(typesel, node, pid); });
+}
+
+void hsend(long type, const void* buf, long len, long node, long pid, nx_handler proc) {
+  plain([&] { process().hsend(type, buf, len, node, pid, {.plain = proc}); });
+}
+void hrecv(long typesel, void* buf, long len, nx_handler proc) {
+  plain([&] { process().hrecv(typesel, buf, len, -1, -1, {.plain = proc}); });
+}
+void hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
+               long rlen, nx_handler proc) {
+  plain([&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
+}
+long masktrap(long state) {
+  return plain([&]() -> long { return process().masktrap(state != 0); });
 }
 
 long infocount(void) {

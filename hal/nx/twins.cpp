@@ -15,11 +15,19 @@ long _csend(long type, const void* buf, long len, long node, long pid) {
 long _crecv(long typesel, void* buf, long len) {
   return twin([&] { process().crecv(typesel, buf, len); });
 }
+long _csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
+                long rlen) {
+  return twin([&] { return process().csendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
+}
 long _isend(long type, const void* buf, long len, long node, long pid) {
   return twin([&] { return process().isend(type, buf, len, node, pid); });
 }
 long _irecv(long typesel, void* buf, long len) {
   return twin([&] { return process().irecv(typesel, buf, len); });
+}
+long _isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
+                long rlen) {
+  return twin([&] { return process().isendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
 }
 long _msgwait(long mid) {
   return twin([&] { process().msgwait(mid); });
@@ -27,11 +35,31 @@ long _msgwait(long mid) {
 long _msgdone(long mid) {
   return twin([&] { return process().msgdone(mid); });
 }
+long _msgcancel(long mid) {
+  return twin([&] { process().msgcancel(mid); });
+}
 long _cprobe(long typesel) {
   return twin([&] { process().cprobe(typesel); });
 }
 long _iprobe(long typesel) {
   return twin([&] { return process().iprobe(typesel); });
+}
+long _flushmsg(long typesel, long node, long pid) {
+  return twin([&] { process().flushmsg(typesel, node, pid); });
+}
+
+long _hsend(long type, const void* buf, long len, long node, long pid, nx_handler proc) {
+  return twin([&] { process().hsend(type, buf, len, node, pid, {.plain = proc}); });
+}
+long _hrecv(long typesel, void* buf, long len, nx_handler proc) {
+  return twin([&] { process().hrecv(typesel, buf, len, -1, -1, {.plain = proc}); });
+}
+long _hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
+                long rlen, nx_handler proc) {
+  return twin([&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
+}
+long _masktrap(long state) {
+  return twin([&] { return process().masktrap(state != 0); });
 }
 
 long _infocount(void) {

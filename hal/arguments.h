@@ -1,0 +1,44 @@
+// What NX calls may be given, by the rules of nx/nx_messages.h. Each check throws the process's CallFailure.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "hal/matching.h"
+
+namespace mars::hal {
+
+class Process;
+
+// Ranks [first, last), without the sender if it is one of several.
+struct Receivers {
+  int first;
+  int last;
+  bool several;
+};
+
+struct Outgoing {
+  Receivers receivers;
+  int type;
+  const void* data;
+  std::size_t length;
+
+  // For handlers: the one receiver, or -1.
+  Envelope envelope() const { return {receivers.several ? -1 : receivers.first, type, length}; }
+};
+
+// Where a receive's message goes.
+struct Room {
+  void* buffer;
+  std::size_t capacity;
+};
+
+Outgoing check_send(const Process& process, const char* call, long type, const void* buffer, long length,
+                    long node, long pid);
+Selection check_selection(const Process& process, const char* call, long typesel, long node, long pid);
+Room check_room(const Process& process, const char* call, void* buffer, long length);
+
+// "1 byte", "7 bytes".
+std::string bytes_text(std::size_t bytes);
+
+}  // namespace mars::hal

@@ -1,0 +1,64 @@
+// Handlers: what hsend, hrecv and hsendrecv call when their request is done. They run inside of the process's
+// message calls (or between them, see progress_thread.h), one at a time and in the order in which the requests
+// were done: while one runs, or while they are masked, those that are due wait.
+#pragma once
+
+#include <vector>
+
+namespace mars::hal {
+
+struct Request;
+struct Envelope;
+
+// Either of two forms, or none.
+struct Handler {
+  void (*plain)(long type, long length, long node, long pid) = nullptr;
+  void (*extended)(long type, long length, long node, long pid, long parameter) = nullptr;
+  long parameter = 0;  // of the extended form
+
+  explicit operator bool() const { return plain != nullptr || extended != nullptr; }
+  void operator()(const Envelope& envelope) const;
+};
+
+class Handlers {
+ public:
+  // There is a request that nobody waits for.
+  bool any() const { return !waiting_.empty() || !due_.empty(); }
+
+  // A request that has a handler, or that is to be forgotten when it is done.
+  void add(Request& request) { waiting_.push_back(&request); }
+  // Marks those as due for which `done` is true.
+  template <class Done>
+  void sort_out(Done done) {
+    std::erase_if(waiting_, [&](Request* request) {
+      const bool is_done = done(*request);
+      if (is_done) due_.push_back(request);
+      return is_done;
+    });
+  }
+  // The next whose handler may run now, which is then no longer due; or nullptr.
+  Request* next();
+
+  // Returns what was before.
+  bool mask(bool masked);
+
+  // While one lives, a handler runs.
+  class Running {
+   public:
+    explicit Running(Handlers& handlers) : handlers_(handlers) { handlers_.running_ = true; }
+    ~Running() { handlers_.running_ = false; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+   private:
+    Handlers& handlers_;
+  };
+
+ private:
+  std::vector<Request*> waiting_;
+  std::vector<Request*> due_;
+  bool masked_ = false;
+  bool running_ = false;
+};
+
+}  // namespace mars::hal

@@ -1,0 +1,28 @@
+#include "hal/ledger.h"
+
+#include "hal/nx/nx_messages.h"
+
+namespace mars::hal {
+
+std::uint32_t Ledger::sent(const Envelope& to, double begin) {
+  Traffic::Count& count = to.from == host_ ? traffic_.to_host : traffic_.to_nodes;
+  ++count.messages;
+  count.bytes += to.length;
+  const std::uint32_t number = numbers_[static_cast<std::size_t>(to.from)].sent++;
+  if (recorder_ != nullptr) recorder_->message(Event::Kind::sent, begin, to, number);
+  return number;
+}
+
+std::uint32_t Ledger::taken(const Envelope& envelope, double begin) {
+  const std::uint32_t number = numbers_[static_cast<std::size_t>(envelope.from)].taken++;
+  if (recorder_ != nullptr) recorder_->message(Event::Kind::taken, begin, envelope, number);
+  return number;
+}
+
+void Ledger::waited(const Envelope& came, double begin) {
+  if (recorder_ != nullptr) recorder_->message(Event::Kind::waited, begin, came, 0);
+}
+
+double Ledger::begin() const { return recorder_ == nullptr ? 0 : dclock(); }
+
+}  // namespace mars::hal

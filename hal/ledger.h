@@ -1,0 +1,51 @@
+// What one process counts of its messages, and what it tells its recorder (recorder.h), if somebody records it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hal/backend.h"
+#include "hal/recorder.h"
+
+namespace mars::hal {
+
+// What a process has sent, messages inside collectives included.
+struct Traffic {
+  struct Count {
+    std::uint64_t messages = 0;
+    std::uint64_t bytes = 0;
+  };
+  Count to_nodes;
+  Count to_host;
+};
+
+class Ledger {
+ public:
+  explicit Ledger(int host) : host_(host), numbers_(static_cast<std::size_t>(host) + 1) {}
+
+  // Each message has a number among all from its sender to its receiver, the same for both.
+  std::uint32_t sent(const Envelope& to, double begin);
+  std::uint32_t taken(const Envelope& envelope, double begin);
+  void waited(const Envelope& came, double begin);
+
+  // The time to give as `begin`: 0 where nobody records.
+  double begin() const;
+
+  const Traffic& traffic() const { return traffic_; }
+  Recorder* recorder() const { return recorder_; }
+  void record(Recorder* recorder) { recorder_ = recorder; }
+
+ private:
+  struct Numbers {
+    std::uint32_t sent = 0;
+    std::uint32_t taken = 0;
+  };
+
+  int host_;
+  std::vector<Numbers> numbers_;  // by rank
+  Traffic traffic_;
+  Recorder* recorder_ = nullptr;
+};
+
+}  // namespace mars::hal

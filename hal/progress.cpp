@@ -1,0 +1,364 @@
+// What moves inside of the calls of process.cpp: requests to their end, arrived messages to where they belong.
+#include <cstring>
+#include <utility>
+
+#include "hal/nx/nx_errno.h"
+#include "hal/process.h"
+
+namespace mars::hal {
+namespace {
+
+// At a time: a message wakes.
+constexpr std::chrono::microseconds kSleep{10000};
+
+void describe(const Envelope& envelope, long* info) {
+  if (info == nullptr) return;
+  const long numbers[8] = {envelope.type, static_cast<long>(envelope.length), envelope.from};
+  std::memcpy(info, numbers, sizeof numbers);
+}
+
+}  // namespace
+
+void Process::send_now(const char* call, const Outgoing& message) {
+  if (!rendezvous_.concerns(message.type, message.length)) return send_copies(message, nullptr);
+  Request& request = checked(call, requests_.acquire(call));
+  request.envelope = message.envelope();
+  request.state = Request::State::unreceived;
+  send_copies(message, &request);
+  wait_or_cancel(request);
+}
+
+// Where there is a strict request, it is done once all have received.
+void Process::send_copies(const Outgoing& message, Request* strict) {
+  for (int to = message.receivers.first; to < message.receivers.last; ++to) {
+    if (message.receivers.several && to == backend_.rank()) continue;
+    const double begin = ledger_.begin();
+    backend_.send(to, message.type, message.data, message.length);
+    const std::uint32_t number = ledger_.sent({to, message.type, message.length}, begin);
+    if (strict != nullptr) rendezvous_.expect(to, number, *strict);
+  }
+}
+
+void Process::start_send(const Outgoing& message, Request& request) try {
+  request.envelope = message.envelope();
+  Request* strict = rendezvous_.concerns(message.type, message.length) ? &request : nullptr;
+  if (message.receivers.several) {
+    send_copies(message, strict);
+    request.state = Request::State::unreceived;
+    return;
+  }
+  const double begin = ledger_.begin();
+  request.ticket = backend_.start_send(message.receivers.first, message.type, message.data, message.length);
+  const std::uint32_t number = ledger_.sent(request.envelope, begin);
+  if (strict != nullptr) rendezvous_.expect(message.receivers.first, number, request);
+  request.state = Request::State::sending;
+} catch (...) {
+  requests_.release(request);
+  throw;
+}
+
+void Process::receive_now(const char* call, const Selection& selection, const Room& room, long* info) {
+  attend();
+  Request& request = checked(call, requests_.acquire(call));
+  request.info = info;
+  start_receive(selection, room, request);
+  wait_or_cancel(request);
+}
+
+// Done at once if its message is here already; if that is too long, it fails.
+void Process::start_receive(const Selection& selection, const Room& room, Request& request) {
+  request.selection = selection;
+  request.buffer = room.buffer;
+  request.capacity = room.capacity;
+  request.state = Request::State::receiving;
+  Message* message = matching_.find(selection);
+  if (message == nullptr) return matching_.post(request);
+  if (message->envelope.length > room.capacity) {
+    request.envelope = message->envelope;
+    const Request failed = request;
+    requests_.release(request);
+    fail_too_long(failed);
+  }
+  matching_.remove(message);
+  deliver(message, request);
+}
+
+void Process::fail_too_long(const Request& request) const {
+  fail(request.call, EQMSGLONG,
+       "a message of " + bytes_text(request.envelope.length) + ", type " +
+           std::to_string(request.envelope.type) + ", from " +
+           rank_name(request.envelope.from, backend_.host()) + " does not fit a receive of " +
+           bytes_text(request.capacity),
+       "receive into a longer buffer, or cprobe first and ask infocount");
+}
+
+bool Process::done(Request& head) {
+  for (Request* each = &head; each != nullptr; each = each->also) {
+    if (!done_alone(*each)) return false;
+  }
+  return true;
+}
+
+bool Process::done_alone(Request& request) {
+  if (request.state == Request::State::sending && backend_.sent(request.ticket)) {
+    request.state = Request::State::unreceived;
+  }
+  if (request.state == Request::State::unreceived && request.unreceived == 0) {
+    request.state = Request::State::sent;
+  }
+  return request.state == Request::State::received || request.state == Request::State::sent ||
+         request.state == Request::State::too_long;
+}
+
+void Process::wait(Request& head) {
+  const double begin = ledger_.begin();
+  rendezvous_.news();
+  bool idle = false;
+  for (int turn = 0; !done(head);) {
+    if (pass(turn)) continue;
+    idle = true;
+    if (rendezvous_.strict()) rendezvous_.tell_silence(*this, head);
+  }
+  if (idle) {
+    ledger_.waited(head.state == Request::State::received ? head.envelope : Envelope{-1, -1, 0}, begin);
+  }
+  conclude(head);
+}
+
+// For requests that nobody knows but the call that waits: a handler that fails ends it.
+void Process::wait_or_cancel(Request& request) try {
+  wait(request);
+} catch (...) {
+  if (request.state != Request::State::free) cancel(request);
+  throw;
+}
+
+// One turn of a wait; false when there was nothing to do but to let time pass.
+bool Process::pass(int& turn) {
+  bool moved = arrive();
+  if (handlers_.any() && call_handlers()) moved = true;
+  if (moved)
+    turn = 0;
+  else
+    backend_.idle(turn++, kSleep);
+  return moved;
+}
+
+// Ends a done request and those merged with it. Its info is that of its first receive.
+void Process::conclude(Request& head) {
+  const Request* failed = nullptr;
+  const Request* told = nullptr;
+  for (const Request* each = &head; each != nullptr; each = each->also) {
+    if (each->state == Request::State::too_long) failed = each;
+    if (each->state != Request::State::received) continue;
+    if (told == nullptr) info_ = each->envelope;
+    told = each;
+    describe(each->envelope, each->info);
+  }
+  if (failed == nullptr) return release(head);
+  const Request copy = *failed;
+  release(head);
+  fail_too_long(copy);
+}
+
+void Process::release(Request& head) {
+  for (Request* each = &head; each != nullptr;) {
+    Request* next = each->also;
+    requests_.release(*each);
+    each = next;
+  }
+}
+
+// A message that was received already is there to be received again; one that goes out has gone on return.
+void Process::cancel(Request& head) {
+  for (Request* each = &head; each != nullptr; each = each->also) {
+    rendezvous_.forget(*each);
+    each->unreceived = 0;
+    if (each->state == Request::State::receiving) matching_.unpost(*each);
+    if (each->state == Request::State::received) give_back(*each);
+    for (int turn = 0; each->state == Request::State::sending && !done_alone(*each);) pass(turn);
+  }
+  release(head);
+}
+
+void Process::give_back(const Request& request) {
+  Message* message = pool_.copy(request.envelope, request.buffer);
+  message->number = request.number;
+  message->arrival = request.arrival;
+  if (Request* other = claim(message->envelope)) {
+    deliver(message, *other);
+  } else if (type_class(message->envelope.type) == TypeClass::force) {
+    pool_.release(message);
+  } else {
+    matching_.keep(message);
+  }
+}
+
+void Process::leave_to(const Handler& handler, Request& request) {
+  request.handler = handler;
+  handlers_.add(request);
+  attend();
+}
+
+void Process::attend() {
+  if (!handlers_.any()) return;
+  call_handlers();
+  while (arrive()) call_handlers();
+}
+
+bool Process::call_handlers() {
+  bool called = false;
+  for (;;) {
+    handlers_.sort_out([this](Request& request) { return done(request); });
+    Request* due = handlers_.next();
+    if (due == nullptr) return called;
+    call_handler(*due);
+    called = true;
+  }
+}
+
+// The handler's info is that of its message; the call in which it runs knows nothing of it.
+void Process::call_handler(Request& head) {
+  const Handler handler = head.handler;
+  const Envelope envelope = head.envelope;
+  if (!handler) return release(head);
+  const Envelope before = info_;
+  conclude(head);
+  const Handlers::Running running(handlers_);
+  handler(envelope);
+  info_ = before;
+}
+
+void Process::probe(const char* call, const Selection& selection, long* info) {
+  if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) {
+    fail(call, EQTYPE, "no force message ever waits to be found", "post a receive for it");
+  }
+  Request waiting;
+  waiting.call = call;
+  waiting.state = Request::State::receiving;
+  waiting.selection = selection;
+  attend();
+  const double begin = ledger_.begin();
+  rendezvous_.news();
+  int turn = 0;
+  while (!look(selection)) {
+    if (handlers_.any() && call_handlers()) continue;
+    backend_.idle(turn++, kSleep);
+    if (rendezvous_.strict()) rendezvous_.tell_silence(*this, waiting);
+  }
+  if (turn > 0) ledger_.waited(info_, begin);
+  describe(info_, info);
+}
+
+bool Process::probe_once(const Selection& selection, long* info) {
+  attend();
+  if (!look(selection)) return false;
+  describe(info_, info);
+  return true;
+}
+
+bool Process::tell_of(const Message* message) {
+  if (message != nullptr) info_ = message->envelope;
+  return message != nullptr;
+}
+
+// Leaves a message that it finds in the backend, so that the receive after a probe takes it from there.
+bool Process::look(const Selection& selection) {
+  if (tell_of(matching_.find(selection))) return true;
+  // One look a turn: what arrived between two would be kept, and then be received before what was told of.
+  bool settled = false;
+  while (const std::optional<Envelope> next = backend_.peek()) {
+    if (selection.selects(*next) && type_class(next->type) == TypeClass::ordinary &&
+        matching_.posted_for(*next) == nullptr) {
+      info_ = *next;
+      quiet_turns_ = 0;
+      return true;
+    }
+    settle(*next);
+    settled = true;
+  }
+  return settled && tell_of(matching_.find(selection));
+}
+
+// Takes the next arrived message to where it belongs; false if there is none.
+bool Process::arrive() {
+  const std::optional<Envelope> next = backend_.peek();
+  if (next) settle(*next);
+  return next.has_value();
+}
+
+void Process::settle(const Envelope& next) {
+  quiet_turns_ = 0;
+  rendezvous_.news();
+  if (next.type == acknowledgement_) {
+    std::uint32_t number = 0;
+    take(next, &number);
+    rendezvous_.received(next.from, number);
+  } else if (Request* request = claim(next)) {
+    receive_into(*request, next);
+  } else if (type_class(next.type) == TypeClass::force) {
+    discard(next);
+  } else {
+    keep(next);
+  }
+}
+
+// The posted receive that gets such a message, or nullptr. Those before it that are too short have failed.
+Request* Process::claim(const Envelope& envelope) {
+  for (;;) {
+    Request* request = matching_.posted_for(envelope);
+    if (request == nullptr) return nullptr;
+    matching_.unpost(*request);
+    if (envelope.length <= request->capacity) return request;
+    request->envelope = envelope;
+    request->state = Request::State::too_long;
+  }
+}
+
+void Process::receive_into(Request& request, const Envelope& envelope) {
+  request.number = take(envelope, request.buffer);
+  request.arrival = matching_.next_arrival();
+  request.envelope = envelope;
+  request.state = Request::State::received;
+  acknowledge(envelope, request.number);
+}
+
+// From the queue of those that wait.
+void Process::deliver(Message* message, Request& request) {
+  request.envelope = message->envelope;
+  request.number = message->number;
+  request.arrival = message->arrival;
+  if (request.envelope.length > 0) std::memcpy(request.buffer, message->bytes(), request.envelope.length);
+  request.state = Request::State::received;
+  pool_.release(message);
+  acknowledge(request.envelope, request.number);
+}
+
+void Process::keep(const Envelope& envelope) {
+  Message* message = pool_.acquire(envelope);
+  message->number = take(envelope, message->bytes());
+  message->arrival = matching_.next_arrival();
+  matching_.keep(message);
+}
+
+void Process::discard(const Envelope& envelope) {
+  Message* message = pool_.acquire(envelope);
+  take(envelope, message->bytes());
+  pool_.release(message);
+}
+
+std::uint32_t Process::take(const Envelope& envelope, void* buffer) {
+  const double begin = ledger_.begin();
+  backend_.take(buffer);
+  return ledger_.taken(envelope, begin);
+}
+
+// Tells a strict sender that its message has been received.
+void Process::acknowledge(const Envelope& envelope, std::uint32_t number) {
+  if (!rendezvous_.concerns(envelope.type, envelope.length)) return;
+  const double begin = ledger_.begin();
+  backend_.send(envelope.from, acknowledgement_, &number, sizeof number);
+  ledger_.sent({envelope.from, acknowledgement_, sizeof number}, begin);
+}
+
+}  // namespace mars::hal

@@ -1,0 +1,60 @@
+#include "hal/rendezvous.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "hal/arguments.h"
+#include "hal/process.h"
+
+namespace mars::hal {
+
+void Rendezvous::expect(int rank, std::uint32_t number, Request& request) {
+  expected_.push_back({rank, number, &request});
+  ++request.unreceived;
+}
+
+void Rendezvous::received(int rank, std::uint32_t number) {
+  const auto at = std::find_if(expected_.begin(), expected_.end(), [&](const Expected& each) {
+    return each.rank == rank && each.number == number;
+  });
+  if (at == expected_.end()) return;  // of a send that was cancelled
+  --at->request->unreceived;
+  expected_.erase(at);
+}
+
+void Rendezvous::forget(const Request& request) {
+  std::erase_if(expected_, [&](const Expected& each) { return each.request == &request; });
+}
+
+void Rendezvous::begin_silence() {
+  quiet_since_ = std::chrono::steady_clock::now();
+  told_ = false;
+}
+
+std::string Rendezvous::awaited(const Process& process, const Request& request) const {
+  const auto name = [&](int rank) { return rank_name(rank, process.backend().host()); };
+  const int type = request.selection.typesel;
+  if (request.state == Request::State::receiving) {
+    if (type >= kFirstInternalType && type_class(type) == TypeClass::reserved)
+      return "for " + name(type - kFirstInternalType);
+    return "for a message, typesel " + std::to_string(type);
+  }
+  const auto at = std::find_if(expected_.begin(), expected_.end(),
+                               [&](const Expected& each) { return each.request == &request; });
+  if (at == expected_.end()) return "for its message to leave";
+  return "until " + name(at->rank) + " receives " + bytes_text(request.envelope.length) + ", type " +
+         std::to_string(request.envelope.type);
+}
+
+void Rendezvous::tell_silence(const Process& process, const Request& request) {
+  const auto silence = std::chrono::steady_clock::now() - quiet_since_;
+  if (told_ || silence < *patience_) return;
+  told_ = true;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(silence).count();
+  const std::string me = rank_name(process.backend().rank(), process.backend().host());
+  std::fprintf(stderr, "%s has waited %lld s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
+               me.c_str(), static_cast<long long>(seconds), request.call, awaited(process, request).c_str(),
+               kBuffered);
+}
+
+}  // namespace mars::hal

@@ -1,0 +1,61 @@
+// Strict mode: a send of more than 100 bytes is done only when its message has been received, as if nothing
+// were buffered. It finds programs that rely on buffers. The receiver says by an internal message that it has
+// one. Waits in which nothing arrives for long are told on standard error. All ranks must be strict.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/message_types.h"
+
+namespace mars::hal {
+
+class Process;
+struct Request;
+
+class Rendezvous {
+ public:
+  // Silences that last so long are told.
+  void be_strict(std::chrono::milliseconds patience) { patience_ = patience; }
+  bool strict() const { return patience_.has_value(); }
+
+  // Whether the receiver has to say that it has such a message.
+  bool concerns(int type, std::size_t length) const {
+    return strict() && length > kBuffered && type_class(type) == TypeClass::ordinary;
+  }
+
+  // `request` is a send; its message number `number` from here to `rank` is to be received.
+  void expect(int rank, std::uint32_t number, Request& request);
+  void received(int rank, std::uint32_t number);
+  void forget(const Request& request);
+
+  // A silence begins anew.
+  void news() {
+    if (strict()) begin_silence();
+  }
+  // Tells of the silence in which `request` waits, once, if it is long.
+  void tell_silence(const Process& process, const Request& request);
+
+ private:
+  static constexpr std::size_t kBuffered = 100;
+
+  struct Expected {
+    int rank;
+    std::uint32_t number;
+    Request* request;
+  };
+
+  void begin_silence();
+  std::string awaited(const Process& process, const Request& request) const;
+
+  std::optional<std::chrono::milliseconds> patience_;
+  std::vector<Expected> expected_;
+  std::chrono::steady_clock::time_point quiet_since_;
+  bool told_ = false;
+};
+
+}  // namespace mars::hal
