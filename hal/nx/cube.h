@@ -5,4 +5,5 @@
 #include "nx_errno.h"
 #include "nx_files.h"
 #include "nx_global.h"
+#include "nx_host.h"
 #include "nx_messages.h"

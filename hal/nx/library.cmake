@@ -22,7 +22,7 @@ foreach(part IN LISTS parts_of_nx)
 endforeach()
 
 # A program's own functions may have names of NX (load, gray): calls within the library stay within.
-add_library(mars_nx SHARED ${CMAKE_CURRENT_LIST_DIR}/program.cpp $<TARGET_OBJECTS:mars_hal>)
+add_library(mars_nx SHARED ${CMAKE_CURRENT_LIST_DIR}/program.cpp ${CMAKE_CURRENT_LIST_DIR}/host_calls.cpp $<TARGET_OBJECTS:mars_hal>)
 target_include_directories(mars_nx PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(mars_nx PRIVATE ${parts_of_nx})
 target_link_options(mars_nx PRIVATE

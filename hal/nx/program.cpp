@@ -58,6 +58,8 @@ Process& find_process() {
 
 // Before main, so that it is the last that exit calls.
 [[gnu::constructor]] void prepare() {
+  // Each line is told as it is written, and is not lost with a process that is killed.
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   find_process_by(find_process);
   end_program_on_failure(end);
   on_exit(leave, nullptr);

@@ -25,6 +25,8 @@ class World {
   virtual int all_nodes() const = 0;
   // Makes the first `nodes` of them the cube. No node may run.
   virtual void resize(int nodes) = 0;
+  // Lets the nodes begin with what they were started for, where the host has loaded nothing.
+  virtual void begin() = 0;
   // Starts a program on a node of the cube.
   virtual void load(const std::string& file, int node) = 0;
   // Ends what runs on `node`; -1: on all nodes, and throws away all messages between them and to them.

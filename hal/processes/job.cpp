@@ -40,8 +40,7 @@ std::string signal_text(int signal) {
 Job::Job(JobPlan plan)
     : plan_(std::move(plan)),
       segment_(plan_.nodes, plan_.host, plan_.limit),
-      processes_(segment_.slots()),
-      begun_(segment_.slots()) {
+      processes_(segment_.slots()) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   sigset_t watched;
   sigemptyset(&watched);
@@ -65,13 +64,13 @@ Job::~Job() {
 
 int Job::run() {
   if (plan_.host) start(segment_.nodes(), "");
-  if (plan_.at_once) start_all();
+  if (plan_.begin == JobPlan::Begin::at_once) begin();
   while (running(0, segment_.slots())) {
     std::array<pollfd, 2> ready{{{signals_, POLLIN, 0}, {ours_, POLLIN, 0}}};
     poll(ready.data(), ready.size(), static_cast<int>(kTick.count()));
     if (ready[1].revents != 0) serve();
     if (ready[0].revents != 0) take_signals();
-    if (plan_.host && processes_[segment_.nodes()].id == 0 && !segment_.stopped()) start_all();
+    if (plan_.host && processes_[segment_.nodes()].id == 0) begin();
     look_for_standstill();
     hurry();
   }
@@ -83,14 +82,13 @@ bool Job::running(int first, int last) const {
                      [](const Process& process) { return process.id != 0; });
 }
 
-void Job::start_all() {
-  for (int node = 0; node < segment_.header().cube; ++node)
-    if (!begun_[node]) start(node, "");
+void Job::begin() {
+  if (std::exchange(asked_, true) || plan_.begin == JobPlan::Begin::never || segment_.stopped()) return;
+  for (int node = 0; node < segment_.header().cube; ++node) start(node, "");
 }
 
 void Job::start(int index, const std::string& file) {
   const bool host = index == segment_.nodes();
-  begun_[index] = true;
   segment_.slot(index).life = Life::started;
   std::fflush(nullptr);
   const pid_t parent = getpid();
@@ -120,7 +118,7 @@ void Job::answer(const Asking& request) {
   std::int32_t result = 0;
   const bool sensible = request.node >= -1 && request.node < segment_.nodes();
   if (request.what == Asking::What::begin) {
-    start_all();
+    begin();
   } else if (!sensible || (request.what == Asking::What::load && request.node < 0)) {
     result = EINVAL;
   } else if (request.what == Asking::What::kill) {
@@ -128,6 +126,7 @@ void Job::answer(const Asking& request) {
   } else if (processes_[request.node].id != 0) {
     result = EBUSY;
   } else {
+    asked_ = true;
     start(request.node, request.file);
   }
   send(ours_, &result, sizeof result, MSG_NOSIGNAL);

@@ -21,7 +21,9 @@ namespace mars::hal {
 struct JobPlan {
   int nodes = 1;
   bool host = false;
-  bool at_once = true;      // the nodes begin with the host, not when it asks for them
+  // When nodes begin that the host does not load: with it; when it asks, or has ended; or never.
+  enum class Begin { at_once, later, never };
+  Begin begin = Begin::at_once;
   std::uint64_t limit = 0;  // bytes that messages under way may take
   // What a rank is, called in its process; returns its exit code if it returns at all. `file` is what the host
   // asked to be loaded, "" where it did not ask.
@@ -37,8 +39,7 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  // Runs it. Nodes that do not begin at once do when the host asks, or has ended. Returns the worst exit code: 128
-  // and the signal of one that died, or of the one that ended us.
+  // Runs it to its end. Returns the worst exit code: 128 and the signal of one that died, or of the one that ended us.
   int run();
 
  private:
@@ -48,7 +49,7 @@ class Job {
   };
 
   void start(int index, const std::string& file);
-  void start_all();
+  void begin();
   bool running(int first, int last) const;
   void serve();
   void answer(const Asking& request);
@@ -67,7 +68,7 @@ class Job {
   JobPlan plan_;
   Segment segment_;
   std::vector<Process> processes_;
-  std::vector<bool> begun_;
+  bool asked_ = false;  // the host has, for nodes
   int ours_ = -1;    // the socket's ends
   int hosts_ = -1;
   int signals_ = -1;

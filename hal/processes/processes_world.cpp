@@ -79,7 +79,6 @@ ProcessesWorld::ProcessesWorld()
 }
 
 void ProcessesWorld::leave(int code) {
-  if (place_.socket >= 0) begin();
   slot_.code = code;
   slot_.life = Life::ended;
 }

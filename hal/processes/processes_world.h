@@ -22,13 +22,11 @@ class ProcessesWorld : public World {
 
   int all_nodes() const override { return segment_.nodes(); }
   void resize(int nodes) override;
+  void begin() override;
   void load(const std::string& file, int node) override;
   void kill(int node) override;
   Status status(int node) override;
   void wait_for_end() override;
-
-  // Has the job start what the command line named for the nodes, unless the host has loaded something.
-  void begin();
 
  private:
   int ask(Asking::What what, int node, const std::string& file);

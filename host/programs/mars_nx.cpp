@@ -98,7 +98,7 @@ int run_processes(const RunOptions& options, const Programs& programs, std::uint
   hal::JobPlan plan;
   plan.nodes = options.nodes;
   plan.host = !programs.host.empty();
-  plan.at_once = !plan.host;
+  if (plan.host) plan.begin = programs.node.empty() ? hal::JobPlan::Begin::never : hal::JobPlan::Begin::later;
   plan.limit = limit;
   plan.become = [&](const hal::Place& place, const std::string& file) {
     const bool host = plan.host && place.index == options.nodes;
