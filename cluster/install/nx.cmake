@@ -1,8 +1,9 @@
-# NX for other people's programs: the library, and apart from it what building such programs needs: headers,
-# and how pkg-config and CMake find it.
+# NX for other people's programs: the library and what starts them, and apart from it what building them needs:
+# headers, how pkg-config and CMake find it, a manual page for each call.
 get_target_property(nx_headers mars_nx HEADERS)
 install(TARGETS mars_nx EXPORT mars-nx
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mars-nx NAMELINK_COMPONENT mars-nx-dev)
+install(TARGETS mars-nx RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mars-nx)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME mars-nx-dev)
 install(FILES ${nx_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mars-nx)
 

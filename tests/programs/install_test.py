@@ -17,7 +17,7 @@ import harness
 from harness import BACKENDS, HAVE_MPI, ProgramTest, main
 
 BUILD = harness.PROGRAMS.parent
-STARTERS = ["mars", "mars-threads"] + ["mars-host", "mars-cube"] * HAVE_MPI  # nodes take no arguments
+STARTERS = ["mars", "mars-threads", "mars-nx"] + ["mars-host", "mars-cube"] * HAVE_MPI  # nodes take no arguments
 
 COMPLETE = """
 set -u
@@ -167,13 +167,16 @@ class Manual(Installation):
 
     def test_has_every_option_and_setting(self):
         text = {name: gzip.decompress(self.page(name).read_bytes()).decode().replace("\\-", "-")
-                for name in ["mars", "mars-render", "mars-host"]}
+                for name in ["mars", "mars-render", "mars-host", "mars-nx"]}
         for program, rows in self.rows().items():
             for kind, of, *fields in rows:
-                name = {"mars render": "mars-render"}.get(of, "mars" if program == "mars" else "mars-host")
+                name = program if program in ["mars", "mars-nx"] else "mars-host"
+                name = {"mars render": "mars-render"}.get(of, name)
                 if kind == "setting":
-                    self.assertIn(f".It Ev {of}\n", text[name])
-                elif kind == "option" and of != "mars" and "--help" not in fields[0]:
+                    for each, page in text.items():
+                        here = of.startswith("MARS_NX_") == (each == "mars-nx")
+                        self.assertEqual(f".It Ev {of}\n" in page, here, each)
+                elif kind == "option" and of not in ["mars", "mars-nx"] and "--help" not in fields[0]:
                     flags = r" , ".join(f"Fl {each[1:]}[^,\n]*" for each in fields[0].split(","))
                     self.assertRegex(text[name], rf"(?m)^\.It {flags}$")
         for page in text.values():

@@ -33,6 +33,11 @@ class NxInstallation(ProgramTest):
                 found[match[1]] = " ".join(text[match.start():text.index(";", match.end())].split())
         return found
 
+    def run_nx(self, *words):
+        library = next(self.prefix.rglob("libmars-nx.so")).parent
+        return self.run_program(self.prefix / "bin/mars-nx", "run", *words,
+                                env=dict(harness.ENVIRONMENT, LD_LIBRARY_PATH=str(library)))
+
     def flags(self, *words):
         folder = next(self.prefix.rglob("mars-nx.pc")).parent
         environment = dict(harness.ENVIRONMENT, PKG_CONFIG_PATH=str(folder))

@@ -2,7 +2,8 @@
 # host/options/command_line.h):  awk -v doc=DIR -v data=DIR -f manual.awk OPTIONS TEMPLATE
 #   @OPTIONS mars render@   the section OPTIONS of a command
 #   @COMMANDS mars@         a subsection for each command that has no page of its own
-#   @SETTINGS@              a list of the environment's variables
+#   @SETTINGS@              a list of the environment's variables, but for those of NX's programs
+#   @SETTINGS MARS_NX_@     a list of those
 #   @DOC@, @DATA@           where documents and data are installed
 # Templates and result are in mdoc(7).
 BEGIN { FS = "\t" }
@@ -58,7 +59,8 @@ FILENAME == ARGV[1] && $1 == "option" && $3 !~ /--help/ {
 }
 FILENAME == ARGV[1] && $1 == "setting" && !($2 in known) {
   known[$2] = 1
-  settings = settings ".It Ev " $2 "\n" help(toupper(substr($3, 1, 1)) substr($3, 2))
+  set = $2 ~ /^MARS_NX_/ ? "MARS_NX_" : ""
+  settings[set] = settings[set] ".It Ev " $2 "\n" help(toupper(substr($3, 1, 1)) substr($3, 2))
 }
 FILENAME == ARGV[1] { next }
 
@@ -95,5 +97,5 @@ function synopsis_of(program, name) {
 
 /^@OPTIONS / { gsub(/^@OPTIONS |@$/, ""); print ".Sh OPTIONS\n" list(items[$0]); next }
 /^@COMMANDS / { gsub(/^@COMMANDS |@$/, ""); print subsections($0); next }
-/^@SETTINGS@$/ { print list(settings); next }
+/^@SETTINGS/ { gsub(/^@SETTINGS ?|@$/, ""); if ($0 in settings) print list(settings[$0]); next }
 { gsub(/@DOC@/, doc); gsub(/@DATA@/, data); print }
