@@ -11,29 +11,36 @@ def corners(nodes):
 
 
 class NxProgramsTest(ProgramTest):
-    def check(self, program, says):
+    def check(self, says, *programs):
         """`says`: what it must print on so many nodes."""
+        words = [NX / program for program in programs]
         for nodes in PROCESSES:
-            with self.subTest(program=program, nodes=nodes):
-                self.assertEqual(self.succeed("mars-nx", "run", "--nodes", nodes, NX / program), says(nodes))
+            with self.subTest(programs=programs, nodes=nodes):
+                self.assertEqual(self.succeed("mars-nx", "run", "--nodes", nodes, *words), says(nodes))
 
     def test_ring(self):
-        self.check("ring", lambda nodes: f"ring: {5 * nodes * (nodes + 1) // 2} after 5 rounds of {nodes} nodes, right\n")
+        self.check(lambda nodes: f"ring: {5 * nodes * (nodes + 1) // 2} after 5 rounds of {nodes} nodes, right\n", "ring")
 
     def test_pi(self):
-        self.check("pi", lambda nodes: f"pi: 3.14159265 by {nodes} nodes, right\n")
+        self.check(lambda nodes: f"pi: 3.14159265 by {nodes} nodes, right\n", "pi")
 
     def test_matrix(self):
-        self.check("matrix", lambda nodes: f"matrix: 60 by 60 on {nodes} nodes, 0 elements wrong\n")
+        self.check(lambda nodes: f"matrix: 60 by 60 on {nodes} nodes, 0 elements wrong\n", "matrix")
 
     def test_jacobi(self):
-        self.check("jacobi", lambda nodes: f"jacobi: 921 steps on {nodes} nodes, right\n")
+        self.check(lambda nodes: f"jacobi: 921 steps on {nodes} nodes, right\n", "jacobi")
 
     def test_exchange(self):
-        self.check("exchange", lambda nodes: f"exchange: {corners(nodes)} parts of 20000 bytes on {nodes} nodes, 0 words wrong\n")
+        self.check(lambda nodes: f"exchange: {corners(nodes)} parts of 20000 bytes on {nodes} nodes, 0 words wrong\n", "exchange")
+
+    def test_farm(self):
+        says = lambda nodes: f"farm: 2262 primes below 20000 by {nodes} nodes, right\n"
+        self.check(says, "farm_host", "farm_node")
+        alone = self.succeed("mars-nx", "run", "--nodes", 4, "--host", NX / "farm_host")
+        self.assertEqual(alone, says(4))
 
     def test_shared_file(self):
-        self.check("shared_file", lambda nodes: f"shared_file: {nodes} nodes, four modes, 0 things wrong\n")
+        self.check(lambda nodes: f"shared_file: {nodes} nodes, four modes, 0 things wrong\n", "shared_file")
 
 
 if __name__ == "__main__":
