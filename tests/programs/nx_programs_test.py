@@ -1,0 +1,47 @@
+"""The programs of examples/nx end well and say what is right, as forked processes at several numbers of nodes."""
+
+from harness import PROGRAMS, ProgramTest, main
+
+NX = PROGRAMS.parent / "examples-nx"
+PROCESSES = [1, 2, 3, 4, 8]
+
+
+def corners(nodes):
+    return 1 << (nodes.bit_length() - 1)
+
+
+class NxProgramsTest(ProgramTest):
+    def check(self, says, *programs):
+        """`says`: what it must print on so many nodes."""
+        words = [NX / program for program in programs]
+        for nodes in PROCESSES:
+            with self.subTest(programs=programs, nodes=nodes):
+                self.assertEqual(self.succeed("mars-nx", "run", "--nodes", nodes, *words), says(nodes))
+
+    def test_ring(self):
+        self.check(lambda nodes: f"ring: {5 * nodes * (nodes + 1) // 2} after 5 rounds of {nodes} nodes, right\n", "ring")
+
+    def test_pi(self):
+        self.check(lambda nodes: f"pi: 3.14159265 by {nodes} nodes, right\n", "pi")
+
+    def test_matrix(self):
+        self.check(lambda nodes: f"matrix: 60 by 60 on {nodes} nodes, 0 elements wrong\n", "matrix")
+
+    def test_jacobi(self):
+        self.check(lambda nodes: f"jacobi: 921 steps on {nodes} nodes, right\n", "jacobi")
+
+    def test_exchange(self):
+        self.check(lambda nodes: f"exchange: {corners(nodes)} parts of 20000 bytes on {nodes} nodes, 0 words wrong\n", "exchange")
+
+    def test_farm(self):
+        says = lambda nodes: f"farm: 2262 primes below 20000 by {nodes} nodes, right\n"
+        self.check(says, "farm_host", "farm_node")
+        alone = self.succeed("mars-nx", "run", "--nodes", 4, "--host", NX / "farm_host")
+        self.assertEqual(alone, says(4))
+
+    def test_shared_file(self):
+        self.check(lambda nodes: f"shared_file: {nodes} nodes, four modes, 0 things wrong\n", "shared_file")
+
+
+if __name__ == "__main__":
+    main()
