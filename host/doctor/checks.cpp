@@ -25,36 +25,40 @@ bool has(const std::string& text, const char* part) { return text.find(part) != 
 
 bool several_machines(const Facts& facts) { return facts.slurm && facts.slurm->machines > 1; }
 
-// "5.0.3", with its first number; "" where it is not Open MPI.
-std::string open_mpi_version(const std::string& told) {
+// "5.0.3", with its first number; "" where an mpirun that tells this is another MPI's.
+std::string version_of(Mpi mpi, const std::string& told) {
   std::smatch match;
-  static const std::regex form("\\((?:Open MPI|Open RTE|PRRTE)\\) (\\d[\\w.]*)");
-  return std::regex_search(told, match, form) ? match[1].str() : "";
+  static const std::regex open_mpi("\\((?:Open MPI|Open RTE|PRRTE)\\) (\\d[\\w.]*)");
+  static const std::regex mpich("HYDRA[^]*Version:\\s+(\\d[\\w.]*)");
+  return std::regex_search(told, match, mpi == Mpi::mpich ? mpich : open_mpi) ? match[1].str() : "";
 }
 
 Finding check_mpi(const Facts& facts) {
   const char* about = "MPI";
+  const Mpi mpi = facts.programs.mpi;
+  const std::string name = name_of(mpi);
+  const std::string load = "(module load " + std::string(mpi == Mpi::mpich ? "mpich" : "openmpi") + ")";
   if (!facts.programs.mpirun) {
-    if (several_machines(facts) || !facts.programs.threads) {
-      return {State::trouble, about, "mpirun was not found",
-              "install Open MPI (Debian: openmpi-bin), or load it (module load openmpi)"};
-    }
+    const std::string remedy =
+        "install " + name + " (Debian: " + package_of(mpi) + "), or load it " + load;
+    if (several_machines(facts) || !facts.programs.threads)
+      return {State::trouble, about, "mpirun was not found", remedy};
     return {State::note, about, "mpirun was not found: nodes are threads of one process",
-            "for several machines install Open MPI (Debian: openmpi-bin), or load it (module load openmpi)"};
+            "for several machines " + remedy};
   }
   const std::string where = ", " + facts.programs.mpirun->string();
   if (facts.mpirun_version.empty()) {
     return {State::trouble, about, "mpirun --version says nothing" + where,
             "mpirun --version must work: load MPI anew, or use --backend threads"};
   }
-  const std::string version = open_mpi_version(facts.mpirun_version);
+  const std::string version = version_of(mpi, facts.mpirun_version);
   if (version.empty()) {
-    return {State::trouble, about, "mpirun is not Open MPI's: " + first_line(facts.mpirun_version) + where,
-            "put Open MPI's mpirun first in the PATH (module load openmpi), or use --backend threads"};
+    return {State::trouble, about, "mpirun is not " + name + "'s: " + first_line(facts.mpirun_version) + where,
+            "put " + name + "'s mpirun first in the PATH " + load + ", or use --backend threads"};
   }
-  if (version.starts_with("4.")) return {State::good, about, "Open MPI " + version + where, ""};
-  return {State::note, about, "Open MPI " + version + where,
-          "MARS is tried with Open MPI 4.1: see below whether a start works"};
+  if (version.starts_with("4.")) return {State::good, about, name + " " + version + where, ""};
+  return {State::note, about, name + " " + version + where,
+          "MARS is tried with Open MPI 4.1 and MPICH 4.0: see below whether a start works"};
 }
 
 Finding check_programs(const Facts& facts) {
@@ -160,6 +164,7 @@ Finding check_copies(const Facts& facts) {
 Finding check_user(const Facts& facts) {
   const std::string place = facts.container.empty() ? "" : " in a container (" + facts.container + ")";
   if (!facts.surroundings.root) return {State::good, "user", "not root" + place, ""};
+  if (facts.programs.mpi == Mpi::mpich) return {State::good, "user", "root" + place, ""};
   return {State::note, "user", "root" + place + ": Open MPI wants to be told twice",
           "mars render does; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
           "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
@@ -169,7 +174,7 @@ Finding check_temporary(const Facts& facts) {
   const char* about = "TMPDIR";
   if (!facts.temporary_space) {
     return {State::trouble, about, facts.temporary + " cannot be written",
-            "Open MPI needs it: set TMPDIR to a folder on a local disk that you may write"};
+            "MPI needs it: set TMPDIR to a folder on a local disk that you may write"};
   }
   const std::string found = facts.temporary + ", " + bytes_text(facts.temporary_space->left) + " free";
   if (facts.temporary_space->left < kLittleTemporary)

@@ -10,6 +10,7 @@
 #include <cctype>
 #include <fstream>
 #include <regex>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -42,6 +43,18 @@ std::string quoted(const std::string& word) {
 bool runnable(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
+}
+
+// In the first folder of `path` that has any of `names`, the first of these.
+std::optional<fs::path> find_first(std::span<const std::string_view> names, std::string_view path) {
+  while (!path.empty()) {
+    const std::string_view folder = path.substr(0, path.find(':'));
+    path.remove_prefix(std::min(path.size(), folder.size() + 1));
+    for (const std::string_view name : names) {
+      if (const fs::path file = fs::path(folder) / name; !folder.empty() && runnable(file)) return file;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<fs::path> find_ours(const std::string& name, const fs::path& self, const std::string& path) {
@@ -92,14 +105,20 @@ void add_arguments(Command& command, Program program, const RenderOptions& optio
 
 }  // namespace
 
+Mpi our_mpi() { return MARS_MPICH ? Mpi::mpich : Mpi::open_mpi; }
+
+const char* name_of(Mpi mpi) { return mpi == Mpi::mpich ? "MPICH" : "Open MPI"; }
+const char* package_of(Mpi mpi) { return mpi == Mpi::mpich ? "mpich" : "openmpi-bin"; }
+
 std::optional<fs::path> find_program(const std::string& name, const std::string& path) {
-  std::string_view rest = path;
-  while (!rest.empty()) {
-    const std::string_view folder = rest.substr(0, rest.find(':'));
-    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
-    if (const fs::path file = fs::path(folder) / name; !folder.empty() && runnable(file)) return file;
-  }
-  return std::nullopt;
+  const std::string_view only = name;
+  return find_first({&only, 1}, path);
+}
+
+std::optional<fs::path> find_mpirun(Mpi mpi, const std::string& path) {
+  static constexpr std::string_view kOpenMpi[] = {"mpirun.openmpi", "mpirun"};
+  static constexpr std::string_view kMpich[] = {"mpirun.mpich", "mpiexec.hydra", "mpirun"};
+  return mpi == Mpi::mpich ? find_first(kMpich, path) : find_first(kOpenMpi, path);
 }
 
 std::string shell_text(const Command& command) {
@@ -111,7 +130,7 @@ std::string shell_text(const Command& command) {
 }
 
 Programs find_programs(const fs::path& self, const std::string& path) {
-  return {find_program("mpirun", path), find_ours("mars-host", self, path),
+  return {find_mpirun(our_mpi(), path), find_ours("mars-host", self, path),
           find_ours("mars-node", self, path), find_ours("mars-threads", self, path)};
 }
 
@@ -138,21 +157,26 @@ std::uint32_t task_count(const std::string& tasks_per_node) {
   return sum;
 }
 
-std::uint32_t slot_count(const fs::path& hostfile) {
-  static const std::regex form("\\s*[^\\s#][^#]*?(\\sslots\\s*=\\s*(\\d{1,6})[^#]*)?(#.*)?");
+std::vector<Slots> read_hostfile(const fs::path& hostfile) {
+  static const std::regex form("\\s*([^\\s#]+)[^#]*?(\\sslots\\s*=\\s*(\\d{1,6})[^#]*)?(#.*)?");
   std::ifstream file(hostfile);
   if (!file) throw Failure("cannot be read", hostfile.string(), "--hostfile names a file of lines like: n1 slots=4");
-  std::uint32_t sum = 0;
+  std::vector<Slots> hosts;
   for (std::string line; std::getline(file, line);) {
     std::smatch match;
-    if (std::regex_match(line, match, form)) sum += match[2].matched ? std::stoul(match[2]) : 1;
+    if (!std::regex_match(line, match, form)) continue;
+    const auto count = static_cast<std::uint32_t>(match[3].matched ? std::stoul(match[3]) : 1);
+    if (count > 0) hosts.push_back({match[1], count});
   }
-  if (sum == 0) throw Failure("names no host", hostfile.string(), "write a line a host, like: n1 slots=4");
-  return sum;
+  if (hosts.empty()) throw Failure("names no host", hostfile.string(), "write a line a host, like: n1 slots=4");
+  return hosts;
 }
 
 std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& surroundings) {
-  const std::uint32_t tasks = options.hostfile.empty() ? surroundings.tasks : slot_count(options.hostfile);
+  std::uint32_t tasks = options.hostfile.empty() ? surroundings.tasks : 0;
+  if (!options.hostfile.empty()) {
+    for (const Slots& slots : read_hostfile(options.hostfile)) tasks += slots.count;
+  }
   if (tasks == 0 || options.backend == Backend::threads) return surroundings.processors;
   return std::max(tasks, 2u) - 1;
 }
@@ -162,7 +186,8 @@ Backend choose_backend(Backend asked, const Programs& programs) {
   const Backend backend = asked != Backend::automatic ? asked : mpi ? Backend::mpi : Backend::threads;
   if (backend == Backend::mpi && !programs.mpirun) {
     throw Failure("mpirun was not found", "",
-                  "install Open MPI (Debian: openmpi-bin), or use --backend threads");
+                  std::string("install ") + name_of(programs.mpi) + " (Debian: " + package_of(programs.mpi) +
+                      "), or use --backend threads");
   }
   if (backend == Backend::mpi && !mpi) {
     throw Failure("mars-host and mars-node were not found beside mars or in the PATH", "",
@@ -174,8 +199,20 @@ Backend choose_backend(Backend asked, const Programs& programs) {
   return backend;
 }
 
-Command mpi_command(const RenderOptions& options, const Programs& programs,
-                    const Surroundings& surroundings) {
+namespace {
+
+// Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
+Command mpich_start(const RenderOptions& options, const Programs& programs) {
+  Command command{{}, {programs.mpirun->string(), "-bind-to", "none"}};
+  if (options.hostfile.empty()) return command;
+  std::string hosts;
+  for (const Slots& slots : read_hostfile(options.hostfile))
+    hosts += (hosts.empty() ? "" : ",") + slots.host + ":" + std::to_string(slots.count);
+  command.words.insert(command.words.end(), {"-hosts", hosts});
+  return command;
+}
+
+Command open_mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
   Command command;
   // As root Open MPI wants to be told twice; as the only user of a container there is nobody else to be.
   if (surroundings.root) {
@@ -194,7 +231,6 @@ Command mpi_command(const RenderOptions& options, const Programs& programs,
     // machines this one hangs when it starts two programs from outside of the allocation.
     command.environment.emplace_back("PMIX_MCA_gds", "hash");
   }
-  // Nodes bind themselves, each by its place on its machine.
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
   if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", options.hostfile});
   const std::uint32_t room = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
@@ -202,6 +238,15 @@ Command mpi_command(const RenderOptions& options, const Programs& programs,
   if (!options.hostfile.empty() || options.nodes + 1 > room) command.words.emplace_back("--oversubscribe");
   for (const std::string& name : surroundings.settings)
     command.words.insert(command.words.end(), {"-x", name});
+  return command;
+}
+
+}  // namespace
+
+Command mpi_command(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+  Command command = programs.mpi == Mpi::mpich ? mpich_start(options, programs)
+                                               : open_mpi_start(options, programs, surroundings);
+  // Nodes bind themselves, each by its place on its machine.
   command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
   add_arguments(command, Program::host, options);
   command.words.insert(command.words.end(),

@@ -26,15 +26,27 @@ std::string shell_text(const Command& command);
 // The program of that name in `path`, folders separated by colons; none: in none of them.
 std::optional<std::filesystem::path> find_program(const std::string& name, const std::string& path);
 
+// Whose mpirun starts the programs. Intel's and others that come from MPICH are as MPICH is.
+enum class Mpi { open_mpi, mpich };
+
+// The MPI that MARS was built with.
+Mpi our_mpi();
+const char* name_of(Mpi mpi);
+const char* package_of(Mpi mpi);  // Debian's, with its mpirun
+
 // Where the programs are that `mars render` starts; none: not installed.
 struct Programs {
   std::optional<std::filesystem::path> mpirun;
   std::optional<std::filesystem::path> host;
   std::optional<std::filesystem::path> node;
   std::optional<std::filesystem::path> threads;
+  Mpi mpi = our_mpi();
 };
 
-// Looks for our own beside `self`, then in ../libexec from there, then as for mpirun in `path`.
+// The first mpirun in `path`; a folder that has those of several MPIs tells them apart by their names.
+std::optional<std::filesystem::path> find_mpirun(Mpi mpi, const std::string& path);
+
+// Looks for our own beside `self`, then in ../libexec from there, then in `path`.
 Programs find_programs(const std::filesystem::path& self, const std::string& path);
 
 // What a start has to mind.
@@ -54,9 +66,13 @@ Surroundings look_around(const std::string& path);
 // The sum of Slurm's list of tasks a host, "2(x3),1"; 0 for what is none.
 std::uint32_t task_count(const std::string& tasks_per_node);
 
-// The sum of a hostfile's slots, 1 for a line that tells none. Throws Failure where it cannot be read or names
-// no host.
-std::uint32_t slot_count(const std::filesystem::path& hostfile);
+// A hostfile's hosts with their slots, 1 for a line that tells none. Throws Failure where it cannot be read or
+// names no host.
+struct Slots {
+  std::string host;
+  std::uint32_t count;
+};
+std::vector<Slots> read_hostfile(const std::filesystem::path& hostfile);
 
 // How many nodes render where a person does not say: what the hostfile or the batch system has room for beside
 // the host; else, and for threads, one a processor.

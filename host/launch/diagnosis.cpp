@@ -73,6 +73,15 @@ std::optional<Failure> lost_rank(const std::string& words, const std::optional<B
                  remedy_for(signal));
 }
 
+// MPICH's mpirun: "=   PID 17078 RUNNING AT ada", and then "... EXIT STRING: Killed (signal 9)".
+std::optional<Failure> lost_process(const std::string& words) {
+  static const std::regex form("PID \\d+ RUNNING AT (\\S+)[^]*EXIT STRING: [^\n]*\\(signal (\\d+)\\)");
+  std::smatch match;
+  if (!std::regex_search(words, match, form)) return std::nullopt;
+  const int signal = std::stoi(match[2]);
+  return Failure(killed_by("the host or a node", signal), "machine " + match[1].str(), remedy_for(signal));
+}
+
 // The machine's name, or the address itself where none is known.
 std::string name_of(const std::string& address) {
   addrinfo numeric{}, *found = nullptr;
@@ -123,7 +132,7 @@ std::optional<Failure> own_words(const std::deque<std::string>& lines) {
 }
 
 Failure unknown(const Remains& remains) {
-  const std::string program = std::filesystem::path(remains.program).filename().string();
+  const std::string program = std::filesystem::path(remains.program).stem().string();  // mpirun.mpich is one
   if (remains.ending.signal != 0) {
     return Failure(killed_by(program, remains.ending.signal), "", remedy_for(remains.ending.signal));
   }
@@ -153,6 +162,7 @@ Failure diagnose(const Remains& remains, const RenderOptions& options, const Adv
   if (const auto own = own_words(remains.last_words)) return advised(*own);
   const std::string words = join(remains.last_words, remains.last_words.size());
   if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);
+  if (const auto lost = lost_process(words)) return advised(*lost);
   if (const auto lost = lost_machine(words, remains.booted)) return *lost;
   if (const auto known = meaning_of(words)) return *known;
   return advised(unknown(remains));

@@ -63,7 +63,7 @@ class Run {
  private:
   void take_output(const std::string& line) {
     const std::optional<Event> event = read_event(line);
-    if (!event) return;
+    if (!event) return take_error(line);  // the words of an mpirun
     if (const auto* booted = std::get_if<Booted>(&*event)) {
       display_.tell(booted_text(*booted));
       remains_.booted = *booted;

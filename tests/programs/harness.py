@@ -18,12 +18,13 @@ import zlib
 PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
 SOURCES = pathlib.Path(sys.argv[2]).resolve()
 EXAMPLES = SOURCES / "examples"
-HAVE_MPI = (PROGRAMS / "mars-host").exists() and shutil.which("mpirun") is not None
+HAVE_MPI = (PROGRAMS / "mars-host").exists()
+MPICH = HAVE_MPI and b"libmpich" in (PROGRAMS / "mars-host").read_bytes()
 BACKENDS = ["threads"] + ["mpi"] * HAVE_MPI
 SECONDS = 60  # for any one program
 
 # For a person's own mpirun line: the tests may run as root, with more ranks than cores.
-OWN_MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
+OWN_MPIRUN = ["mpirun.mpich"] if MPICH else ["mpirun", "--oversubscribe", "--bind-to", "none"]
 ENVIRONMENT = dict(
     os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0")
 

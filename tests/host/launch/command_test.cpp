@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Programs all_programs() {
-  return {"/usr/bin/mpirun", "/opt/mars-host", "/opt/mars-node", "/opt/mars-threads"};
+  return {"/usr/bin/mpirun", "/opt/mars-host", "/opt/mars-node", "/opt/mars-threads", Mpi::open_mpi};
 }
 
 RenderOptions film(std::uint32_t nodes) {
@@ -72,6 +72,18 @@ TEST(Command, AHostfileIsPassedOn) {
   EXPECT_TRUE(holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
 }
 
+TEST(Command, MpichHasWordsOfItsOwn) {
+  const TemporaryFolder folder;
+  Programs programs = all_programs();
+  programs.mpi = Mpi::mpich;
+  RenderOptions options = film(7);
+  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}};
+  EXPECT_EQ(shell_text(mpi_command(options, programs, surroundings)),
+            "/usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 7 /opt/mars-node");
+  options.hostfile = write_hostfile(folder, "n1 slots=2\nn4\n").string();
+  EXPECT_TRUE(holds(shell_text(mpi_command(options, programs, surroundings)), "-bind-to none -hosts n1:2,n4:1 -n 1"));
+}
+
 TEST(Command, SlurmsTasksAreCounted) {
   EXPECT_EQ(task_count(""), 0u);
   EXPECT_EQ(task_count("4"), 4u);
@@ -80,11 +92,15 @@ TEST(Command, SlurmsTasksAreCounted) {
   EXPECT_EQ(task_count("nonsense"), 0u);
 }
 
-TEST(Command, SlotsAreCounted) {
+TEST(Command, HostfilesAreRead) {
   const TemporaryFolder folder;
-  EXPECT_EQ(slot_count(write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")), 6u);
-  EXPECT_TRUE(holds(failure_of([&] { slot_count(write_hostfile(folder, "# none\n")); }), "names no host"));
-  EXPECT_TRUE(holds(failure_of([&] { slot_count(folder / "nowhere"); }), "cannot be read"));
+  std::string found;
+  for (const Slots& slots : read_hostfile(
+           write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")))
+    found += slots.host + ":" + std::to_string(slots.count) + " ";
+  EXPECT_EQ(found, "n1:2 n2:3 n4:1 ");
+  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }), "names no host"));
+  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
 }
 
 TEST(Command, NodesFillWhatThereIs) {
@@ -133,6 +149,17 @@ TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
   EXPECT_EQ(programs.node, folder / "libexec/mars-node");
   EXPECT_EQ(programs.threads, folder / "path/mars-threads");
   EXPECT_EQ(programs.mpirun, std::nullopt);
+}
+
+TEST(Command, MpirunIsThatOfOurMpi) {
+  const TemporaryFolder folder;
+  for (const char* name : {"module/mpirun", "usr/mpirun", "usr/mpirun.openmpi", "usr/mpirun.mpich", "usr/mpiexec.hydra"})
+    make_program(folder / name);
+  const std::string usr = (folder / "usr").string();
+  EXPECT_EQ(find_mpirun(Mpi::open_mpi, usr), folder / "usr/mpirun.openmpi");
+  EXPECT_EQ(find_mpirun(Mpi::mpich, usr), folder / "usr/mpirun.mpich");
+  EXPECT_EQ(find_mpirun(Mpi::mpich, (folder / "module").string() + ":" + usr), folder / "module/mpirun");
+  EXPECT_EQ(find_mpirun(Mpi::mpich, "/none"), std::nullopt);
 }
 
 TEST(Command, AutoTakesMpiWhereItIs) {
