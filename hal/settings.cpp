@@ -16,21 +16,30 @@ namespace {
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
 
-constexpr std::array<Setting, 2> kTable = {{
+constexpr std::array<Setting, 4> kTable = {{
     {"MARS_MEMORY", "MiB that a node may use for one frame", "a share of the machine's memory"},
+    {"MARS_NX_HOST", "yes or no: rank 0 of an MPI job of NX programs is the host",
+     "it is where its program is another than the others'"},
+    {"MARS_NX_MEMORY", "MiB that messages under way may take on a machine where mars-nx runs processes",
+     "half of the machine's memory"},
     {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512",
      "the widest the processor has"},
 }};
 
-std::uint64_t parse_memory(const std::string& text) {
+std::uint64_t parse_memory(const std::string& name, const std::string& text) {
   std::uint64_t mebibytes = 0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, mebibytes);
   if (error != std::errc() || stop != end || mebibytes == 0 || mebibytes > UINT64_MAX / kMiB) {
-    throw Failure("\"" + text + "\" is not a number of MiB", "environment variable MARS_MEMORY",
+    throw Failure("\"" + text + "\" is not a number of MiB", "environment variable " + name,
                   "set it to a whole number from 1, or unset it");
   }
   return mebibytes * kMiB;
+}
+
+bool parse_yes(const std::string& name, const std::string& text) {
+  if (text == "yes" || text == "no") return text == "yes";
+  throw Failure("\"" + text + "\" is neither yes nor no", "environment variable " + name, "set it to yes or no, or unset it");
 }
 
 std::string parse_simd(const std::string& text) {
@@ -71,9 +80,17 @@ std::span<const Setting> settings_table() { return kTable; }
 
 Settings read_settings() {
   Settings settings;
-  if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory(text);
+  if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory("MARS_MEMORY", text);
+  if (const char* text = std::getenv("MARS_NX_MEMORY")) settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
+  if (const char* text = std::getenv("MARS_NX_HOST")) settings.nx_host = parse_yes("MARS_NX_HOST", text);
   if (const char* text = std::getenv("MARS_SIMD")) settings.simd = parse_simd(text);
   return settings;
+}
+
+// By Open MPI, by whoever speaks PMIx (srun too), PMI-1 or PMI-2 (MPICH's).
+bool started_by_mpi() {
+  const std::array names = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD"};
+  return std::any_of(names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 std::optional<std::string> take_place_text() {
@@ -96,7 +113,7 @@ std::vector<std::string> unknown_settings() {
   for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
     const std::string_view line = *variable;
     const std::string name(line.substr(0, line.find('=')));
-    if (!name.starts_with("MARS_") || known(name)) continue;
+    if (!name.starts_with("MARS_") || known(name) || name == kPlaceSetting) continue;
     lines.push_back("environment variable " + name + " means nothing to MARS (did you mean " +
                     std::string(nearest(name)) + "?)");
   }

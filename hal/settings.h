@@ -20,11 +20,16 @@ std::span<const Setting> settings_table();
 
 struct Settings {
   std::optional<std::uint64_t> memory;  // bytes a node may use for one frame; none: the program decides
+  std::optional<std::uint64_t> nx_memory;  // bytes of messages under way between mars-nx's processes; none: it decides
+  std::optional<bool> nx_host;             // rank 0 of an MPI job is the host; none: its program tells
   std::string simd;                     // widest instruction set that kernels may use; "": the processor's
 };
 
 // Throws a Failure that names the variable and what it may be.
 Settings read_settings();
+
+// Whether an MPI's starter (mpirun, srun) made this process a rank of a job.
+bool started_by_mpi();
 
 // Takes out of the environment what the process that started this one as a rank wrote there for it (hal/processes/place.h);
 // none: nothing.

@@ -71,26 +71,26 @@ int machine_of(MPI_Comm comm) {
   return lowest;
 }
 
-// Of MPI_COMM_WORLD, whose rank there is the id: first the nodes by place, then the host.
-MPI_Comm ranks_by_id(int host_rank) {
-  const int rank = rank_in(MPI_COMM_WORLD);
-  const topology::Spot mine{machine_of(MPI_COMM_WORLD), topology::Machine::binding().first_core};
-  std::vector<topology::Spot> spots(size_of(MPI_COMM_WORLD));
-  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, spots.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD),
+// Of `ranks`, whose rank there is the id: first the nodes by place, then the host.
+MPI_Comm ranks_by_id(int host_rank, MPI_Comm ranks) {
+  const int rank = rank_in(ranks);
+  const topology::Spot mine{machine_of(ranks), topology::Machine::binding().first_core};
+  std::vector<topology::Spot> spots(size_of(ranks));
+  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, spots.data(), sizeof mine, MPI_BYTE, ranks),
           "MPI_Allgather");
-  spots.erase(spots.begin() + host_rank);
+  if (host_rank >= 0) spots.erase(spots.begin() + host_rank);
   std::vector<int> ids = topology::number_nodes(spots);
-  ids.insert(ids.begin() + host_rank, static_cast<int>(spots.size()));
+  if (host_rank >= 0) ids.insert(ids.begin() + host_rank, static_cast<int>(spots.size()));
   MPI_Comm all = MPI_COMM_NULL;
-  succeed(MPI_Comm_split(MPI_COMM_WORLD, 0, ids[rank], &all), "MPI_Comm_split");
+  succeed(MPI_Comm_split(ranks, 0, ids[rank], &all), "MPI_Comm_split");
   return all;
 }
 
 }  // namespace
 
-MpiBackend::MpiBackend(int host_rank) : all_(ranks_by_id(host_rank)) {
+MpiBackend::MpiBackend(int host_rank, MPI_Comm ranks) : all_(ranks_by_id(host_rank, ranks)) {
   succeed(MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-  nodes_ = size_of(all_) - 1;
+  nodes_ = size_of(all_) - (host_rank >= 0 ? 1 : 0);
   rank_ = rank_in(all_);
   wide_tag_ = highest_tag();
   last_tag_ = wide_tag_ - 2 - nodes_;

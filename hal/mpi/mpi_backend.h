@@ -17,8 +17,8 @@ namespace mars::hal {
 
 class MpiBackend : public Backend {
  public:
-  // Collective over all ranks; `host_rank` is the host's in MPI_COMM_WORLD. Nodes get their ids by place.
-  explicit MpiBackend(int host_rank);
+  // Collective over `ranks`, among which `host_rank` is the host's; -1: there is none. Nodes get their ids by place.
+  explicit MpiBackend(int host_rank, MPI_Comm ranks = MPI_COMM_WORLD);
   // Collective after an orderly finish; after a failure it leaves all to the end of the job.
   ~MpiBackend() override;
   MpiBackend(const MpiBackend&) = delete;

@@ -29,13 +29,12 @@ std::vector<bool>::reference told(int node) {
 }
 
 [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) {
-  process().fail(call, code, what, remedy);
+  if (!world().is_host()) process().fail(call, code, what, remedy);
+  throw CallFailure(code, what, std::string("the host, ") + call, remedy);
 }
 
-bool is_host() { return world().backend().rank() == world().backend().host(); }
-
 void check_host(const char* call) {
-  if (is_host()) return;
+  if (world().is_host()) return;
   fail(call, EQNODE, "this is the host's call",
        "start this program as the host: mars-nx run ./host ./node, or mars-nx run --host ./host");
 }
@@ -66,6 +65,14 @@ std::string check_name(const char* call, const char* name) {
   return text;
 }
 
+// Failures of the world do not know the call.
+template <class Work>
+void on_world(const char* call, int code, Work work) try {
+  work();
+} catch (const Failure& failure) {
+  fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem, failure.remedy);
+}
+
 // "8" or "d3"; what follows told of memory and processors.
 int nodes_of(const char* call, const std::string& type, int all) {
   if (type.empty()) return all;
@@ -80,30 +87,21 @@ int nodes_of(const char* call, const std::string& type, int all) {
        "start the job with more: mars-nx run --nodes " + std::to_string(nodes));
 }
 
-void hold(const std::string& name, const std::string& type, int nodes) {
-  if (nodes != world().backend().nodes()) {
-    world().resize(nodes);
-    renew_process();
-  }
-  cube = {true, name, type, {}};
-}
-
 void get_cube(const char* call, const char* name, const char* type) {
   check_host(call);
   const std::string text = check_name(call, name);
   const std::string kind = type == nullptr ? "" : type;
   const int nodes = nodes_of(call, kind, world().all_nodes());
   if (cube.held) fail(call, EBUSY, "the cube " + cube.name + " is held already", "relcube it first");
-  for (int node = 0; node < world().backend().nodes(); ++node)
-    if (world().status(node).state == World::State::running)
-      fail(call, EBUSY, "nodes run already", "get the cube before anything is loaded, sent or received");
-  hold(text, kind, nodes);
+  on_world(call, EBUSY, [&] { world().resize(nodes); });
+  renew_process();
+  cube = {true, text, kind, {}};
 }
 
 void attach_cube(const char* call, const char* name) {
   check_host(call);
   const std::string text = check_name(call, name);
-  if (!cube.held) return hold(text, "", world().backend().nodes());
+  if (!cube.held) cube = {true, text, "", {}};
   if (text != cube.name) fail(call, EINVAL, "there is no cube " + text, "the cube that is held is " + cube.name);
 }
 
@@ -118,21 +116,11 @@ void release_cube(const char* call, const char* name) {
   const std::string text = check_name(call, name);
   if (!cube.held || (!text.empty() && text != cube.name)) fail(call, EINVAL, "there is no cube " + text, "getcube or attachcube comes first");
   kill_all();
-  world().resize(world().all_nodes());
-  renew_process();
   cube = {};
 }
 
 void set_pid(const char* call, long pid) {
   if (pid != 0) fail(call, EQPID, "pid " + std::to_string(pid) + " cannot be had", "the host's pid is 0");
-}
-
-// Failures of the world do not know the call.
-template <class Work>
-void on_world(const char* call, int code, Work work) try {
-  work();
-} catch (const Failure& failure) {
-  fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem, failure.remedy);
 }
 
 void load_nodes(const char* call, const char* file, long node, long pid) {
@@ -186,7 +174,7 @@ void wait_one(const char* call, long node, long pid, long* cnode, long* cpid, lo
 
 void kill_nodes(const char* call, long node, long pid, bool flush) {
   check_nodes(call, node, pid);
-  if (!is_host()) world().fail("node " + std::to_string(world().backend().rank()) + " has ended all by " + call);
+  if (!world().is_host()) world().fail("node " + std::to_string(world().backend().rank()) + " has ended all by " + call);
   if (node == -1 && flush) return kill_all();
   const Nodes nodes = check_nodes(call, node, pid);
   for (int each = nodes.first; each < nodes.last; ++each) world().kill(each);

@@ -27,6 +27,9 @@ target_include_directories(mars_nx PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(mars_nx PRIVATE ${parts_of_nx})
 target_link_options(mars_nx PRIVATE
   -Wl,--version-script=${CMAKE_CURRENT_BINARY_DIR}/libmars-nx.map -Wl,-Bsymbolic-functions -Wl,--no-undefined)
+if(MARS_HAVE_MPI)
+  target_compile_definitions(mars_nx PRIVATE MARS_NX_MPI)
+endif()
 set_target_properties(mars_nx PROPERTIES
   OUTPUT_NAME mars-nx EXPORT_NAME nx VERSION ${PROJECT_VERSION} SOVERSION 0
   LINK_DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/libmars-nx.map)

@@ -12,6 +12,9 @@
 #include "hal/nx/guard.h"
 #include "hal/processes/processes_world.h"
 #include "hal/settings.h"
+#ifdef MARS_NX_MPI
+#include "hal/mpi/join.h"
+#endif
 
 namespace mars::hal {
 namespace {
@@ -38,6 +41,10 @@ Program& program() {
 
 // The last of the program's exit functions, in the process itself and not in one that it forked.
 void leave(int code, void*) try {
+#ifdef MARS_NX_MPI
+  // The others wait for it.
+  if (program().world == nullptr && started_by_mpi()) world();
+#endif
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
   program().world->leave(code);
@@ -47,12 +54,15 @@ void leave(int code, void*) try {
 
 std::unique_ptr<World> connect() {
   if (const std::optional<Place> place = take_place()) return std::make_unique<ProcessesWorld>(*place);
+#ifdef MARS_NX_MPI
+  if (started_by_mpi()) return join_mpi(read_settings().nx_host);
+#endif
   return std::make_unique<ProcessesWorld>();
 }
 
 Process& find_process() {
-  world();
-  if (!program().process) renew_process();
+  Backend& backend = world().backend();
+  if (!program().process) program().process.emplace(backend);
   return *program().process;
 }
 
@@ -80,9 +90,6 @@ World& world() {
   return *program.world;
 }
 
-void renew_process() {
-  program().process.reset();
-  program().process.emplace(world().backend());
-}
+void renew_process() { program().process.reset(); }
 
 }  // namespace mars::hal

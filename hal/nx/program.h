@@ -10,7 +10,7 @@ namespace mars::hal {
 // The calling program's job; connects it. A Failure on any thread but the first that called.
 World& world();
 
-// Makes the program's process anew, after the cube's size has changed.
+// The next message call makes the program's process anew, with nothing sent or received: after the cube has changed.
 void renew_process();
 
 }  // namespace mars::hal

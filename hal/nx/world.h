@@ -12,8 +12,9 @@ class World {
  public:
   virtual ~World() = default;
 
-  // This rank's.
+  // This rank's; where the host calls, its cube's size is settled.
   virtual Backend& backend() = 0;
+  virtual bool is_host() const = 0;
   // The orderly end of this rank, whose program ends with `code`; messages it has sent can still be received.
   virtual void leave(int code) = 0;
   // Ends this rank, and every other at its next call; tells `reason` unless it is another rank's failure, already told.

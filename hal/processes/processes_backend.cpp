@@ -55,7 +55,7 @@ void ProcessesBackend::send(int to, int type, const void* data, std::size_t leng
   if (target == segment_.slots()) throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
   Slot& receiver = segment_.slot(target);
   const Life life = receiver.life.load(std::memory_order_relaxed);
-  if (life == Life::ended || life == Life::died) return;  // nobody will ever receive it
+  if (life == Life::left || life == Life::ended || life == Life::died) return;  // nobody will ever receive it
   const Offset offset = heap_.acquire(length);
   Block& block = segment_.block(offset);
   block.type = type;

@@ -78,10 +78,7 @@ ProcessesWorld::ProcessesWorld()
   slot_.life = Life::joined;
 }
 
-void ProcessesWorld::leave(int code) {
-  slot_.code = code;
-  slot_.life = Life::ended;
-}
+void ProcessesWorld::leave(int) { slot_.life = Life::left; }
 
 void ProcessesWorld::fail(const std::string& reason) {
   if (!segment_.stopped()) {
@@ -111,7 +108,11 @@ void ProcessesWorld::begin() {
   ask(Asking::What::begin, -1, "");
 }
 
-void ProcessesWorld::resize(int nodes) { segment_.header().cube = nodes; }
+void ProcessesWorld::resize(int nodes) {
+  for (int node = 0; node < segment_.nodes(); ++node)
+    if (status(node).state == State::running) throw Failure("nodes run already", "", "get the cube before they begin");
+  segment_.header().cube = nodes;
+}
 
 void ProcessesWorld::load(const std::string& file, int node) {
   begun_ = true;
@@ -133,6 +134,7 @@ World::Status ProcessesWorld::status(int node) {
       return {State::nothing, 0};
     case Life::started:
     case Life::joined:
+    case Life::left:
       return {State::running, 0};
     default:
       return {State::ended, slot.code};

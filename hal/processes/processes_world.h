@@ -17,6 +17,7 @@ class ProcessesWorld : public World {
   ProcessesWorld();
 
   Backend& backend() override { return *backend_; }
+  bool is_host() const override { return place_.socket >= 0; }
   void leave(int code) override;
   [[noreturn]] void fail(const std::string& reason) override;
 

@@ -25,13 +25,13 @@ int run_rank(const Place& place, const std::function<int()>& body) {
     Process process(backend);
     const int code = body();
     process.finish();
-    slot.life = Life::ended;
+    slot.life = Life::left;
     return code;
   } catch (const std::exception& failure) {
     const std::string reason = reason_of(failure);
     if (!segment.stopped()) tell(reason);
     segment.stop(reason);
-    slot.life = Life::ended;
+    slot.life = Life::left;
     return 1;
   }
 }

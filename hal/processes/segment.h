@@ -38,6 +38,7 @@ enum class Life : std::uint32_t {
   none,     // nothing runs, or nothing is known of it
   started,  // a process runs, which has made no NX call yet
   joined,
+  left,     // in order; its process is about to end
   ended,    // in order; its code is known
   died,
 };

@@ -1,0 +1,248 @@
+#include "hal/mpi/join.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+#include "hal/failure.h"
+#include "hal/mpi/control.h"
+#include "hal/mpi/mpi_backend.h"
+#include "hal/mpi/mpi_call.h"
+#include "hal/mpi/patience.h"
+#include "hal/process.h"
+
+namespace mars::hal {
+namespace {
+
+constexpr std::chrono::milliseconds kNap{2};
+// Whoever lets that much time pass has nothing to do before a message comes.
+constexpr std::chrono::microseconds kPatience{5000};
+constexpr int kLooksBefore = 100;  // turns of a wait before what is beside messages is looked at
+
+using Name = std::array<char, 512>;  // a program's path, its end if it is long
+
+Name own_name() {
+  const std::string path = std::filesystem::read_symlink("/proc/self/exe").string();
+  Name name{};
+  path.copy(name.data(), name.size() - 1, path.size() - std::min(path.size(), name.size() - 1));
+  return name;
+}
+
+// MPI itself would spin.
+void wait(MPI_Request& request) {
+  int done = 0;
+  while (succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test"), done == 0) std::this_thread::sleep_for(kNap);
+}
+
+class MpiWorld;
+
+// The messages of a rank that also looks for what the job has to tell it.
+class JoinedBackend : public MpiBackend {
+ public:
+  JoinedBackend(MpiWorld& world, bool host, MPI_Comm ranks) : MpiBackend(host ? 0 : -1, ranks), world_(world), host_(host) {}
+
+  void send(int to, int type, const void* data, std::size_t length) override {
+    check_there(to);
+    MpiBackend::send(to, type, data, length);
+  }
+  Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    check_there(to);
+    return MpiBackend::start_send(to, type, data, length);
+  }
+  void take(void* buffer) override {
+    ++taken_;
+    MpiBackend::take(buffer);
+  }
+  void idle(int turn, std::chrono::microseconds longest) override;
+
+  std::uint64_t taken() const { return taken_; }
+
+ private:
+  void check_there(int to) const {
+    if (to == nodes() && !host_) throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
+  }
+
+  MpiWorld& world_;
+  const bool host_;
+  std::uint64_t taken_ = 0;
+};
+
+class MpiWorld : public World {
+ public:
+  explicit MpiWorld(std::optional<bool> host);
+
+  Backend& backend() override;
+  bool is_host() const override { return has_host_ && rank_ == 0; }
+  void leave(int code) override;
+  [[noreturn]] void fail(const std::string& reason) override;
+
+  int all_nodes() const override { return size_ - 1; }
+  void resize(int nodes) override;
+  void begin() override { begun_ = true; }
+  void load(const std::string& file, int node) override;
+  void kill(int node) override;
+  Status status(int node) override;
+  void wait_for_end() override;
+
+  // Takes in what the job has to tell; does not return where this rank is to end.
+  void look(bool waits);
+
+ private:
+  void make_cube();
+  [[noreturn]] void end_now(int code);
+
+  int rank_ = 0;
+  int size_ = 0;
+  bool has_host_ = false;
+  std::vector<Name> names_;  // of the ranks' programs
+  int cube_ = 0;             // nodes
+  std::unique_ptr<JoinedBackend> backend_;
+  std::optional<Control> control_;
+  std::vector<int> rank_of_;   // by id
+  std::vector<bool> loaded_;   // by id
+  bool begun_ = false;
+  std::optional<int> left_;    // the code with which it leaves
+};
+
+void JoinedBackend::idle(int turn, std::chrono::microseconds longest) {
+  if (turn >= kLooksBefore) world_.look(longest >= kPatience);
+  MpiBackend::idle(turn, longest);
+}
+
+MpiWorld::MpiWorld(std::optional<bool> host) {
+  int before = 0;
+  MPI_Initialized(&before);
+  int level = MPI_THREAD_SINGLE;
+  if (before == 0) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+  succeed(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  prepare_to_wait();
+  rank_ = rank_in(MPI_COMM_WORLD);
+  size_ = size_of(MPI_COMM_WORLD);
+  names_.resize(static_cast<std::size_t>(size_));
+  const Name mine = own_name();
+  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, names_.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD), "MPI_Allgather");
+  const bool differs = std::find(names_.begin() + 1, names_.end(), names_[0]) == names_.end();
+  int has_host = size_ > 1 && host.value_or(differs);
+  succeed(MPI_Bcast(&has_host, 1, MPI_INT, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  has_host_ = has_host != 0;
+  cube_ = size_ - has_host;
+  if (!is_host()) make_cube();
+}
+
+// What the host says of the cube is when it begins: nodes wait for it here.
+void MpiWorld::make_cube() {
+  if (has_host_) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    succeed(MPI_Ibcast(&cube_, 1, MPI_INT, 0, MPI_COMM_WORLD, &request), "MPI_Ibcast");
+    wait(request);
+  }
+  const bool within = rank_ < cube_ + has_host_;
+  MPI_Comm ranks = MPI_COMM_NULL;
+  succeed(MPI_Comm_split(MPI_COMM_WORLD, within ? 0 : MPI_UNDEFINED, rank_, &ranks), "MPI_Comm_split");
+  if (!within) end_now(0);
+  backend_ = std::make_unique<JoinedBackend>(*this, has_host_, ranks);
+  MPI_Comm by_id = MPI_COMM_NULL;
+  succeed(MPI_Comm_split(ranks, 0, backend_->rank(), &by_id), "MPI_Comm_split");
+  rank_of_.resize(static_cast<std::size_t>(size_of(by_id)));
+  succeed(MPI_Allgather(&rank_, 1, MPI_INT, rank_of_.data(), 1, MPI_INT, by_id), "MPI_Allgather");
+  loaded_.resize(rank_of_.size());
+  control_.emplace(by_id);
+}
+
+Backend& MpiWorld::backend() {
+  if (backend_ == nullptr) make_cube();
+  return *backend_;
+}
+
+void MpiWorld::resize(int nodes) {
+  if (backend_ != nullptr && nodes != cube_)
+    throw Failure("under MPI a job has one cube, made before its nodes begin", "", "start it without --over mpi");
+  cube_ = nodes;
+}
+
+void MpiWorld::load(const std::string& file, int node) {
+  const std::filesystem::path runs = names_[static_cast<std::size_t>(rank_of_[static_cast<std::size_t>(node)])].data();
+  if (runs.filename() != std::filesystem::path(file).filename())
+    throw Failure("node " + std::to_string(node) + " runs " + runs.string() + ", as it was started under MPI", file,
+                  "start that program on the nodes, or run without --over mpi");
+  if (loaded_[static_cast<std::size_t>(node)])
+    throw Failure("node " + std::to_string(node) + " has run its program already", file, "under MPI it can once: run without --over mpi");
+  loaded_[static_cast<std::size_t>(node)] = true;
+}
+
+void MpiWorld::kill(int node) {
+  const Traffic::Count& sent = process().traffic().to_nodes;
+  if (sent.messages > 0 || backend_->taken() > 0) begun_ = true;
+  for (int id = node < 0 ? 0 : node; id < (node < 0 ? cube_ : node + 1); ++id)
+    if (status(id).state == State::running) control_->kill(id);
+  look(false);
+}
+
+World::Status MpiWorld::status(int node) {
+  backend();
+  look(false);
+  if (!begun_ && !loaded_[static_cast<std::size_t>(node)]) return {State::nothing, 0};
+  const std::optional<int> code = control_->ended(node);
+  return {code ? State::ended : State::running, code.value_or(0)};
+}
+
+void MpiWorld::wait_for_end() {
+  look(true);
+  std::this_thread::sleep_for(kNap);
+}
+
+void MpiWorld::look(bool waits) {
+  control_->look(waits || left_, backend_->taken());
+  if (control_->killed() && !left_) end_now(-SIGKILL);
+  if (control_->stands_still())
+    fail("every process waits for a message, and none is on its way; " + rank_name(backend_->rank(), has_host_ ? backend_->host() : -1) +
+         " has ended with exit code " + std::to_string(*left_));
+}
+
+void MpiWorld::end_now(int code) {
+  std::fflush(nullptr);
+  leave(code);
+  std::_Exit(0);
+}
+
+void MpiWorld::leave(int code) {
+  if (rank_ < cube_ + has_host_) {
+    backend();
+    left_ = code;
+    if (has_host_ && !is_host()) control_->tell_end(backend_->host(), code);
+    if (code > 0) control_->watch();
+    process().finish();
+  }
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Ibarrier(MPI_COMM_WORLD, &request), "MPI_Ibarrier");
+  wait(request);
+  int after = 0;
+  MPI_Finalized(&after);
+  if (after == 0) MPI_Finalize();
+}
+
+void MpiWorld::fail(const std::string& reason) {
+  std::fflush(nullptr);
+  std::fprintf(stderr, "%s\n", reason.c_str());
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::_Exit(1);
+}
+
+}  // namespace
+
+std::unique_ptr<World> join_mpi(std::optional<bool> host) { return std::make_unique<MpiWorld>(host); }
+
+}  // namespace mars::hal

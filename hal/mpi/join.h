@@ -1,0 +1,15 @@
+// How a C program joins the MPI job that somebody's mpirun or srun made it a rank of. The host, if there is
+// one, is rank 0. Nodes wait in their first NX call until the host has made its cube, and those beyond it wait for the end.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/nx/world.h"
+
+namespace mars::hal {
+
+// Collective over all ranks. `host`: whether rank 0 is the host; none: it is if its program is no other rank's.
+std::unique_ptr<World> join_mpi(std::optional<bool> host);
+
+}  // namespace mars::hal
