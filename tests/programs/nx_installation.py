@@ -33,6 +33,10 @@ class NxInstallation(ProgramTest):
                 found[match[1]] = " ".join(text[match.start():text.index(";", match.end())].split())
         return found
 
+    def build(self, program, source, *options):
+        self.write(f"{program}.c", source)
+        self.succeed("cc", *options, f"{program}.c", "-o", program, *self.flags("--cflags", "--libs"))
+
     def run_nx(self, *words):
         library = next(self.prefix.rglob("libmars-nx.so")).parent
         return self.run_program(self.prefix / "bin/mars-nx", "run", *words,
