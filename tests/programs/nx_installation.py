@@ -33,12 +33,16 @@ class NxInstallation(ProgramTest):
                 found[match[1]] = " ".join(text[match.start():text.index(";", match.end())].split())
         return found
 
+    def build(self, program, source, *options):
+        self.write(f"{program}.c", source)
+        self.succeed("cc", *options, f"{program}.c", "-o", program, *self.flags("--cflags", "--libs"))
+
     def run_nx(self, *words):
+        return self.run_program(self.prefix / "bin/mars-nx", "run", *words, env=self.nx_environment())
+
+    def nx_environment(self):
         library = next(self.prefix.rglob("libmars-nx.so")).parent
-        return self.run_program(self.prefix / "bin/mars-nx", "run", *words,
-                                env=dict(harness.ENVIRONMENT, LD_LIBRARY_PATH=str(library)))
+        return dict(harness.ENVIRONMENT, LD_LIBRARY_PATH=str(library), PKG_CONFIG_PATH=str(library / "pkgconfig"))
 
     def flags(self, *words):
-        folder = next(self.prefix.rglob("mars-nx.pc")).parent
-        environment = dict(harness.ENVIRONMENT, PKG_CONFIG_PATH=str(folder))
-        return self.succeed("pkg-config", *words, "mars-nx", env=environment).split()
+        return self.succeed("pkg-config", *words, "mars-nx", env=self.nx_environment()).split()

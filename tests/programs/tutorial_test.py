@@ -1,8 +1,5 @@
-"""The pages that show a person what to type hold what they say: their commands are run as they stand, what they
-print is what the page says, and the page's pictures are those the commands make.
-
-A block ```sh is run by bash in the page's folder; a block ```text after it is what it prints, `...` standing for any
-lines. A picture images/PAGE/NAME.png is made by the commands as NAME.png.
+"""The tutorial holds what it says (pages.py), and its pictures are those its commands make: a picture
+images/PAGE/NAME.png is made by the commands as NAME.png.
 To make the pictures anew: tutorial_test.py PROGRAMS SOURCES --make-pictures
 """
 
@@ -10,27 +7,14 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import unittest
 import zlib
 
 MAKE_PICTURES = "--make-pictures" in sys.argv
-from harness import ENVIRONMENT, PROGRAMS, SOURCES, ProgramTest, main  # noqa: E402
+from harness import ENVIRONMENT, PROGRAMS, SOURCES, main  # noqa: E402
+from pages import PageTest, pattern_of  # noqa: E402
 
 PAGES = ["tutorial.md"]
-BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-
-
-def blocks_of(page):
-    """(kind, text, line) of each block."""
-    return [(block[1], block[2], page.count("\n", 0, block.start()) + 1) for block in BLOCK.finditer(page)]
-
-
-def pattern_of(expected):
-    """What a ```text block stands for."""
-    lines = [".*" if line.strip() == "..." else re.escape(line.rstrip()) for line in expected.rstrip().split("\n")]
-    return re.compile("\n".join(lines), re.DOTALL)
 
 
 def pixels_of(path):
@@ -45,26 +29,9 @@ def pixels_of(path):
     return kept, zlib.decompress(packed)
 
 
-class Pages(ProgramTest):
-    def run_commands(self, commands, where):
-        environment = dict(ENVIRONMENT, PATH=f"{PROGRAMS}:{os.environ['PATH']}")
-        done = subprocess.run(["bash", "-euc", commands], cwd=self.folder, env=environment, capture_output=True, text=True,
-                              timeout=120)
-        self.assertEqual((done.returncode, done.stderr), (0, ""), f"{where}\n{commands}\n{done.stdout}")
-        return "\n".join(line.rstrip() for line in done.stdout.rstrip().split("\n"))
-
-    def run_page(self, name):
-        path = SOURCES / "docs" / name
-        page, printed, ran = path.read_text(), "", 0
-        for kind, text, line in blocks_of(page):
-            where = f"docs/{name}:{line}"
-            if kind == "sh":
-                printed, ran = self.run_commands(text, where), ran + 1
-            elif kind == "text":
-                self.assertRegex(printed, re.compile("^" + pattern_of(text).pattern + "$", re.DOTALL), where)
-        self.assertGreater(ran, 0, "the page has no commands")
-        for picture in re.findall(r"!\[[^]]+\]\((images/%s/[^)]+)\)" % path.stem, page):
-            self.check_picture(path.parent / picture)
+class Pages(PageTest):
+    def environment(self):
+        return dict(ENVIRONMENT, PATH=f"{PROGRAMS}:{os.environ['PATH']}")
 
     def check_picture(self, shown):
         made = self.folder / shown.name
@@ -77,7 +44,10 @@ class Pages(ProgramTest):
     def test_pages(self):
         for page in PAGES:
             with self.subTest(page=page):
-                self.run_page(page)
+                text = self.run_page(page)
+                folder = f"images/{pathlib.Path(page).stem}"
+                for picture in re.findall(rf"!\[[^]]+\]\(({folder}/[^)]+)\)", text):
+                    self.check_picture(SOURCES / "docs" / picture)
 
     def test_a_page_that_is_wrong_is_told(self):
         """The test itself can fail."""

@@ -1,6 +1,6 @@
 # Fills in a manual page of NX's calls with what the C headers declare:  awk -f nx_manual.awk HEADER.h... PAGE
 #   @SYNOPSIS@      the prototypes of the calls that the page's NAME lists, in its order
-#   @TYPE name@     the definition of a type
+#   @TYPE name@     the definition of a type or a struct
 #   @TWINS@         what becomes of an error: which twins those calls have, and that the list follows
 # Pages and result are in mdoc(7).
 FILENAME ~ /\.h$/ {
@@ -53,7 +53,8 @@ function prototype(name,    count, each, i, depth, letter, argument) {
 }
 
 function definition(name) {
-  if (!match(headers, "typedef [^;{(]*(\\(\\*" name "\\)\\([^)]*\\)|\\{[^}]*\\} " name ");")) {
+  if (!match(headers, "typedef [^;{(]*(\\(\\*" name "\\)\\([^)]*\\)|\\{[^}]*\\} " name ");") &&
+      !match(headers, "struct " name " \\{[^}]*\\};")) {
     print "nx_manual.awk: no header defines " name > "/dev/stderr"
     exit failed = 1
   }
