@@ -28,7 +28,7 @@ bool several_machines(const Facts& facts) { return facts.slurm && facts.slurm->m
 // "5.0.3", with its first number; "" where an mpirun that tells this is another MPI's.
 std::string version_of(Mpi mpi, const std::string& told) {
   std::smatch match;
-  static const std::regex open_mpi("\\((?:Open MPI|Open RTE|PRRTE)\\) (\\d[\\w.]*)");
+  static const std::regex open_mpi("\\((?:Open MPI|Open ?RTE|PRRTE)\\) (\\d[\\w.]*)");
   static const std::regex mpich("HYDRA[^]*Version:\\s+(\\d[\\w.]*)");
   return std::regex_search(told, match, mpi == Mpi::mpich ? mpich : open_mpi) ? match[1].str() : "";
 }
