@@ -1,8 +1,9 @@
 #include "hal/handlers.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "hal/backend.h"
+#include "hal/requests.h"
 
 namespace mars::hal {
 
@@ -10,6 +11,11 @@ void Handler::operator()(const Envelope& envelope) const {
   const auto length = static_cast<long>(envelope.length);
   if (plain != nullptr) plain(envelope.type, length, envelope.from, 0);
   if (extended != nullptr) extended(envelope.type, length, envelope.from, 0, parameter);
+}
+
+void Handlers::sort_due(std::ptrdiff_t from) {
+  std::sort(due_.begin() + from, due_.end(),
+            [](const Request* a, const Request* b) { return a->arrival < b->arrival; });
 }
 
 Request* Handlers::next() {

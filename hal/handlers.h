@@ -3,6 +3,7 @@
 // were done: while one runs, or while they are masked, those that are due wait.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace mars::hal {
@@ -27,14 +28,16 @@ class Handlers {
 
   // A request that has a handler, or that is to be forgotten when it is done.
   void add(Request& request) { waiting_.push_back(&request); }
-  // Marks those as due for which `done` is true.
+  // Those for which `done` is true are due, in the order in which their messages arrived.
   template <class Done>
   void sort_out(Done done) {
+    const auto before = static_cast<std::ptrdiff_t>(due_.size());
     std::erase_if(waiting_, [&](Request* request) {
       const bool is_done = done(*request);
       if (is_done) due_.push_back(request);
       return is_done;
     });
+    sort_due(before);
   }
   // The next whose handler may run now, which is then no longer due; or nullptr.
   Request* next();
@@ -55,6 +58,8 @@ class Handlers {
   };
 
  private:
+  void sort_due(std::ptrdiff_t from);
+
   std::vector<Request*> waiting_;
   std::vector<Request*> due_;
   bool masked_ = false;

@@ -6,7 +6,10 @@
 
 namespace mars::hal {
 
-void Matching::unpost(const Request& request) { std::erase(posted_, &request); }
+// From the end: what is given up was often posted last.
+void Matching::unpost(const Request& request) {
+  posted_.erase(std::find(posted_.rbegin(), posted_.rend(), &request).base() - 1);
+}
 
 Request* Matching::posted_for(const Envelope& envelope) const {
   const auto at = std::find_if(posted_.begin(), posted_.end(), [&](const Request* request) {

@@ -79,7 +79,6 @@ void Process::crecvx(long typesel, void* buffer, long length, long node, long pi
   receive_now("crecvx", selection, check_room(*this, "crecvx", buffer, length), info);
 }
 
-// The answer's receive is there first, so that nothing has been sent if it fails.
 long Process::csendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
                         long in_length) {
   const Outgoing message = check_send(*this, "csendrecv", type, out, out_length, node, pid);
@@ -126,18 +125,17 @@ long Process::irecvx(long typesel, void* buffer, long length, long node, long pi
 }
 
 // One request for both, done when both are.
-Request& Process::start_exchange(const char* call, const Outgoing& message, const Selection& selection,
-                                 const Room& room, Request& answer) {
+void Process::start_exchange(const Outgoing& message, const Selection& selection, const Room& room,
+                             Request& answer) {
   start_receive(selection, room, answer);
   try {
-    Request& sending = checked(call, requests_.acquire(call));
+    Request& sending = checked(answer.call, requests_.acquire(answer.call));
     start_send(message, sending);
     answer.also = &sending;
   } catch (...) {
     cancel(answer);
     throw;
   }
-  return answer;
 }
 
 long Process::isendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
@@ -147,7 +145,8 @@ long Process::isendrecv(long type, const void* out, long out_length, long node, 
   const Room room = check_room(*this, "isendrecv", in, in_length);
   attend();
   Request& answer = checked("isendrecv", requests_.acquire_id("isendrecv"));
-  return start_exchange("isendrecv", message, selection, room, answer).mid();
+  start_exchange(message, selection, room, answer);
+  return answer.mid();
 }
 
 void Process::msgwait(long mid) {
@@ -242,7 +241,8 @@ void Process::hsendrecv(long type, const void* out, long out_length, long node, 
   const Selection selection = check_selection(*this, "hsendrecv", typesel, -1, -1);
   const Room room = check_room(*this, "hsendrecv", in, in_length);
   Request& answer = checked("hsendrecv", requests_.acquire("hsendrecv"));
-  leave_to(handler, start_exchange("hsendrecv", message, selection, room, answer));
+  start_exchange(message, selection, room, answer);
+  leave_to(handler, answer);
 }
 
 void Process::check_handler(const char* call, const Handler& handler) const {

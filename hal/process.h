@@ -93,8 +93,7 @@ class Process {
   void start_send(const Outgoing& message, Request& request);
   void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
   void start_receive(const Selection& selection, const Room& room, Request& request);
-  Request& start_exchange(const char* call, const Outgoing& message, const Selection& selection,
-                          const Room& room, Request& answer);
+  void start_exchange(const Outgoing& message, const Selection& selection, const Room& room, Request& answer);
   void probe(const char* call, const Selection& selection, long* info);
   bool probe_once(const Selection& selection, long* info);
 
@@ -110,6 +109,7 @@ class Process {
   void cancel(Request& head);
   void give_back(const Request& request);
   void release(Request& head);
+  void mark_too_long(Request& request, const Envelope& envelope);
   [[noreturn]] void fail_too_long(const Request& request) const;
 
   void check_handler(const char* call, const Handler& handler) const;

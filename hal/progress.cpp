@@ -65,7 +65,7 @@ void Process::receive_now(const char* call, const Selection& selection, const Ro
   wait_or_cancel(request);
 }
 
-// Done at once if its message is here already; if that is too long, it fails.
+// Done at once if its message is here already.
 void Process::start_receive(const Selection& selection, const Room& room, Request& request) {
   request.selection = selection;
   request.buffer = room.buffer;
@@ -73,14 +73,15 @@ void Process::start_receive(const Selection& selection, const Room& room, Reques
   request.state = Request::State::receiving;
   Message* message = matching_.find(selection);
   if (message == nullptr) return matching_.post(request);
-  if (message->envelope.length > room.capacity) {
-    request.envelope = message->envelope;
-    const Request failed = request;
-    requests_.release(request);
-    fail_too_long(failed);
-  }
+  if (message->envelope.length > room.capacity) return mark_too_long(request, message->envelope);
   matching_.remove(message);
   deliver(message, request);
+}
+
+// The message stays where it is, or goes on to another receive.
+void Process::mark_too_long(Request& request, const Envelope& envelope) {
+  request.envelope = envelope;
+  request.state = Request::State::too_long;
 }
 
 void Process::fail_too_long(const Request& request) const {
@@ -310,8 +311,7 @@ Request* Process::claim(const Envelope& envelope) {
     if (request == nullptr) return nullptr;
     matching_.unpost(*request);
     if (envelope.length <= request->capacity) return request;
-    request->envelope = envelope;
-    request->state = Request::State::too_long;
+    mark_too_long(*request, envelope);
   }
 }
 
