@@ -40,6 +40,9 @@ class MpiBackend : public Backend {
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
 
+  // Messages that this rank has received.
+  std::uint64_t taken() const { return taken_; }
+
  private:
   // A copy on its way.
   struct Pending {
@@ -87,7 +90,7 @@ class MpiBackend : public Backend {
   Overflow caught_;            // where messages come whose length is not known before
 
   std::vector<std::int64_t> sent_to_;  // messages, by id
-  std::int64_t taken_ = 0;             // messages
+  std::uint64_t taken_ = 0;            // messages
   Ending ending_ = Ending::not_yet;
   MPI_Request ending_request_ = MPI_REQUEST_NULL;
   std::int64_t expected_ = 0;  // messages sent to this rank in all
