@@ -34,6 +34,12 @@ class Backend {
   // Sends a copy: `data` may be used again on return. Never waits for the receiver. `to` may be this rank.
   virtual void send(int to, int type, const void* data, std::size_t length) = 0;
 
+  // As send; or, where the backend knows that the receiver waits for just this message, as start_send.
+  virtual std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) {
+    send(to, type, data, length);
+    return std::nullopt;
+  }
+
   // Starts to send without a copy where the backend can: `data` stays untouched until sent(ticket), which
   // then frees the ticket. Neither waits.
   virtual Ticket start_send(int to, int type, const void* data, std::size_t length) = 0;
@@ -43,6 +49,11 @@ class Backend {
   virtual std::optional<Envelope> peek() = 0;
   // Takes the message that peek told of into `buffer`, which is at least its length.
   virtual void take(void* buffer) = 0;
+
+  // For one who waits for a message of just this type, and to whom peek has nothing to tell: waits some
+  // microseconds and takes it if it comes and fits `room`: true, and `came` is its envelope. Meanwhile other
+  // messages may be overtaken.
+  virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*room*/, Envelope& /*came*/) { return false; }
 
   // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
   // `longest`, and no longer than until something happens where the backend can know.

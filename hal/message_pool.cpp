@@ -64,7 +64,10 @@ Message* MessagePool::acquire(const Envelope& envelope) {
   if (free_[size_class] == nullptr) grow(size_class);
   Message* message = free_[size_class];
   free_[size_class] = message->next;
-  message->envelope = envelope;
+  // One by one: read as a whole, what was just written in parts would have to be waited for.
+  message->envelope.from = envelope.from;
+  message->envelope.type = envelope.type;
+  message->envelope.length = envelope.length;
   return message;
 }
 

@@ -264,8 +264,9 @@ void Process::flick() {
 void Process::send_internal(int to, const void* data, std::size_t length) {
   const Envelope sent{to, kFirstInternalType + backend_.rank(), length};
   const double begin = ledger_.begin();
-  backend_.send(to, sent.type, data, length);
+  const std::optional<Ticket> ticket = backend_.send_or_start(to, sent.type, data, length);
   ledger_.sent(sent, begin);
+  if (ticket) wait_sent(*ticket);
 }
 
 void Process::receive_internal(const char* call, int from, void* data, std::size_t length) {

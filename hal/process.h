@@ -90,8 +90,10 @@ class Process {
   // For calls named `call`.
   void send_now(const char* call, const Outgoing& message);
   void send_copies(const Outgoing& message, Request* strict);
+  void wait_sent(Ticket ticket);
   void start_send(const Outgoing& message, Request& request);
   void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
+  bool receive_soon(const Selection& selection, const Room& room, long* info);
   void start_receive(const Selection& selection, const Room& room, Request& request);
   void start_exchange(const Outgoing& message, const Selection& selection, const Room& room, Request& answer);
   void probe(const char* call, const Selection& selection, long* info);

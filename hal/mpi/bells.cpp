@@ -12,7 +12,7 @@
 namespace mars::hal {
 namespace {
 
-static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "processes share these");
+static_assert(std::atomic<std::uint32_t>::is_always_lock_free && std::atomic<std::int32_t>::is_always_lock_free, "processes share these");
 
 // Not one of glibc's calls. Any of its errors means: look again.
 void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* timeout) {
@@ -45,21 +45,36 @@ Bells::Bells(MPI_Comm here, MPI_Comm all) {
   for (int i = 0; i < count; ++i) of_[ids[i]] = bells_ + i;
 }
 
+// The fence orders what was done before the look at the flag, as `arm` orders the flag before its rank's look at what
+// was done: one sees the other.
 void Bells::ring(int id) {
-  Bell* bell = of_[id];
+  Bell* bell = of_[static_cast<std::size_t>(id)];
   if (bell == nullptr) return;
-  bell->rung.fetch_add(1);
-  if (bell->sleeper.load() == 1) futex(bell->rung, FUTEX_WAKE, 1, nullptr);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (bell->armed.load(std::memory_order_relaxed) == 0) return;
+  if (bell->armed.exchange(0) == 1) futex(bell->armed, FUTEX_WAKE, 1, nullptr);
 }
 
-std::uint32_t Bells::rung() const { return mine_->rung.load(); }
+void Bells::arm() {
+  mine_->armed.store(1);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+}
 
-// Sets the flag before it looks at the count, as `ring` counts before it looks at the flag: one sees the other.
-void Bells::sleep(std::uint32_t before, std::chrono::microseconds longest) {
+bool Bells::armed() const { return mine_->armed.load(std::memory_order_relaxed) == 1; }
+
+void Bells::sleep(std::chrono::microseconds longest) {
   const timespec timeout{0, static_cast<long>(std::chrono::nanoseconds(longest).count())};
-  mine_->sleeper.store(1);
-  futex(mine_->rung, FUTEX_WAIT, before, &timeout);
-  mine_->sleeper.store(0);
+  futex(mine_->armed, FUTEX_WAIT, 1, &timeout);
+}
+
+void Bells::await(std::int32_t type) {
+  if (mine_->awaited.load(std::memory_order_relaxed) != type) mine_->awaited.store(type, std::memory_order_relaxed);
+}
+
+bool Bells::claim(int id, std::int32_t type) {
+  Bell* bell = of_[static_cast<std::size_t>(id)];
+  if (bell == nullptr || bell->awaited.load(std::memory_order_relaxed) != type) return false;
+  return bell->awaited.compare_exchange_strong(type, kNothing);
 }
 
 void Bells::take_down() { MPI_Win_free(&window_); }

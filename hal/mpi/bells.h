@@ -1,6 +1,8 @@
 // A bell for each rank of a machine, in memory that they share: who sends to a rank rings its bell, so that it
 // can sleep while nothing comes and still wake at once. MPI itself offers no way to sleep. Ranks on other
-// machines have none here: their messages are noticed when a sleep ends by itself.
+// machines have none here: their messages are noticed when a sleep ends by itself. Ringing costs next to
+// nothing while nobody sleeps: a rank arms its bell, looks once more, and only then sleeps; senders only look
+// whether a bell is armed, in a line of memory that seldom changes.
 #pragma once
 
 #include <atomic>
@@ -21,27 +23,38 @@ class Bells {
 
   // All ranks are on this machine.
   bool everyone_has_one() const { return everyone_; }
-  // Wakes rank `id` if it is on this machine.
+  // Rank `id` is on this machine.
+  bool reaches(int id) const { return static_cast<std::size_t>(id) < of_.size() && of_[static_cast<std::size_t>(id)] != nullptr; }
+
+  // Wakes rank `id` if it sleeps on this machine: to be called after what it may wait for has been done.
   void ring(int id);
-  // How often this rank's bell has been rung: taken before looking for messages, given to `sleep` after.
-  std::uint32_t rung() const;
-  // Until this rank's bell has been rung more often than `before`, at most so long.
-  void sleep(std::uint32_t before, std::chrono::microseconds longest);
+  // Once armed, a bell is armed until it rings.
+  void arm();
+  bool armed() const;
+  // Until this rank's bell rings, at most so long; not at all if it rang since it was armed. Whoever sleeps has
+  // looked since it armed the bell.
+  void sleep(std::chrono::microseconds longest);
+
+  // Tells that this rank waits for a message of `type` and nothing else; kNothing: for none.
+  static constexpr std::int32_t kNothing = -1;
+  void await(std::int32_t type);
+  // True once for one sender, where rank `id` awaits just this type: its message is received at once.
+  bool claim(int id, std::int32_t type);
 
   // Collective, once nobody rings any more. Not in the destructor: after a failure others may never come.
   void take_down();
 
  private:
   struct alignas(64) Bell {
-    std::atomic<std::uint32_t> rung;
-    std::atomic<std::uint32_t> sleeper;  // 1: its rank may be asleep
+    std::atomic<std::uint32_t> armed{0};        // 1: its rank may be asleep
+    std::atomic<std::int32_t> awaited{kNothing};  // type
   };
 
   MPI_Win window_ = MPI_WIN_NULL;
-  Bell* bells_ = nullptr;   // by rank in `here`
+  Bell* bells_ = nullptr;  // by rank in `here`
   Bell* mine_ = nullptr;
   bool everyone_ = false;
-  std::vector<Bell*> of_;   // by id; null: on another machine
+  std::vector<Bell*> of_;  // by id; null: on another machine
 };
 
 }  // namespace mars::hal

@@ -62,13 +62,7 @@ class JoinedBackend : public MpiBackend {
     check_there(to);
     return MpiBackend::start_send(to, type, data, length);
   }
-  void take(void* buffer) override {
-    ++taken_;
-    MpiBackend::take(buffer);
-  }
   void idle(int turn, std::chrono::microseconds longest) override;
-
-  std::uint64_t taken() const { return taken_; }
 
  private:
   void check_there(int to) const {
@@ -77,7 +71,6 @@ class JoinedBackend : public MpiBackend {
 
   MpiWorld& world_;
   const bool host_;
-  std::uint64_t taken_ = 0;
 };
 
 class MpiWorld : public World {

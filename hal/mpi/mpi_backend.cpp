@@ -21,15 +21,7 @@ namespace {
 
 constexpr std::size_t kAlignment = 64;
 
-// Every few calls look at as many of the copies on their way: all are seen soon, at a small price each.
-constexpr std::size_t kReclaimAtOnce = 4;
-
 constexpr std::size_t kUsuallyPending = 1024;
-
-constexpr std::chrono::microseconds kLongestBlindSleep{1000};
-
-// Bytes from which on a message may not be gone before it is received.
-constexpr std::size_t kLong = 4096;
 
 struct Affinity {
   cpu_set_t some;   // processors that at least one rank may use
@@ -124,162 +116,6 @@ MpiBackend::~MpiBackend() {
   MPI_Comm_free(&all_);
 }
 
-// An MPI need not have tags as large as types are. Internal types have the highest but one that it has; others
-// that are too large for it have the highest, and travel behind their message's bytes.
-int MpiBackend::tag(int type) const {
-  if (type_class(type) == TypeClass::reserved) return last_tag_ + 1 + (type - kFirstInternalType);
-  return type <= last_tag_ ? type : wide_tag_;
-}
-
-int MpiBackend::type(int tag) const {
-  return tag <= last_tag_ ? tag : kFirstInternalType + (tag - last_tag_ - 1);
-}
-
-MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t length) {
-  if (length > INT_MAX) {
-    throw Failure("a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
-                  "send at most 2147483647 bytes at once");
-  }
-  MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag(type), all_, &request),
-          "MPI_Isend");
-  ++sent_to_[to];
-  bells_->ring(to);
-  return request;
-}
-
-bool MpiBackend::test(MPI_Request& request) {
-  int done = 0;
-  heard_ = bells_->rung();
-  succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
-  return done != 0;
-}
-
-void MpiBackend::wait(MPI_Request& request) {
-  for (int turn = 0; !test(request); ++turn) idle(turn, kLongestBlindSleep);
-}
-
-void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
-  reclaim_some();
-  Message* message = tag(type) == wide_tag_ ? with_type(type, data, length) : pool_.copy({rank_, type, length}, data);
-  MPI_Request request = isend(to, type, message->bytes(), message->envelope.length);
-  if (test(request)) {
-    pool_.release(message);
-  } else {
-    pending_.push_back({request, message});
-  }
-}
-
-Message* MpiBackend::with_type(std::int32_t type, const void* data, std::size_t length) {
-  Message* message = pool_.acquire({rank_, type, length + sizeof type});
-  if (length > 0) std::memcpy(message->bytes(), data, length);
-  std::memcpy(message->bytes() + length, &type, sizeof type);
-  return message;
-}
-
-bool MpiBackend::all_sent() {
-  return pending_.empty() && std::all_of(tickets_.begin(), tickets_.end(),
-                                         [this](MPI_Request& request) { return test(request); });
-}
-
-void MpiBackend::reclaim_some() {
-  for (std::size_t looks = std::min(kReclaimAtOnce, pending_.size()); looks > 0; --looks) {
-    if (next_pending_ >= pending_.size()) next_pending_ = 0;
-    if (!test(pending_[next_pending_].request)) {
-      ++next_pending_;
-      continue;
-    }
-    pool_.release(pending_[next_pending_].message);
-    pending_[next_pending_] = pending_.back();
-    pending_.pop_back();
-    if (pending_.empty()) return;
-  }
-}
-
-Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
-  MPI_Request request = MPI_REQUEST_NULL;
-  if (tag(type) == wide_tag_)
-    send(to, type, data, length);
-  else
-    request = isend(to, type, data, length);
-  if (free_tickets_.empty()) {
-    free_tickets_.push_back(static_cast<Ticket>(tickets_.size()));
-    tickets_.push_back(MPI_REQUEST_NULL);
-    free_tickets_.reserve(tickets_.size());
-  }
-  const Ticket ticket = free_tickets_.back();
-  free_tickets_.pop_back();
-  tickets_[ticket] = request;
-  return ticket;
-}
-
-bool MpiBackend::sent(Ticket ticket) {
-  if (!test(tickets_[ticket])) return false;
-  free_tickets_.push_back(ticket);
-  return true;
-}
-
-std::optional<Envelope> MpiBackend::peek() {
-  reclaim_some();
-  if (peeked_) return peeked_;
-  heard_ = bells_->rung();
-  int arrived = 0;
-  MPI_Status status;
-  // Open MPI's first look may only fetch what has come, and the second one sees it: whoever slept on the first
-  // would not be rung again.
-  for (int looks = 0; looks < 2 && arrived == 0; ++looks)
-    succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
-  if (arrived == 0) return std::nullopt;
-  int length = 0;
-  succeed(MPI_Get_count(&status, MPI_BYTE, &length), "MPI_Get_count");
-  peeked_ = Envelope{status.MPI_SOURCE, type(status.MPI_TAG), static_cast<std::size_t>(length)};
-  if (status.MPI_TAG == wide_tag_) peeked_ = open_wide(*peeked_);
-  return peeked_;
-}
-
-Envelope MpiBackend::open_wide(const Envelope& whole) {
-  opened_ = pool_.acquire(whole);
-  receive(opened_->bytes(), whole, wide_tag_);
-  std::int32_t type = 0;
-  const std::size_t length = whole.length - sizeof type;
-  std::memcpy(&type, opened_->bytes() + length, sizeof type);
-  return {whole.from, type, length};
-}
-
-void MpiBackend::receive(void* buffer, const Envelope& envelope, int tag) {
-  MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Irecv(buffer, static_cast<int>(envelope.length), MPI_BYTE, envelope.from, tag, all_, &request),
-          "MPI_Irecv");
-  wait(request);
-  // Its sender may be waiting for just that; of a short one it does not.
-  if (envelope.length >= kLong) bells_->ring(envelope.from);
-}
-
-void MpiBackend::take(void* buffer) {
-  if (opened_ == nullptr) {
-    receive(buffer, *peeked_, tag(peeked_->type));
-  } else {
-    if (peeked_->length > 0) std::memcpy(buffer, opened_->bytes(), peeked_->length);
-    pool_.release(opened_);
-    opened_ = nullptr;
-  }
-  peeked_.reset();
-  ++taken_;
-}
-
-// Of what ranks send that have no bell here, and of what MPI still has to do for a send, only a look tells.
-void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
-  const auto pause = pause_of(turn, oversubscribed_);
-  if (!pause) return;
-  const std::uint32_t heard = heard_;  // all_sent looks at less than who waits has looked at
-  if (pause->count() == 0)
-    sched_yield();
-  else if (*pause < kLongestBlindSleep || (bells_->everyone_has_one() && all_sent()))
-    bells_->sleep(heard, std::min(*pause, longest));
-  else
-    bells_->sleep(heard, std::min(kLongestBlindSleep, longest));
-}
-
 Neighbourhood MpiBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");
   return neighbourhood_;
@@ -344,7 +180,7 @@ bool MpiBackend::finish() {
     case Ending::counting:
       reclaim_some();
       if (ending_request_ != MPI_REQUEST_NULL && !test(ending_request_)) return false;
-      if (taken_ < expected_ || !pending_.empty()) return false;
+      if (taken_ < static_cast<std::uint64_t>(expected_) || !pending_.empty()) return false;
       succeed(MPI_Ibarrier(all_, &ending_request_), "MPI_Ibarrier");
       ending_ = Ending::leaving;
       return false;

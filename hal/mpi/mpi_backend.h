@@ -12,6 +12,7 @@
 #include "hal/backend.h"
 #include "hal/message_pool.h"
 #include "hal/mpi/bells.h"
+#include "hal/mpi/overflow.h"
 
 namespace mars::hal {
 
@@ -27,15 +28,20 @@ class MpiBackend : public Backend {
   int rank() const override { return rank_; }
   int nodes() const override { return nodes_; }
   void send(int to, int type, const void* data, std::size_t length) override;
+  std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override;
   Ticket start_send(int to, int type, const void* data, std::size_t length) override;
   bool sent(Ticket ticket) override;
   std::optional<Envelope> peek() override;
   void take(void* buffer) override;
+  bool receive_soon(int type, void* buffer, std::size_t room, Envelope& came) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
+
+  // Messages that this rank has received.
+  std::uint64_t taken() const { return taken_; }
 
  private:
   // A copy on its way.
@@ -51,9 +57,12 @@ class MpiBackend : public Backend {
   Envelope open_wide(const Envelope& whole);
   void receive(void* buffer, const Envelope& envelope, int tag);
   void reclaim_some();
-  bool test(MPI_Request& request);
+  void send_copy(int to, int type, Message* copy);
+  bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
+  bool catch_soon(int type, MPI_Status& status);
+  bool give_up(MPI_Request& request, MPI_Status& status);
   bool all_sent();
-  void wait(MPI_Request& request);
+  void wait(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   void meet_neighbours();
   void check_shared_space(std::size_t bytes);
   void release_window(MPI_Win window);
@@ -69,7 +78,6 @@ class MpiBackend : public Backend {
   int wide_tag_ = 0;  // of messages whose type is larger than last_tag_
   bool oversubscribed_ = false;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
-  std::uint32_t heard_ = 0;     // rings of our bell before we last looked for anything
   Neighbourhood neighbourhood_;
 
   MessagePool pool_;
@@ -78,10 +86,11 @@ class MpiBackend : public Backend {
   std::vector<MPI_Request> tickets_;  // by ticket
   std::vector<Ticket> free_tickets_;
   std::optional<Envelope> peeked_;
-  Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type
+  Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
+  Overflow caught_;            // where messages come whose length is not known before
 
   std::vector<std::int64_t> sent_to_;  // messages, by id
-  std::int64_t taken_ = 0;             // messages
+  std::uint64_t taken_ = 0;            // messages
   Ending ending_ = Ending::not_yet;
   MPI_Request ending_request_ = MPI_REQUEST_NULL;
   std::int64_t expected_ = 0;  // messages sent to this rank in all

@@ -7,8 +7,7 @@
 
 namespace mars::hal {
 
-void succeed(int code, const char* call) {
-  if (code == MPI_SUCCESS) return;
+void fail_in_mpi(int code, const char* call) {
   char reason[MPI_MAX_ERROR_STRING] = "";
   int length = 0;
   MPI_Error_string(code, reason, &length);

@@ -7,8 +7,14 @@
 
 namespace mars::hal {
 
-// Throws a Failure naming `call` and MPI's own reason unless `code` is success.
-void succeed(int code, const char* call);
+// Throws a Failure naming `call` and MPI's own reason for `code`.
+[[noreturn]] void fail_in_mpi(int code, const char* call);
+
+// Likewise, unless `code` is success.
+inline void succeed(int code, const char* call) {
+  if (code != MPI_SUCCESS) [[unlikely]]
+    fail_in_mpi(code, call);
+}
 
 int size_of(MPI_Comm comm);
 // Of the calling process.

@@ -16,4 +16,7 @@ void prepare_to_wait();
 // for this processor.
 std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed);
 
+// The first turns, in which pause_of says none.
+int turns_at_once(bool oversubscribed);
+
 }  // namespace mars::hal

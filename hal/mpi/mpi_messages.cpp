@@ -1,0 +1,266 @@
+// Messages and waiting: what MpiBackend does all the time.
+#include <sched.h>
+
+#include <algorithm>
+#include <climits>
+#include <cstring>
+#include <string>
+
+#include "hal/failure.h"
+#include "hal/message_types.h"
+#include "hal/mpi/mpi_backend.h"
+#include "hal/mpi/mpi_call.h"
+#include "hal/mpi/patience.h"
+
+namespace mars::hal {
+namespace {
+
+// Every few calls look at as many of the copies on their way: all are seen soon, at a small price each.
+constexpr std::size_t kReclaimAtOnce = 4;
+
+constexpr std::chrono::microseconds kLongestBlindSleep{1000};
+
+// Bytes from which on a message may not be gone before it is received.
+constexpr std::size_t kLong = 4096;
+
+constexpr std::size_t kCopiedAtOnce = 32 * 1024;
+
+std::size_t length_of(const MPI_Status& status) {
+  int length = 0;
+  succeed(MPI_Get_count(&status, MPI_BYTE, &length), "MPI_Get_count");
+  return static_cast<std::size_t>(length);
+}
+
+// Apart from the call that it ends, which is the quicker for it.
+[[noreturn]] void fail_length(std::size_t length) {
+  throw Failure("a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
+                "send at most 2147483647 bytes at once");
+}
+
+}  // namespace
+
+// An MPI need not have tags as large as types are. Internal types have the highest but one that it has; others
+// that are too large for it have the highest, and travel behind their message's bytes.
+int MpiBackend::tag(int type) const {
+  if (type < kFirstInternalType && type <= last_tag_) return type;
+  if (type_class(type) == TypeClass::reserved) return last_tag_ + 1 + (type - kFirstInternalType);
+  return type <= last_tag_ ? type : wide_tag_;
+}
+
+int MpiBackend::type(int tag) const {
+  return tag <= last_tag_ ? tag : kFirstInternalType + (tag - last_tag_ - 1);
+}
+
+MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t length) {
+  if (length > INT_MAX) fail_length(length);
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag(type), all_, &request),
+          "MPI_Isend");
+  ++sent_to_[to];
+  bells_->ring(to);
+  return request;
+}
+
+// With the bell armed, two looks: see peek.
+bool MpiBackend::test(MPI_Request& request, MPI_Status* status) {
+  int done = 0;
+  for (int looks = bells_->armed() ? 2 : 1; looks > 0 && done == 0; --looks)
+    succeed(MPI_Test(&request, &done, status), "MPI_Test");
+  return done != 0;
+}
+
+void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
+  for (int turn = 0; !test(request, status); ++turn) idle(turn, kLongestBlindSleep);
+}
+
+void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
+  send_copy(to, type, tag(type) == wide_tag_ ? with_type(type, data, length) : pool_.copy({rank_, type, length}, data));
+}
+
+void MpiBackend::send_copy(int to, int type, Message* copy) {
+  MPI_Request request = isend(to, type, copy->bytes(), copy->envelope.length);
+  if (test(request)) {
+    pool_.release(copy);
+  } else {
+    pending_.push_back({request, copy});
+  }
+  reclaim_some();  // afterwards: while the message is on its way
+}
+
+// Looks between parts of the copy whether it is needed at all.
+std::optional<Ticket> MpiBackend::send_or_start(int to, int type, const void* data, std::size_t length) {
+  if (length < kLong || !bells_->reaches(to) || tag(type) == wide_tag_) {
+    send(to, type, data, length);
+    return std::nullopt;
+  }
+  Message* copy = pool_.acquire({rank_, type, length});
+  for (std::size_t done = 0; done < length; done += kCopiedAtOnce) {
+    if (bells_->claim(to, type)) {
+      pool_.release(copy);
+      return start_send(to, type, data, length);
+    }
+    std::memcpy(copy->bytes() + done, static_cast<const std::byte*>(data) + done, std::min(kCopiedAtOnce, length - done));
+  }
+  send_copy(to, type, copy);
+  return std::nullopt;
+}
+
+Message* MpiBackend::with_type(std::int32_t type, const void* data, std::size_t length) {
+  Message* message = pool_.acquire({rank_, type, length + sizeof type});
+  if (length > 0) std::memcpy(message->bytes(), data, length);
+  std::memcpy(message->bytes() + length, &type, sizeof type);
+  return message;
+}
+
+bool MpiBackend::all_sent() {
+  return pending_.empty() && std::all_of(tickets_.begin(), tickets_.end(),
+                                         [this](MPI_Request& request) { return test(request); });
+}
+
+void MpiBackend::reclaim_some() {
+  for (std::size_t looks = std::min(kReclaimAtOnce, pending_.size()); looks > 0; --looks) {
+    if (next_pending_ >= pending_.size()) next_pending_ = 0;
+    if (!test(pending_[next_pending_].request)) {
+      ++next_pending_;
+      continue;
+    }
+    pool_.release(pending_[next_pending_].message);
+    pending_[next_pending_] = pending_.back();
+    pending_.pop_back();
+    if (pending_.empty()) return;
+  }
+}
+
+Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  if (tag(type) == wide_tag_)
+    send(to, type, data, length);
+  else
+    request = isend(to, type, data, length);
+  if (free_tickets_.empty()) {
+    free_tickets_.push_back(static_cast<Ticket>(tickets_.size()));
+    tickets_.push_back(MPI_REQUEST_NULL);
+    free_tickets_.reserve(tickets_.size());
+  }
+  const Ticket ticket = free_tickets_.back();
+  free_tickets_.pop_back();
+  tickets_[ticket] = request;
+  return ticket;
+}
+
+bool MpiBackend::sent(Ticket ticket) {
+  if (!test(tickets_[ticket])) return false;
+  free_tickets_.push_back(ticket);
+  return true;
+}
+
+std::optional<Envelope> MpiBackend::peek() {
+  reclaim_some();
+  if (peeked_) return peeked_;
+  int arrived = 0;
+  MPI_Status status;
+  // Open MPI's first look may only fetch what has come, and the second one sees it: whoever slept on the first
+  // would not be rung again.
+  for (int looks = bells_->armed() ? 2 : 1; looks > 0 && arrived == 0; --looks)
+    succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
+  if (arrived == 0) return std::nullopt;
+  bells_->await(Bells::kNothing);
+  peeked_ = Envelope{status.MPI_SOURCE, type(status.MPI_TAG), length_of(status)};
+  if (status.MPI_TAG == wide_tag_) peeked_ = open_wide(*peeked_);
+  return peeked_;
+}
+
+Envelope MpiBackend::open_wide(const Envelope& whole) {
+  opened_ = pool_.acquire(whole);
+  receive(opened_->bytes(), whole, wide_tag_);
+  std::int32_t type = 0;
+  const std::size_t length = whole.length - sizeof type;
+  std::memcpy(&type, opened_->bytes() + length, sizeof type);
+  return {whole.from, type, length};
+}
+
+void MpiBackend::receive(void* buffer, const Envelope& envelope, int tag) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Irecv(buffer, static_cast<int>(envelope.length), MPI_BYTE, envelope.from, tag, all_, &request),
+          "MPI_Irecv");
+  wait(request);
+  // Its sender may be waiting for just that; of a short one it does not.
+  if (envelope.length >= kLong) bells_->ring(envelope.from);
+}
+
+void MpiBackend::take(void* buffer) {
+  if (opened_ == nullptr) {
+    receive(buffer, *peeked_, tag(peeked_->type));
+  } else {
+    if (peeked_->length > 0) std::memcpy(buffer, opened_->bytes(), peeked_->length);
+    pool_.release(opened_);
+    opened_ = nullptr;
+  }
+  peeked_.reset();
+  ++taken_;
+}
+
+// A short one is received without a look before. Of a long one senders are told that it need not be copied.
+bool MpiBackend::receive_soon(int type, void* buffer, std::size_t room, Envelope& came) {
+  if (peeked_ || tag(type) == wide_tag_) return false;
+  if (room >= kLong || caught_.bytes() == nullptr) {
+    if (!peek()) bells_->await(type);
+    return false;
+  }
+  MPI_Status status;
+  if (!catch_soon(type, status)) return false;
+  const std::size_t length = length_of(status);
+  if (length > room) {
+    peeked_ = Envelope{status.MPI_SOURCE, type, length};
+    opened_ = pool_.copy(*peeked_, caught_.bytes());
+    caught_.trim(length);
+    if (length >= kLong) bells_->ring(peeked_->from);  // as in receive
+    return false;
+  }
+  if (length > 0) std::memcpy(buffer, caught_.bytes(), length);
+  ++taken_;
+  came.from = status.MPI_SOURCE;
+  came.type = type;
+  came.length = length;
+  return true;
+}
+
+bool MpiBackend::catch_soon(int type, MPI_Status& status) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Irecv(caught_.bytes(), INT_MAX, MPI_BYTE, MPI_ANY_SOURCE, tag(type), all_, &request), "MPI_Irecv");
+  const int at_once = turns_at_once(oversubscribed_);
+  int done = 0;
+  for (int turn = 0; turn < at_once && done == 0; ++turn) succeed(MPI_Test(&request, &done, &status), "MPI_Test");
+  if (done != 0) return true;
+  for (int turn = at_once; pause_of(turn, oversubscribed_)->count() == 0; ++turn) {
+    sched_yield();
+    if (test(request, &status)) return true;
+  }
+  return !give_up(request, status);
+}
+
+// False if it came meanwhile.
+bool MpiBackend::give_up(MPI_Request& request, MPI_Status& status) {
+  int cancelled = 0;
+  succeed(MPI_Cancel(&request), "MPI_Cancel");
+  wait(request, &status);
+  succeed(MPI_Test_cancelled(&status, &cancelled), "MPI_Test_cancelled");
+  return cancelled != 0;
+}
+
+// Of what ranks send that have no bell here, and of what MPI still has to do for a send, only a look tells. Arms the
+// bell for one more look before the first sleep.
+void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
+  const auto pause = pause_of(turn, oversubscribed_);
+  if (!pause) return;
+  if (pause->count() == 0)
+    sched_yield();
+  else if (!bells_->armed())
+    bells_->arm();
+  else if (*pause < kLongestBlindSleep || (bells_->everyone_has_one() && all_sent()))
+    bells_->sleep(std::min(*pause, longest));
+  else
+    bells_->sleep(std::min(kLongestBlindSleep, longest));
+}
+
+}  // namespace mars::hal
