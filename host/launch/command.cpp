@@ -243,9 +243,12 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
 
 }  // namespace
 
+Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+  return programs.mpi == Mpi::mpich ? mpich_start(options, programs) : open_mpi_start(options, programs, surroundings);
+}
+
 Command mpi_command(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
-  Command command = programs.mpi == Mpi::mpich ? mpich_start(options, programs)
-                                               : open_mpi_start(options, programs, surroundings);
+  Command command = mpi_start(options, programs, surroundings);
   // Nodes bind themselves, each by its place on its machine.
   command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
   add_arguments(command, Program::host, options);

@@ -81,6 +81,9 @@ std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& su
 // Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
 Backend choose_backend(Backend asked, const Programs& programs);
 
+// mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'.
+Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
+
 // mpirun with one host and options.nodes nodes; one process of as many threads. `options.nodes` is settled.
 Command mpi_command(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
 Command threads_command(const RenderOptions& options, const Programs& programs);

@@ -25,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kHostSetting = "MARS_NX_HOST";
+
 constexpr const char* kWayIn = R"(Runs programs that are written for NX, the message passing of the iPSC/2.
 
   mars-nx run --nodes 8 ./node           eight nodes
@@ -33,18 +35,34 @@ constexpr const char* kWayIn = R"(Runs programs that are written for NX, the mes
   mars-nx run --help                     every option, with an example
 )";
 
-constexpr const char* kEnds =
-    R"(What follows -- goes to every program as its arguments; after two programs the -- can be left out.
-The nodes of a host begin when it loads them, sends or receives for the first time, or ends.
-Each program's output is that of mars-nx, and the host reads its input; without a host node 0 does.
+constexpr const char* kStarts =
+    R"(What follows -- goes to every program as its arguments; after two programs the --
+can be left out. The nodes of a host begin when it loads them, when it sends or
+receives for the first time, or when it has ended. What the programs write is
+what mars-nx writes; the host reads its input, without a host node 0 does.
 
-Exit codes: the highest of all programs', 128 and the signal for one that died of it, 1 where a message call failed;
-2 the command line is wrong.
+When a program dies, the others' message calls fail, unless the host kills and
+loads the nodes again; when every process waits for a message and none is on its
+way, all fail. Nothing is left behind, however mars-nx ends.
+
+Exit codes: the highest of all programs', 128 and the signal for one that died
+of it, 1 where a message call failed; 2 the command line is wrong.
 )";
 
+enum class Over { automatic, processes, mpi };
+
+Over over_of(const std::string& word) {
+  if (word == "auto") return Over::automatic;
+  if (word == "processes") return Over::processes;
+  if (word == "mpi") return Over::mpi;
+  throw CLI::ValidationError("--over", "'" + word + "' is not auto or processes or mpi");
+}
+
 struct RunOptions {
-  int nodes = 0;  // 0: as many as the machine has processors
+  int nodes = 0;  // 0: one a processor, or what the hostfile or the batch system has room for
   bool host = false;
+  Over over = Over::automatic;
+  std::string hostfile;
   std::vector<std::string> words;
   std::vector<std::string> arguments;
 };
@@ -67,13 +85,13 @@ fs::path program_file(const std::string& word) {
   throw Failure("there is no such program", word, "");
 }
 
-struct Programs {
+struct NxPrograms {
   fs::path host;  // empty: none
   fs::path node;  // likewise
 };
 
-Programs programs_of(RunOptions& options) {
-  Programs programs;
+NxPrograms programs_of(RunOptions& options) {
+  NxPrograms programs;
   std::size_t used = 0;
   if (options.host || options.words.size() >= 2) programs.host = program_file(options.words[used++]);
   if (used < options.words.size()) programs.node = program_file(options.words[used++]);
@@ -94,7 +112,7 @@ int become(const fs::path& file, const std::vector<std::string>& arguments, bool
   return kFailed;
 }
 
-int run_processes(const RunOptions& options, const Programs& programs, std::uint64_t limit) {
+int run_processes(const RunOptions& options, const NxPrograms& programs, std::uint64_t limit) {
   hal::JobPlan plan;
   plan.nodes = options.nodes;
   plan.host = !programs.host.empty();
@@ -119,22 +137,73 @@ std::uint64_t message_memory(const topology::Machine& machine) {
   return memory / 2;
 }
 
+// Becomes mpirun: its output, its end and the signals it is sent are its own.
+int run_mpi(RunOptions& options, const NxPrograms& programs) {
+  if (programs.node.empty())
+    throw Failure("MPI starts the nodes with the host, and no program is named for them", "",
+                  "name it: mars-nx run --over mpi ./host ./node");
+  Environment environment = own_environment();
+  const std::string path = path_of(environment);
+  Programs starters;
+  starters.mpirun = find_mpirun(starters.mpi, path);
+  if (!starters.mpirun) throw Failure("mpirun was not found", "", "install Open MPI (Debian: openmpi-bin), or use --over processes");
+  RenderOptions start;
+  start.hostfile = options.hostfile;
+  start.backend = Backend::mpi;
+  Surroundings surroundings = look_around(path);
+  start.nodes = options.nodes == 0 ? default_nodes(start, surroundings) : static_cast<std::uint32_t>(options.nodes);
+  surroundings.settings.emplace_back(kHostSetting);
+  Command command = mpi_start(start, starters, surroundings);
+  command.environment.emplace_back(kHostSetting, programs.host.empty() ? "no" : "yes");
+  const auto add = [&](std::uint32_t count, const fs::path& program) {
+    command.words.insert(command.words.end(), {"-n", std::to_string(count), program.string()});
+    command.words.insert(command.words.end(), options.arguments.begin(), options.arguments.end());
+  };
+  if (!programs.host.empty()) {
+    add(1, programs.host);
+    command.words.emplace_back(":");
+  }
+  add(start.nodes, programs.node);
+  for (const auto& [name, value] : command.environment) environment.set(name, value);
+  std::vector<char*> words;
+  for (std::string& word : command.words) words.push_back(word.data());
+  words.push_back(nullptr);
+  execve(words[0], words.data(), environment.pointers().data());
+  throw Failure(std::string("cannot be started: ") + std::strerror(errno), command.words[0], "");
+}
+
+bool over_mpi(const RunOptions& options) {
+  if (options.over == Over::processes && !options.hostfile.empty())
+    throw Failure("processes are all on this machine", "", "leave out --hostfile, or use --over mpi");
+  if (options.over != Over::automatic) return options.over == Over::mpi;
+  return !options.hostfile.empty() || own_environment().value("SLURM_TASKS_PER_NODE").has_value();
+}
+
 int run(RunOptions& options) {
-  const Programs programs = programs_of(options);
+  const NxPrograms programs = programs_of(options);
+  const hal::Settings settings = hal::read_settings();
+  if (over_mpi(options)) return run_mpi(options, programs);
   const topology::Machine machine = topology::Machine::here();
   if (options.nodes == 0) options.nodes = machine.processors();
-  return run_processes(options, programs, message_memory(machine));
+  return run_processes(options, programs, settings.nx_memory.value_or(message_memory(machine)));
 }
 
 void add_run(CLI::App& app, RunOptions& options, int& code) {
   CLI::App* command = app.add_subcommand("run", "Start a host and its nodes, or nodes alone");
   command->add_option("PROGRAM", options.words, "The host's program and the nodes', or the nodes' alone. Example: ./host ./node")
-      ->required();
-  command->add_option("--nodes", options.nodes, "Number of nodes; default: one a processor. Example: --nodes 8")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--nodes", options.nodes, "Number of nodes; default: one a processor, or what the hostfile or Slurm job has room for. Example: --nodes 8")
       ->check(CLI::Range(1, 1 << 12).description(""))
       ->type_name("N");
   command->add_flag("--host", options.host, "The first program is the host, also where it is the only one: it loads its nodes itself. Example: --host ./host");
-  command->footer(kEnds);
+  command->add_option_function<std::string>("--over", [&options](const std::string& word) { options.over = over_of(word); },
+                      "What carries the messages: processes over shared memory on this machine, or mpi; default: mpi with "
+                      "a hostfile or in a Slurm job, else processes. Example: --over mpi")
+      ->type_name("auto|processes|mpi");
+  command->add_option("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
+      ->type_name("FILE");
+  command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kStarts);
   command->callback([&] { code = run(options); });
 }
 
