@@ -166,9 +166,8 @@ bool Process::msgdone(long mid) {
 }
 
 void Process::msgcancel(long mid) {
-  Request& request = known_request("msgcancel", mid);
-  attend();
-  cancel(request);
+  cancel(known_request("msgcancel", mid));
+  attend();  // not before: it could receive the message that is not wanted
 }
 
 long Process::msgmerge(long mid1, long mid2) {

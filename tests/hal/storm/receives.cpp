@@ -1,0 +1,47 @@
+#include "tests/hal/storm/receives.h"
+
+#include <algorithm>
+
+#include "hal/message_types.h"
+
+namespace mars::hal::storm {
+namespace {
+
+const Kind& any_kind(Random& random, bool force) {
+  for (;;) {
+    const Kind& kind = kinds()[below(random, kinds().size())];
+    if (kind.force() == force) return kind;
+  }
+}
+
+// A set of some of the low types, or with bit 30 of the high ones too.
+std::int32_t any_set(Random& random) {
+  std::uint32_t set = 0;
+  for (int count = 0; count < 3; ++count) set |= 1u << std::min(any_kind(random, false).type, 30);
+  return static_cast<std::int32_t>(set | 1u << 31);
+}
+
+}  // namespace
+
+std::size_t room_for(std::int32_t typesel) {
+  std::size_t room = 0;
+  for (const Kind& kind : kinds())
+    if (selects(typesel, kind.type)) room = std::max(room, kind.longest);
+  return room;
+}
+
+std::int32_t any_typesel(Random& random) {
+  const std::size_t choice = below(random, 20);
+  if (choice < 3) return -1;
+  if (choice < 6) return any_kind(random, true).type;
+  if (choice < 12) return any_set(random);
+  return any_kind(random, false).type;
+}
+
+std::int32_t type_for(std::int32_t typesel) {
+  return std::find_if(kinds().begin(), kinds().end(),
+                      [typesel](const Kind& kind) { return selects(typesel, kind.type); })
+      ->type;
+}
+
+}  // namespace mars::hal::storm
