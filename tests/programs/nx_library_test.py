@@ -51,6 +51,18 @@ class Library(NxInstallation):
         variables = {name for header in self.headers for name in VARIABLE.findall(header.read_text())}
         self.assertEqual(self.exported() - set(self.prototypes()) - variables, set())
 
+    def test_names_of_a_programs_own(self):
+        self.write("own.c", "#include <stdlib.h>\n" + "".join(
+            f"void {name}(void) {{ abort(); }}\n" for name in ["load", "gray", "flick", "csend", "crecv", "_crecv"]))
+        self.write("rank.c", RANK.replace("{", "{ gsync();", 1))
+        self.succeed("cc", "rank.c", "own.c", "-o", "rank", *self.flags("--cflags", "--libs"))
+        self.assertRuns("./rank")
+
+    def test_cpp(self):
+        self.write("rank.cpp", RANK)
+        self.succeed("c++", "-std=c++98", *STRICT, "rank.cpp", "-o", "rank", *self.flags("--cflags", "--libs"))
+        self.assertRuns("./rank")
+
     def test_pkg_config(self):
         self.build("rank", RANK)
         self.assertRuns("./rank")
