@@ -156,8 +156,7 @@ prove_package() {
   step "completion in bash" user person "$complete_words"
   step "apt-get purge" user root '
     apt-get purge -q -y mars mars-nx mars-nx-dev
-    ! ls /usr/include/mars-nx /usr/lib/*mars-nx*
-    ! ls /usr/bin/mars* /usr/share/doc/mars /usr/share/mars'
+    [ -z "$(ls -d /usr/bin/mars* /usr/share/doc/mars /usr/share/mars /usr/include/mars-nx /usr/lib/*mars-nx* 2>/dev/null)" ]'
 }
 
 run() {
