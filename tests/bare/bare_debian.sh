@@ -104,12 +104,29 @@ use_mars='
   if mars --help | grep -q doctor; then mars doctor; fi'
 
 read_manuals='
-  for page in mars mars-render mars-host mars-node mars-cube mars-threads; do
+  for page in mars mars-render mars-host mars-node mars-cube mars-threads mars-nx nx csend _gdsum; do
     MANWIDTH=80 man --warnings "$page" >page.txt 2>troubles.txt
     grep -q NAME page.txt
     [ ! -s troubles.txt ] || { cat troubles.txt; false; }
   done
   man mars-render | grep -A 3 -e --backend'
+
+run_nx='
+  pkg-config --modversion mars-nx
+  cat >sum.c <<END
+#include <cube.h>
+#include <stdio.h>
+int main(void) {
+  double x = mynode(), work;
+  gdsum(&x, 1, &work);
+  if (mynode() == 0) printf("%g by %ld\\n", x, numnodes());
+  return 0;
+}
+END
+  gcc sum.c -o sum $(pkg-config --cflags --libs mars-nx)
+  [ "$(mars-nx run --nodes 4 ./sum)" = "6 by 4" ]
+  [ "$(mpirun --oversubscribe -n 3 ./sum)" = "3 by 3" ]
+  [ "$(./sum)" = "0 by 1" ]'
 
 complete_words='
   set +u
@@ -122,7 +139,7 @@ complete_words='
 
 prove_package() {
   unpack_system user
-  cp "$work"/build/root/mars/build/release/mars_*.deb "$work/user/root/"
+  cp "$work"/build/root/mars/build/release/mars*.deb "$work/user/root/"
   step "apt-get install the .deb" user root '
     apt-get update -q
     DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends ./mars_*.deb
@@ -132,11 +149,14 @@ prove_package() {
   step "mars, by an ordinary user" user person "$use_mars"
   step "man-db and bash-completion" user root '
     DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends man-db bash-completion'
+  step "apt-get install the .debs of NX, and a C compiler" user root '
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends ./mars-nx*.deb gcc libc6-dev pkg-config'
+  step "a program of NX, by an ordinary user" user person "$run_nx"
   step "man mars and its others" user person "$read_manuals"
   step "completion in bash" user person "$complete_words"
   step "apt-get purge" user root '
-    apt-get purge -q -y mars
-    ! ls /usr/bin/mars* /usr/share/doc/mars /usr/share/mars'
+    apt-get purge -q -y mars mars-nx mars-nx-dev
+    [ -z "$(ls -d /usr/bin/mars* /usr/share/doc/mars /usr/share/mars /usr/include/mars-nx /usr/lib/*mars-nx* 2>/dev/null)" ]'
 }
 
 run() {

@@ -70,6 +70,15 @@ class Installed(Installation):
                 for place in [BUILD, harness.SOURCES]:
                     self.assertFalse(os.fsencode(place) in content, f"{file} holds {place}")
 
+    def test_each_file_is_in_one_package(self):
+        whole = sorted(path.relative_to(self.prefix) for path in self.prefix.rglob("*") if not path.is_dir())
+        parts = []
+        for part in ["mars", "mars-nx", "mars-nx-dev"]:
+            self.succeed("cmake", "--install", BUILD, "--component", part, "--prefix", self.folder / part)
+            parts += [path.relative_to(self.folder / part) for path in (self.folder / part).rglob("*")
+                      if not path.is_dir()]
+        self.assertEqual(sorted(parts), whole)
+
     def test_schemas_and_documents(self):
         for name in ["mars/schema/film.schema.json", "mars/schema/model.schema.json", "doc/mars/copyright",
                      "doc/mars/film-format.md", "doc/mars/examples/models/robot-arm.json"]:

@@ -3,6 +3,7 @@ nothing else, and pkg-config and CMake find both wherever they are."""
 
 import re
 
+import harness
 from harness import main
 from nx_installation import NxInstallation
 
@@ -17,6 +18,7 @@ int main(void) {
   return 0;
 }
 """
+RANKS = ["0 of 3", "1 of 3", "2 of 3"]
 
 PROJECT = """cmake_minimum_required(VERSION 3.16)
 project(ranks LANGUAGES C)
@@ -51,9 +53,31 @@ class Library(NxInstallation):
         variables = {name for header in self.headers for name in VARIABLE.findall(header.read_text())}
         self.assertEqual(self.exported() - set(self.prototypes()) - variables, set())
 
+    def test_names_of_a_programs_own(self):
+        self.write("own.c", "#include <stdlib.h>\n" + "".join(
+            f"void {name}(void) {{ abort(); }}\n" for name in ["load", "gray", "flick", "csend", "crecv", "_crecv"]))
+        self.write("rank.c", RANK.replace("{", "{ gsync();", 1))
+        self.succeed("cc", "rank.c", "own.c", "-o", "rank", *self.flags("--cflags", "--libs"))
+        self.assertRuns("./rank")
+
+    def test_cpp(self):
+        self.write("rank.cpp", RANK)
+        self.succeed("c++", "-std=c++98", *STRICT, "rank.cpp", "-o", "rank", *self.flags("--cflags", "--libs"))
+        self.assertRuns("./rank")
+
     def test_pkg_config(self):
         self.build("rank", RANK)
         self.assertRuns("./rank")
+
+    @harness.needs_mpi
+    def test_a_job_of_mpirun(self):
+        self.build("rank", RANK)
+        told = self.succeed(*harness.OWN_MPIRUN, "-n", 3, "./rank", env=self.nx_environment())
+        self.assertEqual(sorted(told.splitlines()), RANKS)
+
+    def test_a_program_alone(self):
+        self.build("rank", RANK)
+        self.assertEqual(self.succeed("./rank", env=self.nx_environment()), "0 of 1\n")
 
     def test_cmake_package(self):
         self.write("rank.c", RANK)
@@ -65,7 +89,7 @@ class Library(NxInstallation):
     def assertRuns(self, program):
         done = self.run_nx("--nodes", 3, program)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(sorted(done.stdout.splitlines()), ["0 of 3", "1 of 3", "2 of 3"])
+        self.assertEqual(sorted(done.stdout.splitlines()), RANKS)
 
 
 if __name__ == "__main__":
