@@ -7,6 +7,12 @@ install(TARGETS mars-nx RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ma
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME mars-nx-dev)
 install(FILES ${nx_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mars-nx)
 
+# The same for Fortran: a library in front of that one, and what programs include.
+get_target_property(fortran_headers mars_nx_fortran HEADERS)
+install(TARGETS mars_nx_fortran EXPORT mars-nx
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mars-nx NAMELINK_COMPONENT mars-nx-dev)
+install(FILES ${fortran_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mars-nx-fortran)
+
 set(nx_package ${CMAKE_INSTALL_LIBDIR}/cmake/mars-nx)
 install(EXPORT mars-nx NAMESPACE mars-nx:: FILE mars-nx-config.cmake DESTINATION ${nx_package})
 include(CMakePackageConfigHelpers)
@@ -16,8 +22,10 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mars-nx-config-version.cmake DESTINATI
 # The prefix from where the file is: an installation can be moved as a whole.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
            OUTPUT_VARIABLE nx_prefix)
-configure_file(mars-nx.pc.in mars-nx.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mars-nx.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+foreach(file mars-nx.pc mars-nx-fortran.pc)
+  configure_file(${file}.in ${file} @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
 
 # The manual: pages written here, with prototypes as the headers have them; one that tells of several calls is found
 # by the name of each, and of each one's twin.

@@ -1,9 +1,13 @@
 """The programs of examples/nx end well and say what is right, as forked processes at several numbers of nodes."""
 
+import unittest
+
 from harness import PROGRAMS, ProgramTest, main
 
 NX = PROGRAMS.parent / "examples-nx"
 PROCESSES = [1, 2, 3, 4, 8]
+
+needs_fortran = unittest.skipUnless((NX / "fortran_pi").exists(), "built without a Fortran compiler")
 
 
 def corners(nodes):
@@ -38,6 +42,17 @@ class NxProgramsTest(ProgramTest):
         self.check(says, "farm_host", "farm_node")
         alone = self.succeed("mars-nx", "run", "--nodes", 4, "--host", NX / "farm_host")
         self.assertEqual(alone, says(4))
+
+    def test_counter(self):
+        self.check(lambda nodes: f"counter: 500 pieces done by {nodes} nodes, each once\n", "counter")
+
+    @needs_fortran
+    def test_pi_in_fortran(self):
+        self.check(lambda nodes: f"pi: 3.14159265 by {nodes:2} nodes\n", "fortran_pi")
+
+    @needs_fortran
+    def test_heat_in_fortran(self):
+        self.check(lambda nodes: f"heat:  2050 steps on {nodes:2} nodes\n", "fortran_heat")
 
     def test_shared_file(self):
         self.check(lambda nodes: f"shared_file: {nodes} nodes, four modes, 0 things wrong\n", "shared_file")

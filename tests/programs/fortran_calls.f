@@ -1,0 +1,193 @@
+C     Every call of NX that Fortran has, once: each node counts what is
+C     wrong, the program ends with their sum.
+      PROGRAM CALLS
+      INCLUDE 'fcube.h'
+      COMMON /COUNTS/ NWRONG
+      INTEGER ALL, WORK
+      NWRONG = 0
+      CALL TMESS
+      CALL TASYNC
+      CALL TPROBE
+      CALL THAND
+      CALL TCOLL
+      CALL TFILES
+      CALL TSELF
+      ALL = NWRONG
+      CALL GISUM(ALL, 1, WORK)
+      IF (MYNODE() .EQ. 0) WRITE (*, 10) NUMNODES(), ALL
+   10 FORMAT ('calls:', I3, ' nodes,', I4, ' wrong')
+      IF (ALL .NE. 0) STOP 1
+      END
+
+      SUBROUTINE EXPECT(OK, WHAT)
+      INCLUDE 'fcube.h'
+      LOGICAL OK
+      CHARACTER*(*) WHAT
+      COMMON /COUNTS/ NWRONG
+      IF (OK) RETURN
+      NWRONG = NWRONG + 1
+      WRITE (*, *) 'node ', MYNODE(), ': ', WHAT
+      END
+
+      SUBROUTINE TMESS
+      INCLUDE 'fcube.h'
+      INTEGER NEXT, LAST, GOT
+      CHARACTER*5 WORD
+      NEXT = MOD(MYNODE() + 1, NUMNODES())
+      LAST = MOD(MYNODE() + NUMNODES() - 1, NUMNODES())
+      CALL CSEND(7, 100 + MYNODE(), 4, NEXT, 0)
+      CALL CRECV(7, GOT, 4)
+      CALL EXPECT(GOT .EQ. 100 + LAST, 'crecv')
+      CALL EXPECT(INFOCOUNT() .EQ. 4, 'infocount')
+      CALL EXPECT(INFONODE() .EQ. LAST, 'infonode')
+      CALL EXPECT(INFOTYPE() .EQ. 7, 'infotype')
+      CALL EXPECT(INFOPID() .EQ. 0, 'infopid')
+      CALL EXPECT(CSENDRECV(8, 'hello', 5, NEXT, 0, 8, WORD, 5) .EQ. 5,
+     1            'csendrecv')
+      CALL EXPECT(WORD .EQ. 'hello', 'csendrecv''s answer')
+C     A set of types, as a negative number.
+      CALL CSEND(2, 5, 4, MYNODE(), 0)
+      CALL CRECV(-2147483641, GOT, 4)
+      CALL EXPECT(GOT .EQ. 5, 'a set of types')
+      END
+
+      SUBROUTINE TASYNC
+      INCLUDE 'fcube.h'
+      INTEGER IN, OUT, GOT, DONE
+      DOUBLE PRECISION X
+      IN = IRECV(20, X, 8)
+      CALL EXPECT(MSGDONE(IN) .EQ. 0, 'msgdone')
+      OUT = ISEND(20, 2.5D0, 8, MYNODE(), 0)
+      CALL MSGWAIT(OUT)
+   10 DONE = MSGDONE(IN)
+      IF (DONE .EQ. 0) GO TO 10
+      CALL EXPECT(X .EQ. 2.5D0, 'irecv')
+      IN = ISENDRECV(21, 6, 4, MYNODE(), 0, 21, GOT, 4)
+      CALL MSGWAIT(IN)
+      CALL EXPECT(GOT .EQ. 6, 'isendrecv')
+      IN = IRECV(22, GOT, 4)
+      CALL MSGCANCEL(IN)
+      END
+
+      SUBROUTINE TPROBE
+      INCLUDE 'fcube.h'
+      CALL EXPECT(IPROBE(-1) .EQ. 0, 'iprobe of nothing')
+      CALL CSEND(30, 1, 4, MYNODE(), 0)
+      CALL CPROBE(30)
+      CALL EXPECT(INFOCOUNT() .EQ. 4, 'cprobe')
+      CALL EXPECT(IPROBE(-1) .EQ. 1, 'iprobe')
+      CALL FLUSHMSG(30, -1, -1)
+      CALL EXPECT(IPROBE(30) .EQ. 0, 'flushmsg')
+      END
+
+C     A handler that is sent its own node's messages.
+      SUBROUTINE HANDLE(TYPE, LENGTH, NODE, PID)
+      INTEGER TYPE, LENGTH, NODE, PID
+      COMMON /HANDLED/ NTIMES, NLAST(4)
+      NTIMES = NTIMES + 1
+      NLAST(1) = TYPE
+      NLAST(2) = LENGTH
+      NLAST(3) = NODE
+      NLAST(4) = PID
+      END
+
+      SUBROUTINE AWAIT(N)
+      COMMON /HANDLED/ NTIMES, NLAST(4)
+   10 CALL FLICK
+      IF (NTIMES .LT. N) GO TO 10
+      END
+
+      SUBROUTINE THAND
+      INCLUDE 'fcube.h'
+      EXTERNAL HANDLE
+      COMMON /HANDLED/ NTIMES, NLAST(4)
+      INTEGER IN(2), OLD, I
+      NTIMES = 0
+      CALL HRECV(40, IN, 8, HANDLE)
+      OLD = MASKTRAP(1)
+      CALL EXPECT(OLD .EQ. 0, 'masktrap')
+      CALL CSEND(40, 77, 4, MYNODE(), 0)
+      DO 10 I = 1, 10
+         CALL FLICK
+   10 CONTINUE
+      CALL EXPECT(NTIMES .EQ. 0, 'masktrap(1) keeps handlers out')
+      OLD = MASKTRAP(0)
+      CALL EXPECT(OLD .EQ. 1, 'masktrap(0)')
+      CALL AWAIT(1)
+      CALL EXPECT(IN(1) .EQ. 77, 'hrecv')
+      CALL EXPECT(NLAST(1) .EQ. 40 .AND. NLAST(2) .EQ. 4 .AND.
+     1   NLAST(3) .EQ. MYNODE() .AND. NLAST(4) .EQ. 0, 'its arguments')
+      CALL HSEND(41, 78, 4, MYNODE(), 0, HANDLE)
+      CALL AWAIT(2)
+      CALL CRECV(41, IN, 8)
+      CALL EXPECT(IN(1) .EQ. 78, 'hsend')
+      CALL HSENDRECV(42, 79, 4, MYNODE(), 0, 42, IN, 8, HANDLE)
+      CALL AWAIT(3)
+      CALL EXPECT(IN(1) .EQ. 79, 'hsendrecv')
+      END
+
+      SUBROUTINE TCOLL
+      INCLUDE 'fcube.h'
+      INTEGER Y(100), LENGTHS(64), I, COUNT
+      CALL GCOL(MYNODE(), 4, Y, 400, COUNT)
+      CALL EXPECT(COUNT .EQ. 4 * NUMNODES(), 'gcol''s length')
+      DO 10 I = 1, NUMNODES()
+         CALL EXPECT(Y(I) .EQ. I - 1, 'gcol')
+         LENGTHS(I) = 4
+   10 CONTINUE
+      CALL GCOLX(10 * MYNODE(), LENGTHS, Y)
+      DO 20 I = 1, NUMNODES()
+         CALL EXPECT(Y(I) .EQ. 10 * (I - 1), 'gcolx')
+   20 CONTINUE
+      END
+
+      SUBROUTINE TFILES
+      INCLUDE 'fcube.h'
+      CHARACTER*8 TEXT
+      INTEGER PLACE(2), ID, DONE, N
+      N = NUMNODES()
+      OPEN (11, FILE = 'fortran_calls.out', FORM = 'UNFORMATTED',
+     1      ACCESS = 'STREAM')
+      CALL SETIOMODE(11, 3)
+      CALL EXPECT(IOMODE(11) .EQ. 3, 'iomode')
+      WRITE (TEXT, '(A4, I4)') 'node', MYNODE()
+      CALL CWRITE(11, TEXT, 8)
+      ID = IWRITE(11, TEXT, 8)
+      CALL IOWAIT(ID)
+      CALL GSYNC
+      CALL EXPECT(ISEOF(11) .EQ. 1, 'iseof')
+      CALL SETIOMODE(11, 0)
+      PLACE(1) = 8 * (N + MOD(MYNODE() + 1, N))
+      PLACE(2) = 0
+      CALL ESEEK(11, PLACE, 0, PLACE)
+      CALL EXPECT(PLACE(1) .EQ. 8 * (N + MOD(MYNODE() + 1, N)), 'eseek')
+      ID = IREAD(11, TEXT, 8)
+   10 DONE = IODONE(ID)
+      IF (DONE .EQ. 0) GO TO 10
+      READ (TEXT, '(4X, I4)') ID
+      CALL EXPECT(ID .EQ. MOD(MYNODE() + 1, N), 'what was written')
+      PLACE(1) = 0
+      CALL ESEEK(11, PLACE, 0, PLACE)
+      CALL CREAD(11, TEXT, 8)
+      CALL EXPECT(TEXT .EQ. 'node   0', 'cread')
+      CALL EXPECT(LSIZE(11, 0, 0) .EQ. 16 * N, 'lsize')
+      CLOSE (11)
+      CALL GSYNC
+      END
+
+      SUBROUTINE TSELF
+      INCLUDE 'fcube.h'
+      INTEGER TICKS(2), LATER
+      DOUBLE PRECISION T
+      CALL EXPECT(MYHOST() .NE. MYNODE(), 'myhost')
+      CALL EXPECT(MYPID() .EQ. 0, 'mypid')
+      CALL EXPECT(2 ** NODEDIM() .GE. NUMNODES(), 'nodedim')
+      CALL EXPECT(GRAY(5) .EQ. 7 .AND. GINV(7) .EQ. 5, 'gray, ginv')
+      T = DCLOCK()
+      LATER = MCLOCK()
+      CALL HWCLOCK(TICKS)
+      CALL EXPECT(DCLOCK() .GE. T .AND. MCLOCK() - LATER .GE. 0,
+     1            'clocks')
+      CALL LED(1)
+      CALL LED(0)
+      END

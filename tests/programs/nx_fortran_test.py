@@ -1,0 +1,56 @@
+"""NX for Fortran programs as others get it: every call by its Fortran name, a host that loads its nodes, and how
+pkg-config and CMake find the library."""
+
+import shutil
+import unittest
+
+import harness
+from harness import main
+from nx_installation import NxInstallation
+
+FORTRAN = shutil.which("gfortran")
+
+PROJECT = """cmake_minimum_required(VERSION 3.16)
+project(pi LANGUAGES C Fortran)
+find_package(mars-nx 0.1 CONFIG REQUIRED)
+add_executable(pi pi.f)
+target_link_libraries(pi PRIVATE mars-nx::nx-fortran)
+"""
+
+
+@unittest.skipUnless(FORTRAN, "there is no gfortran")
+class Fortran(NxInstallation):
+    def compile(self, source, program):
+        folder = next(self.prefix.rglob("mars-nx-fortran.pc")).parent
+        environment = dict(harness.ENVIRONMENT, PKG_CONFIG_PATH=str(folder))
+        flags = self.succeed("pkg-config", "--cflags", "--libs", "mars-nx-fortran", env=environment).split()
+        # Buffers are of any type: that is what the language's old standards allow.
+        self.succeed(FORTRAN, "-std=legacy", "-w", source, "-o", program, *flags)
+
+    def run_well(self, *words):
+        done = self.run_nx(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        return done.stdout
+
+    def test_every_call(self):
+        self.compile(harness.SOURCES / "tests/programs/fortran_calls.f", "fortran_calls")
+        for nodes in [1, 2, 3, 4, 8]:
+            with self.subTest(nodes=nodes):
+                self.assertEqual(self.run_well("--nodes", nodes, "./fortran_calls"), f"calls:{nodes:3} nodes,   0 wrong\n")
+
+    def test_a_host_loads_its_nodes(self):
+        self.compile(harness.SOURCES / "tests/programs/fortran_calls.f", "fortran_calls")
+        self.compile(harness.SOURCES / "tests/programs/fortran_host.f", "fortran_host")
+        said = "calls:  3 nodes,   0 wrong\n"
+        self.assertEqual(self.run_well("--nodes", 3, "--host", "./fortran_host"), said)
+
+    def test_cmake_package(self):
+        shutil.copy(harness.EXAMPLES / "nx/pi.f", self.folder)
+        self.write("CMakeLists.txt", PROJECT)
+        self.succeed("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.succeed("cmake", "--build", "build")
+        self.assertEqual(self.run_well("--nodes", 2, "build/pi"), "pi: 3.14159265 by  2 nodes\n")
+
+
+if __name__ == "__main__":
+    main()
