@@ -42,6 +42,8 @@ Process::Process(Backend& backend)
 
 Process::~Process() { bound_process = nullptr; }
 
+void Process::serve_this_thread() { bound_process = this; }
+
 void Process::fail(const char* call, int code, const std::string& what, const std::string& remedy) const {
   throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
 }

@@ -62,6 +62,9 @@ class Process {
   long msgmerge(long mid1, long mid2);
   void msgignore(long mid);
 
+  // The calling thread's NX calls are this process's too, from now on: progress_thread.h.
+  void serve_this_thread();
+
   // Calls the handlers that are due; what else has arrived goes where it belongs.
   void attend();
 

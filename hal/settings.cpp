@@ -16,12 +16,16 @@ namespace {
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
 
-constexpr std::array<Setting, 4> kTable = {{
+constexpr std::array<Setting, 6> kTable = {{
     {"MARS_MEMORY", "MiB that a node may use for one frame", "a share of the machine's memory"},
+    {"MARS_NX_HANDLERS", "thread or calls: handlers of NX programs also run between NX calls, on a thread of their own",
+     "they run inside of NX calls"},
     {"MARS_NX_HOST", "yes or no: rank 0 of an MPI job of NX programs is the host",
      "it is where its program is another than the others'"},
     {"MARS_NX_MEMORY", "MiB that messages under way may take on a machine where mars-nx runs processes",
      "half of the machine's memory"},
+    {"MARS_NX_STRICT", "yes or no: messages of NX programs over 100 bytes are not buffered, and long waits are told",
+     "all messages are buffered"},
     {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512",
      "the widest the processor has"},
 }};
@@ -40,6 +44,12 @@ std::uint64_t parse_memory(const std::string& name, const std::string& text) {
 bool parse_yes(const std::string& name, const std::string& text) {
   if (text == "yes" || text == "no") return text == "yes";
   throw Failure("\"" + text + "\" is neither yes nor no", "environment variable " + name, "set it to yes or no, or unset it");
+}
+
+bool parse_handlers(const std::string& text) {
+  if (text == "thread" || text == "calls") return text == "thread";
+  throw Failure("\"" + text + "\" is neither thread nor calls", "environment variable MARS_NX_HANDLERS",
+                "set it to thread or calls, or unset it");
 }
 
 std::string parse_simd(const std::string& text) {
@@ -83,6 +93,8 @@ Settings read_settings() {
   if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory("MARS_MEMORY", text);
   if (const char* text = std::getenv("MARS_NX_MEMORY")) settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
   if (const char* text = std::getenv("MARS_NX_HOST")) settings.nx_host = parse_yes("MARS_NX_HOST", text);
+  if (const char* text = std::getenv("MARS_NX_STRICT")) settings.nx_strict = parse_yes("MARS_NX_STRICT", text);
+  if (const char* text = std::getenv("MARS_NX_HANDLERS")) settings.nx_handler_thread = parse_handlers(text);
   if (const char* text = std::getenv("MARS_SIMD")) settings.simd = parse_simd(text);
   return settings;
 }

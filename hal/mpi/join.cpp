@@ -119,7 +119,8 @@ MpiWorld::MpiWorld(std::optional<bool> host) {
   int before = 0;
   MPI_Initialized(&before);
   int level = MPI_THREAD_SINGLE;
-  if (before == 0) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+  // A progress thread (hal/progress_thread.h) may call too, though never at the same time.
+  if (before == 0) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
   succeed(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   prepare_to_wait();
   rank_ = rank_in(MPI_COMM_WORLD);

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "hal/call_failure.h"
+#include "hal/call_lock.h"
 
 namespace mars::hal {
 
@@ -22,6 +23,7 @@ long fail_by_errno(const CallFailure& failure);
 
 template <class Call>
 auto plain(Call call) try {
+  const CallLock lock;
   return call();
 } catch (...) {
   fail_plainly();
@@ -30,6 +32,7 @@ auto plain(Call call) try {
 // What is no failure of this one call (another rank's end, a broken network) is none that a program can handle.
 template <class Call>
 long twin(Call call) try {
+  const CallLock lock;
   if constexpr (std::is_void_v<decltype(call())>) {
     call();
     return 0;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "hal/failure.h"
 #include "hal/nx/guard.h"
 #include "hal/processes/processes_world.h"
+#include "hal/progress_thread.h"
 #include "hal/settings.h"
 #ifdef MARS_NX_MPI
 #include "hal/mpi/join.h"
@@ -19,9 +21,13 @@
 namespace mars::hal {
 namespace {
 
+// After which a strict program tells what it waits for.
+constexpr std::chrono::seconds kPatience{5};
+
 struct Program {
   std::unique_ptr<World> world;
   std::optional<Process> process;
+  std::optional<ProgressThread> progress;  // of the process
   std::thread::id thread;
   pid_t id = 0;
 };
@@ -47,6 +53,7 @@ void leave(int code, void*) try {
 #endif
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
+  program().progress.reset();
   program().world->leave(code);
 } catch (const std::exception& failure) {
   end(reason_of(failure));
@@ -62,7 +69,12 @@ std::unique_ptr<World> connect() {
 
 Process& find_process() {
   Backend& backend = world().backend();
-  if (!program().process) program().process.emplace(backend);
+  if (!program().process) {
+    const Settings settings = read_settings();
+    program().process.emplace(backend);
+    if (settings.nx_strict) program().process->be_strict(kPatience);
+    if (settings.nx_handler_thread) program().progress.emplace(*program().process);
+  }
   return *program().process;
 }
 
@@ -90,6 +102,9 @@ World& world() {
   return *program.world;
 }
 
-void renew_process() { program().process.reset(); }
+void renew_process() {
+  program().progress.reset();
+  program().process.reset();
+}
 
 }  // namespace mars::hal

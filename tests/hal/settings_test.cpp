@@ -62,6 +62,23 @@ TEST_F(SettingsTest, ThatAreMalformedNameVariableAndRemedy) {
   }
 }
 
+TEST_F(SettingsTest, OfMessagesAreRead) {
+  EXPECT_FALSE(read_settings().nx_strict);
+  EXPECT_FALSE(read_settings().nx_handler_thread);
+  {
+    const Variable strict("MARS_NX_STRICT", "yes");
+    const Variable handlers("MARS_NX_HANDLERS", "thread");
+    EXPECT_TRUE(read_settings().nx_strict);
+    EXPECT_TRUE(read_settings().nx_handler_thread);
+  }
+  for (const std::string value : {"", "1", "Yes"}) {
+    const Variable strict("MARS_NX_STRICT", value);
+    EXPECT_THROW(read_settings(), Failure);
+  }
+  const Variable handlers("MARS_NX_HANDLERS", "threads");
+  EXPECT_THROW(read_settings(), Failure);
+}
+
 TEST_F(SettingsTest, ThatAreUnknownAreToldWithTheNearestName) {
   const Variable known("MARS_SIMD", "avx2");
   const Variable memory("MARS_MEMROY", "1");

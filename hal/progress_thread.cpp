@@ -1,0 +1,62 @@
+#include "hal/progress_thread.h"
+
+#include <chrono>
+#include <exception>
+
+#include "hal/call_lock.h"
+#include "hal/failure.h"
+#include "hal/nx/guard.h"
+
+namespace mars::hal {
+namespace {
+
+constexpr std::chrono::microseconds kRest{500};
+
+}  // namespace
+
+void CallLock::need(std::mutex* mutex) {
+  if (depth_ > 0 && mutex_ != nullptr) mutex_->unlock();
+  mutex_ = mutex;
+  if (depth_ > 0 && mutex_ != nullptr) mutex_->lock();
+}
+
+ProgressThread::ProgressThread(Process& process) : process_(process) {
+  CallLock::need(&calls_);
+  thread_ = std::thread([this] { run(); });
+}
+
+ProgressThread::~ProgressThread() {
+  CallLock::need(nullptr);
+  {
+    const std::lock_guard lock(ending_mutex_);
+    ending_ = true;
+  }
+  ending_news_.notify_one();
+  if (thread_.get_id() == std::this_thread::get_id())
+    thread_.detach();  // its handler ends the program
+  else
+    thread_.join();
+}
+
+// False at the end.
+bool ProgressThread::rest() {
+  std::unique_lock lock(ending_mutex_);
+  return !ending_news_.wait_for(lock, kRest, [this] { return ending_; });
+}
+
+void ProgressThread::run() try {
+  process_.serve_this_thread();
+  while (rest()) {
+    if (!calls_.try_lock()) continue;
+    const std::lock_guard lock(calls_, std::adopt_lock);
+    plain([this] { process_.attend(); });
+  }
+} catch (const std::exception& failure) {
+  try {
+    process_.backend().abort(reason_of(failure));
+  } catch (const std::exception&) {
+    // A backend of threads tells it to whoever started them.
+  }
+}
+
+}  // namespace mars::hal
