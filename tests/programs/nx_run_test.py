@@ -1,0 +1,397 @@
+"""C programs of NX as a person starts them: by mars-nx run over processes and over MPI, by a line of mpirun's, alone; and
+how they end, in order and otherwise. Each has a main function that knows nothing of jobs."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import harness
+from harness import ENVIRONMENT, HAVE_MPI, OWN_MPIRUN, PROGRAMS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
+
+LIBRARY = PROGRAMS.parent / "hal"
+OVER = ["processes"] + ["mpi"] * HAVE_MPI
+MARS_NX = PROGRAMS / "mars-nx"
+
+# What a node does is the last argument.
+NODE = r"""
+#include <cube.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+static char big[1 << 20];
+int calls;
+static void work(const char* what) {
+  long x = 0, i;
+  if (!strcmp(what, "square")) {
+    crecv(10, &x, sizeof x);
+    x *= x;
+    csend(11, &x, sizeof x, myhost(), 0);
+  }
+  if (!strcmp(what, "crash") && mynode() == 2) raise(SIGSEGV);
+  if (!strcmp(what, "leave") && mynode() == 2) _exit(4);
+  if (!strcmp(what, "code")) exit((int)mynode() + 3);
+  if (!strcmp(what, "give-up") && mynode() == 1) exit(7);
+  if (!strcmp(what, "sleep")) { mynode(); printf("sleeping\n"); sleep(100); }
+  if (!strcmp(what, "fail") && mynode() == 0) csend(1, &x, sizeof x, 99, 0);
+  if (!strcmp(what, "load")) load("node", -1, 0);
+  if (!strcmp(what, "fill")) for (i = 0; i < 100; i++) csend(1, big, sizeof big, mynode(), 0);
+  if (!strcmp(what, "reuse")) for (i = 0; i < 100; i++) { csend(1, big, sizeof big, mynode(), 0); crecv(1, big, sizeof big); }
+  if (!strcmp(what, "to-host")) csend(1, &x, sizeof x, myhost(), 0);
+  if (!strcmp(what, "read")) { char line[80] = ""; if (mynode() == 0 && !fgets(line, sizeof line, stdin)) exit(1); printf("read %s", line); }
+  if (!strcmp(what, "late")) { sleep(1); printf("late\n"); }
+  if (strcmp(what, "square") && strcmp(what, "late") && strcmp(what, "reuse") && strcmp(what, "read") && strcmp(what, "to-host")) crecv(10, &x, sizeof x);
+}
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    char text[40];
+    long me = mynode(), n = numnodes();
+    sprintf(text, "word of %ld", me);
+    csend(1, text, sizeof text, (me + 1) % n, 0);
+    crecv(1, text, sizeof text);
+    printf("%ld of %ld has %s, call %d\n", me, n, text, ++calls);
+    return 0;
+  }
+  work(argv[argc - 1]);
+  return 0;
+}
+"""
+
+HOST = r"""
+#include <cube.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+static long squares(void) {
+  long i, x, sum = 0;
+  for (i = 0; i < numnodes(); i++) csend(10, &i, sizeof i, i, 0);
+  for (i = 0; i < numnodes(); i++) { crecv(11, &x, sizeof x); sum += x; }
+  return sum;
+}
+static void tell_ends(void) {
+  long i, node, pid, code;
+  for (i = 0; i < numnodes(); i++) { waitone(-1, 0, &node, &pid, &code); printf("node %ld pid %ld code %ld\n", node, pid, code); }
+}
+int main(int argc, char** argv) {
+  const char* what = argv[1];
+  char line[80];
+  long x, n;
+  struct cubetable table[1];
+  if (!strcmp(what, "sum")) printf("sum %ld\n", squares());
+  if (!strcmp(what, "cube")) {
+    getcube("mine", "d1", NULL, 0);
+    attachcube("mine");
+    setpid(0);
+    killcube(-1, -1);
+    load("/usr/joe/node", -1, 0);
+    n = cubeinfo(table, 1, 0);
+    printf("%ld cube %s of %ld, host %ld, me %ld\n", n, table[0].cubename, table[0].nodes, myhost(), mynode());
+    printf("sum %ld\n", squares());
+    waitall(-1, 0);
+    relcube("mine");
+  }
+  if (!strcmp(what, "again")) {
+    getcube("mine", "4", NULL, 0);
+    for (n = 0; n < 3; n++) { load("node", -1, 0); printf("sum %ld\n", squares()); waitall(-1, 0); }
+    load("./loop", -1, 0);
+    csend(10, &n, sizeof n, -1, 0);
+    killproc(0, 0);
+    waitone(0, 0, &x, &x, &n);
+    printf("killed %ld\n", n);
+    killcube(-1, -1);
+    load("node", -1, 0);
+    printf("sum %ld\n", squares());
+    relcube("");
+  }
+  if (!strcmp(what, "ends")) tell_ends();
+  if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); tell_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
+  if (!strcmp(what, "more")) getcube("mine", "16", NULL, 0);
+  if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
+  if (!strcmp(what, "twin")) printf("%ld %ld %ld\n", _load("none", 0, 0), _getcube("mine", "16", NULL, 0), _relcube("other"));
+  if (!strcmp(what, "load")) load(argv[2], 0, 0);
+  if (!strcmp(what, "receive")) crecv(99, &x, sizeof x);
+  if (!strcmp(what, "kill")) { csend(10, &n, 0, 0, 0); killcube(-1, -1); return 3; }
+  if (!strcmp(what, "read")) { if (!fgets(line, sizeof line, stdin)) return 1; printf("read %s", line); }
+  if (!strcmp(what, "sleep")) { csend(10, &n, 0, 0, 0); sleep(100); }
+  return 0;
+}
+"""
+
+NOTHING = "int main(void) { return 0; }\n"
+LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
+SQUARE = '#include <cube.h>\nint main(void) { long x; crecv(10, &x, sizeof x); x *= x; csend(11, &x, sizeof x, myhost(), 0); return 0; }\n'
+
+
+class NxRun(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
+        cls.addClassCleanup(shutil.rmtree, cls.programs)
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("square", SQUARE)]:
+            source = cls.programs / f"{name}.c"
+            source.write_text(text)
+            subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
+                            f"-Wl,-rpath,{LIBRARY}"], check=True)
+
+    def setUp(self):
+        super().setUp()
+        self.folder = self.programs
+        before = set(os.listdir("/dev/shm"))
+        self.addCleanup(lambda: self.assertEqual({name for name in os.listdir("/dev/shm") if "nx" in name} - before, set()))
+
+    def run_nx(self, *words, **more):
+        return self.run_program("mars-nx", "run", *words, **more)
+
+    def well(self, *words, over="processes", **more):
+        done = self.run_nx("--over", over, *words, **more)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), f"{words}\n{done.stdout}")
+        return done.stdout
+
+    def badly(self, code, says, *words, **more):
+        """Ends with this code and one line that says so."""
+        done = self.run_nx("--over", "processes", *words, **more)
+        self.assertClear(done.stderr, says)
+        self.assertEqual(done.returncode, code)
+        return done.stdout
+
+    def start(self, *words):
+        process = subprocess.Popen([str(MARS_NX), "run", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, env=ENVIRONMENT, cwd=self.folder)
+        self.addCleanup(self.end, process)
+        return process
+
+    def start_sleeping(self, count):
+        """mars-nx with a host and nodes that sleep; all of its processes."""
+        process = self.start("--nodes", count, "./host", "./node", "sleep")
+        for _ in range(count):
+            self.assertEqual(process.stdout.readline(), "sleeping\n")
+        return process, family(process.pid)
+
+    def pid_of(self, processes, program):
+        return next(pid for pid, (_, _, file) in processes.items() if pathlib.Path(file).name == program)
+
+    def gone(self, processes):
+        wait_until(lambda: not living(processes), 10, f"still there: {living(processes)}")
+
+
+class Starts(NxRun):
+    def test_nodes_alone(self):
+        for over in OVER:
+            for count in [1, 2, 5]:
+                told = self.well("--nodes", count, "./node", over=over)
+                expected = {f"{i} of {count} has word of {(i - 1) % count}, call 1" for i in range(count)}
+                self.assertEqual(set(told.splitlines()), expected)
+
+    def test_host_and_nodes(self):
+        for over in OVER:
+            for count in [1, 3, 8]:
+                told = self.well("--nodes", count, "./host", "./node", "sum", "square", over=over)
+                self.assertEqual(told, f"sum {sum(i * i for i in range(count))}\n")
+
+    def test_arguments_after_dashes(self):
+        self.assertEqual(self.well("--nodes", 2, "./host", "./node", "--", "sum", "square"), "sum 1\n")
+        self.assertEqual(self.well("--nodes", 1, "./node", "--", "late"), "late\n")
+
+    def test_a_program_of_the_path(self):
+        path = dict(ENVIRONMENT, PATH=f"{self.folder}:{ENVIRONMENT['PATH']}")
+        self.assertIn("0 of 1", self.well("--nodes", 1, "node", cwd="/", env=path))
+
+    def test_alone(self):
+        done = self.run_program(self.folder / "node")
+        self.assertEqual((done.returncode, done.stdout), (0, "0 of 1 has word of 0, call 1\n"))
+
+    @needs_mpi
+    def test_own_mpirun(self):
+        told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "sum", ":", "-n", 3, "./node", "square")
+        self.assertEqual(told, "sum 5\n")
+        told = self.succeed(*OWN_MPIRUN, "-n", 3, "./node")
+        self.assertIn("2 of 3 has word of 1", told)
+
+    @needs_mpi
+    def test_the_setting_says_who_is_the_host(self):
+        done = self.run_program(*OWN_MPIRUN, "-n", 1, "./square", ":", "-n", 3, "./node", "to-host",
+                                env=dict(ENVIRONMENT, MARS_NX_HOST="no"))
+        self.assertIn("this job has no host", done.stderr)
+
+    def test_no_call_at_all(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 3, "./nothing", over=over), "")
+        self.assertEqual(self.well("--nodes", 3, "./nothing", "./nothing"), "")
+
+    def test_input(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 2, "./host", "./node", "read", "to-host", over=over, input="a line\n"), "read a line\n")
+        self.assertEqual(set(self.well("--nodes", 2, "./node", "--", "read", input="a line\n").split("read ")), {"", "a line\n"} )
+
+    def test_programs_within_scripts(self):
+        script = self.write("script", "#!/bin/sh\n./node\n")
+        script.chmod(0o755)
+        self.assertIn("1 of 2 has word of 0", self.well("--nodes", 2, "./script"))
+
+
+class Cubes(NxRun):
+    def test_the_host_gets_a_cube_and_loads(self):
+        for over in OVER:
+            told = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
+            self.assertEqual(told, "1 cube mine of 2, host 2, me 2\nsum 1\n")
+
+    def test_loads_without_a_program_of_the_command_line(self):
+        told = self.well("--nodes", 4, "--host", "./host", "--", "cube", "square")
+        self.assertIn("sum 1", told)
+
+    def test_other_programs_on_the_same_nodes(self):
+        told = self.well("--nodes", 4, "--host", "./host", "--", "again", "square")
+        self.assertEqual(told, "sum 14\n" * 3 + "killed -9\nsum 14\n")
+
+    def test_ends_are_told(self):
+        for over in OVER:
+            done = self.run_nx("--over", over, "--nodes", 3, "./host", "./node", "ends", "code")
+            self.assertEqual(sorted(done.stdout.splitlines()), [f"node {i} pid 0 code {i + 3}" for i in range(3)], done.stderr)
+            self.assertNotEqual(done.returncode, 0)
+
+    def test_a_death_is_told_and_the_host_goes_on(self):
+        done = self.run_nx("--nodes", 4, "--host", "./host", "--", "ends-and-again", "crash")
+        lines = done.stdout.splitlines()
+        self.assertIn("node 2 pid 0 code -11", lines)
+        self.assertEqual(lines[-1], "sum 14")
+        self.assertClear(done.stderr.replace("Segmentation fault", ""), "node 2 died: signal 11")
+        self.assertEqual(done.returncode, 139)
+
+    def test_killcube(self):
+        for over in OVER:
+            done = self.run_nx("--over", over, "--nodes", 3, "./host", "./loop", "kill")
+            self.assertEqual(done.returncode, 3, done.stderr)
+
+    def test_failures(self):
+        self.badly(1, "16 nodes is asked for, and there are 4", "--nodes", 4, "--host", "./host", "--", "more")
+        self.badly(1, "too long for a cube's name", "--nodes", 4, "--host", "./host", "--", "long-name")
+        self.badly(1, "load: none: there is no such program", "--nodes", 4, "--host", "./host", "--", "load", "none")
+        self.badly(1, "node.c: is not a program that can be run", "--nodes", 4, "--host", "./host", "--", "load", "node.c")
+        self.badly(1, "this is the host's call", "--nodes", 1, "./node", "--", "load")
+        self.assertEqual(self.well("--nodes", 2, "--host", "./host", "--", "twin"), "-1 -1 -1\n")
+
+    @needs_mpi
+    def test_mpi_runs_what_it_started(self):
+        done = self.run_nx("--over", "mpi", "--nodes", 2, "./host", "./loop", "load", "square")
+        self.assertIn("the host, load: square: node 0 runs", done.stderr)
+        self.assertNotEqual(done.returncode, 0)
+
+
+class Ends(NxRun):
+    def test_the_host_ends_first(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 2, "./host", "./node", "late", over=over), "late\n" * 2)
+
+    def test_to_a_node_that_has_ended(self):
+        self.assertEqual(self.well("--nodes", 2, "./host", "./nothing", "kill-not"), "")
+
+    def test_a_node_crashes(self):
+        for words in [["./node", "--", "crash"], ["./host", "./node", "receive", "crash"]]:
+            done = self.run_nx("--over", "processes", "--nodes", 4, *words)
+            self.assertEqual(done.stderr, "mars-nx: node 2 died: signal 11 (Segmentation fault)\n")
+            self.assertEqual(done.returncode, 139)
+
+    @needs_mpi
+    def test_a_node_crashes_under_mpi(self):
+        done = self.run_nx("--over", "mpi", "--nodes", 4, "./node", "--", "crash")
+        self.assertNotEqual(done.returncode, 0)
+
+    def test_a_node_leaves_without_a_word(self):
+        self.badly(4, "node 2 ended without leaving its job, with exit code 4", "--nodes", 4, "./node", "--", "leave")
+
+    def test_nothing_can_come_any_more(self):
+        for over in OVER:
+            done = self.run_nx("--over", over, "--nodes", 3, "./node", "--", "give-up")
+            self.assertIn("every process waits for a message, and none is on its way; node 1 has ended with exit code 7", done.stderr)
+            self.assertNotEqual(done.returncode, 0)
+        self.badly(1, "every process waits for a message", "--nodes", 2, "./loop")
+        self.badly(1, "every process waits for a message", "--nodes", 2, "./host", "./loop", "receive")
+        self.badly(1, "every process waits for a message", "--nodes", 2, "./host", "./loop", "ends")
+
+    def test_a_call_fails(self):
+        for over in OVER:
+            done = self.run_nx("--over", over, "--nodes", 3, "./node", "--", "fail")
+            self.assertIn("node 0, csend: there is no node 99", done.stderr)
+            self.assertNotEqual(done.returncode, 0)
+        self.badly(1, "node 0, csend: there is no node 99", "--nodes", 3, "./node", "--", "fail")
+        self.badly(1, "this job has no host", "--nodes", 1, "./node", "--", "to-host")
+
+    def test_too_much_under_way(self):
+        little = dict(ENVIRONMENT, MARS_NX_MEMORY="64")
+        self.badly(1, "all the 64 MiB that this machine's processes may use", "--nodes", 1, "./node", "--", "fill", env=little)
+        self.well("--nodes", 4, "./node", "--", "reuse", env=little)
+
+    def test_wrong_command_lines(self):
+        self.badly(1, "./none: there is no such program", "--nodes", 2, "./none")
+        self.badly(1, "./node.c: is not a program that can be run", "--nodes", 2, "./node.c")
+        self.badly(1, "/: is a folder", "--nodes", 2, "/")
+        script = self.write("unreadable", "#!/nowhere/sh\n")
+        script.chmod(0o755)
+        done = self.run_nx("--nodes", 1, "./unreadable")
+        self.assertClear(done.stderr, "unreadable: cannot be run: No such file or directory")
+        self.assertEqual(done.returncode, 1)
+        for words, says in [([], "PROGRAM is required"), (["--nodes", "0", "./node"], "--nodes"),
+                            (["--nodes", "5000", "./node"], "--nodes"), (["--over", "smoke", "./node"], "not auto or processes or mpi")]:
+            done = self.run_nx(*words)
+            self.assertClear(done.stderr, says)
+            self.assertEqual(done.returncode, 2)
+        done = self.run_nx("--hostfile", "hosts", "--over", "processes", "./node")
+        self.assertClear(done.stderr, "processes are all on this machine")
+
+
+class Kills(NxRun):
+    def test_mars_nx_is_killed(self):
+        process, all_of_it = self.start_sleeping(3)
+        process.kill()
+        self.gone(all_of_it)
+
+    def test_ctrl_c(self):
+        for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
+            process, all_of_it = self.start_sleeping(3)
+            process.send_signal(number)
+            self.assertEqual(process.wait(10), 128 + number)
+            self.assertEqual(process.stderr.read(), "")
+            self.gone(all_of_it)
+
+    def test_a_node_is_killed(self):
+        process, all_of_it = self.start_sleeping(3)
+        os.kill(self.pid_of(all_of_it, "node"), signal.SIGKILL)
+        self.assertIn("died: signal 9", process.stderr.readline())
+        os.kill(self.pid_of(all_of_it, "host"), signal.SIGKILL)
+        self.assertEqual(process.wait(15), 137)
+        self.gone(all_of_it)
+
+    def test_the_host_is_killed(self):
+        process, all_of_it = self.start_sleeping(3)
+        os.kill(self.pid_of(all_of_it, "host"), signal.SIGKILL)
+        self.assertEqual(process.stderr.readline(), "mars-nx: the host died: signal 9 (Killed)\n")
+        self.assertEqual(process.wait(15), 137)
+        self.gone(all_of_it)
+
+    def test_at_any_instant(self):
+        """Nodes that send for ever, one of them killed at a time of its own: the others always end at once."""
+        source = self.write("storm.c", '#include <cube.h>\nint main(void) { long x[300], n = numnodes(), i = 0; for (;; i++) { '
+                            'csend(1, x, (i * 37) % sizeof x, (mynode() + i) % n, 0); if (i % 7 == 0) crecv(-1, x, sizeof x); '
+                            'while (iprobe(-1)) crecv(-1, x, sizeof x); } }\n')
+        self.succeed("cc", "-I", SOURCES / "hal/nx", source, "-o", "storm", "-L", LIBRARY, "-lmars-nx", f"-Wl,-rpath,{LIBRARY}")
+        for i in range(12):
+            process = self.start("--nodes", 4, "./storm")
+            wait_until(lambda: len(family(process.pid)) == 4, 10, "no nodes")
+            time.sleep(0.01 * i)
+            all_of_it = family(process.pid)
+            os.kill(list(all_of_it)[i % 4], signal.SIGKILL)
+            self.assertEqual(process.wait(10), 137)
+            self.assertEqual(len(process.stderr.read().splitlines()), 1)
+            self.gone(all_of_it)
+
+
+
+if __name__ == "__main__":
+    main()
