@@ -42,7 +42,7 @@ RULE(lengths_about_thresholds, "every length arrives whole, also about 100, 256,
 
 RULE(sixty_four_megabytes, "a message of 64 MiB arrives whole, by csend and by isend", "the two do not mix") {
   constexpr std::size_t kLength = 64 << 20;
-  if (numnodes() > 4) return;  // memory and time are the same for all numbers
+  if (numnodes() != 2) return;  // once is enough: it takes time
   if (is_host()) {
     const Bytes data = pattern(kLength, 4711);
     csend(5, data.data(), kLength, 0, 0);

@@ -113,20 +113,30 @@ void Rank::wait_for_a_send() {
 
 void Rank::post() {
   if (receives_.size() >= kPosted) return;
-  const std::int32_t typesel = any_typesel(random_);
   const Masked masked(*this);  // or a handler's hrecv could come before
-  Receive& receive = receives_.emplace_back(++order_, typesel);
-  receive.mid = irecv(typesel, receive.buffer.get(), static_cast<long>(receive.room));
+  Receive* receive = new_receive();
+  if (receive == nullptr) return;
+  receive->mid = irecv(receive->taker.typesel, receive->buffer.get(), static_cast<long>(receive->room));
 }
 
 void Rank::post_handler() {
   const auto free = std::find(receiving_by_.begin(), receiving_by_.end(), nullptr) - receiving_by_.begin();
   if (free == kHandlers) return;
+  Receive* receive = new_receive();
+  if (receive == nullptr) return;
+  receive->handler = static_cast<int>(free);
+  receiving_by_[free] = receive;
+  hrecv(receive->taker.typesel, receive->buffer.get(), static_cast<long>(receive->room),
+        receive_handler(receive->handler));
+}
+
+// With a random typesel; nullptr where there is no buffer for it.
+Receive* Rank::new_receive() {
   const std::int32_t typesel = any_typesel(random_);
-  Receive& receive = receives_.emplace_back(++order_, typesel);
-  receive.handler = static_cast<int>(free);
-  receiving_by_[free] = &receive;
-  hrecv(typesel, receive.buffer.get(), static_cast<long>(receive.room), receive_handler(receive.handler));
+  const std::size_t room = room_for(typesel);
+  const Buffers::Buffer buffer = buffers_.get(room);
+  if (buffer == nullptr) return nullptr;
+  return &receives_.emplace_back(Receive{{++order_, typesel}, room, buffer, -1, -1});
 }
 
 void Rank::received(int handler, const Came& came) {
@@ -170,7 +180,7 @@ void Rank::expect_untouched_by_short(std::int32_t typesel, const Came& probed) {
 
 // By crecv; where a probe has told of the message it is that one.
 void Rank::receive_now(std::int32_t typesel, std::size_t room, const Came* probed) {
-  const auto bytes = std::make_unique_for_overwrite<unsigned char[]>(room);
+  const Buffers::Buffer bytes = for_now_.get(room);
   crecv(typesel, bytes.get(), static_cast<long>(room));
   const Came came = info();
   expect(probed == nullptr || came == *probed, "not what the probe told of was received but " + text_of(came));

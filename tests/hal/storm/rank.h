@@ -67,6 +67,7 @@ class Rank {
   void release_handlers();
   void cancel_all();
 
+  Receive* new_receive();
   void receive_now(std::int32_t typesel, std::size_t room, const Came* probed);
   void expect_untouched_by_short(std::int32_t typesel, const Came& probed);
   bool ask(Receives::iterator receive);
@@ -91,6 +92,8 @@ class Rank {
   std::array<bool, kHandlers> sending_by_ = {};
   std::array<Came, kHandlers> told_ = {};  // what the hsend's handler must tell
 
+  Buffers buffers_;
+  Buffers for_now_;
   Receives receives_;
   std::array<Receive*, kHandlers> receiving_by_ = {};
   std::vector<long> sent_all_;  // ids of receives, one for each other rank's word

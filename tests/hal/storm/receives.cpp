@@ -21,7 +21,18 @@ std::int32_t any_set(Random& random) {
   return static_cast<std::int32_t>(set | 1u << 31);
 }
 
+constexpr std::size_t kLong = 100'000;
+constexpr std::size_t kLongs = 4;
+
 }  // namespace
+
+Buffers::Buffer Buffers::get(std::size_t room) {
+  if (room <= kLong) return std::make_unique_for_overwrite<unsigned char[]>(room);
+  const auto free = std::find_if(long_.begin(), long_.end(), [](const Buffer& one) { return one.use_count() == 1; });
+  if (free != long_.end()) return *free;
+  if (long_.size() == kLongs) return nullptr;
+  return long_.emplace_back(std::make_unique_for_overwrite<unsigned char[]>(room_for(-1)));
+}
 
 std::size_t room_for(std::int32_t typesel) {
   std::size_t room = 0;

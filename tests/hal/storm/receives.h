@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <vector>
 
 #include "tests/hal/storm/ledger.h"
 
@@ -13,17 +14,24 @@ namespace mars::hal::storm {
 // The most bytes of a message that `typesel` can select.
 std::size_t room_for(std::int32_t typesel);
 
-struct Receive {
-  Receive(long order, std::int32_t typesel)
-      : taker{order, typesel},
-        room(room_for(typesel)),
-        buffer(std::make_unique_for_overwrite<unsigned char[]>(room)) {}
+// Buffers of one rank. Long ones are few and used again: to get one costs much under a sanitizer.
+class Buffers {
+ public:
+  using Buffer = std::shared_ptr<unsigned char[]>;
 
+  // Of at least `room` bytes, with anything in them; nullptr where too many long ones are out.
+  Buffer get(std::size_t room);
+
+ private:
+  std::vector<Buffer> long_;  // those that only it has are free
+};
+
+struct Receive {
   Taker taker;
   std::size_t room;
-  std::unique_ptr<unsigned char[]> buffer;  // only touched where a message comes
-  long mid = -1;                            // of an irecv
-  int handler = -1;                         // of an hrecv
+  Buffers::Buffer buffer;  // only touched where a message comes
+  long mid;                // of an irecv, or -1
+  int handler;             // of an hrecv, or -1
   bool fired = false;
   Came came = {};  // once it has
 };
