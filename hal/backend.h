@@ -1,7 +1,8 @@
 // What carries messages: the contract that a process (process.h) asks of a backend and each folder below hal/
-// implements: mpi/, threads/. One Backend object is one rank; all its calls come from one thread. Ranks are
-// the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are 0..2^31-1 and lengths bytes; what types
-// mean is not a backend's affair. Between one sender and one receiver messages arrive in the order sent.
+// implements: mpi/, processes/, threads/; template/ is one to copy. One Backend object is one rank; all its calls
+// come from one thread. Ranks are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are 0..2^31-1
+// and lengths bytes; what types mean is not a backend's affair. Between one sender and one receiver messages
+// arrive in the order sent.
 #pragma once
 
 #include <chrono>

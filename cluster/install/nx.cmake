@@ -19,6 +19,13 @@ include(CMakePackageConfigHelpers)
 write_basic_package_version_file(mars-nx-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mars-nx-config-version.cmake DESTINATION ${nx_package})
 
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/nx/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mars-nx/examples
+        FILES_MATCHING PATTERN "*.[cfh]" PATTERN README.md)
+foreach(package mars-nx mars-nx-dev)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright
+          COMPONENT ${package})
+endforeach()
+
 # The prefix from where the file is: an installation can be moved as a whole.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
            OUTPUT_VARIABLE nx_prefix)

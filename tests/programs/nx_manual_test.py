@@ -60,6 +60,11 @@ class Manual(NxInstallation):
                 seen += 1
         self.assertGreater(seen, 50)
 
+    def test_the_overview_names_every_page(self):
+        for name in self.pages:
+            if name.endswith(".3nx"):
+                self.assertRegex(self.pages["nx.7"], rf"Xr {name.split('.')[0]} 3nx")
+
     @unittest.skipUnless(shutil.which("mandoc"), "needs mandoc")
     def test_mandoc_finds_no_fault(self):
         for name in self.pages:
