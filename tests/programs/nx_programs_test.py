@@ -1,11 +1,13 @@
-"""The programs of examples/nx end well and say what is right, as forked processes at several numbers of nodes."""
+"""The programs of examples/nx end well and say what is right at several numbers of nodes, as forked processes and
+under a person's own mpirun."""
 
 import unittest
 
-from harness import PROGRAMS, ProgramTest, main
+from harness import HAVE_MPI, OWN_MPIRUN, PROGRAMS, ProgramTest, main
 
 NX = PROGRAMS.parent / "examples-nx"
 PROCESSES = [1, 2, 3, 4, 8]
+RANKS = [2, 4] if HAVE_MPI else []
 
 needs_fortran = unittest.skipUnless((NX / "fortran_pi").exists(), "built without a Fortran compiler")
 
@@ -21,6 +23,10 @@ class NxProgramsTest(ProgramTest):
         for nodes in PROCESSES:
             with self.subTest(programs=programs, nodes=nodes):
                 self.assertEqual(self.succeed("mars-nx", "run", "--nodes", nodes, *words), says(nodes))
+        host = ["-n", 1, words[0], ":"] if len(words) == 2 else []
+        for nodes in RANKS:
+            with self.subTest(programs=programs, ranks=nodes):
+                self.assertEqual(self.succeed(*OWN_MPIRUN, *host, "-n", nodes, words[-1]), says(nodes))
 
     def test_ring(self):
         self.check(lambda nodes: f"ring: {5 * nodes * (nodes + 1) // 2} after 5 rounds of {nodes} nodes, right\n", "ring")
