@@ -24,6 +24,10 @@ struct Envelope {
 // Names a send that start_send began, until `sent` has said true.
 using Ticket = int;
 
+inline double machine_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -59,6 +63,9 @@ class Backend {
   // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
   // `longest`, and no longer than until something happens where the backend can know.
   virtual void idle(int turn, std::chrono::microseconds longest) = 0;
+
+  // Since some fixed point: by the machine's clock, unless ranks live by another.
+  virtual double seconds() const { return machine_seconds(); }
 
   virtual Neighbourhood neighbourhood() = 0;
   // Collective over the nodes of one machine, as is the last release: see SharedMemory.

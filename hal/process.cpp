@@ -31,6 +31,8 @@ Process& process() {
   return *bound_process;
 }
 
+double seconds() { return bound_process == nullptr ? machine_seconds() : bound_process->backend().seconds(); }
+
 const Traffic& traffic() { return process().traffic(); }
 
 Process::Process(Backend& backend)

@@ -155,6 +155,9 @@ Process& process();
 using FindProcess = Process& (*)();
 void find_process_by(FindProcess find);
 
+// By the clock of the calling thread's process; the machine's where it has none.
+double seconds();
+
 // "node 3" or "the host".
 std::string rank_name(int rank, int host);
 

@@ -4,12 +4,19 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <memory>
 #include <new>
 
 #include "hal/mpi/mpi_call.h"
 
 namespace mars::hal {
+
+struct alignas(64) Bells::Bell {
+  std::atomic<std::uint32_t> armed{0};          // 1: its rank may be asleep
+  std::atomic<std::int32_t> awaited{kNothing};  // type
+};
+
 namespace {
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free && std::atomic<std::int32_t>::is_always_lock_free, "processes share these");
@@ -33,8 +40,8 @@ Bells::Bells(MPI_Comm here, MPI_Comm all) {
   // Mapped at pages, so that every rank skips the same few bytes.
   std::size_t room = static_cast<std::size_t>(size);
   std::align(alignof(Bell), count * sizeof(Bell), block, room);
-  bells_ = static_cast<Bell*>(block);
-  mine_ = new (bells_ + index) Bell{};
+  Bell* bells = static_cast<Bell*>(block);  // by rank in `here`
+  mine_ = new (bells + index) Bell{};
 
   std::vector<int> ids(count);
   const int id = rank_in(all);
@@ -42,7 +49,7 @@ Bells::Bells(MPI_Comm here, MPI_Comm all) {
   // Also makes all bells before anyone rings one.
   succeed(MPI_Allgather(&id, 1, MPI_INT, ids.data(), 1, MPI_INT, here), "MPI_Allgather");
   everyone_ = count == size_of(all);
-  for (int i = 0; i < count; ++i) of_[ids[i]] = bells_ + i;
+  for (int i = 0; i < count; ++i) of_[ids[i]] = bells + i;
 }
 
 // The fence orders what was done before the look at the flag, as `arm` orders the flag before its rank's look at what

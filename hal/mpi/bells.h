@@ -5,7 +5,6 @@
 // whether a bell is armed, in a line of memory that seldom changes.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -45,13 +44,9 @@ class Bells {
   void take_down();
 
  private:
-  struct alignas(64) Bell {
-    std::atomic<std::uint32_t> armed{0};        // 1: its rank may be asleep
-    std::atomic<std::int32_t> awaited{kNothing};  // type
-  };
+  struct Bell;
 
   MPI_Win window_ = MPI_WIN_NULL;
-  Bell* bells_ = nullptr;  // by rank in `here`
   Bell* mine_ = nullptr;
   bool everyone_ = false;
   std::vector<Bell*> of_;  // by id; null: on another machine

@@ -116,6 +116,8 @@ MpiBackend::~MpiBackend() {
   MPI_Comm_free(&all_);
 }
 
+double MpiBackend::seconds() const { return mpi_waits_well() ? MPI_Wtime() : machine_seconds(); }
+
 Neighbourhood MpiBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");
   return neighbourhood_;

@@ -35,6 +35,7 @@ class MpiBackend : public Backend {
   void take(void* buffer) override;
   bool receive_soon(int type, void* buffer, std::size_t room, Envelope& came) override;
   void idle(int turn, std::chrono::microseconds longest) override;
+  double seconds() const override;
   Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;

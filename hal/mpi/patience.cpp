@@ -36,4 +36,6 @@ std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed)
 
 int turns_at_once(bool oversubscribed) { return patience(oversubscribed).at_once; }
 
+bool mpi_waits_well() { return false; }
+
 }  // namespace mars::hal

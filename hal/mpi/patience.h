@@ -19,4 +19,7 @@ std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed)
 // The first turns, in which pause_of says none.
 int turns_at_once(bool oversubscribed);
 
+// Whether MPI's own waiting takes no processor, as where SimGrid simulates ranks, whose time is MPI's then.
+bool mpi_waits_well();
+
 }  // namespace mars::hal

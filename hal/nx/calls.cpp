@@ -1,7 +1,5 @@
 #include "hal/nx/nx_messages.h"
 
-#include <chrono>
-
 #include "hal/nx/guard.h"
 #include "hal/process.h"
 #include "topology/hypercube.h"
@@ -93,13 +91,10 @@ long myhost(void) {
 long gray(long n) { return mars::topology::gray(static_cast<int>(n & 0x7fffffff)); }
 long ginv(long code) { return mars::topology::inverse_gray(static_cast<int>(code & 0x7fffffff)); }
 
-double dclock(void) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double dclock(void) { return mars::hal::seconds(); }
 unsigned long mclock(void) { return static_cast<unsigned long>(dclock() * 1000); }
 void hwclock(esize_t* ticks) {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  const auto count = std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+  const auto count = static_cast<long long>(dclock() * 1e9);
   ticks->slow = static_cast<long>(count & 0xffffffff);
   ticks->shigh = static_cast<long>(count >> 32);
 }

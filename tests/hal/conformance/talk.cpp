@@ -1,7 +1,9 @@
 #include "tests/hal/conformance/talk.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "hal/nx/nx_messages.h"
 
@@ -44,6 +46,12 @@ long receive_long(long typesel) {
 
 void send_empty(long type, long to) { csend(type, nullptr, 0, to, 0); }
 void receive_empty(long typesel) { crecv(typesel, nullptr, 0); }
+
+void let_pass(double seconds) {
+  const double end = dclock() + seconds;
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  while (dclock() < end) flick();
+}
 
 void meet(const std::function<void()>& between) {
   if (is_host()) {

@@ -25,6 +25,9 @@ long receive_long(long typesel);
 void send_empty(long type, long to);
 void receive_empty(long typesel);
 
+// Lets seconds pass on the clocks, which may be simulated ones.
+void let_pass(double seconds);
+
 // Returns when all ranks have called it; in it, when each rank has come, it calls `between`.
 void meet(const std::function<void()>& between);
 
