@@ -270,15 +270,32 @@ void Process::send_internal(int to, const void* data, std::size_t length) {
   if (ticket) wait_sent(*ticket);
 }
 
-void Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
-  const Envelope before = std::exchange(info_, {});
-  receive_now(call, {kFirstInternalType + from, from}, {data, length}, nullptr);
-  const std::size_t came = std::exchange(info_, before).length;
-  if (came == length) return;
-  fail(call, EQLEN,
-       rank_name(from, backend_.host()) + " gave " + bytes_text(came) + " where " + bytes_text(length) +
-           " belong",
-       "all nodes call the same collectives in the same order with the same lengths");
+std::size_t Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
+  const Selection selection{kFirstInternalType + from, from};
+  const Envelope before = info_;
+  try {
+    receive_now(call, selection, {data, length}, nullptr);
+  } catch (const CallFailure& failure) {
+    if (failure.code != EQMSGLONG) throw;
+    Message* message = matching_.find(selection);
+    info_ = message->envelope;
+    matching_.remove(message);
+    pool_.release(message);
+  }
+  const std::size_t came = info_.length;
+  info_ = before;
+  return came;
+}
+
+std::size_t Process::swap_internal(const char* call, int with, const void* out, std::size_t out_length, void* in,
+                                   std::size_t in_length) {
+  const Envelope sent{with, kFirstInternalType + backend_.rank(), out_length};
+  const double begin = ledger_.begin();
+  const Ticket ticket = backend_.start_send(with, sent.type, out, out_length);
+  ledger_.sent(sent, begin);
+  const std::size_t came = receive_internal(call, with, in, in_length);
+  wait_sent(ticket);
+  return came;
 }
 
 void Process::finish() {

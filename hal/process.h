@@ -71,10 +71,12 @@ class Process {
   // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
   void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
 
-  // For collectives, which are named `call`: one internal message from node to node; exactly `length` bytes
-  // must come.
+  // For collectives, which are named `call`: one internal message from node to node. How many bytes came is
+  // returned; more than `length` are thrown away. Swap: one each way, of what does not overlap.
   void send_internal(int to, const void* data, std::size_t length);
-  void receive_internal(const char* call, int from, void* data, std::size_t length);
+  std::size_t receive_internal(const char* call, int from, void* data, std::size_t length);
+  std::size_t swap_internal(const char* call, int with, const void* out, std::size_t out_length, void* in,
+                            std::size_t in_length);
 
   // The orderly end: waits for all ranks, throws away what nobody received.
   void finish();
@@ -97,6 +99,7 @@ class Process {
   void start_send(const Outgoing& message, Request& request);
   void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
   bool receive_soon(const Selection& selection, const Room& room, long* info);
+  void settle_overtaken();
   void start_receive(const Selection& selection, const Room& room, Request& request);
   void start_exchange(const Outgoing& message, const Selection& selection, const Room& room, Request& answer);
   void probe(const char* call, const Selection& selection, long* info);
@@ -145,6 +148,7 @@ class Process {
   Envelope info_;
   Ledger ledger_;
   bool led_ = false;
+  bool overtaken_ = false;  // messages may wait that came before one that was received
   int quiet_turns_ = 0;  // flicks since anything arrived
 };
 
