@@ -276,8 +276,8 @@ std::size_t Process::receive_internal(const char* call, int from, void* data, st
   try {
     receive_now(call, selection, {data, length}, nullptr);
   } catch (const CallFailure& failure) {
-    if (failure.code != EQMSGLONG) throw;
     Message* message = matching_.find(selection);
+    if (failure.code != EQMSGLONG || message == nullptr) throw;
     info_ = message->envelope;
     matching_.remove(message);
     pool_.release(message);
