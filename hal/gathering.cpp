@@ -6,7 +6,7 @@ namespace mars::hal {
 namespace {
 
 // The parts of a run of positions.
-struct Stretch {
+struct Run {
   std::byte* data;
   std::size_t bytes;
 };
@@ -18,32 +18,32 @@ struct Stretch {
 void gather(DimensionExchange& exchange, void* y, const std::vector<std::size_t>& offsets) {
   const int me = exchange.position();
   const int corners = exchange.corners();
-  const auto stretch = [&](int first, int last) {
+  const auto run = [&](int first, int last) {
     const int from = std::min(first, exchange.count()), to = std::min(last, exchange.count());
-    return Stretch{static_cast<std::byte*>(y) + offsets[static_cast<std::size_t>(from)],
+    return Run{static_cast<std::byte*>(y) + offsets[static_cast<std::size_t>(from)],
                    offsets[static_cast<std::size_t>(to)] - offsets[static_cast<std::size_t>(from)]};
   };
   if (exchange.folded()) {
-    const Stretch mine = stretch(me, me + 1), all = stretch(0, exchange.count());
+    const Run mine = run(me, me + 1), all = run(0, exchange.count());
     exchange.send(me - corners, mine.data, mine.bytes);
     exchange.receive(me - corners, all.data, all.bytes);
     return;
   }
   if (exchange.folds()) {
-    const Stretch folded = stretch(me + corners, me + corners + 1);
+    const Run folded = run(me + corners, me + corners + 1);
     exchange.receive(me + corners, folded.data, folded.bytes);
   }
   for (int bit = 1; bit < corners; bit <<= 1) {
     const int mine = me & ~(bit - 1), theirs = mine ^ bit;
     const auto swap = [&](int shift) {
-      const Stretch out = stretch(mine + shift, mine + shift + bit), in = stretch(theirs + shift, theirs + shift + bit);
+      const Run out = run(mine + shift, mine + shift + bit), in = run(theirs + shift, theirs + shift + bit);
       exchange.swap(me ^ bit, out.data, out.bytes, in.data, in.bytes);
     };
     swap(0);
     if (corners + std::min(mine, theirs) < exchange.count()) swap(corners);
   }
   if (exchange.folds()) {
-    const Stretch all = stretch(0, exchange.count());
+    const Run all = run(0, exchange.count());
     exchange.send(me + corners, all.data, all.bytes);
   }
 }

@@ -1,5 +1,7 @@
 #include "hal/reduction.h"
 
+#include "hal/process.h"
+
 namespace mars::hal {
 namespace {
 
@@ -65,6 +67,12 @@ void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::
 }
 
 }  // namespace
+
+bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x, std::size_t n) {
+  Process& self = process();
+  if (self.collectives() != Collectives::network || exchange.spoilt()) return false;
+  return exchange.count() == self.backend().nodes() && self.reduce(reduction, x, n);
+}
 
 void reduce(DimensionExchange& exchange, const Operation& operation, void* x, std::size_t n, void* work) {
   const int me = exchange.position();

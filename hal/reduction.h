@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "hal/backend.h"
 #include "hal/cube.h"
 #include "hal/dimension_exchange.h"
 
@@ -33,6 +34,10 @@ template <class T, auto combine>
 constexpr Operation operation{sizeof(T), merge<T, combine>};
 
 inline constexpr auto higher = [](auto a, auto b) { return a < b ? b : a; };
+
+// By the network's own means if the process's collectives are to be so, the backend has them and all nodes take part;
+// false: nothing was done. The order is then the network's.
+bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x, std::size_t n);
 
 // `x` and `work` have `n` elements; all members call, with the same n.
 void reduce(DimensionExchange& exchange, const Operation& operation, void* x, std::size_t n, void* work);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "hal/arguments.h"
@@ -21,9 +22,6 @@ using Bits = unsigned long;
 
 constexpr auto product = [](auto a, auto b) { return a * b; };
 constexpr auto lower = [](auto a, auto b) { return b < a ? b : a; };
-constexpr auto both = [](long a, long b) -> long { return a != 0 && b != 0; };
-constexpr auto either = [](long a, long b) -> long { return a != 0 || b != 0; };
-constexpr auto one_of = [](long a, long b) -> long { return (a != 0) != (b != 0); };
 
 Cube all_nodes() { return {0, process().backend().nodes()}; }
 
@@ -36,16 +34,29 @@ std::size_t checked_count(DimensionExchange& exchange, const void* x, const void
 }
 
 template <class T>
-void reduce_all(const char* call, const Operation& operation, T* x, long n, T* work) {
+constexpr Reduction::Element element_of = std::is_same_v<T, double>  ? Reduction::Element::real64
+                                          : std::is_same_v<T, float> ? Reduction::Element::real32
+                                                                     : Reduction::Element::whole;
+
+template <class T>
+void reduce_all(const char* call, const Operation& operation, Reduction::Rule rule, T* x, long n, T* work) {
   DimensionExchange exchange(call, all_nodes());
-  reduce(exchange, operation, x, checked_count(exchange, x, work, n), work);
+  const std::size_t count = checked_count(exchange, x, work, n);
+  if (!reduce_by_network(exchange, {element_of<T>, rule}, x, count)) reduce(exchange, operation, x, count, work);
   exchange.conclude();
 }
 
+// Of 0 and 1, truth is a matter of bits.
 template <auto combine>
-void reduce_truths(const char* call, long* x, long n, long* work) {
+void reduce_truths(const char* call, Reduction::Rule rule, long* x, long n, long* work) {
   for (long i = 0; x != nullptr && i < n; ++i) x[i] = x[i] != 0;
-  reduce_all(call, operation<long, combine>, x, n, work);
+  reduce_all(call, operation<long, combine>, rule, x, n, work);
+}
+
+void synchronize() {
+  DimensionExchange exchange("gsync", all_nodes());
+  reduce(exchange, operation<long, higher>, nullptr, 0, nullptr);
+  exchange.conclude();
 }
 
 // The operand of the lower position is `x` on both sides, so that both get the same bits.
@@ -158,34 +169,34 @@ using namespace mars::hal;
 #define VECTOR_CALL(name, T, call)                                        \
   void name(T x[], long n, T work[]) { plain([&] { call; }); }            \
   long _##name(T x[], long n, T work[]) { return twin([&] { call; }); }
-#define REDUCTION(name, T, As, combine) VECTOR_CALL(name, T, (reduce_all(#name, operation<As, combine>, x, n, work)))
-#define TRUTHS(name, combine) VECTOR_CALL(name, long, (reduce_truths<combine>(#name, x, n, work)))
+#define REDUCTION(name, T, As, combine, rule) \
+  VECTOR_CALL(name, T, (reduce_all(#name, operation<As, combine>, Reduction::Rule::rule, x, n, work)))
+#define TRUTHS(name, combine, rule) \
+  VECTOR_CALL(name, long, (reduce_truths<combine>(#name, Reduction::Rule::rule, x, n, work)))
 
 extern "C" {
 
-REDUCTION(gdsum, double, double, std::plus<double>{})
-REDUCTION(gdprod, double, double, product)
-REDUCTION(gdhigh, double, double, higher)
-REDUCTION(gdlow, double, double, lower)
-REDUCTION(gssum, float, float, std::plus<float>{})
-REDUCTION(gsprod, float, float, product)
-REDUCTION(gshigh, float, float, higher)
-REDUCTION(gslow, float, float, lower)
-REDUCTION(gisum, long, Bits, std::plus<Bits>{})
-REDUCTION(giprod, long, Bits, product)
-REDUCTION(gihigh, long, long, higher)
-REDUCTION(gilow, long, long, lower)
-REDUCTION(giand, long, Bits, std::bit_and<Bits>{})
-REDUCTION(gior, long, Bits, std::bit_or<Bits>{})
-REDUCTION(gixor, long, Bits, std::bit_xor<Bits>{})
-TRUTHS(gland, both)
-TRUTHS(glor, either)
-TRUTHS(glxor, one_of)
+REDUCTION(gdsum, double, double, std::plus<double>{}, sum)
+REDUCTION(gdprod, double, double, product, product)
+REDUCTION(gdhigh, double, double, higher, high)
+REDUCTION(gdlow, double, double, lower, low)
+REDUCTION(gssum, float, float, std::plus<float>{}, sum)
+REDUCTION(gsprod, float, float, product, product)
+REDUCTION(gshigh, float, float, higher, high)
+REDUCTION(gslow, float, float, lower, low)
+REDUCTION(gisum, long, Bits, std::plus<Bits>{}, sum)
+REDUCTION(giprod, long, Bits, product, product)
+REDUCTION(gihigh, long, long, higher, high)
+REDUCTION(gilow, long, long, lower, low)
+REDUCTION(giand, long, Bits, std::bit_and<Bits>{}, bit_and)
+REDUCTION(gior, long, Bits, std::bit_or<Bits>{}, bit_or)
+REDUCTION(gixor, long, Bits, std::bit_xor<Bits>{}, bit_xor)
+TRUTHS(gland, std::bit_and<long>{}, bit_and)
+TRUTHS(glor, std::bit_or<long>{}, bit_or)
+TRUTHS(glxor, std::bit_xor<long>{}, bit_xor)
 
-void gsync(void) { plain([] { reduce_all<long>("gsync", operation<long, both>, nullptr, 0, nullptr); }); }
-long _gsync(void) {
-  return twin([] { reduce_all<long>("gsync", operation<long, both>, nullptr, 0, nullptr); });
-}
+void gsync(void) { plain(synchronize); }
+long _gsync(void) { return twin(synchronize); }
 
 void gopf(void* x, long xlen, void* work, nx_operation fn) {
   plain([&] { operate_all(x, xlen, work, fn); });

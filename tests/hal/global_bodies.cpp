@@ -7,12 +7,14 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "hal/call_failure.h"
+#include "hal/crystal_router.h"
 #include "hal/cube.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
@@ -275,6 +277,68 @@ void room_for_all_parts() {
   still_in_step();
 }
 
+// As a node's parcel to another one must be: some get several, some none.
+std::string parcel_of(long from, long to, long number) {
+  const long length = (from * 5 + to * 3 + number) % 7 == 0 ? 30'000 : (from + to + number) % 50;
+  return std::string(static_cast<std::size_t>(length), static_cast<char>('a' + (from + 2 * to + number) % 26));
+}
+long parcels_between(long from, long to) { return (from * 3 + to) % 3; }
+
+void parcels_go_by_every_route() {
+  if (is_host()) return;
+  CrystalRouter router;
+  std::vector<std::string> texts;
+  for (long to = 0; to < numnodes(); ++to)
+    for (long number = 0; number < parcels_between(mynode(), to); ++number) texts.push_back(parcel_of(mynode(), to, number));
+  std::vector<Parcel> parcels;
+  for (long to = 0; to < numnodes(); ++to)
+    for (long number = 0; number < parcels_between(mynode(), to); ++number)
+      parcels.push_back({static_cast<int>(to), std::as_bytes(std::span(texts[parcels.size()]))});
+  std::reverse(parcels.begin(), parcels.end());
+  for (const Route route : {Route::automatic, Route::crystal, Route::direct, Route::network, Route::crystal}) {
+    const std::span<const Parcel> got = router.exchange({0, static_cast<int>(numnodes())}, parcels, route);
+    std::size_t next = 0;
+    for (long from = 0; from < numnodes(); ++from)
+      for (long number = parcels_between(from, mynode()); number-- > 0; ++next) {
+        ASSERT_LT(next, got.size());
+        EXPECT_EQ(got[next].node, from);
+        const std::string text(reinterpret_cast<const char*>(got[next].bytes.data()), got[next].bytes.size());
+        EXPECT_EQ(text, parcel_of(from, mynode(), number));
+      }
+    EXPECT_EQ(next, got.size());
+  }
+}
+
+// Each half of the nodes among themselves.
+void parcels_within_a_cube() {
+  if (is_host() || numnodes() == 1) return;
+  const auto nodes = static_cast<int>(numnodes());
+  const Cube cube = cube_of(nodes, 2, mynode() < nodes / 2 ? 0 : 1);
+  CrystalRouter router;
+  for (const Route route : {Route::automatic, Route::crystal, Route::direct, Route::network}) {
+    const int to = cube.first + (static_cast<int>(mynode()) - cube.first + 1) % cube.count;
+    const std::string text = std::to_string(mynode());
+    const std::vector<Parcel> parcels = {{to, std::as_bytes(std::span(text))}};
+    const std::span<const Parcel> got = router.exchange(cube, parcels, route);
+    ASSERT_EQ(got.size(), 1u);
+    EXPECT_EQ(got[0].node, cube.first + (static_cast<int>(mynode()) - cube.first + cube.count - 1) % cube.count);
+    EXPECT_EQ(got[0].bytes.size(), std::to_string(got[0].node).size());
+  }
+}
+
+// Where the backend has its own; else across the cube.
+void by_the_networks_own_means() {
+  if (is_host()) return;
+  process().collectives_by(Collectives::network);
+  doubles_of_all_nodes();
+  floats_of_all_nodes();
+  whole_numbers_of_all_nodes();
+  bits_of_all_nodes();
+  truths_of_all_nodes();
+  parcels_go_by_every_route();
+  process().collectives_by(Collectives::automatic);
+}
+
 }  // namespace
 
 std::vector<NxBody> global_bodies() {
@@ -289,6 +353,9 @@ std::vector<NxBody> global_bodies() {
           BODY(an_operation_of_ones_own),
           BODY(parts_of_all_nodes),
           BODY(a_list_of_receivers),
+          BODY(parcels_go_by_every_route),
+          BODY(parcels_within_a_cube),
+          BODY(by_the_networks_own_means),
           BODY(the_host_is_told),
           BODY(wrong_arguments_are_told_on_all),
           BODY(different_lengths_are_told_on_all),
