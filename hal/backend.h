@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "hal/shared_memory.h"
@@ -19,6 +20,21 @@ struct Envelope {
   int from = 0;
   int type = 0;
   std::size_t length = 0;
+};
+
+// Where one node's bytes are in a buffer of all nodes' bytes.
+struct Stretch {
+  std::size_t offset = 0;
+  std::size_t length = 0;
+};
+
+// What a network may be able to reduce by itself.
+struct Reduction {
+  enum class Element { real64, real32, whole };
+  enum class Rule { sum, product, high, low, bit_and, bit_or, bit_xor };
+
+  Element element;
+  Rule rule;
 };
 
 // Names a send that start_send began, until `sent` has said true.
@@ -59,6 +75,15 @@ class Backend {
   // microseconds and takes it if it comes and fits `room`: true, and `came` is its envelope. Meanwhile other
   // messages may be overtaken.
   virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*room*/, Envelope& /*came*/) { return false; }
+
+  // Collectives of all nodes by the network's own means, where it has them: done when sent(ticket). Buffers stay
+  // untouched and arrays unread by others until then. In place, element by element; and to each node a stretch of
+  // `out`, from each one of `in`.
+  virtual std::optional<Ticket> start_reduce(const Reduction& /*reduction*/, void* /*x*/, std::size_t /*n*/) { return {}; }
+  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const Stretch> /*to*/, void* /*in*/,
+                                                 std::span<const Stretch> /*from*/) {
+    return {};
+  }
 
   // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
   // `longest`, and no longer than until something happens where the backend can know.

@@ -272,15 +272,63 @@ void Process::send_internal(int to, const void* data, std::size_t length) {
   if (ticket) wait_sent(*ticket);
 }
 
-void Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
-  const Envelope before = std::exchange(info_, {});
-  receive_now(call, {kFirstInternalType + from, from}, {data, length}, nullptr);
-  const std::size_t came = std::exchange(info_, before).length;
-  if (came == length) return;
-  fail(call, EQLEN,
-       rank_name(from, backend_.host()) + " gave " + bytes_text(came) + " where " + bytes_text(length) +
-           " belong",
-       "all nodes call the same collectives in the same order with the same lengths");
+// Returns how many bytes came; where they are too many, their message is then `too_long`.
+std::size_t Process::receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long) {
+  const Envelope before = info_;
+  try {
+    receive_now(call, selection, room, nullptr);
+  } catch (const CallFailure& failure) {
+    too_long = matching_.find(selection);
+    if (failure.code != EQMSGLONG || too_long == nullptr) throw;
+    info_ = too_long->envelope;
+  }
+  const std::size_t came = info_.length;
+  info_ = before;
+  return came;
+}
+
+std::size_t Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
+  Message* too_long = nullptr;
+  const std::size_t came = receive_internal(call, {kFirstInternalType + from, from}, {data, length}, too_long);
+  if (too_long != nullptr) {
+    matching_.remove(too_long);
+    pool_.release(too_long);
+  }
+  return came;
+}
+
+std::size_t Process::receive_internal(const char* call, int from, std::vector<std::byte>& room, std::size_t at) {
+  Message* too_long = nullptr;
+  const Selection selection{kFirstInternalType + from, from};
+  const std::size_t came = receive_internal(call, selection, {room.data() + at, room.size() - at}, too_long);
+  if (too_long != nullptr) {
+    room.resize(at + 2 * came);
+    receive_internal(call, from, room.data() + at, came);
+  }
+  return came;
+}
+
+std::size_t Process::swap_internal(const char* call, int with, const void* out, std::size_t out_length, void* in,
+                                   std::size_t in_length) {
+  const Envelope sent{with, kFirstInternalType + backend_.rank(), out_length};
+  const double begin = ledger_.begin();
+  const Ticket ticket = backend_.start_send(with, sent.type, out, out_length);
+  ledger_.sent(sent, begin);
+  const std::size_t came = receive_internal(call, with, in, in_length);
+  wait_sent(ticket);
+  return came;
+}
+
+bool Process::reduce(const Reduction& reduction, void* x, std::size_t n) {
+  const std::optional<Ticket> ticket = backend_.start_reduce(reduction, x, n);
+  if (ticket) wait_sent(*ticket);
+  return ticket.has_value();
+}
+
+bool Process::all_to_all(const void* out, std::span<const Stretch> to, void* in, std::span<const Stretch> from) {
+  const std::optional<Ticket> ticket = backend_.start_all_to_all(out, to, in, from);
+  if (ticket) wait_sent(*ticket);
+  return ticket.has_value();
 }
 
 void Process::finish() {

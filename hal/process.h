@@ -8,10 +8,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "hal/arguments.h"
 #include "hal/backend.h"
+#include "hal/collectives.h"
 #include "hal/handlers.h"
 #include "hal/ledger.h"
 #include "hal/matching.h"
@@ -71,10 +74,22 @@ class Process {
   // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
   void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
 
-  // For collectives, which are named `call`: one internal message from node to node; exactly `length` bytes
-  // must come.
+  // For collectives, which are named `call`: one internal message from node to node. How many bytes came is
+  // returned; more than `length` are thrown away. Swap: one each way, of what does not overlap.
   void send_internal(int to, const void* data, std::size_t length);
-  void receive_internal(const char* call, int from, void* data, std::size_t length);
+  std::size_t receive_internal(const char* call, int from, void* data, std::size_t length);
+  // Likewise, behind the first `at` bytes of `room`, which grows as needed.
+  std::size_t receive_internal(const char* call, int from, std::vector<std::byte>& room, std::size_t at);
+  std::size_t swap_internal(const char* call, int with, const void* out, std::size_t out_length, void* in,
+                            std::size_t in_length);
+
+  // What the collectives of this process use; the same on all nodes.
+  void collectives_by(Collectives means) { collectives_ = means; }
+  Collectives collectives() const { return collectives_; }
+
+  // By the network's own means, see backend.h; false where it has none.
+  bool reduce(const Reduction& reduction, void* x, std::size_t n);
+  bool all_to_all(const void* out, std::span<const Stretch> to, void* in, std::span<const Stretch> from);
 
   // The orderly end: waits for all ranks, throws away what nobody received.
   void finish();
@@ -96,7 +111,9 @@ class Process {
   void wait_sent(Ticket ticket);
   void start_send(const Outgoing& message, Request& request);
   void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
+  std::size_t receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long);
   bool receive_soon(const Selection& selection, const Room& room, long* info);
+  void settle_overtaken();
   void start_receive(const Selection& selection, const Room& room, Request& request);
   void start_exchange(const Outgoing& message, const Selection& selection, const Room& room, Request& answer);
   void probe(const char* call, const Selection& selection, long* info);
@@ -144,7 +161,9 @@ class Process {
   Rendezvous rendezvous_;
   Envelope info_;
   Ledger ledger_;
+  Collectives collectives_ = Collectives::automatic;
   bool led_ = false;
+  bool overtaken_ = false;  // messages may wait that came before one that was received
   int quiet_turns_ = 0;  // flicks since anything arrived
 };
 

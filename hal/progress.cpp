@@ -84,19 +84,25 @@ bool Process::receive_soon(const Selection& selection, const Room& room, long* i
   if (selection.from != -1 && type_class(selection.typesel) == TypeClass::ordinary) return false;
   if (ledger_.recorder() != nullptr || rendezvous_.strict()) return false;
   if (!backend_.receive_soon(selection.typesel, room.buffer, room.capacity, info_)) return false;
+  overtaken_ = true;
   ledger_.taken(info_, 0);
   describe(info_, info);
   quiet_turns_ = 0;
   return true;
 }
 
-// Done at once if its message is here already. Force messages that came before it, and may have been overtaken, are
-// nobody's.
-void Process::start_receive(const Selection& selection, const Room& room, Request& request) {
-  if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) {
-    while (arrive()) {
-    }
+// Force messages that others sent before, and that were overtaken, are nobody's.
+void Process::settle_overtaken() {
+  while (overtaken_) {
+    const std::optional<Envelope> next = backend_.peek();
+    overtaken_ = next && next->from != backend_.rank();
+    if (overtaken_) settle(*next);
   }
+}
+
+// Done at once if its message is here already.
+void Process::start_receive(const Selection& selection, const Room& room, Request& request) {
+  if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) settle_overtaken();
   request.selection = selection;
   request.buffer = room.buffer;
   request.capacity = room.capacity;

@@ -16,10 +16,12 @@ namespace {
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
 
-constexpr std::array<Setting, 6> kTable = {{
+constexpr std::array<Setting, 7> kTable = {{
     {"MARS_MEMORY", "MiB that a node may use for one frame", "a share of the machine's memory"},
     {"MARS_NX_HANDLERS", "thread or calls: handlers of NX programs also run between NX calls, on a thread of their own",
      "they run inside of NX calls"},
+    {"MARS_NX_COLLECTIVES", "cube, mpi or auto: global operations by messages across the cube, or by MPI's own",
+     "auto: the cube"},
     {"MARS_NX_HOST", "yes or no: rank 0 of an MPI job of NX programs is the host",
      "it is where its program is another than the others'"},
     {"MARS_NX_MEMORY", "MiB that messages under way may take on a machine where mars-nx runs processes",
@@ -58,6 +60,14 @@ std::string parse_simd(const std::string& text) {
                 "set it to sse2, sse4, avx2 or avx512, or unset it");
 }
 
+Collectives parse_collectives(const std::string& text) {
+  if (text == "cube") return Collectives::cube;
+  if (text == "mpi") return Collectives::network;
+  if (text == "auto") return Collectives::automatic;
+  throw Failure("\"" + text + "\" is no way of global operations", "environment variable MARS_NX_COLLECTIVES",
+                "set it to cube, mpi or auto, or unset it");
+}
+
 // Letters to insert, delete or change to get from one to the other.
 int edits(std::string_view a, std::string_view b) {
   std::vector<int> row(b.size() + 1);
@@ -92,6 +102,7 @@ Settings read_settings() {
   Settings settings;
   if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory("MARS_MEMORY", text);
   if (const char* text = std::getenv("MARS_NX_MEMORY")) settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
+  if (const char* text = std::getenv("MARS_NX_COLLECTIVES")) settings.nx_collectives = parse_collectives(text);
   if (const char* text = std::getenv("MARS_NX_HOST")) settings.nx_host = parse_yes("MARS_NX_HOST", text);
   if (const char* text = std::getenv("MARS_NX_STRICT")) settings.nx_strict = parse_yes("MARS_NX_STRICT", text);
   if (const char* text = std::getenv("MARS_NX_HANDLERS")) settings.nx_handler_thread = parse_handlers(text);

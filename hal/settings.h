@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hal/collectives.h"
+
 namespace mars::hal {
 
 struct Setting {
@@ -23,6 +25,7 @@ struct Settings {
   std::optional<std::uint64_t> nx_memory;  // bytes of messages under way between mars-nx's processes; none: it decides
   std::optional<bool> nx_host;             // rank 0 of an MPI job is the host; none: its program tells
   bool nx_strict = false;                  // long messages are not buffered (hal/rendezvous.h)
+  Collectives nx_collectives = Collectives::automatic;
   bool nx_handler_thread = false;          // handlers run between NX calls too (hal/progress_thread.h)
   std::string simd;                     // widest instruction set that kernels may use; "": the processor's
 };

@@ -98,11 +98,9 @@ void MpiBackend::look_around() {
   bells_.emplace(ranks_here, all_);
   succeed(MPI_Comm_free(&ranks_here), "MPI_Comm_free");
 
-  MPI_Comm nodes = MPI_COMM_NULL;
-  succeed(MPI_Comm_split(all_, rank_ == host() ? MPI_UNDEFINED : 0, rank_, &nodes), "MPI_Comm_split");
-  if (nodes == MPI_COMM_NULL) return;
-  machine_ = split_by_machine(nodes, rank_);
-  succeed(MPI_Comm_free(&nodes), "MPI_Comm_free");
+  succeed(MPI_Comm_split(all_, rank_ == host() ? MPI_UNDEFINED : 0, rank_, &nodes_only_), "MPI_Comm_split");
+  if (nodes_only_ == MPI_COMM_NULL) return;
+  machine_ = split_by_machine(nodes_only_, rank_);
   const Affinity given = affinity(machine_);
   neighbourhood_ = {rank_, rank_in(machine_), size_of(machine_), rank_in(MPI_COMM_WORLD),
                     !CPU_EQUAL(&given.some, &given.every)};
@@ -113,6 +111,7 @@ MpiBackend::~MpiBackend() {
   if (ending_ != Ending::ended) return;
   bells_->take_down();
   if (machine_ != MPI_COMM_NULL) MPI_Comm_free(&machine_);
+  if (nodes_only_ != MPI_COMM_NULL) MPI_Comm_free(&nodes_only_);
   MPI_Comm_free(&all_);
 }
 

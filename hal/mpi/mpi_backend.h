@@ -34,6 +34,9 @@ class MpiBackend : public Backend {
   std::optional<Envelope> peek() override;
   void take(void* buffer) override;
   bool receive_soon(int type, void* buffer, std::size_t room, Envelope& came) override;
+  std::optional<Ticket> start_reduce(const Reduction& reduction, void* x, std::size_t n) override;
+  std::optional<Ticket> start_all_to_all(const void* out, std::span<const Stretch> to, void* in,
+                                         std::span<const Stretch> from) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override;
   Neighbourhood neighbourhood() override;
@@ -58,6 +61,7 @@ class MpiBackend : public Backend {
   Envelope open_wide(const Envelope& whole);
   void receive(void* buffer, const Envelope& envelope, int tag);
   void reclaim_some();
+  Ticket ticket_for(MPI_Request request);
   void send_copy(int to, int type, Message* copy);
   bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   bool catch_soon(int type, MPI_Status& status);
@@ -72,6 +76,7 @@ class MpiBackend : public Backend {
   int type(int tag) const;
 
   MPI_Comm all_;                      // its ranks are ids
+  MPI_Comm nodes_only_ = MPI_COMM_NULL;  // null at the host
   MPI_Comm machine_ = MPI_COMM_NULL;  // this machine's nodes; null at the host
   int nodes_ = 0;
   int rank_ = 0;      // id of this rank
@@ -86,6 +91,7 @@ class MpiBackend : public Backend {
   std::size_t next_pending_ = 0;      // to look at
   std::vector<MPI_Request> tickets_;  // by ticket
   std::vector<Ticket> free_tickets_;
+  std::vector<int> counts_;           // of an all-to-all under way: lengths to, offsets to, lengths from, offsets from
   std::optional<Envelope> peeked_;
   Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
   Overflow caught_;            // where messages come whose length is not known before

@@ -133,11 +133,12 @@ void MpiBackend::reclaim_some() {
 }
 
 Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
-  MPI_Request request = MPI_REQUEST_NULL;
-  if (tag(type) == wide_tag_)
-    send(to, type, data, length);
-  else
-    request = isend(to, type, data, length);
+  if (tag(type) != wide_tag_) return ticket_for(isend(to, type, data, length));
+  send(to, type, data, length);
+  return ticket_for(MPI_REQUEST_NULL);
+}
+
+Ticket MpiBackend::ticket_for(MPI_Request request) {
   if (free_tickets_.empty()) {
     free_tickets_.push_back(static_cast<Ticket>(tickets_.size()));
     tickets_.push_back(MPI_REQUEST_NULL);

@@ -13,7 +13,7 @@ struct Patience {
 };
 // The yields last longer than the first sleeps, or two that wait for each other fall asleep in turns.
 constexpr Patience kEnoughProcessors = {500, 500};
-constexpr Patience kTooFewProcessors = {1, 20};
+constexpr Patience kTooFewProcessors = {20, 20};
 
 constexpr unsigned long kTimerSlack = 1000;  // nanoseconds
 constexpr int kShortestSleep = 10;           // microseconds

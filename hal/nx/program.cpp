@@ -72,6 +72,7 @@ Process& find_process() {
   if (!program().process) {
     const Settings settings = read_settings();
     program().process.emplace(backend);
+    program().process->collectives_by(settings.nx_collectives);
     if (settings.nx_strict) program().process->be_strict(kPatience);
     if (settings.nx_handler_thread) program().progress.emplace(*program().process);
   }

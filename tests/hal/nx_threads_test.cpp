@@ -30,6 +30,9 @@ const auto some_nodes = testing::Values(1, 2, 3, 5, 8);
 
 INSTANTIATE_TEST_SUITE_P(Messages, NxThreads, testing::Combine(testing::ValuesIn(messages_bodies()), some_nodes),
                          name_of);
+INSTANTIATE_TEST_SUITE_P(Globals, NxThreads,
+                         testing::Combine(testing::ValuesIn(global_bodies()), testing::Values(1, 2, 3, 4, 5, 7, 8, 16, 32)),
+                         name_of);
 
 }  // namespace
 }  // namespace mars::hal

@@ -1,0 +1,12 @@
+// By which means the nodes' collectives work.
+#pragma once
+
+namespace mars::hal {
+
+enum class Collectives {
+  automatic,  // what was measured to be quicker: docs/messages.md
+  cube,       // messages across the dimensions of the cube
+  network,    // the network's own, where the backend has them
+};
+
+}  // namespace mars::hal

@@ -1,0 +1,169 @@
+#include "hal/crystal_router.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "hal/dimension_exchange.h"
+#include "hal/failure.h"
+#include "hal/process.h"
+#include "hal/reduction.h"
+
+namespace mars::hal {
+namespace {
+
+constexpr char kCall[] = "an exchange of parcels";
+
+// Below, all go directly; as do loads that are long enough for the way to matter more than the messages.
+constexpr int kFewNodes = 8;
+constexpr std::size_t kLongLoad = 4096;  // bytes a node, and node of the cube
+
+}  // namespace
+
+Route route_for(int nodes, std::size_t bytes) {
+  return nodes < kFewNodes || bytes > kLongLoad * static_cast<std::size_t>(nodes) ? Route::direct : Route::crystal;
+}
+
+struct CrystalRouter::Head {
+  int from;  // id
+  int to;    // id
+  std::size_t bytes;
+
+  // In a load; the next head is aligned.
+  std::size_t whole() const { return sizeof(Head) + (bytes + alignof(Head) - 1) / alignof(Head) * alignof(Head); }
+};
+
+template <class Visit>
+void CrystalRouter::visit(const Load& load, const Visit& visit) {
+  for (std::size_t at = 0; at < load.size;) {
+    Head head;
+    std::memcpy(&head, load.room.data() + at, sizeof head);
+    visit(head, load.room.data() + at + sizeof head);
+    at += head.whole();
+  }
+}
+
+void CrystalRouter::add(Load& load, const Head& head, const std::byte* bytes) {
+  const std::size_t end = load.size + head.whole();
+  if (load.room.size() < end) load.room.resize(std::max(end, 2 * load.room.size()));
+  std::memcpy(load.room.data() + load.size, &head, sizeof head);
+  if (head.bytes > 0) std::memcpy(load.room.data() + load.size + sizeof head, bytes, head.bytes);
+  load.size = end;
+}
+
+template <class Wanted>
+void CrystalRouter::split(const Load& from, Load& wanted, Load& others, const Wanted& is_wanted) {
+  wanted.size = others.size = 0;
+  visit(from, [&](const Head& head, const std::byte* bytes) { add(is_wanted(head) ? wanted : others, head, bytes); });
+}
+
+void CrystalRouter::send(int to, const Load& load) { process().send_internal(to, load.room.data(), load.size); }
+
+// Behind what is there.
+void CrystalRouter::receive(int from, Load& load) {
+  load.size += process().receive_internal(kCall, from, load.room, load.size);
+}
+
+void CrystalRouter::by_crystal(const Cube& cube) {
+  const int me = process().backend().rank() - cube.first;
+  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(cube.count)));
+  const auto position = [&](const Head& head) { return head.to - cube.first; };
+  if (me >= corners) {
+    send(cube.first + me - corners, held_);
+    held_.size = 0;
+    return receive(cube.first + me - corners, held_);
+  }
+  const bool folds = me + corners < cube.count;
+  if (folds) receive(cube.first + me + corners, held_);
+  for (int bit = 1; bit < corners; bit <<= 1) {
+    split(held_, out_, next_, [&](const Head& head) { return ((position(head) & (corners - 1)) & bit) != (me & bit); });
+    std::swap(held_, next_);
+    send(cube.first + (me ^ bit), out_);
+    receive(cube.first + (me ^ bit), held_);
+  }
+  if (!folds) return;
+  split(held_, out_, next_, [&](const Head& head) { return position(head) != me; });
+  std::swap(held_, next_);
+  send(cube.first + me + corners, out_);
+}
+
+void CrystalRouter::directly(const Cube& cube) {
+  const int me = process().backend().rank() - cube.first;
+  loads_.resize(std::max(loads_.size(), static_cast<std::size_t>(cube.count)));
+  for (Load& load : loads_) load.size = 0;
+  visit(held_, [&](const Head& head, const std::byte* bytes) {
+    add(loads_[static_cast<std::size_t>(head.to - cube.first)], head, bytes);
+  });
+  // So that not all send to the same node first.
+  for (int i = 1; i < cube.count; ++i) {
+    const int to = (me + i) % cube.count;
+    send(cube.first + to, loads_[static_cast<std::size_t>(to)]);
+  }
+  std::swap(held_, loads_[static_cast<std::size_t>(me)]);
+  for (int i = 1; i < cube.count; ++i) receive(cube.first + (me + cube.count - i) % cube.count, held_);
+}
+
+// First the lengths, then the loads.
+bool CrystalRouter::by_network(const Cube& cube) {
+  Backend& backend = process().backend();
+  const auto count = static_cast<std::size_t>(cube.count);
+  if (cube != Cube{0, backend.nodes()}) return false;
+  lengths_.assign(2 * count, 0);
+  visit(held_, [&](const Head& head, const std::byte*) { lengths_[static_cast<std::size_t>(head.to)] += head.whole(); });
+  to_.resize(count);
+  from_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) to_[i] = from_[i] = {i * sizeof(std::size_t), sizeof(std::size_t)};
+  if (!process().all_to_all(lengths_.data(), to_, lengths_.data() + count, from_)) return false;
+  std::size_t sent = 0, received = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    to_[i] = {std::exchange(sent, sent + lengths_[i]), lengths_[i]};
+    from_[i] = {std::exchange(received, received + lengths_[count + i]), lengths_[count + i]};
+  }
+  // By receiver.
+  out_.size = sent;
+  if (out_.room.size() < sent) out_.room.resize(sent);
+  std::vector<std::size_t>& places = lengths_;
+  for (std::size_t i = 0; i < count; ++i) places[i] = to_[i].offset;
+  visit(held_, [&](const Head& head, const std::byte* bytes) {
+    std::byte* place = out_.room.data() + std::exchange(places[static_cast<std::size_t>(head.to)],
+                                                        places[static_cast<std::size_t>(head.to)] + head.whole());
+    std::memcpy(place, &head, sizeof head);
+    if (head.bytes > 0) std::memcpy(place + sizeof head, bytes, head.bytes);
+  });
+  if (held_.room.size() < received) held_.room.resize(received);
+  held_.size = received;
+  return process().all_to_all(out_.room.data(), to_, held_.room.data(), from_);
+}
+
+std::span<const Parcel> CrystalRouter::sorted() {
+  parcels_.clear();
+  visit(held_, [&](const Head& head, const std::byte* bytes) { parcels_.push_back({head.from, {bytes, head.bytes}}); });
+  std::stable_sort(parcels_.begin(), parcels_.end(), [](const Parcel& a, const Parcel& b) { return a.node < b.node; });
+  return parcels_;
+}
+
+std::span<const Parcel> CrystalRouter::exchange(const Cube& cube, std::span<const Parcel> parcels, Route route) {
+  DimensionExchange membership(kCall, cube);  // fails on who is no member
+  const int me = process().backend().rank();
+  held_.size = 0;
+  for (const Parcel& parcel : parcels) {
+    check(cube.first <= parcel.node && parcel.node < cube.first + cube.count, "a parcel is for a node of the cube");
+    add(held_, {me, parcel.node, parcel.bytes.size()}, parcel.bytes.data());
+  }
+  if (route == Route::automatic && process().collectives() == Collectives::network) route = Route::network;
+  if (route == Route::automatic && process().collectives() == Collectives::cube) route = Route::crystal;
+  if (route == Route::automatic && cube.count >= kFewNodes) {
+    auto most = static_cast<unsigned long>(held_.size), work = 0ul;
+    reduce(membership, operation<unsigned long, higher>, &most, 1, &work);
+    membership.conclude();
+    route = route_for(cube.count, most);
+  }
+  if (route == Route::crystal)
+    by_crystal(cube);
+  else if (route != Route::network || !by_network(cube))
+    directly(cube);
+  return sorted();
+}
+
+}  // namespace mars::hal

@@ -1,0 +1,70 @@
+#include "hal/dimension_exchange.h"
+
+#include <bit>
+
+#include "hal/arguments.h"
+#include "hal/failure.h"
+#include "hal/nx/nx_errno.h"
+#include "hal/process.h"
+
+namespace mars::hal {
+namespace {
+
+// From here on a copy costs more than what it takes to do without one.
+constexpr std::size_t kLong = 4096;
+
+constexpr char kSpoilt = 0;
+
+}  // namespace
+
+DimensionExchange::DimensionExchange(const char* call, const Cube& cube)
+    : call_(call), process_(process()), cube_(cube) {
+  const Backend& backend = process_.backend();
+  const int rank = backend.rank();
+  if (rank == backend.host())
+    process_.fail(call, EQNODE, "the host takes no part in collectives", "call it on nodes only");
+  check(0 <= cube.first && 0 < cube.count && cube.first + cube.count <= backend.nodes(), "a cube lies within the nodes");
+  position_ = rank - cube.first;
+  check(0 <= position_ && position_ < cube.count, "a node takes part in its own cube");
+  corners_ = static_cast<int>(std::bit_floor(static_cast<unsigned>(cube.count)));
+}
+
+// One byte, or none where one is what belongs there.
+std::size_t DimensionExchange::spoilt_length(std::size_t bytes) const { return bytes == 1 ? 0 : 1; }
+
+void DimensionExchange::send(int to, const void* data, std::size_t bytes) {
+  if (spoilt())
+    process_.send_internal(cube_.first + to, &kSpoilt, spoilt_length(bytes));
+  else
+    process_.send_internal(cube_.first + to, data, bytes);
+}
+
+void DimensionExchange::receive(int from, void* data, std::size_t bytes) {
+  check_came(from, process_.receive_internal(call_, cube_.first + from, data, bytes), bytes);
+}
+
+void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes) {
+  if (spoilt() || out_bytes < kLong) {
+    send(with, out, out_bytes);
+    receive(with, in, in_bytes);
+  } else {
+    const std::size_t came = process_.swap_internal(call_, cube_.first + with, out, out_bytes, in, in_bytes);
+    check_came(with, came, in_bytes);
+  }
+}
+
+void DimensionExchange::check_came(int from, std::size_t came, std::size_t bytes) {
+  if (came == bytes) return;
+  spoil(EQLEN,
+        rank_name(cube_.first + from, process_.backend().host()) + " gave " + bytes_text(came) + " where " +
+            bytes_text(bytes) + " belong",
+        "all nodes call the same collectives in the same order with the same lengths");
+}
+
+void DimensionExchange::spoil(int code, const std::string& what, const std::string& remedy) {
+  if (!fault_) fault_ = Fault{code, what, remedy};
+}
+
+void DimensionExchange::fail() const { process_.fail(call_, fault_->code, fault_->what, fault_->remedy); }
+
+}  // namespace mars::hal

@@ -1,0 +1,61 @@
+// One node's part in a collective by dimension exchange: the hypercube that the nodes of a cube form, and the
+// messages across it. Positions are node ids less the cube's first. The lowest 2^d of them are the corners; each
+// other one folds in with the corner 2^d below it. What one node finds wrong all get to know, and none is left
+// waiting: messages go on as ever, spoilt ones among them, and at the end all fail.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "hal/cube.h"
+
+namespace mars::hal {
+
+class Process;
+
+class DimensionExchange {
+ public:
+  // For a call of that name on the calling thread's process; fails on the host.
+  DimensionExchange(const char* call, const Cube& cube);
+
+  int position() const { return position_; }
+  int count() const { return cube_.count; }
+  int corners() const { return corners_; }
+  bool folded() const { return position_ >= corners_; }              // has a partner below
+  bool folds() const { return position_ + corners_ < cube_.count; }  // has a partner above
+
+  // One message of just so many bytes. A receive is there for each send, of the same length.
+  void send(int to, const void* data, std::size_t bytes);
+  void receive(int from, void* data, std::size_t bytes);
+  // One each way; `out` and `in` do not overlap.
+  void swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
+
+  // What is wrong; the first is kept. What is sent from now on says that something is. `code` is of nx_errno.h.
+  void spoil(int code, const std::string& what, const std::string& remedy);
+  bool spoilt() const { return fault_.has_value(); }
+  // At the end: throws this process's CallFailure if something was wrong on any node.
+  void conclude() const {
+    if (fault_) fail();
+  }
+
+ private:
+  struct Fault {
+    int code;
+    std::string what;
+    std::string remedy;
+  };
+
+  std::size_t spoilt_length(std::size_t bytes) const;
+  void check_came(int from, std::size_t came, std::size_t bytes);
+  [[noreturn]] void fail() const;
+
+  const char* call_;
+  Process& process_;
+  Cube cube_;
+  int position_ = 0;
+  int corners_ = 1;
+  std::optional<Fault> fault_;
+};
+
+}  // namespace mars::hal

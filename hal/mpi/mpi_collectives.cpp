@@ -1,0 +1,70 @@
+// MPI's own collectives, in the form that does not wait: their blocking forms spin.
+#include <algorithm>
+#include <climits>
+#include <string>
+
+#include "hal/failure.h"
+#include "hal/mpi/mpi_backend.h"
+#include "hal/mpi/mpi_call.h"
+
+namespace mars::hal {
+namespace {
+
+MPI_Datatype datatype(Reduction::Element element) {
+  switch (element) {
+    case Reduction::Element::real64: return MPI_DOUBLE;
+    case Reduction::Element::real32: return MPI_FLOAT;
+    case Reduction::Element::whole: return MPI_LONG;
+  }
+  return MPI_DATATYPE_NULL;
+}
+
+MPI_Op operation(Reduction::Rule rule) {
+  switch (rule) {
+    case Reduction::Rule::sum: return MPI_SUM;
+    case Reduction::Rule::product: return MPI_PROD;
+    case Reduction::Rule::high: return MPI_MAX;
+    case Reduction::Rule::low: return MPI_MIN;
+    case Reduction::Rule::bit_and: return MPI_BAND;
+    case Reduction::Rule::bit_or: return MPI_BOR;
+    case Reduction::Rule::bit_xor: return MPI_BXOR;
+  }
+  return MPI_OP_NULL;
+}
+
+bool fits(std::span<const Stretch> stretches) {
+  return std::all_of(stretches.begin(), stretches.end(),
+                     [](const Stretch& each) { return each.offset + each.length <= INT_MAX; });
+}
+
+}  // namespace
+
+std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void* x, std::size_t n) {
+  if (n > INT_MAX) return std::nullopt;
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Iallreduce(MPI_IN_PLACE, x, static_cast<int>(n), datatype(reduction.element), operation(reduction.rule),
+                         nodes_only_, &request),
+          "MPI_Iallreduce");
+  return ticket_for(request);
+}
+
+std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const Stretch> to, void* in,
+                                                   std::span<const Stretch> from) {
+  if (!fits(to) || !fits(from))
+    throw Failure("an exchange of more bytes than MPI carries at once", "node " + std::to_string(rank_),
+                  "exchange less than 2 GB at once, or set MARS_NX_COLLECTIVES to cube");
+  counts_.clear();
+  for (const std::span<const Stretch> stretches : {to, from}) {
+    for (const Stretch& each : stretches) counts_.push_back(static_cast<int>(each.length));
+    for (const Stretch& each : stretches) counts_.push_back(static_cast<int>(each.offset));
+  }
+  const int* counts = counts_.data();
+  const std::size_t n = to.size();
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Ialltoallv(out, counts, counts + n, MPI_BYTE, in, counts + 2 * n, counts + 3 * n, MPI_BYTE, nodes_only_,
+                         &request),
+          "MPI_Ialltoallv");
+  return ticket_for(request);
+}
+
+}  // namespace mars::hal
