@@ -25,7 +25,8 @@ void Control::look(bool waits, std::uint64_t taken) {
   MPI_Status status;
   while (succeed(MPI_Iprobe(MPI_ANY_SOURCE, 0, comm_, &there, &status), "MPI_Iprobe"), there != 0) {
     Note note{};
-    succeed(MPI_Recv(&note, sizeof note, MPI_BYTE, status.MPI_SOURCE, 0, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
+    succeed(MPI_Recv(&note, sizeof note, MPI_BYTE, status.MPI_SOURCE, 0, comm_, MPI_STATUS_IGNORE),
+            "MPI_Recv");
     take(status.MPI_SOURCE, note, waits, taken);
   }
   if (watches_ && std::chrono::steady_clock::now() >= next_round_) ask_all();
@@ -48,7 +49,8 @@ void Control::take(int from, const Note& note, bool waits, std::uint64_t taken) 
   }
 }
 
-// A rank that computes answers late, and then for an old round: what it has taken since makes the sums differ.
+// A rank that computes answers late, and then for an old round: what it has taken since makes the sums
+// differ.
 void Control::ask_all() {
   next_round_ = std::chrono::steady_clock::now() + kRound;
   const int others = static_cast<int>(ended_.size()) - 1;

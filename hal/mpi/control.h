@@ -1,5 +1,5 @@
-// What the ranks of a job of C programs tell each other beside their messages: that a node has ended, that one is to
-// end, and whether anything still moves when one has ended with an error.
+// What the ranks of a job of C programs tell each other beside their messages: that a node has ended, that
+// one is to end, and whether anything still moves when one has ended with an error.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,8 @@ class Control {
   void tell_end(int host, int code) { send(host, {Note::ended, code, 0}); }
   void kill(int id) { send(id, {Note::kill, 0, 0}); }
 
-  // Takes in what has come. `waits`: this rank can do nothing before a message comes, and has taken `taken` so far.
+  // Takes in what has come. `waits`: this rank can do nothing before a message comes, and has taken `taken`
+  // so far.
   void look(bool waits, std::uint64_t taken);
 
   bool killed() const { return killed_; }
@@ -38,7 +39,7 @@ class Control {
   struct Note {
     enum What : std::int32_t { ended, kill, ask, answer };
     std::int32_t what;
-    std::int32_t value;   // exit code; whether it waits
+    std::int32_t value;  // exit code; whether it waits
     std::uint64_t taken;
   };
   struct Sent {
@@ -61,8 +62,8 @@ class Control {
   // Of one who watches.
   bool watches_ = false;
   std::chrono::steady_clock::time_point next_round_{};
-  int answers_ = 0;            // in this round, of ranks that wait or have ended
-  std::uint64_t taken_ = 0;    // by all who answered
+  int answers_ = 0;          // in this round, of ranks that wait or have ended
+  std::uint64_t taken_ = 0;  // by all who answered
   std::uint64_t taken_before_ = 0;
   int still_rounds_ = 0;
 };

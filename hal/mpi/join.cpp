@@ -28,6 +28,7 @@ namespace mars::hal {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
+constexpr std::chrono::seconds kPatienceWithKilled{2};
 // Whoever lets that much time pass has nothing to do before a message comes.
 constexpr std::chrono::microseconds kPatience{5000};
 constexpr int kLooksBefore = 100;  // turns of a wait before what is beside messages is looked at
@@ -44,7 +45,8 @@ Name own_name() {
 // MPI itself would spin.
 void wait(MPI_Request& request) {
   int done = 0;
-  while (succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test"), done == 0) std::this_thread::sleep_for(kNap);
+  while (succeed(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test"), done == 0)
+    std::this_thread::sleep_for(kNap);
 }
 
 class MpiWorld;
@@ -52,7 +54,8 @@ class MpiWorld;
 // The messages of a rank that also looks for what the job has to tell it.
 class JoinedBackend : public MpiBackend {
  public:
-  JoinedBackend(MpiWorld& world, bool host, MPI_Comm ranks) : MpiBackend(host ? 0 : -1, ranks), world_(world), host_(host) {}
+  JoinedBackend(MpiWorld& world, bool host, MPI_Comm ranks)
+      : MpiBackend(host ? 0 : -1, ranks), world_(world), host_(host) {}
 
   void send(int to, int type, const void* data, std::size_t length) override {
     check_there(to);
@@ -66,7 +69,8 @@ class JoinedBackend : public MpiBackend {
 
  private:
   void check_there(int to) const {
-    if (to == nodes() && !host_) throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
+    if (to == nodes() && !host_)
+      throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
   }
 
   MpiWorld& world_;
@@ -104,10 +108,10 @@ class MpiWorld : public World {
   int cube_ = 0;             // nodes
   std::unique_ptr<JoinedBackend> backend_;
   std::optional<Control> control_;
-  std::vector<int> rank_of_;   // by id
-  std::vector<bool> loaded_;   // by id
+  std::vector<int> rank_of_;  // by id
+  std::vector<bool> loaded_;  // by id
   bool begun_ = false;
-  std::optional<int> left_;    // the code with which it leaves
+  std::optional<int> left_;  // the code with which it leaves
 };
 
 void JoinedBackend::idle(int turn, std::chrono::microseconds longest) {
@@ -127,7 +131,8 @@ MpiWorld::MpiWorld(std::optional<bool> host) {
   size_ = size_of(MPI_COMM_WORLD);
   names_.resize(static_cast<std::size_t>(size_));
   const Name mine = own_name();
-  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, names_.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD), "MPI_Allgather");
+  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, names_.data(), sizeof mine, MPI_BYTE, MPI_COMM_WORLD),
+          "MPI_Allgather");
   const bool differs = std::find(names_.begin() + 1, names_.end(), names_[0]) == names_.end();
   int has_host = size_ > 1 && host.value_or(differs);
   succeed(MPI_Bcast(&has_host, 1, MPI_INT, 0, MPI_COMM_WORLD), "MPI_Bcast");
@@ -163,26 +168,41 @@ Backend& MpiWorld::backend() {
 
 void MpiWorld::resize(int nodes) {
   if (backend_ != nullptr && nodes != cube_)
-    throw Failure("under MPI a job has one cube, made before its nodes begin", "", "start it without --over mpi");
+    throw Failure("under MPI a job has one cube, made before its nodes begin", "",
+                  "start it without --over mpi");
   cube_ = nodes;
 }
 
 void MpiWorld::load(const std::string& file, int node) {
-  const std::filesystem::path runs = names_[static_cast<std::size_t>(rank_of_[static_cast<std::size_t>(node)])].data();
+  const std::filesystem::path runs =
+      names_[static_cast<std::size_t>(rank_of_[static_cast<std::size_t>(node)])].data();
   if (runs.filename() != std::filesystem::path(file).filename())
-    throw Failure("node " + std::to_string(node) + " runs " + runs.string() + ", as it was started under MPI", file,
-                  "start that program on the nodes, or run without --over mpi");
+    throw Failure("node " + std::to_string(node) + " runs " + runs.string() + ", as it was started under MPI",
+                  file, "start that program on the nodes, or run without --over mpi");
   if (loaded_[static_cast<std::size_t>(node)])
-    throw Failure("node " + std::to_string(node) + " has run its program already", file, "under MPI it can once: run without --over mpi");
+    throw Failure("node " + std::to_string(node) + " has run its program already", file,
+                  "under MPI it can once: run without --over mpi");
   loaded_[static_cast<std::size_t>(node)] = true;
 }
 
 void MpiWorld::kill(int node) {
   const Traffic::Count& sent = process().traffic().to_nodes;
   if (sent.messages > 0 || backend_->taken() > 0) begun_ = true;
-  for (int id = node < 0 ? 0 : node; id < (node < 0 ? cube_ : node + 1); ++id)
+  const int first = node < 0 ? 0 : node;
+  const int last = node < 0 ? cube_ : node + 1;
+  for (int id = first; id < last; ++id)
     if (status(id).state == State::running) control_->kill(id);
-  look(false);
+  if (node >= 0) return;
+  // One that computes goes at its next call, and is not waited for.
+  const auto deadline = std::chrono::steady_clock::now() + kPatienceWithKilled;
+  const auto runs = [this](int id) { return status(id).state == State::running; };
+  for (int id = first; id < last; ++id)
+    while (runs(id) && std::chrono::steady_clock::now() < deadline) wait_for_end();
+  std::vector<std::byte> nothing;
+  while (const std::optional<Envelope> next = backend_->peek()) {
+    nothing.resize(next->length);
+    backend_->take(nothing.data());
+  }
 }
 
 World::Status MpiWorld::status(int node) {
@@ -202,8 +222,9 @@ void MpiWorld::look(bool waits) {
   control_->look(waits || left_, backend_->taken());
   if (control_->killed() && !left_) end_now(-SIGKILL);
   if (control_->stands_still())
-    fail("every process waits for a message, and none is on its way; " + rank_name(backend_->rank(), has_host_ ? backend_->host() : -1) +
-         " has ended with exit code " + std::to_string(*left_));
+    fail("every process waits for a message, and none is on its way; " +
+         rank_name(backend_->rank(), has_host_ ? backend_->host() : -1) + " has ended with exit code " +
+         std::to_string(*left_));
 }
 
 void MpiWorld::end_now(int code) {

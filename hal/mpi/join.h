@@ -1,5 +1,6 @@
 // How a C program joins the MPI job that somebody's mpirun or srun made it a rank of. The host, if there is
-// one, is rank 0. Nodes wait in their first NX call until the host has made its cube, and those beyond it wait for the end.
+// one, is rank 0. Nodes wait in their first NX call until the host has made its cube, and those beyond it
+// wait for the end.
 #pragma once
 
 #include <memory>
@@ -9,7 +10,8 @@
 
 namespace mars::hal {
 
-// Collective over all ranks. `host`: whether rank 0 is the host; none: it is if its program is no other rank's.
+// Collective over all ranks. `host`: whether rank 0 is the host; none: it is if its program is no other
+// rank's.
 std::unique_ptr<World> join_mpi(std::optional<bool> host);
 
 }  // namespace mars::hal

@@ -54,14 +54,16 @@ Nodes check_nodes(const char* call, long node, long pid) {
   const int nodes = world().backend().nodes();
   if (node == -1) return {0, nodes};
   if (node < 0 || node >= nodes)
-    fail(call, EQNODE, "there is no node " + std::to_string(node), "nodes are 0 to " + std::to_string(nodes - 1) + ", -1 is all");
+    fail(call, EQNODE, "there is no node " + std::to_string(node),
+         "nodes are 0 to " + std::to_string(nodes - 1) + ", -1 is all");
   return {static_cast<int>(node), static_cast<int>(node) + 1};
 }
 
 std::string check_name(const char* call, const char* name) {
   const std::string text = name == nullptr ? "" : name;
   if (text.size() >= NAMELEN)
-    fail(call, EINVAL, "\"" + text + "\" is too long for a cube's name", "use at most " + std::to_string(NAMELEN - 1) + " characters");
+    fail(call, EINVAL, "\"" + text + "\" is too long for a cube's name",
+         "use at most " + std::to_string(NAMELEN - 1) + " characters");
   return text;
 }
 
@@ -70,7 +72,8 @@ template <class Work>
 void on_world(const char* call, int code, Work work) try {
   work();
 } catch (const Failure& failure) {
-  fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem, failure.remedy);
+  fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem,
+       failure.remedy);
 }
 
 // "8" or "d3"; what follows told of memory and processors.
@@ -80,10 +83,12 @@ int nodes_of(const char* call, const std::string& type, int all) {
   int number = -1;
   std::from_chars(type.data() + dimension, type.data() + type.size(), number);
   if (number < !dimension || number > (dimension ? 20 : 1 << 20))
-    fail(call, EINVAL, "\"" + type + "\" is no type of a cube", "give the number of nodes, as \"8\" or \"d3\"");
+    fail(call, EINVAL, "\"" + type + "\" is no type of a cube",
+         "give the number of nodes, as \"8\" or \"d3\"");
   const int nodes = dimension ? 1 << number : number;
   if (nodes <= all) return nodes;
-  fail(call, EQNODE, "a cube of " + std::to_string(nodes) + " nodes is asked for, and there are " + std::to_string(all),
+  fail(call, EQNODE,
+       "a cube of " + std::to_string(nodes) + " nodes is asked for, and there are " + std::to_string(all),
        "start the job with more: mars-nx run --nodes " + std::to_string(nodes));
 }
 
@@ -102,7 +107,8 @@ void attach_cube(const char* call, const char* name) {
   check_host(call);
   const std::string text = check_name(call, name);
   if (!cube.held) cube = {true, text, "", {}};
-  if (text != cube.name) fail(call, EINVAL, "there is no cube " + text, "the cube that is held is " + cube.name);
+  if (text != cube.name)
+    fail(call, EINVAL, "there is no cube " + text, "the cube that is held is " + cube.name);
 }
 
 void kill_all() {
@@ -114,7 +120,8 @@ void kill_all() {
 void release_cube(const char* call, const char* name) {
   check_host(call);
   const std::string text = check_name(call, name);
-  if (!cube.held || (!text.empty() && text != cube.name)) fail(call, EINVAL, "there is no cube " + text, "getcube or attachcube comes first");
+  if (!cube.held || (!text.empty() && text != cube.name))
+    fail(call, EINVAL, "there is no cube " + text, "getcube or attachcube comes first");
   kill_all();
   cube = {};
 }
@@ -125,7 +132,8 @@ void set_pid(const char* call, long pid) {
 
 void load_nodes(const char* call, const char* file, long node, long pid) {
   check_host(call);
-  if (file == nullptr) fail(call, EQPBUF, "the program's name is a null pointer", "give the path of a program");
+  if (file == nullptr)
+    fail(call, EQPBUF, "the program's name is a null pointer", "give the path of a program");
   const Nodes nodes = check_nodes(call, node, pid);
   for (int each = nodes.first; each < nodes.last; ++each) {
     on_world(call, ENOENT, [&] { world().load(file, each); });
@@ -142,7 +150,8 @@ int ended_one(const char* call, const Nodes& nodes) {
     if (state == World::State::ended) return node;
     some = true;
   }
-  if (!some) fail(call, ECHILD, "nothing runs there that could end", "load a program first; each end is told once");
+  if (!some)
+    fail(call, ECHILD, "nothing runs there that could end", "load a program first; each end is told once");
   return -1;
 }
 
@@ -174,7 +183,8 @@ void wait_one(const char* call, long node, long pid, long* cnode, long* cpid, lo
 
 void kill_nodes(const char* call, long node, long pid, bool flush) {
   check_nodes(call, node, pid);
-  if (!world().is_host()) world().fail("node " + std::to_string(world().backend().rank()) + " has ended all by " + call);
+  if (!world().is_host())
+    world().fail("node " + std::to_string(world().backend().rank()) + " has ended all by " + call);
   if (node == -1 && flush) return kill_all();
   const Nodes nodes = check_nodes(call, node, pid);
   for (int each = nodes.first; each < nodes.last; ++each) world().kill(each);
@@ -182,7 +192,8 @@ void kill_nodes(const char* call, long node, long pid, bool flush) {
 
 long tell_cubes(const char* call, cubetable* table, long slots) {
   if (!cube.held) return 0;
-  if (slots > 0 && table == nullptr) fail(call, EQPBUF, "the table is a null pointer", "give room for the cubes");
+  if (slots > 0 && table == nullptr)
+    fail(call, EQPBUF, "the table is a null pointer", "give room for the cubes");
   if (slots > 0) {
     *table = {};
     cube.name.copy(table->cubename, NAMELEN - 1);
@@ -199,30 +210,66 @@ using namespace mars::hal;
 
 extern "C" {
 
-void getcube(const char* name, const char* cubetype, const char*, long) { plain([&] { get_cube("getcube", name, cubetype); }); }
-void attachcube(const char* name) { plain([&] { attach_cube("attachcube", name); }); }
-void relcube(const char* name) { plain([&] { release_cube("relcube", name); }); }
-void setpid(long pid) { plain([&] { set_pid("setpid", pid); }); }
-void load(const char* file, long node, long pid) { plain([&] { load_nodes("load", file, node, pid); }); }
-void waitall(long node, long pid) { plain([&] { wait_all("waitall", node, pid); }); }
+void getcube(const char* name, const char* cubetype, const char*, long) {
+  plain([&] { get_cube("getcube", name, cubetype); });
+}
+void attachcube(const char* name) {
+  plain([&] { attach_cube("attachcube", name); });
+}
+void relcube(const char* name) {
+  plain([&] { release_cube("relcube", name); });
+}
+void setpid(long pid) {
+  plain([&] { set_pid("setpid", pid); });
+}
+void load(const char* file, long node, long pid) {
+  plain([&] { load_nodes("load", file, node, pid); });
+}
+void waitall(long node, long pid) {
+  plain([&] { wait_all("waitall", node, pid); });
+}
 void waitone(long node, long pid, long* cnode, long* cpid, long* ccode) {
   plain([&] { wait_one("waitone", node, pid, cnode, cpid, ccode); });
 }
-void killproc(long node, long pid) { plain([&] { kill_nodes("killproc", node, pid, false); }); }
-void killcube(long node, long pid) { plain([&] { kill_nodes("killcube", node, pid, true); }); }
-long cubeinfo(cubetable table[], long slots, long) { return plain([&] { return tell_cubes("cubeinfo", table, slots); }); }
+void killproc(long node, long pid) {
+  plain([&] { kill_nodes("killproc", node, pid, false); });
+}
+void killcube(long node, long pid) {
+  plain([&] { kill_nodes("killcube", node, pid, true); });
+}
+long cubeinfo(cubetable table[], long slots, long) {
+  return plain([&] { return tell_cubes("cubeinfo", table, slots); });
+}
 
-long _getcube(const char* name, const char* cubetype, const char*, long) { return twin([&] { get_cube("getcube", name, cubetype); }); }
-long _attachcube(const char* name) { return twin([&] { attach_cube("attachcube", name); }); }
-long _relcube(const char* name) { return twin([&] { release_cube("relcube", name); }); }
-long _setpid(long pid) { return twin([&] { set_pid("setpid", pid); }); }
-long _load(const char* file, long node, long pid) { return twin([&] { load_nodes("load", file, node, pid); }); }
-long _waitall(long node, long pid) { return twin([&] { wait_all("waitall", node, pid); }); }
+long _getcube(const char* name, const char* cubetype, const char*, long) {
+  return twin([&] { get_cube("getcube", name, cubetype); });
+}
+long _attachcube(const char* name) {
+  return twin([&] { attach_cube("attachcube", name); });
+}
+long _relcube(const char* name) {
+  return twin([&] { release_cube("relcube", name); });
+}
+long _setpid(long pid) {
+  return twin([&] { set_pid("setpid", pid); });
+}
+long _load(const char* file, long node, long pid) {
+  return twin([&] { load_nodes("load", file, node, pid); });
+}
+long _waitall(long node, long pid) {
+  return twin([&] { wait_all("waitall", node, pid); });
+}
 long _waitone(long node, long pid, long* cnode, long* cpid, long* ccode) {
   return twin([&] { wait_one("waitone", node, pid, cnode, cpid, ccode); });
 }
-long _killproc(long node, long pid) { return twin([&] { kill_nodes("killproc", node, pid, false); }); }
-long _killcube(long node, long pid) { return twin([&] { kill_nodes("killcube", node, pid, true); }); }
-long _cubeinfo(cubetable table[], long slots, long) { return twin([&] { return tell_cubes("cubeinfo", table, slots); }); }
+long _killproc(long node, long pid) {
+  return twin([&] { kill_nodes("killproc", node, pid, false); });
+}
+long _killcube(long node, long pid) {
+  return twin([&] { kill_nodes("killcube", node, pid, true); });
+}
+long _cubeinfo(cubetable table[], long slots, long) {
+  return twin([&] { return tell_cubes("cubeinfo", table, slots); });
+}
 
 }  // extern "C"

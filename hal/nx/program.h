@@ -1,5 +1,5 @@
-// What makes a C program with a main function of its own, which knows nothing of jobs, a rank of one: its first
-// NX call, or its end, connects it, and exit() takes it out in order. Linked into libmars-nx only.
+// What makes a C program with a main function of its own, which knows nothing of jobs, a rank of one: its
+// first NX call, or its end, connects it, and exit() takes it out in order. Linked into libmars-nx only.
 #pragma once
 
 #include "hal/nx/world.h"
@@ -10,7 +10,8 @@ namespace mars::hal {
 // The calling program's job; connects it. A Failure on any thread but the first that called.
 World& world();
 
-// The next message call makes the program's process anew, with nothing sent or received: after the cube has changed.
+// The next message call makes the program's process anew, with nothing sent or received: after the cube has
+// changed.
 void renew_process();
 
 }  // namespace mars::hal

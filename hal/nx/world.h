@@ -17,7 +17,8 @@ class World {
   virtual bool is_host() const = 0;
   // The orderly end of this rank, whose program ends with `code`; messages it has sent can still be received.
   virtual void leave(int code) = 0;
-  // Ends this rank, and every other at its next call; tells `reason` unless it is another rank's failure, already told.
+  // Ends this rank, and every other at its next call; tells `reason` unless it is another rank's failure,
+  // already told.
   [[noreturn]] virtual void fail(const std::string& reason) = 0;
 
   // For the host. Failures tell what and the remedy; the caller says where.

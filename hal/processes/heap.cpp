@@ -19,7 +19,9 @@ std::uint32_t class_for(std::size_t length) {
   return std::max<std::uint32_t>(kSmallestClass, std::bit_width(length - (length > 0)));
 }
 
-std::uint64_t block_size(std::uint32_t size_class) { return sizeof(Block) + (std::uint64_t{1} << size_class); }
+std::uint64_t block_size(std::uint32_t size_class) {
+  return sizeof(Block) + (std::uint64_t{1} << size_class);
+}
 
 std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
 
@@ -36,7 +38,8 @@ Heap::Heap(const Segment& segment, int index) : segment_(segment), index_(index)
 Offset Heap::acquire(std::size_t length) {
   const std::uint32_t size_class = class_for(length);
   if (size_class >= free_.size())
-    throw Failure("a message of " + std::to_string(length) + " bytes is longer than any memory", "", "send less at once");
+    throw Failure("a message of " + std::to_string(length) + " bytes is longer than any memory", "",
+                  "send less at once");
   if (free_[size_class] == 0) reclaim();
   const Offset offset = free_[size_class] != 0 ? free_[size_class] : carve(size_class);
   Block& block = segment_.block(offset);
@@ -62,10 +65,12 @@ void Heap::release(Offset offset) {
   free_[block.size_class] = offset;
   if (block.size_class <= kLastSmall) return;
   idle_ += block.touched;
-  if (idle_ > segment_.header().limit / (2 * static_cast<std::uint64_t>(segment_.slots()))) hollow(block, offset);
+  if (idle_ > segment_.header().limit / (2 * static_cast<std::uint64_t>(segment_.slots())))
+    hollow(block, offset);
 }
 
-// New blocks of a class: one that is large, or as many as a slab holds, of which one is returned free and first.
+// New blocks of a class: one that is large, or as many as a slab holds, of which one is returned free and
+// first.
 Offset Heap::carve(std::uint32_t size_class) {
   const std::uint64_t size = block_size(size_class);
   const std::uint64_t count = size_class > kLastSmall ? 1 : std::max<std::uint64_t>(1, kSlab / size);

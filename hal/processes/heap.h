@@ -1,5 +1,6 @@
 // One rank's blocks for the messages it sends, in its part of the segment. Blocks of 2^k bytes are used again
-// and again, so that steady traffic takes no new memory; more than a share of it that lies idle goes back to the system.
+// and again, so that steady traffic takes no new memory; more than a share of it that lies idle goes back to
+// the system.
 #pragma once
 
 #include <array>
@@ -29,8 +30,8 @@ class Heap {
   const Segment& segment_;
   const int index_;
   Slot& slot_;
-  std::uint64_t idle_ = 0;        // bytes of free large blocks that take memory
-  std::array<Offset, 48> free_{}; // by size class, last given back first
+  std::uint64_t idle_ = 0;         // bytes of free large blocks that take memory
+  std::array<Offset, 48> free_{};  // by size class, last given back first
 };
 
 }  // namespace mars::hal

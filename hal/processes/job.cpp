@@ -38,9 +38,7 @@ std::string signal_text(int signal) {
 }  // namespace
 
 Job::Job(JobPlan plan)
-    : plan_(std::move(plan)),
-      segment_(plan_.nodes, plan_.host, plan_.limit),
-      processes_(segment_.slots()) {
+    : plan_(std::move(plan)), segment_(plan_.nodes, plan_.host, plan_.limit), processes_(segment_.slots()) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   sigset_t watched;
   sigemptyset(&watched);
@@ -56,8 +54,8 @@ Job::Job(JobPlan plan)
 
 Job::~Job() {
   kill_all(SIGKILL);
-  for (const Process& process : processes_)
-    if (process.id != 0) waitpid(process.id, nullptr, 0);
+  // What they had started and left becomes ours as they go.
+  while (waitpid(-1, nullptr, 0) > 0) kill_all(SIGKILL);
   for (const int descriptor : {ours_, hosts_, signals_}) close(descriptor);
   sigprocmask(SIG_SETMASK, &signals_before_, nullptr);
 }
@@ -93,7 +91,9 @@ void Job::start(int index, const std::string& file) {
   std::fflush(nullptr);
   const pid_t parent = getpid();
   const pid_t id = fork();
-  if (id < 0) throw Failure(std::string("cannot start a process: ") + std::strerror(errno), "", "use fewer nodes, or see ulimit -u");
+  if (id < 0)
+    throw Failure(std::string("cannot start a process: ") + std::strerror(errno), "",
+                  "use fewer nodes, or see ulimit -u");
   if (id > 0) {
     processes_[index] = {id, false};
     return;
@@ -159,8 +159,11 @@ void Job::take_signals() {
       reap();
       continue;
     }
-    // Whoever asks twice does not want to wait.
-    kill_all(passed_on_ == 0 ? static_cast<int>(signal.ssi_signo) : SIGKILL);
+    // Whoever asks twice does not want to wait. What a terminal sends, it sends to all.
+    if (passed_on_ != 0)
+      kill_all(SIGKILL);
+    else if (signal.ssi_code != SI_KERNEL)
+      kill_all(static_cast<int>(signal.ssi_signo));
     passed_on_ = static_cast<int>(signal.ssi_signo);
     code_ = 128 + passed_on_;
     segment_.stop("stopped by " + signal_text(passed_on_));
@@ -172,7 +175,8 @@ void Job::take_signals() {
 void Job::reap() {
   int status = 0;
   for (pid_t ended; (ended = waitpid(-1, &status, WNOHANG)) > 0;) {
-    const auto process = std::find_if(processes_.begin(), processes_.end(), [&](const Process& each) { return each.id == ended; });
+    const auto process = std::find_if(processes_.begin(), processes_.end(),
+                                      [&](const Process& each) { return each.id == ended; });
     if (process != processes_.end()) note_end(static_cast<int>(process - processes_.begin()), status);
   }
 }
@@ -199,7 +203,8 @@ bool Job::stands_still() const {
   for (int index = 0; index < segment_.slots(); ++index) {
     const Slot& slot = segment_.slot(index);
     if (processes_[index].id == 0 || slot.waiting == Waiting::for_end) continue;
-    if (slot.life != Life::joined || slot.waiting == Waiting::no || slot.arrived != 0 || slot.seen != 0) return false;
+    if (slot.life != Life::joined || slot.waiting == Waiting::no || slot.arrived != 0 || slot.seen != 0)
+      return false;
   }
   return true;
 }
@@ -245,10 +250,9 @@ void Job::hurry() {
 }
 
 void Job::kill_all(int signal) {
-  for (Process& process : processes_)
+  for (const Process& process : processes_)
     if (process.id != 0) kill(process.id, signal);
   if (signal != SIGKILL) return;
-  // What they started and left is ours by now.
   std::ifstream list("/proc/self/task/" + std::to_string(getpid()) + "/children");
   for (pid_t child; list >> child;) kill(child, SIGKILL);
 }

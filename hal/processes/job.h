@@ -1,6 +1,6 @@
-// The process that starts the ranks of a job over shared memory (segment.h) and sees them to their end: it alone
-// forks, waits for and kills them, tells the others of one that dies, and leaves nothing behind. The host asks it,
-// through a socket, to load and to kill nodes.
+// The process that starts the ranks of a job over shared memory (segment.h) and sees them to their end: it
+// alone forks, waits for and kills them, tells the others of one that dies, and leaves nothing behind. The
+// host asks it, through a socket, to load and to kill nodes.
 #pragma once
 
 #include <signal.h>
@@ -25,8 +25,8 @@ struct JobPlan {
   enum class Begin { at_once, later, never };
   Begin begin = Begin::at_once;
   std::uint64_t limit = 0;  // bytes that messages under way may take
-  // What a rank is, called in its process; returns its exit code if it returns at all. `file` is what the host
-  // asked to be loaded, "" where it did not ask.
+  // What a rank is, called in its process; returns its exit code if it returns at all. `file` is what the
+  // host asked to be loaded, "" where it did not ask.
   std::function<int(const Place& place, const std::string& file)> become;
   // A line about what went wrong.
   std::function<void(const std::string& line)> tell;
@@ -39,12 +39,13 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  // Runs it to its end. Returns the worst exit code: 128 and the signal of one that died, or of the one that ended us.
+  // Runs it to its end. Returns the worst exit code: 128 and the signal of one that died, or of the one that
+  // ended us.
   int run();
 
  private:
   struct Process {
-    pid_t id = 0;  // 0: none runs
+    pid_t id = 0;         // 0: none runs
     bool killed = false;  // because the host asked
   };
 
@@ -69,7 +70,7 @@ class Job {
   Segment segment_;
   std::vector<Process> processes_;
   bool asked_ = false;  // the host has, for nodes
-  int ours_ = -1;    // the socket's ends
+  int ours_ = -1;       // the socket's ends
   int hosts_ = -1;
   int signals_ = -1;
   sigset_t signals_before_{};

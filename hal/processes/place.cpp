@@ -9,7 +9,8 @@
 namespace mars::hal {
 
 void leave_place(const Place& place) {
-  const std::string text = std::to_string(place.index) + "," + std::to_string(place.segment) + "," + std::to_string(place.socket);
+  const std::string text =
+      std::to_string(place.index) + "," + std::to_string(place.segment) + "," + std::to_string(place.socket);
   setenv(kPlaceSetting, text.c_str(), 1);
 }
 
@@ -18,7 +19,8 @@ std::optional<Place> take_place() {
   if (!text) return std::nullopt;
   Place place;
   if (std::sscanf(text->c_str(), "%d,%d,%d", &place.index, &place.segment, &place.socket) != 3)
-    throw Failure("\"" + *text + "\" is no place in a job", std::string("environment variable ") + kPlaceSetting, "unset it");
+    throw Failure("\"" + *text + "\" is no place in a job",
+                  std::string("environment variable ") + kPlaceSetting, "unset it");
   return place;
 }
 

@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 
-// What is waited for may come at once from a process on another processor; where processes share one it does not
-// come before this one has given it away.
-constexpr int kLooks = 20;    // turns
-constexpr int kYields = 10;   // turns after these
+// What is waited for may come at once from a process on another processor; where processes share one it does
+// not come before this one has given it away.
+constexpr int kLooks = 20;   // turns
+constexpr int kYields = 10;  // turns after these
 constexpr int kLooksATurn = 32;
 // Whoever lets that much time pass has nothing to do before a message comes.
 constexpr std::chrono::microseconds kPatience{5000};
@@ -52,7 +52,8 @@ void ProcessesBackend::check_running() const {
 void ProcessesBackend::send(int to, int type, const void* data, std::size_t length) {
   check_running();
   const int target = index(to);
-  if (target == segment_.slots()) throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
+  if (target == segment_.slots())
+    throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
   Slot& receiver = segment_.slot(target);
   const Life life = receiver.life.load(std::memory_order_relaxed);
   if (life == Life::left || life == Life::ended || life == Life::died) return;  // nobody will ever receive it
@@ -75,7 +76,8 @@ std::optional<Envelope> ProcessesBackend::peek() {
   check_running();
   if (slot_.seen.load(std::memory_order_relaxed) == 0) {
     Offset first = 0;
-    for (Offset at = slot_.arrived.load(std::memory_order_relaxed) == 0 ? 0 : slot_.arrived.exchange(0); at != 0;)
+    for (Offset at = slot_.arrived.load(std::memory_order_relaxed) == 0 ? 0 : slot_.arrived.exchange(0);
+         at != 0;)
       first = std::exchange(at, std::exchange(segment_.block(at).next, first));
     if (first == 0) return std::nullopt;
     slot_.seen = first;
@@ -98,7 +100,8 @@ void ProcessesBackend::idle(int turn, std::chrono::microseconds longest) {
   check_running();
   const int looks = oversubscribed_ ? 0 : kLooks;
   if (turn < looks) {
-    for (int i = 0; i < kLooksATurn && slot_.arrived.load(std::memory_order_relaxed) == 0; ++i) __builtin_ia32_pause();
+    for (int i = 0; i < kLooksATurn && slot_.arrived.load(std::memory_order_relaxed) == 0; ++i)
+      __builtin_ia32_pause();
     return;
   }
   if (turn < looks + kYields) {
@@ -124,14 +127,17 @@ std::shared_ptr<std::byte> ProcessesBackend::share(std::size_t bytes) {
   Share& share = segment_.header().shares[number];
   std::uint32_t state = Share::open;
   const std::uint32_t verdict = bytes <= segment_.header().limit ? Share::granted : Share::refused;
-  if (!share.state.compare_exchange_strong(state, verdict)) check(state == verdict, "all nodes share the same bytes");
+  if (!share.state.compare_exchange_strong(state, verdict))
+    check(state == verdict, "all nodes share the same bytes");
   const std::size_t size = std::max(whole_pages(bytes), kPage);
   const Offset begin = std::exchange(next_shared_, next_shared_ + size);
-  void* block = verdict == Share::refused ? MAP_FAILED
-                                          : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE,
-                                                 segment_.descriptor(), static_cast<off_t>(begin));
+  void* block = verdict == Share::refused
+                    ? MAP_FAILED
+                    : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE,
+                           segment_.descriptor(), static_cast<off_t>(begin));
   if (block == MAP_FAILED) {
-    throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes", "node " + std::to_string(rank()),
+    throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes",
+                  "node " + std::to_string(rank()),
                   "use a machine with more memory, or set MARS_NX_MEMORY to more MiB");
   }
   return {static_cast<std::byte*>(block), [this, number, begin, size](std::byte* old) {
@@ -152,7 +158,8 @@ void ProcessesBackend::release(int number, Offset begin, std::size_t bytes) {
 bool ProcessesBackend::finish() {
   check_running();
   const int ranks = nodes() + segment_.header().has_host;
-  if (!std::exchange(finishing_, true) && segment_.header().finished.fetch_add(1) + 1 == ranks) segment_.wake_all();
+  if (!std::exchange(finishing_, true) && segment_.header().finished.fetch_add(1) + 1 == ranks)
+    segment_.wake_all();
   return segment_.header().finished == ranks && !peek();
 }
 

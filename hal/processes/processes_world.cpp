@@ -110,7 +110,8 @@ void ProcessesWorld::begin() {
 
 void ProcessesWorld::resize(int nodes) {
   for (int node = 0; node < segment_.nodes(); ++node)
-    if (status(node).state == State::running) throw Failure("nodes run already", "", "get the cube before they begin");
+    if (status(node).state == State::running)
+      throw Failure("nodes run already", "", "get the cube before they begin");
   segment_.header().cube = nodes;
 }
 
@@ -118,7 +119,8 @@ void ProcessesWorld::load(const std::string& file, int node) {
   begun_ = true;
   const int error = ask(Asking::What::load, node, fs::absolute(find_program(file)).string());
   if (error == EBUSY)
-    throw Failure("node " + std::to_string(node) + " still runs another program", "", "wait for its end or kill it first");
+    throw Failure("node " + std::to_string(node) + " still runs another program", "",
+                  "wait for its end or kill it first");
   if (error != 0) throw Failure(std::strerror(error), file, "");
 }
 

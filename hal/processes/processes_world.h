@@ -1,4 +1,5 @@
-// A C program's job of processes over shared memory, which another process started (job.h); or of one node, this one.
+// A C program's job of processes over shared memory, which another process started (job.h); or of one node,
+// this one.
 #pragma once
 
 #include <memory>

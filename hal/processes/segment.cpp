@@ -46,7 +46,8 @@ Segment::Segment(int nodes, bool host, std::uint64_t limit)
   const int slots = nodes + host;
   const std::size_t room = whole_pages(std::min<std::uint64_t>(8 * limit + kLeastRoom, kAllRoom / slots));
   const std::size_t size = front_size(slots) + slots * room + kSharedRoom;
-  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0) throw no_memory(std::strerror(errno));
+  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0)
+    throw no_memory(std::strerror(errno));
   mapped_ = front_size(slots);
   map();
   header().nodes = nodes;
@@ -101,7 +102,8 @@ void Segment::sleep(Slot& slot, std::int64_t nanoseconds) {
   futex(slot.asleep, FUTEX_WAIT, 1, &timeout);
 }
 
-// What it is waked for was written before; the sleeper looks for it after it has written `asleep`: one sees the other.
+// What it is waked for was written before; the sleeper looks for it after it has written `asleep`: one sees
+// the other.
 void Segment::wake(Slot& slot) {
   if (slot.asleep.load() == 1 && slot.asleep.exchange(0) == 1) futex(slot.asleep, FUTEX_WAKE, 1, nullptr);
 }

@@ -1,6 +1,7 @@
-// The memory that the processes of one machine share to be the ranks of one job: what stands where in it. All is
-// zero at the start, addresses are offsets, and whatever several processes change is one atomic word, changed by one
-// instruction: so any of them may be killed at any instant and the others go on. Slot i is node i; the host's is the last.
+// The memory that the processes of one machine share to be the ranks of one job: what stands where in it. All
+// is zero at the start, addresses are offsets, and whatever several processes change is one atomic word,
+// changed by one instruction: so any of them may be killed at any instant and the others go on. Slot i is
+// node i; the host's is the last.
 //
 //   Header | Slot of each rank | heap of each rank | memory that share() gives
 //
@@ -20,9 +21,9 @@ using Offset = std::uint64_t;  // from the segment's begin; 0: none
 struct alignas(64) Block {
   enum class State : std::uint32_t { free, used };
 
-  Offset next;           // in the list it is in
-  std::uint64_t length;  // of the message, whose bytes follow the block
-  std::uint64_t touched; // bytes of it that have taken memory
+  Offset next;            // in the list it is in
+  std::uint64_t length;   // of the message, whose bytes follow the block
+  std::uint64_t touched;  // bytes of it that have taken memory
   std::int32_t type;
   std::uint32_t from;
   std::uint32_t size_class;  // room for 2^size_class bytes
@@ -38,8 +39,8 @@ enum class Life : std::uint32_t {
   none,     // nothing runs, or nothing is known of it
   started,  // a process runs, which has made no NX call yet
   joined,
-  left,     // in order; its process is about to end
-  ended,    // in order; its code is known
+  left,   // in order; its process is about to end
+  ended,  // in order; its code is known
   died,
 };
 
@@ -50,15 +51,15 @@ enum class Waiting : std::uint32_t {
 };
 
 struct alignas(64) Slot {
-  BlockStack arrived;                  // messages to this rank
-  std::atomic<std::uint32_t> asleep;   // 1: waits on this word (a futex), to be waked by whoever makes it 0
+  BlockStack arrived;                 // messages to this rank
+  std::atomic<std::uint32_t> asleep;  // 1: waits on this word (a futex), to be waked by whoever makes it 0
   std::atomic<Waiting> waiting;
-  alignas(64) BlockStack returned;     // blocks of this rank's heap
-  alignas(64) Offset carved;           // bytes of its heap that are blocks; changed by the owner alone
-  std::atomic<Offset> seen;            // messages taken from `arrived`, the next one first; likewise
-  std::atomic<std::uint64_t> taken;    // messages; likewise
+  alignas(64) BlockStack returned;   // blocks of this rank's heap
+  alignas(64) Offset carved;         // bytes of its heap that are blocks; changed by the owner alone
+  std::atomic<Offset> seen;          // messages taken from `arrived`, the next one first; likewise
+  std::atomic<std::uint64_t> taken;  // messages; likewise
   std::atomic<Life> life;
-  std::atomic<std::int32_t> code;      // of an ended one; minus the signal of one that died
+  std::atomic<std::int32_t> code;  // of an ended one; minus the signal of one that died
 };
 
 // One memory that all nodes share: granted to all or to none.
@@ -71,15 +72,15 @@ struct Share {
 inline constexpr int kShares = 256;  // at a time
 
 struct Header {
-  std::int32_t nodes;          // the machine's
+  std::int32_t nodes;  // the machine's
   std::int32_t has_host;
-  std::atomic<std::int32_t> cube;      // of which the first so many are the cube
-  std::uint64_t heap_room;     // addresses that each heap has
-  std::uint64_t limit;         // bytes that messages under way may take in all heaps
-  std::atomic<std::uint64_t> used;     // of these
-  std::atomic<std::int32_t> finished;  // ranks that have come to their orderly end
-  std::atomic<std::uint32_t> stopped;  // 1: by nobody yet told why; 2: `reason` can be read
-  std::atomic<std::uint32_t> stopping; // whoever adds first writes the reason
+  std::atomic<std::int32_t> cube;       // of which the first so many are the cube
+  std::uint64_t heap_room;              // addresses that each heap has
+  std::uint64_t limit;                  // bytes that messages under way may take in all heaps
+  std::atomic<std::uint64_t> used;      // of these
+  std::atomic<std::int32_t> finished;   // ranks that have come to their orderly end
+  std::atomic<std::uint32_t> stopped;   // 1: by nobody yet told why; 2: `reason` can be read
+  std::atomic<std::uint32_t> stopping;  // whoever adds first writes the reason
   char reason[1000];
   Share shares[kShares];
 };

@@ -67,7 +67,9 @@ struct RunOptions {
   std::vector<std::string> arguments;
 };
 
-std::string path_of(const Environment& environment) { return environment.value("PATH").value_or("/usr/bin:/bin"); }
+std::string path_of(const Environment& environment) {
+  return environment.value("PATH").value_or("/usr/bin:/bin");
+}
 
 bool runnable(const fs::path& file) {
   std::error_code ignored;
@@ -81,7 +83,8 @@ fs::path program_file(const std::string& word) {
     if (const auto found = find_program(word, path_of(own_environment()))) return *found;
   std::error_code ignored;
   if (fs::is_directory(word, ignored)) throw Failure("is a folder, not a program", word, "");
-  if (fs::exists(word, ignored)) throw Failure("is not a program that can be run", word, "see whether it may be executed: chmod +x");
+  if (fs::exists(word, ignored))
+    throw Failure("is not a program that can be run", word, "see whether it may be executed: chmod +x");
   throw Failure("there is no such program", word, "");
 }
 
@@ -95,7 +98,8 @@ NxPrograms programs_of(RunOptions& options) {
   std::size_t used = 0;
   if (options.host || options.words.size() >= 2) programs.host = program_file(options.words[used++]);
   if (used < options.words.size()) programs.node = program_file(options.words[used++]);
-  options.arguments.insert(options.arguments.begin(), options.words.begin() + static_cast<std::ptrdiff_t>(used), options.words.end());
+  options.arguments.insert(options.arguments.begin(),
+                           options.words.begin() + static_cast<std::ptrdiff_t>(used), options.words.end());
   return programs;
 }
 
@@ -121,8 +125,10 @@ int run_processes(const RunOptions& options, const NxPrograms& programs, std::ui
   plan.become = [&](const hal::Place& place, const std::string& file) {
     const bool host = plan.host && place.index == options.nodes;
     hal::leave_place(place);
-    return become(host ? programs.host : file.empty() ? programs.node : fs::path(file), options.arguments,
-                  plan.host ? host : place.index == 0);
+    return become(host           ? programs.host
+                  : file.empty() ? programs.node
+                                 : fs::path(file),
+                  options.arguments, plan.host ? host : place.index == 0);
   };
   plan.tell = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
   return hal::Job(plan).run();
@@ -146,12 +152,15 @@ int run_mpi(RunOptions& options, const NxPrograms& programs) {
   const std::string path = path_of(environment);
   Programs starters;
   starters.mpirun = find_mpirun(starters.mpi, path);
-  if (!starters.mpirun) throw Failure("mpirun was not found", "", "install Open MPI (Debian: openmpi-bin), or use --over processes");
+  if (!starters.mpirun)
+    throw Failure("mpirun was not found", "",
+                  "install Open MPI (Debian: openmpi-bin), or use --over processes");
   RenderOptions start;
   start.hostfile = options.hostfile;
   start.backend = Backend::mpi;
   Surroundings surroundings = look_around(path);
-  start.nodes = options.nodes == 0 ? default_nodes(start, surroundings) : static_cast<std::uint32_t>(options.nodes);
+  start.nodes =
+      options.nodes == 0 ? default_nodes(start, surroundings) : static_cast<std::uint32_t>(options.nodes);
   surroundings.settings.emplace_back(kHostSetting);
   Command command = mpi_start(start, starters, surroundings);
   command.environment.emplace_back(kHostSetting, programs.host.empty() ? "no" : "yes");
@@ -190,18 +199,30 @@ int run(RunOptions& options) {
 
 void add_run(CLI::App& app, RunOptions& options, int& code) {
   CLI::App* command = app.add_subcommand("run", "Start a host and its nodes, or nodes alone");
-  command->add_option("PROGRAM", options.words, "The host's program and the nodes', or the nodes' alone. Example: ./host ./node")
+  command
+      ->add_option("PROGRAM", options.words,
+                   "The host's program and the nodes', or the nodes' alone. Example: ./host ./node")
       ->required()
       ->type_name("FILE");
-  command->add_option("--nodes", options.nodes, "Number of nodes; default: one a processor, or what the hostfile or Slurm job has room for. Example: --nodes 8")
+  command
+      ->add_option("--nodes", options.nodes,
+                   "Number of nodes; default: one a processor, or what the hostfile or Slurm job has room "
+                   "for. Example: --nodes 8")
       ->check(CLI::Range(1, 1 << 12).description(""))
       ->type_name("N");
-  command->add_flag("--host", options.host, "The first program is the host, also where it is the only one: it loads its nodes itself. Example: --host ./host");
-  command->add_option_function<std::string>("--over", [&options](const std::string& word) { options.over = over_of(word); },
-                      "What carries the messages: processes over shared memory on this machine, or mpi; default: mpi with "
-                      "a hostfile or in a Slurm job, else processes. Example: --over mpi")
+  command->add_flag("--host", options.host,
+                    "The first program is the host, also where it is the only one: it loads its nodes "
+                    "itself. Example: --host ./host");
+  command
+      ->add_option_function<std::string>(
+          "--over", [&options](const std::string& word) { options.over = over_of(word); },
+          "What carries the messages: processes over shared memory on this machine, or mpi; default: mpi "
+          "with "
+          "a hostfile or in a Slurm job, else processes. Example: --over mpi")
       ->type_name("auto|processes|mpi");
-  command->add_option("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
+  command
+      ->add_option("--hostfile", options.hostfile,
+                   "Open MPI's file of the machines to use. Example: --hostfile hosts")
       ->type_name("FILE");
   command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kStarts);
   command->callback([&] { code = run(options); });
@@ -209,7 +230,8 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
 
 // What follows -- is not ours.
 std::vector<std::string> take_arguments(std::vector<const char*>& words) {
-  const auto at = std::find_if(words.begin(), words.end(), [](const char* word) { return std::string_view(word) == "--"; });
+  const auto at = std::find_if(words.begin(), words.end(),
+                               [](const char* word) { return std::string_view(word) == "--"; });
   if (at == words.end()) return {};
   std::vector<std::string> arguments(at + 1, words.end());
   words.erase(at, words.end());
