@@ -38,6 +38,14 @@ class Fortran(NxInstallation):
             with self.subTest(nodes=nodes):
                 self.assertEqual(self.run_well("--nodes", nodes, "./fortran_calls"), f"calls:{nodes:3} nodes,   0 wrong\n")
 
+    @harness.needs_mpi
+    def test_every_call_under_mpi(self):
+        self.compile(harness.SOURCES / "tests/programs/fortran_calls.f", "fortran_calls")
+        library = next(self.prefix.rglob("libmars-nx.so")).parent
+        said = self.succeed(*harness.OWN_MPIRUN, "-n", 3, "./fortran_calls",
+                            env=dict(harness.ENVIRONMENT, LD_LIBRARY_PATH=str(library)))
+        self.assertEqual(said, "calls:  3 nodes,   0 wrong\n")
+
     def test_a_host_loads_its_nodes(self):
         self.compile(harness.SOURCES / "tests/programs/fortran_calls.f", "fortran_calls")
         self.compile(harness.SOURCES / "tests/programs/fortran_host.f", "fortran_host")
