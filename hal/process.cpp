@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hal/call_failure.h"
+#include "hal/files.h"
 #include "hal/nx/nx_errno.h"
 
 namespace mars::hal {
@@ -45,6 +46,13 @@ Process::Process(Backend& backend)
 Process::~Process() { bound_process = nullptr; }
 
 void Process::serve_this_thread() { bound_process = this; }
+
+Files& Process::files() {
+  if (!files_) files_ = std::make_unique<Files>(*this);
+  return *files_;
+}
+
+void Process::end_files() { files_.reset(); }
 
 void Process::fail(const char* call, int code, const std::string& what, const std::string& remedy) const {
   throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);

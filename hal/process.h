@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@
 #include "hal/requests.h"
 
 namespace mars::hal {
+
+class Files;
 
 class Process {
  public:
@@ -97,6 +100,10 @@ class Process {
   // Throws this process's CallFailure: "node 3, csend: ..."; `code` is one of nx_errno.h.
   [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) const;
 
+  // Made with the first call for them (files.h); their end is that of all transfers.
+  Files& files();
+  void end_files();
+
   Backend& backend() const { return backend_; }
   const Traffic& traffic() const { return ledger_.traffic(); }
 
@@ -162,6 +169,7 @@ class Process {
   Envelope info_;
   Ledger ledger_;
   Collectives collectives_ = Collectives::automatic;
+  std::unique_ptr<Files> files_;
   bool led_ = false;
   bool overtaken_ = false;  // messages may wait that came before one that was received
   int quiet_turns_ = 0;  // flicks since anything arrived

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <memory>
 
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_files.h"
@@ -11,15 +10,7 @@
 namespace mars::hal {
 namespace {
 
-// Of the calling process; what is under way ends with its thread.
-Files& files() {
-  thread_local const Process* owner = nullptr;
-  thread_local std::unique_ptr<Files> files;
-  Process& now = process();
-  if (owner != &now) files = std::make_unique<Files>(now);
-  owner = &now;
-  return *files;
-}
+Files& files() { return process().files(); }
 
 off_t place_of(const char* call, const esize_t& size) {
   const bool fits =

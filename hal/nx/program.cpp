@@ -54,6 +54,7 @@ void leave(int code, void*) try {
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
   program().progress.reset();
+  if (program().process) program().process->end_files();
   program().world->leave(code);
 } catch (const std::exception& failure) {
   end(reason_of(failure));

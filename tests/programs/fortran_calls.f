@@ -9,6 +9,8 @@ C     wrong, the program ends with their sum.
       CALL TASYNC
       CALL TPROBE
       CALL THAND
+      CALL TSUMS
+      CALL TINTS
       CALL TCOLL
       CALL TFILES
       CALL TSELF
@@ -49,6 +51,9 @@ C     A set of types, as a negative number.
       CALL CSEND(2, 5, 4, MYNODE(), 0)
       CALL CRECV(-2147483641, GOT, 4)
       CALL EXPECT(GOT .EQ. 5, 'a set of types')
+      CALL GSENDX(9, MYNODE(), 4, NEXT, 1)
+      CALL CRECV(9, GOT, 4)
+      CALL EXPECT(GOT .EQ. LAST, 'gsendx')
       END
 
       SUBROUTINE TASYNC
@@ -126,9 +131,105 @@ C     A handler that is sent its own node's messages.
       CALL EXPECT(IN(1) .EQ. 79, 'hsendrecv')
       END
 
+      SUBROUTINE TSUMS
+      INCLUDE 'fcube.h'
+      DOUBLE PRECISION D(2), DW(2)
+      REAL R(2), RW(2)
+      INTEGER N
+      N = NUMNODES()
+      D(1) = MYNODE()
+      D(2) = 1
+      CALL GDSUM(D, 2, DW)
+      CALL EXPECT(D(1) .EQ. N * (N - 1) / 2 .AND. D(2) .EQ. N, 'gdsum')
+      D(1) = 2
+      CALL GDPROD(D, 1, DW)
+      CALL EXPECT(D(1) .EQ. 2D0 ** N, 'gdprod')
+      D(1) = MYNODE()
+      CALL GDHIGH(D, 1, DW)
+      CALL EXPECT(D(1) .EQ. N - 1, 'gdhigh')
+      D(1) = -MYNODE()
+      CALL GDLOW(D, 1, DW)
+      CALL EXPECT(D(1) .EQ. 1 - N, 'gdlow')
+      R(1) = MYNODE()
+      CALL GSSUM(R, 1, RW)
+      CALL EXPECT(R(1) .EQ. N * (N - 1) / 2, 'gssum')
+      R(1) = 2
+      CALL GSPROD(R, 1, RW)
+      CALL EXPECT(R(1) .EQ. 2.0 ** N, 'gsprod')
+      R(1) = MYNODE()
+      CALL GSHIGH(R, 1, RW)
+      CALL EXPECT(R(1) .EQ. N - 1, 'gshigh')
+      R(1) = -MYNODE()
+      CALL GSLOW(R, 1, RW)
+      CALL EXPECT(R(1) .EQ. 1 - N, 'gslow')
+      END
+
+C     Neighbouring elements show whether each has four bytes.
+      SUBROUTINE TINTS
+      INCLUDE 'fcube.h'
+      INTEGER I(3), W(3), N
+      N = NUMNODES()
+      I(1) = MYNODE()
+      I(2) = -1
+      I(3) = 2000000000
+      CALL GISUM(I, 2, W)
+      CALL EXPECT(I(1) .EQ. N * (N - 1) / 2 .AND. I(2) .EQ. -N .AND.
+     1            I(3) .EQ. 2000000000, 'gisum')
+      I(1) = -2
+      CALL GIPROD(I, 1, W)
+      CALL EXPECT(I(1) .EQ. (-2) ** N, 'giprod')
+      I(1) = MYNODE() - 3
+      CALL GIHIGH(I, 1, W)
+      CALL EXPECT(I(1) .EQ. N - 4, 'gihigh')
+      I(1) = MYNODE() - 3
+      CALL GILOW(I, 1, W)
+      CALL EXPECT(I(1) .EQ. -3, 'gilow')
+      I(1) = -1 - 2 ** MYNODE()
+      CALL GIAND(I, 1, W)
+      CALL EXPECT(I(1) .EQ. -(2 ** N), 'giand')
+      I(1) = 2 ** MYNODE()
+      CALL GIOR(I, 1, W)
+      CALL EXPECT(I(1) .EQ. 2 ** N - 1, 'gior')
+      I(1) = 2 ** MYNODE() + 2 ** N
+      CALL GIXOR(I, 1, W)
+      CALL EXPECT(I(1) .EQ. 2 ** N - 1 + 2 ** N * MOD(N, 2), 'gixor')
+      CALL TLOGIC(N)
+      END
+
+      SUBROUTINE TLOGIC(N)
+      INCLUDE 'fcube.h'
+      LOGICAL L(2), W(2)
+      L(1) = .TRUE.
+      L(2) = MYNODE() .NE. 0
+      CALL GLAND(L, 2, W)
+      CALL EXPECT(L(1) .AND. .NOT. L(2), 'gland')
+      L(1) = .FALSE.
+      L(2) = MYNODE() .EQ. 0
+      CALL GLOR(L, 2, W)
+      CALL EXPECT(.NOT. L(1) .AND. L(2), 'glor')
+      L(1) = .TRUE.
+      CALL GLXOR(L, 1, W)
+      CALL EXPECT(L(1) .EQV. MOD(N, 2) .EQ. 1, 'glxor')
+      END
+
+C     The longer of two vectors.
+      INTEGER FUNCTION LONGER(X, Y)
+      REAL X(2), Y(2)
+      LONGER = 0
+      IF (X(1) ** 2 + X(2) ** 2 .GE. Y(1) ** 2 + Y(2) ** 2) RETURN
+      X(1) = Y(1)
+      X(2) = Y(2)
+      END
+
       SUBROUTINE TCOLL
       INCLUDE 'fcube.h'
+      EXTERNAL LONGER
+      REAL X(2), WORK(2)
       INTEGER Y(100), LENGTHS(64), I, COUNT
+      X(1) = MYNODE()
+      X(2) = 1
+      CALL GOPF(X, 8, WORK, LONGER)
+      CALL EXPECT(X(1) .EQ. NUMNODES() - 1 .AND. X(2) .EQ. 1, 'gopf')
       CALL GCOL(MYNODE(), 4, Y, 400, COUNT)
       CALL EXPECT(COUNT .EQ. 4 * NUMNODES(), 'gcol''s length')
       DO 10 I = 1, NUMNODES()

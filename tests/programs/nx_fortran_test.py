@@ -21,9 +21,7 @@ target_link_libraries(pi PRIVATE mars-nx::nx-fortran)
 @unittest.skipUnless(FORTRAN, "there is no gfortran")
 class Fortran(NxInstallation):
     def compile(self, source, program):
-        folder = next(self.prefix.rglob("mars-nx-fortran.pc")).parent
-        environment = dict(harness.ENVIRONMENT, PKG_CONFIG_PATH=str(folder))
-        flags = self.succeed("pkg-config", "--cflags", "--libs", "mars-nx-fortran", env=environment).split()
+        flags = self.succeed("pkg-config", "--cflags", "--libs", "mars-nx-fortran", env=self.nx_environment()).split()
         # Buffers are of any type: that is what the language's old standards allow.
         self.succeed(FORTRAN, "-std=legacy", "-w", source, "-o", program, *flags)
 
@@ -37,6 +35,12 @@ class Fortran(NxInstallation):
         for nodes in [1, 2, 3, 4, 8]:
             with self.subTest(nodes=nodes):
                 self.assertEqual(self.run_well("--nodes", nodes, "./fortran_calls"), f"calls:{nodes:3} nodes,   0 wrong\n")
+
+    @harness.needs_mpi
+    def test_every_call_under_mpi(self):
+        self.compile(harness.SOURCES / "tests/programs/fortran_calls.f", "fortran_calls")
+        said = self.succeed(*harness.OWN_MPIRUN, "-n", 3, "./fortran_calls", env=self.nx_environment())
+        self.assertEqual(said, "calls:  3 nodes,   0 wrong\n")
 
     def test_a_host_loads_its_nodes(self):
         self.compile(harness.SOURCES / "tests/programs/fortran_calls.f", "fortran_calls")
