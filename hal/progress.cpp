@@ -35,8 +35,8 @@ void Process::send_copies(const Outgoing& message, Request* strict) {
     const double begin = ledger_.begin();
     const std::optional<Ticket> ticket = backend_.send_or_start(to, message.type, message.data, message.length);
     const std::uint32_t number = ledger_.sent({to, message.type, message.length}, begin);
-    if (ticket) wait_sent(*ticket);
     if (strict != nullptr) rendezvous_.expect(to, number, *strict);
+    if (ticket) wait_sent(*ticket);
   }
 }
 

@@ -39,7 +39,7 @@ void RequestTable::forget_id(Request& request) {
 void RequestTable::grow() {
   const int slot = static_cast<int>(requests_.size());
   requests_.emplace_back().slot = slot;
-  free_.reserve(requests_.size());
+  if (free_.capacity() < requests_.size()) free_.reserve(2 * requests_.size());
   free_.push_back(slot);
 }
 

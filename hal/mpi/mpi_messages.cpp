@@ -6,11 +6,12 @@
 #include <cstring>
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/call_failure.h"
 #include "hal/message_types.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
+#include "hal/nx/nx_errno.h"
 
 namespace mars::hal {
 namespace {
@@ -33,8 +34,8 @@ std::size_t length_of(const MPI_Status& status) {
 
 // Apart from the call that it ends, which is the quicker for it.
 [[noreturn]] void fail_length(std::size_t length) {
-  throw Failure("a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
-                "send at most 2147483647 bytes at once");
+  throw CallFailure(EQLEN, "a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
+                    "send at most 2147483647 bytes at once");
 }
 
 }  // namespace
