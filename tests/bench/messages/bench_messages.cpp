@@ -71,11 +71,12 @@ struct Size {
 void ping_pong() {
   const int other = mynode() == 0 ? static_cast<int>(myhost()) : 0;
   std::vector<char> out(8 << 20, 'o'), in(8 << 20, 'i');
-  const auto turns = [](const std::function<void()>& send, const std::function<void()>& receive) {
+  const bool first = mynode() == 0;
+  const auto turns = [first](const std::function<void()>& send, const std::function<void()>& receive) {
     return [=] {
-      if (mynode() == 0) send();
+      if (first) send();
       receive();
-      if (mynode() != 0) send();
+      if (!first) send();
     };
   };
   for (const Size& size : {Size{"8 B", 8, 2000}, Size{"1 KiB", 1024, 2000}, Size{"64 KiB", 65536, 100},
