@@ -7,28 +7,47 @@
 namespace mars::hal {
 namespace {
 
+// Failures are apart from the checks, which are the quicker for it.
+[[noreturn]] void fail_length(const Process& process, const char* call, long length) {
+  process.fail(call, EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+}
+
+[[noreturn]] void fail_buffer(const Process& process, const char* call, std::size_t bytes) {
+  process.fail(call, EQPBUF, "the buffer of " + bytes_text(bytes) + " is a null pointer", "give a buffer, or length 0");
+}
+
+[[noreturn]] void fail_pid(const Process& process, const char* call, long pid) {
+  process.fail(call, EQPID, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
+}
+
+[[noreturn]] void fail_node(const Process& process, const char* call, long node, const char* all) {
+  process.fail(call, EQNODE, "there is no node " + std::to_string(node),
+               "nodes are 0 to " + std::to_string(process.backend().nodes() - 1) + ", the host is myhost(), -1 is " + all);
+}
+
+[[noreturn]] void fail_type(const Process& process, const char* call, long type) {
+  process.fail(call, EQTYPE, "message type " + std::to_string(type) + " is reserved",
+               "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
+}
+
+[[noreturn]] void fail_typesel(const Process& process, const char* call, long typesel) {
+  process.fail(call, EQTYPE, "typesel " + std::to_string(typesel) + " is a reserved type",
+               "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
+}
+
 std::size_t check_buffer(const Process& process, const char* call, const void* buffer, long length) {
-  if (length < 0) {
-    process.fail(call, EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
-  }
+  if (length < 0) fail_length(process, call, length);
   const auto bytes = static_cast<std::size_t>(length);
-  if (buffer == nullptr && bytes > 0) {
-    process.fail(call, EQPBUF, "the buffer of " + bytes_text(bytes) + " is a null pointer",
-                 "give a buffer, or length 0");
-  }
+  if (buffer == nullptr && bytes > 0) fail_buffer(process, call, bytes);
   return bytes;
 }
 
 void check_pid(const Process& process, const char* call, long pid) {
-  if (pid == 0 || pid == -1) return;
-  process.fail(call, EQPID, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
+  if (pid != 0 && pid != -1) fail_pid(process, call, pid);
 }
 
 void check_node(const Process& process, const char* call, long node, const char* all) {
-  const Backend& backend = process.backend();
-  if (-1 <= node && node <= backend.host()) return;
-  process.fail(call, EQNODE, "there is no node " + std::to_string(node),
-               "nodes are 0 to " + std::to_string(backend.nodes() - 1) + ", the host is myhost(), -1 is " + all);
+  if (node < -1 || node > process.backend().host()) fail_node(process, call, node, all);
 }
 
 }  // namespace
@@ -39,10 +58,7 @@ std::string bytes_text(std::size_t bytes) {
 
 Outgoing check_send(const Process& process, const char* call, long type, const void* buffer, long length,
                     long node, long pid) {
-  if (type_class(type) == TypeClass::reserved) {
-    process.fail(call, EQTYPE, "message type " + std::to_string(type) + " is reserved",
-                 "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
-  }
+  if (type_class(type) == TypeClass::reserved) fail_type(process, call, type);
   const std::size_t bytes = check_buffer(process, call, buffer, length);
   check_pid(process, call, pid);
   check_node(process, call, node, "all others");
@@ -54,10 +70,7 @@ Outgoing check_send(const Process& process, const char* call, long type, const v
 
 Selection check_selection(const Process& process, const char* call, long typesel, long node, long pid) {
   const std::int32_t narrow = narrow_typesel(typesel);
-  if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) {
-    process.fail(call, EQTYPE, "typesel " + std::to_string(narrow) + " is a reserved type",
-                 "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
-  }
+  if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) fail_typesel(process, call, narrow);
   check_node(process, call, node, "any");
   check_pid(process, call, pid);
   return {narrow, static_cast<int>(node)};

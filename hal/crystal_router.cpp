@@ -60,6 +60,10 @@ void CrystalRouter::split(const Load& from, Load& wanted, Load& others, const Wa
 
 void CrystalRouter::send(int to, const Load& load) { process().send_internal(to, load.room.data(), load.size); }
 
+Ticket CrystalRouter::start(int to, const Load& load) {
+  return process().start_internal(to, load.room.data(), load.size);
+}
+
 // Behind what is there.
 void CrystalRouter::receive(int from, Load& load) {
   load.size += process().receive_internal(kCall, from, load.room, load.size);
@@ -79,8 +83,9 @@ void CrystalRouter::by_crystal(const Cube& cube) {
   for (int bit = 1; bit < corners; bit <<= 1) {
     split(held_, out_, next_, [&](const Head& head) { return ((position(head) & (corners - 1)) & bit) != (me & bit); });
     std::swap(held_, next_);
-    send(cube.first + (me ^ bit), out_);
+    const Ticket sending = start(cube.first + (me ^ bit), out_);
     receive(cube.first + (me ^ bit), held_);
+    process().wait_sent(sending);
   }
   if (!folds) return;
   split(held_, out_, next_, [&](const Head& head) { return position(head) != me; });
@@ -96,12 +101,14 @@ void CrystalRouter::directly(const Cube& cube) {
     add(loads_[static_cast<std::size_t>(head.to - cube.first)], head, bytes);
   });
   // So that not all send to the same node first.
+  tickets_.clear();
   for (int i = 1; i < cube.count; ++i) {
     const int to = (me + i) % cube.count;
-    send(cube.first + to, loads_[static_cast<std::size_t>(to)]);
+    tickets_.push_back(start(cube.first + to, loads_[static_cast<std::size_t>(to)]));
   }
   std::swap(held_, loads_[static_cast<std::size_t>(me)]);
   for (int i = 1; i < cube.count; ++i) receive(cube.first + (me + cube.count - i) % cube.count, held_);
+  for (const Ticket ticket : tickets_) process().wait_sent(ticket);
 }
 
 // First the lengths, then the loads.

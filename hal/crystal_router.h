@@ -50,6 +50,7 @@ class CrystalRouter {
   template <class Wanted>
   static void split(const Load& from, Load& wanted, Load& others, const Wanted& is_wanted);
   static void send(int to, const Load& load);
+  static Ticket start(int to, const Load& load);
   static void receive(int from, Load& load);
 
   void by_crystal(const Cube& cube);
@@ -61,6 +62,7 @@ class CrystalRouter {
   std::vector<Load> loads_;  // by position
   std::vector<Stretch> to_, from_;
   std::vector<std::size_t> lengths_;
+  std::vector<Ticket> tickets_;
   std::vector<Parcel> parcels_;
 };
 

@@ -48,8 +48,9 @@ void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, v
     send(with, out, out_bytes);
     receive(with, in, in_bytes);
   } else {
-    const std::size_t came = process_.swap_internal(call_, cube_.first + with, out, out_bytes, in, in_bytes);
-    check_came(with, came, in_bytes);
+    const Ticket ticket = process_.start_internal(cube_.first + with, out, out_bytes);
+    receive(with, in, in_bytes);
+    process_.wait_sent(ticket);
   }
 }
 

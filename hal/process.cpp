@@ -316,15 +316,12 @@ std::size_t Process::receive_internal(const char* call, int from, std::vector<st
   return came;
 }
 
-std::size_t Process::swap_internal(const char* call, int with, const void* out, std::size_t out_length, void* in,
-                                   std::size_t in_length) {
-  const Envelope sent{with, kFirstInternalType + backend_.rank(), out_length};
+Ticket Process::start_internal(int to, const void* data, std::size_t length) {
+  const Envelope sent{to, kFirstInternalType + backend_.rank(), length};
   const double begin = ledger_.begin();
-  const Ticket ticket = backend_.start_send(with, sent.type, out, out_length);
+  const Ticket ticket = backend_.start_send(to, sent.type, data, length);
   ledger_.sent(sent, begin);
-  const std::size_t came = receive_internal(call, with, in, in_length);
-  wait_sent(ticket);
-  return came;
+  return ticket;
 }
 
 bool Process::reduce(const Reduction& reduction, void* x, std::size_t n) {

@@ -78,13 +78,14 @@ class Process {
   void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
 
   // For collectives, which are named `call`: one internal message from node to node. How many bytes came is
-  // returned; more than `length` are thrown away. Swap: one each way, of what does not overlap.
+  // returned; more than `length` are thrown away.
   void send_internal(int to, const void* data, std::size_t length);
   std::size_t receive_internal(const char* call, int from, void* data, std::size_t length);
   // Likewise, behind the first `at` bytes of `room`, which grows as needed.
   std::size_t receive_internal(const char* call, int from, std::vector<std::byte>& room, std::size_t at);
-  std::size_t swap_internal(const char* call, int with, const void* out, std::size_t out_length, void* in,
-                            std::size_t in_length);
+  // As send_internal, but `data` stays untouched until wait_sent.
+  Ticket start_internal(int to, const void* data, std::size_t length);
+  void wait_sent(Ticket ticket);
 
   // What the collectives of this process use; the same on all nodes.
   void collectives_by(Collectives means) { collectives_ = means; }
@@ -115,7 +116,6 @@ class Process {
   // For calls named `call`.
   void send_now(const char* call, const Outgoing& message);
   void send_copies(const Outgoing& message, Request* strict);
-  void wait_sent(Ticket ticket);
   void start_send(const Outgoing& message, Request& request);
   void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
   std::size_t receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long);

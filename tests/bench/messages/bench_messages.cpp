@@ -8,11 +8,13 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
+#include "hal/process.h"
 #include "tests/bench/messages/raw.h"
 
 namespace mars::bench {
@@ -69,11 +71,12 @@ struct Size {
 void ping_pong() {
   const int other = mynode() == 0 ? static_cast<int>(myhost()) : 0;
   std::vector<char> out(8 << 20, 'o'), in(8 << 20, 'i');
-  const auto turns = [](const std::function<void()>& send, const std::function<void()>& receive) {
+  const bool first = mynode() == 0;
+  const auto turns = [first](const std::function<void()>& send, const std::function<void()>& receive) {
     return [=] {
-      if (mynode() == 0) send();
+      if (first) send();
       receive();
-      if (mynode() != 0) send();
+      if (!first) send();
     };
   };
   for (const Size& size : {Size{"8 B", 8, 2000}, Size{"1 KiB", 1024, 2000}, Size{"64 KiB", 65536, 100},
@@ -106,13 +109,16 @@ void wait_idly() {
 }
 
 void sums() {
-  for (const Size& size : {Size{"1", 1, 1000}, Size{"2160", 2160, 100}, Size{"100000", 100'000, 4}}) {
-    std::vector<double> x(size.bytes), work(size.bytes);
-    const int count = std::max(2, size.count / static_cast<int>(numnodes() / 2));
-    compare((std::string("gdsum ") + size.name).c_str(), count, 1, [&] { raw_sum(x.data(), 1); },
-            [&] { gdsum(x.data(), static_cast<long>(size.bytes), work.data()); },
-            [&] { raw_sum(x.data(), size.bytes); });
-  }
+  for (const auto& [means, name] : {std::pair{hal::Collectives::cube, "gdsum "}, {hal::Collectives::network, "gdsum by MPI "}})
+    for (const Size& size : {Size{"1", 1, 1000}, Size{"2160", 2160, 100}, Size{"100000", 100'000, 4}}) {
+      std::vector<double> x(size.bytes), work(size.bytes);
+      const int count = std::max(2, size.count / static_cast<int>(numnodes() / 2));
+      hal::process().collectives_by(means);
+      compare((name + std::string(size.name)).c_str(), count, 1, [&] { raw_sum(x.data(), 1); },
+              [&] { gdsum(x.data(), static_cast<long>(size.bytes), work.data()); },
+              [&] { raw_sum(x.data(), size.bytes); });
+    }
+  hal::process().collectives_by(hal::Collectives::automatic);
 }
 
 int run(int, char**) {

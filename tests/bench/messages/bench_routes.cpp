@@ -1,0 +1,66 @@
+// Sparse all-to-all by each route: every node has as many bytes for each of a few others. Printed: microseconds from
+// when all begin until the last has all, the best of a few rounds. Under mpirun or smpirun, the first rank is the host.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "hal/crystal_router.h"
+#include "hal/mpi/start.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
+
+namespace mars::bench {
+namespace {
+
+constexpr long kDone = 8;
+
+// Seconds of the slowest node.
+double once(hal::CrystalRouter& router, const std::vector<hal::Parcel>& parcels, hal::Route route) {
+  gsync();
+  const double begin = dclock();
+  router.exchange({0, static_cast<int>(numnodes())}, parcels, route);
+  double seconds = dclock() - begin, work = 0;
+  gdhigh(&seconds, 1, &work);
+  return seconds;
+}
+
+void measure(int others, std::size_t bytes, int rounds) {
+  const auto nodes = static_cast<int>(numnodes());
+  std::mt19937 random(static_cast<unsigned>(mynode()));
+  const std::vector<std::byte> data(bytes);
+  std::vector<hal::Parcel> parcels;
+  for (int i = 0; i < others; ++i) parcels.push_back({static_cast<int>(random() % static_cast<unsigned>(nodes)), data});
+  hal::CrystalRouter router;
+  std::vector<double> best;
+  for (const hal::Route route : {hal::Route::crystal, hal::Route::direct, hal::Route::network}) {
+    best.push_back(1e9);
+    for (int round = 0; round < rounds; ++round) best.back() = std::min(best.back(), once(router, parcels, route));
+  }
+  if (mynode() != 0) return;
+  std::printf("%6d%8d%10zu", nodes, others, bytes);
+  for (const double seconds : best) std::printf("%14.1f", 1e6 * seconds);
+  std::printf("\n");
+}
+
+int run(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 100;
+  if (mynode() == myhost()) {
+    crecv(kDone, nullptr, 0);
+    return 0;
+  }
+  if (mynode() == 0)
+    std::printf("%6s%8s%10s%14s%14s%14s\n", "nodes", "others", "bytes", "crystal us", "direct us", "MPI us");
+  for (const int others : {4, 16})
+    for (const std::size_t bytes : {8ul, 256ul, 4096ul, 65536ul}) measure(others, bytes, rounds);
+  gsync();
+  if (mynode() == 0) csend(kDone, nullptr, 0, myhost(), 0);
+  return 0;
+}
+
+}  // namespace
+}  // namespace mars::bench
+
+int main(int argc, char** argv) { return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, mars::bench::run); }
