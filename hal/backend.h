@@ -86,7 +86,8 @@ class Backend {
   }
 
   // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
-  // `longest`, and no longer than until something happens where the backend can know.
+  // `longest`, and no longer than until something happens where the backend can know. Who gives 5 ms or more can
+  // do nothing before a message comes: where all do, a backend may end the job.
   virtual void idle(int turn, std::chrono::microseconds longest) = 0;
 
   // Since some fixed point: by the machine's clock, unless ranks live by another.
