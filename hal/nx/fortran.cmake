@@ -1,7 +1,8 @@
 # libmars-nx-fortran: NX for Fortran programs, in front of libmars-nx. To build it takes no Fortran compiler.
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/libmars-nx-fortran.map CONTENT "{ global: [a-z]*_; local: *; };\n")
 add_library(mars_nx_fortran SHARED
-  nx/fortran_files.cpp nx/fortran_global.cpp nx/fortran_host.cpp nx/fortran_messages.cpp)
+  nx/fortran_files.cpp nx/fortran_global.cpp nx/fortran_host.cpp nx/fortran_messages.cpp
+  nx/fortran_paragon.cpp)
 target_include_directories(mars_nx_fortran
   PRIVATE ${PROJECT_SOURCE_DIR}
   INTERFACE $<BUILD_INTERFACE:${CMAKE_CURRENT_LIST_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/mars-nx-fortran>)

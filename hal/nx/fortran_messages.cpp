@@ -39,9 +39,6 @@ Integer isendrecv_(const Integer* type, const void* sbuf, const Integer* slen, c
                    const Integer* pid, const Integer* typesel, void* rbuf, const Integer* rlen) {
   return narrow(isendrecv(*type, sbuf, *slen, *node, *pid, *typesel, rbuf, *rlen));
 }
-void msgwait_(const Integer* mid) { msgwait(*mid); }
-Integer msgdone_(const Integer* mid) { return narrow(msgdone(*mid)); }
-void msgcancel_(const Integer* mid) { msgcancel(*mid); }
 void cprobe_(const Integer* typesel) { cprobe(*typesel); }
 Integer iprobe_(const Integer* typesel) { return narrow(iprobe(*typesel)); }
 void flushmsg_(const Integer* typesel, const Integer* node, const Integer* pid) {

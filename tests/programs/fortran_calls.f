@@ -13,6 +13,7 @@ C     wrong, the program ends with their sum.
       CALL TINTS
       CALL TCOLL
       CALL TFILES
+      CALL TPARAG
       CALL TSELF
       ALL = NWRONG
       CALL GISUM(ALL, 1, WORK)
@@ -273,6 +274,48 @@ C     The longer of two vectors.
       CALL EXPECT(TEXT .EQ. 'node   0', 'cread')
       CALL EXPECT(LSIZE(11, 0, 0) .EQ. 16 * N, 'lsize')
       CLOSE (11)
+      CALL GSYNC
+      END
+
+C     What the Paragon added.
+      SUBROUTINE XHANDL(TYPE, LENGTH, NODE, PTYPE, NUMBER)
+      INTEGER TYPE, LENGTH, NODE, PTYPE, NUMBER
+      COMMON /HANDLED/ NTIMES, NLAST(4)
+      NTIMES = NTIMES + 1
+      NLAST(1) = TYPE
+      NLAST(2) = NUMBER
+      END
+
+      SUBROUTINE TPARAG
+      INCLUDE 'fnx.h'
+      EXTERNAL XHANDL
+      COMMON /HANDLED/ NTIMES, NLAST(4)
+      INTEGER INFO(8), FIRST(8), SECOND(8), GOT, OTHER, ME, BOTH
+      ME = MYNODE()
+      CALL CSEND(60, 5, 4, ME, 0)
+      CALL CPROBEX(60, ME, 0, INFO)
+      CALL EXPECT(INFO(1) .EQ. 60 .AND. INFO(2) .EQ. 4 .AND.
+     1   INFO(3) .EQ. ME .AND. INFO(4) .EQ. 0, 'cprobex')
+      CALL EXPECT(IPROBEX(61, ME, 0, INFO) .EQ. 0, 'iprobex')
+      INFO(1) = 0
+      CALL CRECVX(-1, GOT, 4, ME, 0, INFO)
+      CALL EXPECT(GOT .EQ. 5 .AND. INFO(1) .EQ. 60, 'crecvx')
+      CALL EXPECT(INFOPTYPE() .EQ. 0 .AND. MYPTYPE() .EQ. 0, 'ptypes')
+      BOTH = MSGMERGE(IRECVX(62, GOT, 4, ME, -1, FIRST),
+     1                IRECVX(63, OTHER, 4, ME, -1, SECOND))
+      CALL CSEND(63, 7, 4, ME, 0)
+      CALL CSEND(62, 6, 4, ME, 0)
+      CALL MSGWAIT(BOTH)
+      CALL EXPECT(GOT .EQ. 6 .AND. OTHER .EQ. 7, 'msgmerge')
+      CALL EXPECT(FIRST(1) .EQ. 62 .AND. FIRST(2) .EQ. 4, 'irecvx')
+      CALL MSGIGNORE(IRECVX(64, GOT, 4, ME, -1, INFO))
+      NTIMES = 0
+      CALL HRECVX(65, OTHER, 4, ME, 0, XHANDL, 1234)
+      CALL HSENDX(65, 8, 4, ME, 0, XHANDL, 4321)
+      CALL AWAIT(2)
+      CALL EXPECT(OTHER .EQ. 8 .AND. (NLAST(2) .EQ. 1234 .OR.
+     1   NLAST(2) .EQ. 4321), 'hrecvx, hsendx')
+      CALL CSEND(64, 9, 4, ME, 0)
       CALL GSYNC
       END
 
