@@ -2,51 +2,51 @@
 
 #include "hal/message_types.h"
 #include "hal/nx/nx_errno.h"
-#include "hal/process.h"
+#include "hal/progress.h"
 
 namespace mars::hal {
 namespace {
 
 // Failures are apart from the checks, which are the quicker for it.
-[[noreturn]] void fail_length(const Process& process, const char* call, long length) {
+[[noreturn]] void fail_length(const Progress& process, const char* call, long length) {
   process.fail(call, EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
 }
 
-[[noreturn]] void fail_buffer(const Process& process, const char* call, std::size_t bytes) {
+[[noreturn]] void fail_buffer(const Progress& process, const char* call, std::size_t bytes) {
   process.fail(call, EQPBUF, "the buffer of " + bytes_text(bytes) + " is a null pointer", "give a buffer, or length 0");
 }
 
-[[noreturn]] void fail_pid(const Process& process, const char* call, long pid) {
+[[noreturn]] void fail_pid(const Progress& process, const char* call, long pid) {
   process.fail(call, EQPID, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
 }
 
-[[noreturn]] void fail_node(const Process& process, const char* call, long node, const char* all) {
+[[noreturn]] void fail_node(const Progress& process, const char* call, long node, const char* all) {
   process.fail(call, EQNODE, "there is no node " + std::to_string(node),
                "nodes are 0 to " + std::to_string(process.backend().nodes() - 1) + ", the host is myhost(), -1 is " + all);
 }
 
-[[noreturn]] void fail_type(const Process& process, const char* call, long type) {
+[[noreturn]] void fail_type(const Progress& process, const char* call, long type) {
   process.fail(call, EQTYPE, "message type " + std::to_string(type) + " is reserved",
                "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
 }
 
-[[noreturn]] void fail_typesel(const Process& process, const char* call, long typesel) {
+[[noreturn]] void fail_typesel(const Progress& process, const char* call, long typesel) {
   process.fail(call, EQTYPE, "typesel " + std::to_string(typesel) + " is a reserved type",
                "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
 }
 
-std::size_t check_buffer(const Process& process, const char* call, const void* buffer, long length) {
+std::size_t check_buffer(const Progress& process, const char* call, const void* buffer, long length) {
   if (length < 0) fail_length(process, call, length);
   const auto bytes = static_cast<std::size_t>(length);
   if (buffer == nullptr && bytes > 0) fail_buffer(process, call, bytes);
   return bytes;
 }
 
-void check_pid(const Process& process, const char* call, long pid) {
+void check_pid(const Progress& process, const char* call, long pid) {
   if (pid != 0 && pid != -1) fail_pid(process, call, pid);
 }
 
-void check_node(const Process& process, const char* call, long node, const char* all) {
+void check_node(const Progress& process, const char* call, long node, const char* all) {
   if (node < -1 || node > process.backend().host()) fail_node(process, call, node, all);
 }
 
@@ -56,7 +56,7 @@ std::string bytes_text(std::size_t bytes) {
   return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
 }
 
-Outgoing check_send(const Process& process, const char* call, long type, const void* buffer, long length,
+Outgoing check_send(const Progress& process, const char* call, long type, const void* buffer, long length,
                     long node, long pid) {
   if (type_class(type) == TypeClass::reserved) fail_type(process, call, type);
   const std::size_t bytes = check_buffer(process, call, buffer, length);
@@ -68,7 +68,7 @@ Outgoing check_send(const Process& process, const char* call, long type, const v
   return {receivers, static_cast<int>(type), buffer, bytes};
 }
 
-Selection check_selection(const Process& process, const char* call, long typesel, long node, long pid) {
+Selection check_selection(const Progress& process, const char* call, long typesel, long node, long pid) {
   const std::int32_t narrow = narrow_typesel(typesel);
   if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) fail_typesel(process, call, narrow);
   check_node(process, call, node, "any");
@@ -76,7 +76,7 @@ Selection check_selection(const Process& process, const char* call, long typesel
   return {narrow, static_cast<int>(node)};
 }
 
-Room check_room(const Process& process, const char* call, void* buffer, long length) {
+Room check_room(const Progress& process, const char* call, void* buffer, long length) {
   return {buffer, check_buffer(process, call, buffer, length)};
 }
 

@@ -8,7 +8,7 @@
 
 namespace mars::hal {
 
-class Process;
+class Progress;
 
 // Ranks [first, last), without the sender if it is one of several.
 struct Receivers {
@@ -33,10 +33,10 @@ struct Room {
   std::size_t capacity;
 };
 
-Outgoing check_send(const Process& process, const char* call, long type, const void* buffer, long length,
+Outgoing check_send(const Progress& process, const char* call, long type, const void* buffer, long length,
                     long node, long pid);
-Selection check_selection(const Process& process, const char* call, long typesel, long node, long pid);
-Room check_room(const Process& process, const char* call, void* buffer, long length);
+Selection check_selection(const Progress& process, const char* call, long typesel, long node, long pid);
+Room check_room(const Progress& process, const char* call, void* buffer, long length);
 
 // "1 byte", "7 bytes".
 std::string bytes_text(std::size_t bytes);

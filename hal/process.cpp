@@ -17,10 +17,6 @@ FindProcess find_process = nullptr;
 
 }  // namespace
 
-std::string rank_name(int rank, int host) {
-  return rank == host ? "the host" : "node " + std::to_string(rank);
-}
-
 void find_process_by(FindProcess find) { find_process = find; }
 
 Process& process() {
@@ -36,8 +32,7 @@ double seconds() { return bound_process == nullptr ? machine_seconds() : bound_p
 
 const Traffic& traffic() { return process().traffic(); }
 
-Process::Process(Backend& backend)
-    : backend_(backend), acknowledgement_(kFirstInternalType + backend.nodes()), ledger_(backend.host()) {
+Process::Process(Backend& backend) : Progress(backend) {
   check(bound_process == nullptr, "a thread is at most one process");
   check(backend.nodes() < kInternalTypes, "every node has an internal type, and one is left");
   bound_process = this;
@@ -53,18 +48,6 @@ Files& Process::files() {
 }
 
 void Process::end_files() { files_.reset(); }
-
-void Process::fail(const char* call, int code, const std::string& what, const std::string& remedy) const {
-  throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
-}
-
-Request& Process::checked(const char* call, Request* request) const {
-  if (request == nullptr) {
-    fail(call, EQNOMID, "all " + std::to_string(kMessageIds) + " message ids are in use",
-         "free them by msgwait, or msgdone until it is 1");
-  }
-  return *request;
-}
 
 Request& Process::known_request(const char* call, long mid) {
   Request* request = requests_.find(mid);

@@ -13,21 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "hal/arguments.h"
-#include "hal/backend.h"
 #include "hal/collectives.h"
-#include "hal/handlers.h"
-#include "hal/ledger.h"
-#include "hal/matching.h"
-#include "hal/message_pool.h"
-#include "hal/rendezvous.h"
-#include "hal/requests.h"
+#include "hal/progress.h"
 
 namespace mars::hal {
 
 class Files;
 
-class Process {
+class Process : public Progress {
  public:
   // Makes the calling thread this rank, until destroyed by the same thread; `backend` outlives it.
   explicit Process(Backend& backend);
@@ -71,9 +64,6 @@ class Process {
   // The calling thread's NX calls are this process's too, from now on: progress_thread.h.
   void serve_this_thread();
 
-  // Calls the handlers that are due; what else has arrived goes where it belongs.
-  void attend();
-
   // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
   void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
 
@@ -85,7 +75,7 @@ class Process {
   std::size_t receive_internal(const char* call, int from, std::vector<std::byte>& room, std::size_t at);
   // As send_internal, but `data` stays untouched until wait_sent.
   Ticket start_internal(int to, const void* data, std::size_t length);
-  void wait_sent(Ticket ticket);
+  using Progress::wait_sent;
 
   // What the collectives of this process use; the same on all nodes.
   void collectives_by(Collectives means) { collectives_ = means; }
@@ -98,14 +88,10 @@ class Process {
   // The orderly end: waits for all ranks, throws away what nobody received.
   void finish();
 
-  // Throws this process's CallFailure: "node 3, csend: ..."; `code` is one of nx_errno.h.
-  [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) const;
-
   // Made with the first call for them (files.h); their end is that of all transfers.
   Files& files();
   void end_files();
 
-  Backend& backend() const { return backend_; }
   const Traffic& traffic() const { return ledger_.traffic(); }
 
   // Whoever records this process, or nullptr; set by the Recorder.
@@ -113,66 +99,14 @@ class Process {
   void record(Recorder* recorder) { ledger_.record(recorder); }
 
  private:
-  // For calls named `call`.
-  void send_now(const char* call, const Outgoing& message);
-  void send_copies(const Outgoing& message, Request* strict);
-  void start_send(const Outgoing& message, Request& request);
-  void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
-  std::size_t receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long);
-  bool receive_soon(const Selection& selection, const Room& room, long* info);
-  void settle_overtaken();
-  void start_receive(const Selection& selection, const Room& room, Request& request);
   void start_exchange(const Outgoing& message, const Selection& selection, const Room& room, Request& answer);
-  void probe(const char* call, const Selection& selection, long* info);
-  bool probe_once(const Selection& selection, long* info);
-
-  // Requests, with those merged with them.
-  Request& checked(const char* call, Request* request) const;
   Request& known_request(const char* call, long mid);
-  bool done(Request& head);
-  bool done_alone(Request& request);
-  void wait(Request& head);
-  void wait_or_cancel(Request& head);
-  bool pass(int& turn);
-  void conclude(Request& head);
-  void cancel(Request& head);
-  void give_back(const Request& request);
-  void release(Request& head);
-  void mark_too_long(Request& request, const Envelope& envelope);
-  [[noreturn]] void fail_too_long(const Request& request) const;
-
   void check_handler(const char* call, const Handler& handler) const;
-  void leave_to(const Handler& handler, Request& request);
-  bool call_handlers();
-  void call_handler(Request& head);
+  std::size_t receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long);
 
-  // What has arrived.
-  bool look(const Selection& selection);
-  bool tell_of(const Message* message);
-  bool arrive();
-  void settle(const Envelope& next);
-  Request* claim(const Envelope& envelope);
-  void receive_into(Request& request, const Envelope& envelope);
-  void deliver(Message* message, Request& request);
-  void keep(const Envelope& envelope);
-  void discard(const Envelope& envelope);
-  std::uint32_t take(const Envelope& envelope, void* buffer);
-  void acknowledge(const Envelope& envelope, std::uint32_t number);
-
-  Backend& backend_;
-  const int acknowledgement_;  // the type of internal messages that say: received
-  MessagePool pool_;
-  Matching matching_;
-  RequestTable requests_;
-  Handlers handlers_;
-  Rendezvous rendezvous_;
-  Envelope info_;
-  Ledger ledger_;
   Collectives collectives_ = Collectives::automatic;
   std::unique_ptr<Files> files_;
   bool led_ = false;
-  bool overtaken_ = false;  // messages may wait that came before one that was received
-  int quiet_turns_ = 0;  // flicks since anything arrived
 };
 
 // The calling thread's process; a Failure when it has none.
@@ -184,9 +118,6 @@ void find_process_by(FindProcess find);
 
 // By the clock of the calling thread's process; the machine's where it has none.
 double seconds();
-
-// "node 3" or "the host".
-std::string rank_name(int rank, int host);
 
 // What the calling process has sent so far.
 const Traffic& traffic();

@@ -1,9 +1,10 @@
-// What moves inside of the calls of process.cpp: requests to their end, arrived messages to where they belong.
+#include "hal/progress.h"
+
 #include <cstring>
 #include <utility>
 
+#include "hal/call_failure.h"
 #include "hal/nx/nx_errno.h"
-#include "hal/process.h"
 
 namespace mars::hal {
 namespace {
@@ -19,56 +20,26 @@ void describe(const Envelope& envelope, long* info) {
 
 }  // namespace
 
-void Process::send_now(const char* call, const Outgoing& message) {
-  if (!rendezvous_.concerns(message.type, message.length)) return send_copies(message, nullptr);
-  Request& request = checked(call, requests_.acquire(call));
-  request.envelope = message.envelope();
-  request.state = Request::State::unreceived;
-  send_copies(message, &request);
-  wait_or_cancel(request);
+std::string rank_name(int rank, int host) {
+  return rank == host ? "the host" : "node " + std::to_string(rank);
 }
 
-// Where there is a strict request, it is done once all have received.
-void Process::send_copies(const Outgoing& message, Request* strict) {
-  for (int to = message.receivers.first; to < message.receivers.last; ++to) {
-    if (message.receivers.several && to == backend_.rank()) continue;
-    const double begin = ledger_.begin();
-    const std::optional<Ticket> ticket = backend_.send_or_start(to, message.type, message.data, message.length);
-    const std::uint32_t number = ledger_.sent({to, message.type, message.length}, begin);
-    if (strict != nullptr) rendezvous_.expect(to, number, *strict);
-    if (ticket) wait_sent(*ticket);
+Progress::Progress(Backend& backend)
+    : backend_(backend), acknowledgement_(kFirstInternalType + backend.nodes()), ledger_(backend.host()) {}
+
+void Progress::fail(const char* call, int code, const std::string& what, const std::string& remedy) const {
+  throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
+}
+
+Request& Progress::checked(const char* call, Request* request) const {
+  if (request == nullptr) {
+    fail(call, EQNOMID, "all " + std::to_string(kMessageIds) + " message ids are in use",
+         "free them by msgwait, or msgdone until it is 1");
   }
+  return *request;
 }
 
-// Of what needs no handler: the receiver is there already.
-void Process::wait_sent(Ticket ticket) {
-  for (int turn = 0; !backend_.sent(ticket);) {
-    if (arrive())
-      turn = 0;
-    else
-      backend_.idle(turn++, kSleep);
-  }
-}
-
-void Process::start_send(const Outgoing& message, Request& request) try {
-  request.envelope = message.envelope();
-  Request* strict = rendezvous_.concerns(message.type, message.length) ? &request : nullptr;
-  if (message.receivers.several) {
-    send_copies(message, strict);
-    request.state = Request::State::unreceived;
-    return;
-  }
-  const double begin = ledger_.begin();
-  request.ticket = backend_.start_send(message.receivers.first, message.type, message.data, message.length);
-  const std::uint32_t number = ledger_.sent(request.envelope, begin);
-  if (strict != nullptr) rendezvous_.expect(message.receivers.first, number, request);
-  request.state = Request::State::sending;
-} catch (...) {
-  requests_.release(request);
-  throw;
-}
-
-void Process::receive_now(const char* call, const Selection& selection, const Room& room, long* info) {
+void Progress::receive_now(const char* call, const Selection& selection, const Room& room, long* info) {
   attend();
   if (receive_soon(selection, room, info)) return;
   Request& request = checked(call, requests_.acquire(call));
@@ -78,7 +49,7 @@ void Process::receive_now(const char* call, const Selection& selection, const Ro
 }
 
 // The quick way, where nobody can tell that other messages are overtaken.
-bool Process::receive_soon(const Selection& selection, const Room& room, long* info) {
+bool Progress::receive_soon(const Selection& selection, const Room& room, long* info) {
   if (selection.typesel < 0 || type_class(selection.typesel) == TypeClass::force) return false;
   if (!matching_.none_posted() || matching_.find(selection) != nullptr) return false;
   if (selection.from != -1 && type_class(selection.typesel) == TypeClass::ordinary) return false;
@@ -92,7 +63,7 @@ bool Process::receive_soon(const Selection& selection, const Room& room, long* i
 }
 
 // Force messages that others sent before, and that were overtaken, are nobody's.
-void Process::settle_overtaken() {
+void Progress::settle_overtaken() {
   while (overtaken_) {
     const std::optional<Envelope> next = backend_.peek();
     overtaken_ = next && next->from != backend_.rank();
@@ -101,7 +72,7 @@ void Process::settle_overtaken() {
 }
 
 // Done at once if its message is here already.
-void Process::start_receive(const Selection& selection, const Room& room, Request& request) {
+void Progress::start_receive(const Selection& selection, const Room& room, Request& request) {
   if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) settle_overtaken();
   request.selection = selection;
   request.buffer = room.buffer;
@@ -115,12 +86,12 @@ void Process::start_receive(const Selection& selection, const Room& room, Reques
 }
 
 // The message stays where it is, or goes on to another receive.
-void Process::mark_too_long(Request& request, const Envelope& envelope) {
+void Progress::mark_too_long(Request& request, const Envelope& envelope) {
   request.envelope = envelope;
   request.state = Request::State::too_long;
 }
 
-void Process::fail_too_long(const Request& request) const {
+void Progress::fail_too_long(const Request& request) const {
   fail(request.call, EQMSGLONG,
        "a message of " + bytes_text(request.envelope.length) + ", type " +
            std::to_string(request.envelope.type) + ", from " +
@@ -129,14 +100,14 @@ void Process::fail_too_long(const Request& request) const {
        "receive into a longer buffer, or cprobe first and ask infocount");
 }
 
-bool Process::done(Request& head) {
+bool Progress::done(Request& head) {
   for (Request* each = &head; each != nullptr; each = each->also) {
     if (!done_alone(*each)) return false;
   }
   return true;
 }
 
-bool Process::done_alone(Request& request) {
+bool Progress::done_alone(Request& request) {
   if (request.state == Request::State::sending && backend_.sent(request.ticket)) {
     request.state = Request::State::unreceived;
   }
@@ -147,7 +118,7 @@ bool Process::done_alone(Request& request) {
          request.state == Request::State::too_long;
 }
 
-void Process::wait(Request& head) {
+void Progress::wait(Request& head) {
   const double begin = ledger_.begin();
   rendezvous_.news();
   bool idle = false;
@@ -163,7 +134,7 @@ void Process::wait(Request& head) {
 }
 
 // For requests that nobody knows but the call that waits: a handler that fails ends it.
-void Process::wait_or_cancel(Request& request) try {
+void Progress::wait_or_cancel(Request& request) try {
   wait(request);
 } catch (...) {
   if (request.state != Request::State::free) cancel(request);
@@ -171,7 +142,7 @@ void Process::wait_or_cancel(Request& request) try {
 }
 
 // One turn of a wait; false when there was nothing to do but to let time pass.
-bool Process::pass(int& turn) {
+bool Progress::pass(int& turn) {
   bool moved = arrive();
   if (handlers_.any() && call_handlers()) moved = true;
   if (moved)
@@ -182,7 +153,7 @@ bool Process::pass(int& turn) {
 }
 
 // Ends a done request and those merged with it. Its info is that of its first receive.
-void Process::conclude(Request& head) {
+void Progress::conclude(Request& head) {
   const Request* failed = nullptr;
   const Request* told = nullptr;
   for (const Request* each = &head; each != nullptr; each = each->also) {
@@ -198,7 +169,7 @@ void Process::conclude(Request& head) {
   fail_too_long(copy);
 }
 
-void Process::release(Request& head) {
+void Progress::release(Request& head) {
   for (Request* each = &head; each != nullptr;) {
     Request* next = each->also;
     requests_.release(*each);
@@ -207,7 +178,7 @@ void Process::release(Request& head) {
 }
 
 // A message that was received already is there to be received again; one that goes out has gone on return.
-void Process::cancel(Request& head) {
+void Progress::cancel(Request& head) {
   for (Request* each = &head; each != nullptr; each = each->also) {
     rendezvous_.forget(*each);
     each->unreceived = 0;
@@ -218,7 +189,7 @@ void Process::cancel(Request& head) {
   release(head);
 }
 
-void Process::give_back(const Request& request) {
+void Progress::give_back(const Request& request) {
   Message* message = pool_.copy(request.envelope, request.buffer);
   message->number = request.number;
   message->arrival = request.arrival;
@@ -231,19 +202,19 @@ void Process::give_back(const Request& request) {
   }
 }
 
-void Process::leave_to(const Handler& handler, Request& request) {
+void Progress::leave_to(const Handler& handler, Request& request) {
   request.handler = handler;
   handlers_.add(request);
   attend();
 }
 
-void Process::attend() {
+void Progress::attend() {
   if (!handlers_.any()) return;
   call_handlers();
   while (arrive()) call_handlers();
 }
 
-bool Process::call_handlers() {
+bool Progress::call_handlers() {
   bool called = false;
   for (;;) {
     handlers_.sort_out([this](Request& request) { return done(request); });
@@ -255,7 +226,7 @@ bool Process::call_handlers() {
 }
 
 // The handler's info is that of its message; the call in which it runs knows nothing of it.
-void Process::call_handler(Request& head) {
+void Progress::call_handler(Request& head) {
   const Handler handler = head.handler;
   const Envelope envelope = head.envelope;
   if (!handler) return release(head);
@@ -266,7 +237,7 @@ void Process::call_handler(Request& head) {
   info_ = before;
 }
 
-void Process::probe(const char* call, const Selection& selection, long* info) {
+void Progress::probe(const char* call, const Selection& selection, long* info) {
   if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) {
     fail(call, EQTYPE, "no force message ever waits to be found", "post a receive for it");
   }
@@ -287,20 +258,20 @@ void Process::probe(const char* call, const Selection& selection, long* info) {
   describe(info_, info);
 }
 
-bool Process::probe_once(const Selection& selection, long* info) {
+bool Progress::probe_once(const Selection& selection, long* info) {
   attend();
   if (!look(selection)) return false;
   describe(info_, info);
   return true;
 }
 
-bool Process::tell_of(const Message* message) {
+bool Progress::tell_of(const Message* message) {
   if (message != nullptr) info_ = message->envelope;
   return message != nullptr;
 }
 
 // Leaves a message that it finds in the backend, so that the receive after a probe takes it from there.
-bool Process::look(const Selection& selection) {
+bool Progress::look(const Selection& selection) {
   if (tell_of(matching_.find(selection))) return true;
   // One look a turn: what arrived between two would be kept, and then be received before what was told of.
   bool settled = false;
@@ -318,13 +289,13 @@ bool Process::look(const Selection& selection) {
 }
 
 // Takes the next arrived message to where it belongs; false if there is none.
-bool Process::arrive() {
+bool Progress::arrive() {
   const std::optional<Envelope> next = backend_.peek();
   if (next) settle(*next);
   return next.has_value();
 }
 
-void Process::settle(const Envelope& next) {
+void Progress::settle(const Envelope& next) {
   quiet_turns_ = 0;
   rendezvous_.news();
   if (next.type == acknowledgement_) {
@@ -341,7 +312,7 @@ void Process::settle(const Envelope& next) {
 }
 
 // The posted receive that gets such a message, or nullptr. Those before it that are too short have failed.
-Request* Process::claim(const Envelope& envelope) {
+Request* Progress::claim(const Envelope& envelope) {
   for (;;) {
     Request* request = matching_.posted_for(envelope);
     if (request == nullptr) return nullptr;
@@ -351,7 +322,7 @@ Request* Process::claim(const Envelope& envelope) {
   }
 }
 
-void Process::receive_into(Request& request, const Envelope& envelope) {
+void Progress::receive_into(Request& request, const Envelope& envelope) {
   request.number = take(envelope, request.buffer);
   request.arrival = matching_.next_arrival();
   request.envelope = envelope;
@@ -360,7 +331,7 @@ void Process::receive_into(Request& request, const Envelope& envelope) {
 }
 
 // From the queue of those that wait.
-void Process::deliver(Message* message, Request& request) {
+void Progress::deliver(Message* message, Request& request) {
   request.envelope = message->envelope;
   request.number = message->number;
   request.arrival = message->arrival;
@@ -370,31 +341,23 @@ void Process::deliver(Message* message, Request& request) {
   acknowledge(request.envelope, request.number);
 }
 
-void Process::keep(const Envelope& envelope) {
+void Progress::keep(const Envelope& envelope) {
   Message* message = pool_.acquire(envelope);
   message->number = take(envelope, message->bytes());
   message->arrival = matching_.next_arrival();
   matching_.keep(message);
 }
 
-void Process::discard(const Envelope& envelope) {
+void Progress::discard(const Envelope& envelope) {
   Message* message = pool_.acquire(envelope);
   take(envelope, message->bytes());
   pool_.release(message);
 }
 
-std::uint32_t Process::take(const Envelope& envelope, void* buffer) {
+std::uint32_t Progress::take(const Envelope& envelope, void* buffer) {
   const double begin = ledger_.begin();
   backend_.take(buffer);
   return ledger_.taken(envelope, begin);
-}
-
-// Tells a strict sender that its message has been received.
-void Process::acknowledge(const Envelope& envelope, std::uint32_t number) {
-  if (!rendezvous_.concerns(envelope.type, envelope.length)) return;
-  const double begin = ledger_.begin();
-  backend_.send(envelope.from, acknowledgement_, &number, sizeof number);
-  ledger_.sent({envelope.from, acknowledgement_, sizeof number}, begin);
 }
 
 }  // namespace mars::hal

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "hal/arguments.h"
-#include "hal/process.h"
+#include "hal/progress.h"
 
 namespace mars::hal {
 
@@ -31,7 +31,7 @@ void Rendezvous::begin_silence() {
   told_ = false;
 }
 
-std::string Rendezvous::awaited(const Process& process, const Request& request) const {
+std::string Rendezvous::awaited(const Progress& process, const Request& request) const {
   const auto name = [&](int rank) { return rank_name(rank, process.backend().host()); };
   const int type = request.selection.typesel;
   if (request.state == Request::State::receiving) {
@@ -46,7 +46,7 @@ std::string Rendezvous::awaited(const Process& process, const Request& request) 
          std::to_string(request.envelope.type);
 }
 
-void Rendezvous::tell_silence(const Process& process, const Request& request) {
+void Rendezvous::tell_silence(const Progress& process, const Request& request) {
   const auto silence = std::chrono::steady_clock::now() - quiet_since_;
   if (told_ || silence < *patience_) return;
   told_ = true;

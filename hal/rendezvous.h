@@ -14,7 +14,7 @@
 
 namespace mars::hal {
 
-class Process;
+class Progress;
 struct Request;
 
 class Rendezvous {
@@ -38,7 +38,7 @@ class Rendezvous {
     if (strict()) begin_silence();
   }
   // Tells of the silence in which `request` waits, once, if it is long.
-  void tell_silence(const Process& process, const Request& request);
+  void tell_silence(const Progress& process, const Request& request);
 
  private:
   static constexpr std::size_t kBuffered = 100;
@@ -50,7 +50,7 @@ class Rendezvous {
   };
 
   void begin_silence();
-  std::string awaited(const Process& process, const Request& request) const;
+  std::string awaited(const Progress& process, const Request& request) const;
 
   std::optional<std::chrono::milliseconds> patience_;
   std::vector<Expected> expected_;

@@ -136,6 +136,7 @@ void a_receive_of_what_waits_fails_at_its_end_too() {
 
 // The state of handlers: each rank's own, whether ranks are threads or processes.
 thread_local long counter = 0;
+thread_local long draws_left = 0;
 thread_local long request_buffer = 0;
 
 void serve(long type, long length, long node, long pid) {
@@ -147,17 +148,21 @@ void serve(long type, long length, long node, long pid) {
   counter += request_buffer;
   send_long(21, counter, node);
   EXPECT_EQ(pid, 0);
-  hrecv(20, &request_buffer, sizeof request_buffer, serve);
+  if (--draws_left > 0) hrecv(20, &request_buffer, sizeof request_buffer, serve);
+}
+
+// Node 0's counter, for so many draws.
+void open_counter(long draws) {
+  counter = 0;
+  draws_left = draws;
+  if (mynode() == 0 && draws > 0) hrecv(20, &request_buffer, sizeof request_buffer, serve);
 }
 
 // Every node draws 100 numbers of node 0's counter, which itself waits for other messages.
 void a_handler_serves_a_counter() {
   constexpr long kDraws = 100;
   if (is_host()) return;
-  if (mynode() == 0) {
-    counter = 0;
-    hrecv(20, &request_buffer, sizeof request_buffer, serve);
-  }
+  open_counter(kDraws * (numnodes() - 1));
   gsync();
   long last = 0;
   for (long draw = 0; mynode() != 0 && draw < kDraws; ++draw) {
@@ -245,6 +250,25 @@ void handlers_run_while_a_collective_waits() {
   EXPECT_EQ(x, numnodes());
   look_around();
   EXPECT_EQ(heard, mynode() == 0 ? "39 " : "");
+}
+
+// Each other node comes only after node 0's handler has answered it.
+void a_handler_serves_while_a_collective_waits() {
+  if (is_host()) return;
+  long x = 1, work = 0;
+  open_counter(2 * (numnodes() - 1));
+  if (mynode() != 0) {
+    send_long(20, 1, 0);
+    receive_long(21);
+  }
+  gisum(&x, 1, &work);
+  EXPECT_EQ(x, numnodes());
+  if (mynode() != 0) {
+    send_long(20, 1, 0);
+    receive_long(21);
+  }
+  gsync();
+  EXPECT_EQ(counter, mynode() == 0 ? 2 * (numnodes() - 1) : 0);
 }
 
 thread_local long told[4];
@@ -498,6 +522,7 @@ std::vector<NxBody> messages_bodies() {
           BODY(masked_handlers_wait),
           BODY(handlers_do_not_nest),
           BODY(handlers_run_while_a_collective_waits),
+          BODY(a_handler_serves_while_a_collective_waits),
           BODY(sends_have_handlers),
           BODY(a_handler_whose_message_is_too_long_fails_the_call_in_which_it_is_due),
           BODY(a_cancelled_receive_takes_nothing),
