@@ -118,7 +118,7 @@ bool Progress::done_alone(Request& request) {
          request.state == Request::State::too_long;
 }
 
-void Progress::wait(Request& head) {
+void Progress::wait(Request& head) try {
   const double begin = ledger_.begin();
   rendezvous_.news();
   bool idle = false;
@@ -131,6 +131,12 @@ void Progress::wait(Request& head) {
     ledger_.waited(head.state == Request::State::received ? head.envelope : Envelope{-1, -1, 0}, begin);
   }
   conclude(head);
+} catch (const CallFailure&) {
+  throw;
+} catch (...) {
+  // Whoever ends a job that stands still does not know who waits for whom.
+  if (rendezvous_.strict() && head.state != Request::State::free) rendezvous_.tell_wait(*this, head);
+  throw;
 }
 
 // For requests that nobody knows but the call that waits: a handler that fails ends it.

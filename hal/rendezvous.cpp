@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "hal/arguments.h"
 #include "hal/progress.h"
@@ -47,14 +48,15 @@ std::string Rendezvous::awaited(const Progress& process, const Request& request)
 }
 
 void Rendezvous::tell_silence(const Progress& process, const Request& request) {
-  const auto silence = std::chrono::steady_clock::now() - quiet_since_;
-  if (told_ || silence < *patience_) return;
-  told_ = true;
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(silence).count();
+  if (std::chrono::steady_clock::now() - quiet_since_ >= *patience_) tell_wait(process, request);
+}
+
+void Rendezvous::tell_wait(const Progress& process, const Request& request) {
+  if (std::exchange(told_, true)) return;
+  const std::chrono::duration<double> silence = std::chrono::steady_clock::now() - quiet_since_;
   const std::string me = rank_name(process.backend().rank(), process.backend().host());
-  std::fprintf(stderr, "%s has waited %lld s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
-               me.c_str(), static_cast<long long>(seconds), request.call, awaited(process, request).c_str(),
-               kBuffered);
+  std::fprintf(stderr, "%s has waited %.1f s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
+               me.c_str(), silence.count(), request.call, awaited(process, request).c_str(), kBuffered);
 }
 
 }  // namespace mars::hal

@@ -37,8 +37,9 @@ class Rendezvous {
   void news() {
     if (strict()) begin_silence();
   }
-  // Tells of the silence in which `request` waits, once, if it is long.
+  // Tells of the silence in which `request` waits, once: if it is long, or as it is.
   void tell_silence(const Progress& process, const Request& request);
+  void tell_wait(const Progress& process, const Request& request);
 
  private:
   static constexpr std::size_t kBuffered = 100;
