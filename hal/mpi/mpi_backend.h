@@ -62,6 +62,7 @@ class MpiBackend : public Backend {
   void receive(void* buffer, const Envelope& envelope, int tag);
   void reclaim_some();
   Ticket ticket_for(MPI_Request request);
+  Ticket ticket_of_collective(MPI_Request request);
   void send_copy(int to, int type, Message* copy);
   bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   bool catch_soon(int type, MPI_Status& status);

@@ -6,6 +6,7 @@
 #include "hal/failure.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
+#include "hal/mpi/patience.h"
 
 namespace mars::hal {
 namespace {
@@ -39,13 +40,19 @@ bool fits(std::span<const Stretch> stretches) {
 
 }  // namespace
 
+// Where MPI waits well, nobody need look again.
+Ticket MpiBackend::ticket_of_collective(MPI_Request request) {
+  if (mpi_waits_well()) succeed(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
+  return ticket_for(request);
+}
+
 std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void* x, std::size_t n) {
   if (n > INT_MAX) return std::nullopt;
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Iallreduce(MPI_IN_PLACE, x, static_cast<int>(n), datatype(reduction.element), operation(reduction.rule),
                          nodes_only_, &request),
           "MPI_Iallreduce");
-  return ticket_for(request);
+  return ticket_of_collective(request);
 }
 
 std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const Stretch> to, void* in,
@@ -64,7 +71,7 @@ std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<co
   succeed(MPI_Ialltoallv(out, counts, counts + n, MPI_BYTE, in, counts + 2 * n, counts + 3 * n, MPI_BYTE, nodes_only_,
                          &request),
           "MPI_Ialltoallv");
-  return ticket_for(request);
+  return ticket_of_collective(request);
 }
 
 }  // namespace mars::hal

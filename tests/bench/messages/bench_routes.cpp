@@ -1,9 +1,10 @@
 // Sparse all-to-all by each route: every node has as many bytes for each of a few others. Printed: microseconds from
-// when all begin until the last has all, the best of a few rounds. Under mpirun or smpirun, the first rank is the host.
+// when all begin until the last has all, the best of a few rounds: bench-routes [ROUNDS [MOST-BYTES [crystal|direct|mpi]]]. Under mpirun or smpirun, the first rank is the host.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "hal/crystal_router.h"
@@ -26,7 +27,13 @@ double once(hal::CrystalRouter& router, const std::vector<hal::Parcel>& parcels,
   return seconds;
 }
 
-void measure(int others, std::size_t bytes, int rounds) {
+struct Named {
+  const char* name;
+  hal::Route route;
+};
+constexpr Named kRoutes[] = {{"crystal", hal::Route::crystal}, {"direct", hal::Route::direct}, {"mpi", hal::Route::network}};
+
+void measure(int others, std::size_t bytes, int rounds, const std::string& only) {
   const auto nodes = static_cast<int>(numnodes());
   std::mt19937 random(static_cast<unsigned>(mynode()));
   const std::vector<std::byte> data(bytes);
@@ -34,9 +41,10 @@ void measure(int others, std::size_t bytes, int rounds) {
   for (int i = 0; i < others; ++i) parcels.push_back({static_cast<int>(random() % static_cast<unsigned>(nodes)), data});
   hal::CrystalRouter router;
   std::vector<double> best;
-  for (const hal::Route route : {hal::Route::crystal, hal::Route::direct, hal::Route::network}) {
+  for (const Named& each : kRoutes) {
+    if (!only.empty() && only != each.name) continue;
     best.push_back(1e9);
-    for (int round = 0; round < rounds; ++round) best.back() = std::min(best.back(), once(router, parcels, route));
+    for (int round = 0; round < rounds; ++round) best.back() = std::min(best.back(), once(router, parcels, each.route));
   }
   if (mynode() != 0) return;
   std::printf("%6d%8d%10zu", nodes, others, bytes);
@@ -47,14 +55,17 @@ void measure(int others, std::size_t bytes, int rounds) {
 int run(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 100;
+  const std::size_t most = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 65536;
   if (mynode() == myhost()) {
     crecv(kDone, nullptr, 0);
     return 0;
   }
+  const std::string only = argc > 3 ? argv[3] : "";
   if (mynode() == 0)
-    std::printf("%6s%8s%10s%14s%14s%14s\n", "nodes", "others", "bytes", "crystal us", "direct us", "MPI us");
+    std::printf("%6s%8s%10s%14s\n", "nodes", "others", "bytes", only.empty() ? "crystal, direct, mpi: us" : only.c_str());
   for (const int others : {4, 16})
-    for (const std::size_t bytes : {8ul, 256ul, 4096ul, 65536ul}) measure(others, bytes, rounds);
+    for (const std::size_t bytes : {8ul, 256ul, 4096ul, 65536ul})
+      if (bytes <= most) measure(others, bytes, rounds, only);
   gsync();
   if (mynode() == 0) csend(kDone, nullptr, 0, myhost(), 0);
   return 0;
