@@ -61,6 +61,10 @@ class JoinedBackend : public MpiBackend {
     check_there(to);
     MpiBackend::send(to, type, data, length);
   }
+  std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override {
+    check_there(to);
+    return MpiBackend::send_or_start(to, type, data, length);
+  }
   Ticket start_send(int to, int type, const void* data, std::size_t length) override {
     check_there(to);
     return MpiBackend::start_send(to, type, data, length);

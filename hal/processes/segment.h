@@ -71,7 +71,7 @@ struct Share {
 
 inline constexpr int kShares = 256;  // at a time
 
-struct Header {
+struct alignas(64) Header {
   std::int32_t nodes;  // the machine's
   std::int32_t has_host;
   std::atomic<std::int32_t> cube;       // of which the first so many are the cube
