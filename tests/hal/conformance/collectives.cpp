@@ -106,16 +106,7 @@ RULE(gcol_that_does_not_fit, "gcol into less room than all parts need fails", "E
   const long all = 4 * numnodes();
   std::string y(all, '-');
   long count = 0;
-  expect_fails(EQMSGLONG, [&] { gcol(mine.data(), 4, y.data(), all - 1, &count); }, {"gcol", std::to_string(all) + " bytes"});
-  gsync();
-}
-
-RULE(negative_lengths_of_collectives, "lengths are not negative", "EQLEN") {
-  if (is_host()) return;
-  double x = 0, work = 0;
-  long count = 0;
-  expect_fails(EQLEN, [&] { gdsum(&x, -1, &work); }, {"gdsum", "length -1"});
-  expect_fails(EQLEN, [&] { gcol(&x, -1, &x, 8, &count); }, {"gcol", "length -1"});
+  REFUSED(EQMSGLONG, gcol, (mine.data(), 4, y.data(), all - 1, &count), std::to_string(all) + " bytes");
   gsync();
 }
 

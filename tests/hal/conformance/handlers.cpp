@@ -176,6 +176,20 @@ RULE(masktrap_holds_back, "masktrap(1) holds handlers back until masktrap(0), an
   expect_equal(masktrap(0), 0);
 }
 
+RULE(too_long_for_an_hrecv, "a message too long for an hrecv fails the call in which the handler would have run",
+     "the handler does not run, and the message goes on waiting") {
+  if (is_host()) return;
+  Seen& here = forget();
+  masktrap(1);
+  hrecv(60, &here.value, 4, note);
+  send_long(60, 7, mynode());
+  cprobe(60);
+  expect_fails(EQMSGLONG, [] { masktrap(0); }, {"hrecv", "8 bytes", "4 bytes"});
+  expect_equal(here.value, 0);
+  expect_equal(receive_long(60), 7);
+  expect_equal(here.calls.size(), 0);
+}
+
 RULE(handlers_run_in_order, "handlers run in the order in which their messages came", "not in the order of posting") {
   if (is_host()) return;
   forget();

@@ -67,6 +67,17 @@ RULE(ids_end_once_done, "msgwait, and msgdone that was 1, free the id", "using i
   }
 }
 
+RULE(ids_are_not_used_again_soon, "an id that was freed stands for nothing, also when others have been given out since",
+     "it does not stand for a later receive") {
+  if (is_host()) return;
+  const long freed = irecv(44, nullptr, 0);
+  msgcancel(freed);
+  std::vector<long> later;
+  for (int i = 0; i < 100; ++i) later.push_back(irecv(44, nullptr, 0));
+  REFUSED(EQMID, msgdone, (freed), "no message id " + std::to_string(freed));
+  for (const long mid : later) msgcancel(mid);
+}
+
 RULE(msgdone_does_not_wait, "msgdone is 0 while nothing came, and then keeps the id",
      "an id whose msgdone was 0 is still good") {
   if (is_host()) {

@@ -87,5 +87,33 @@ RULE(too_long_after_shorter, "a receive that is too short for the first message 
   receive_empty(72);
 }
 
+RULE(too_long_for_the_posted, "a posted receive that is too short fails at its msgwait or msgdone, and the message goes on",
+     "EQMSGLONG not before; its buffer stays untouched; the next receive gets the message") {
+  if (is_host()) return;
+  long untouched = -7, also = -7, value = 0;
+  const long waited = irecv(73, &untouched, 7);
+  const long asked = irecv(-1, &also, 4);
+  const long fits = irecv(73, &value, sizeof value);
+  send_long(73, 5, mynode());
+  msgwait(fits);
+  expect_equal(value, 5);
+  expect_errno(EQMSGLONG, [&] { return _msgwait(waited); });
+  expect_errno(EQMSGLONG, [&] { return _msgdone(asked); });
+  expect_errno(EQMID, [&] { return _msgdone(asked); });
+  expect_equal(untouched, -7);
+  expect_equal(also, -7);
+}
+
+RULE(too_long_for_an_irecv, "irecv of a message that waits and is too long fails at its msgwait", "the message goes on waiting") {
+  if (is_host()) return;
+  long value = 0;
+  send_long(74, 6, mynode());
+  cprobe(74);
+  const long mid = irecv(74, &value, 4);
+  expect_fails(EQMSGLONG, [&] { msgwait(mid); }, {"irecv", "8 bytes", "4 bytes", "type 74"});
+  expect_equal(value, 0);
+  expect_equal(receive_long(74), 6);
+}
+
 }  // namespace
 }  // namespace mars::hal::conformance
