@@ -81,8 +81,6 @@ class Manual(NxInstallation):
         ran = 0
         self.build("node", "#include <cube.h>\nint main(void) { csend(1L, &(long){1}, 8L, myhost(), 0L); return 0; }")
         for name, page in self.pages.items():
-            if name.split(".")[0] in ["gdsum", "gopf", "gsendx"]:
-                continue
             for example in re.findall(r"^\.Bd -literal\n(#include.*?)^\.Ed", page, re.M | re.S):
                 self.build("example", mdoc_plain(example), *ANY_AGE)
                 program = ["--host", "./example"] if 'load("node"' in example else ["./example"]

@@ -66,10 +66,10 @@ function twins(    i, with) {
   for (i = 1; i <= calls; i++)
     if (("_" call[i]) in result) with[++with[0]] = "_" call[i]
   print "A call that fails ends the program on all nodes, after telling why."
-  print with[0] == 1 ? "Its twin" : "The twins"
+  print (with[0] == 1 ? "Its twin" : "The twins")
   for (i = 1; i <= with[0]; i++)
     print ".Fn " with[i] (i == with[0] ? "" : i == with[0] - 1 ? "\nand" : " ,")
-  print with[0] == 1 ? "returns \\-1 instead, with" : "return \\-1 instead, with"
+  print (with[0] == 1 ? "returns" : "return") " \\-1 instead, with"
   print ".Va errno"
   print "set, and 0 or more on success:"
 }
