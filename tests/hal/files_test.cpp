@@ -250,6 +250,22 @@ TEST_P(FilesTest, AsynchronousTransfersKeepTheOrderAndThePointer) {
   }
 }
 
+TEST_P(FilesTest, AProcessEndsWhenWhatItStartedIsDone) {
+  const std::string piece(1'000'000, 'a');
+  std::mutex mutex;
+  std::vector<int> open;  // until then
+  run([&](int fd) {
+    const int own = ::dup(fd);
+    setiomode(own, 3);
+    for (int i = 0; i < 5; ++i) iwrite(own, piece.data(), static_cast<long>(piece.size()));
+    const std::lock_guard lock(mutex);
+    open.push_back(own);
+  });
+  EXPECT_EQ(content().size(), static_cast<std::size_t>(GetParam()) * 5'000'000);
+  EXPECT_EQ(content().find_first_not_of('a'), std::string::npos);
+  for (const int own : open) ::close(own);
+}
+
 TEST_P(FilesTest, AReadThatIsUnderWayEndsWhereTheFileEnds) {
   put("0123456789");
   run([](int fd) {

@@ -3,7 +3,7 @@ under a person's own mpirun."""
 
 import unittest
 
-from harness import HAVE_MPI, OWN_MPIRUN, PROGRAMS, ProgramTest, main
+from harness import ENVIRONMENT, HAVE_MPI, OWN_MPIRUN, PROGRAMS, ProgramTest, main
 
 NX = PROGRAMS.parent / "examples-nx"
 PROCESSES = [1, 2, 3, 4, 8]
@@ -51,6 +51,20 @@ class NxProgramsTest(ProgramTest):
 
     def test_counter(self):
         self.check(lambda nodes: f"counter: 500 pieces done by {nodes} nodes, each once\n", "counter")
+
+    def test_counter_with_handlers_on_a_thread(self):
+        environment = dict(ENVIRONMENT, MARS_NX_HANDLERS="thread")
+        for nodes in PROCESSES:
+            said = self.succeed("mars-nx", "run", "--nodes", nodes, NX / "counter", env=environment)
+            self.assertEqual(said, f"counter: 500 pieces done by {nodes} nodes, each once\n")
+
+    def test_strict_sends_find_who_sends_head_to_head(self):
+        environment = dict(ENVIRONMENT, MARS_NX_STRICT="yes")
+        done = self.run_program("mars-nx", "run", "--nodes", 4, NX / "exchange", env=environment)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("every process waits for a message", done.stderr)
+        said = self.succeed("mars-nx", "run", "--nodes", 4, NX / "matrix", env=environment)
+        self.assertIn("0 elements wrong", said)
 
     @needs_fortran
     def test_pi_in_fortran(self):
