@@ -15,6 +15,7 @@ struct NxBody {
 inline std::ostream& operator<<(std::ostream& out, const NxBody& body) { return out << body.name; }
 
 std::vector<NxBody> messages_bodies();
+std::vector<NxBody> handlers_bodies();
 std::vector<NxBody> global_bodies();
 
 // Returns when all ranks have called it.

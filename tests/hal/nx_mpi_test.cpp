@@ -17,6 +17,7 @@ TEST_P(NxMpi, Holds) {
 
 constexpr auto name_of = [](const auto& info) { return std::string(info.param.name); };
 
+INSTANTIATE_TEST_SUITE_P(Handlers, NxMpi, testing::ValuesIn(handlers_bodies()), name_of);
 INSTANTIATE_TEST_SUITE_P(Messages, NxMpi, testing::ValuesIn(messages_bodies()), name_of);
 INSTANTIATE_TEST_SUITE_P(Globals, NxMpi, testing::ValuesIn(global_bodies()), name_of);
 

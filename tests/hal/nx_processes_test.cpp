@@ -29,6 +29,8 @@ constexpr auto name_of = [](const auto& info) {
 };
 const auto some_nodes = testing::Values(1, 2, 3, 4, 7, 8, 16, 32);
 
+INSTANTIATE_TEST_SUITE_P(Handlers, NxProcesses, testing::Combine(testing::ValuesIn(handlers_bodies()), some_nodes),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Messages, NxProcesses, testing::Combine(testing::ValuesIn(messages_bodies()), some_nodes),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Globals, NxProcesses, testing::Combine(testing::ValuesIn(global_bodies()), some_nodes), name_of);

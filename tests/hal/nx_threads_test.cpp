@@ -28,6 +28,8 @@ constexpr auto name_of = [](const auto& info) {
 };
 const auto some_nodes = testing::Values(1, 2, 3, 5, 8);
 
+INSTANTIATE_TEST_SUITE_P(Handlers, NxThreads, testing::Combine(testing::ValuesIn(handlers_bodies()), some_nodes),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Messages, NxThreads, testing::Combine(testing::ValuesIn(messages_bodies()), some_nodes),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Globals, NxThreads,
