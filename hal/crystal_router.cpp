@@ -16,13 +16,14 @@ namespace {
 constexpr char kCall[] = "an exchange of parcels";
 
 // Below, all go directly; as do loads that are long enough for the way to matter more than the messages.
-constexpr int kFewNodes = 8;
-constexpr std::size_t kLongLoad = 4096;  // bytes a node, and node of the cube
+constexpr int kFewNodes = 64;
+constexpr std::size_t kLongLoad = 64;  // bytes of a node, for each node of the cube
 
 }  // namespace
 
 Route route_for(int nodes, std::size_t bytes) {
-  return nodes < kFewNodes || bytes > kLongLoad * static_cast<std::size_t>(nodes) ? Route::direct : Route::crystal;
+  const bool long_load = bytes > kLongLoad * static_cast<std::size_t>(nodes);
+  return nodes < kFewNodes || long_load ? Route::direct : Route::crystal;
 }
 
 struct CrystalRouter::Head {

@@ -20,13 +20,14 @@ struct Parcel {
 };
 
 enum class Route {
-  automatic,  // by the number of nodes and the most bytes that one of them sends: route_for
+  automatic,  // by the number of nodes and the most bytes that one of them sends, on which they agree first: route_for
   crystal,
   direct,
   network,  // the network's own all-to-all, where the backend has one and the cube is the whole machine; else direct
 };
 
-// The quicker one for so many nodes of which none sends more than `bytes`: docs/messages.md has the measurements.
+// The quicker one for so many nodes of which none sends more than `bytes`, heads included: docs/messages.md has the
+// measurements.
 Route route_for(int nodes, std::size_t bytes);
 
 // Its buffers are used again by the next exchange.

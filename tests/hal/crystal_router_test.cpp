@@ -46,6 +46,13 @@ TEST_P(Routes, DirectSendsOneMessageANode) {
 
 INSTANTIATE_TEST_SUITE_P(Nodes, Routes, testing::Values(1, 2, 3, 4, 5, 7, 8, 13, 16, 32, 64));
 
+// To agree on the route is one more exchange.
+TEST(RouteChoice, CostsOneMessageADimension) {
+  Counts counts;
+  run_threads(64, [] {}, [] { exchange_few(Route::automatic); }, counting(counts));
+  EXPECT_EQ(counts.sent({}).messages, 64u * (6 + 6));
+}
+
 TEST(RouteChoice, GoesByNodesAndBytes) {
   EXPECT_EQ(route_for(2, 100), Route::direct);
   EXPECT_EQ(route_for(64, 100), Route::crystal);

@@ -62,7 +62,7 @@ int run(int argc, char** argv) {
   }
   const std::string only = argc > 3 ? argv[3] : "";
   if (mynode() == 0)
-    std::printf("%6s%8s%10s%14s\n", "nodes", "others", "bytes", only.empty() ? "crystal, direct, mpi: us" : only.c_str());
+    std::printf("%6s%8s%10s  %s\n", "nodes", "others", "bytes", only.empty() ? "  crystal us     direct us        MPI us" : only.c_str());
   for (const int others : {4, 16})
     for (const std::size_t bytes : {8ul, 256ul, 4096ul, 65536ul})
       if (bytes <= most) measure(others, bytes, rounds, only);

@@ -1,8 +1,11 @@
 // The messages of the three routes of a sparse all-to-all, as hal/crystal_router.cpp sends them, without what NX does
-// beside: so that smpirun can simulate a thousand nodes. Each has as many bytes for each of a few random others.
+// beside: so that smpirun can simulate a thousand nodes. Each has as many bytes for each of a few random others:
+// bench-simulated-routes.so [OTHERS BYTES [crystal|direct|mpi]].
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -84,15 +87,22 @@ void network(const Machine& machine, const Parcels& parcels, int bytes, std::vec
                 from.offsets.data(), MPI_BYTE, MPI_COMM_WORLD);
 }
 
-void measure(const Machine& machine, int others, int bytes) {
+struct Route {
+  const char* name;
+  void (*go)(const Machine&, const Parcels&, int bytes, std::vector<char>& out, std::vector<char>& in);
+};
+constexpr Route kRoutes[] = {{"crystal", crystal}, {"direct", direct}, {"mpi", network}};
+
+void measure(const Machine& machine, int others, int bytes, const std::string& only) {
   const Parcels parcels = given(machine, others);
   const std::size_t room = static_cast<std::size_t>(8 * others + 64) * static_cast<std::size_t>(kHead + bytes);
   std::vector<char> out(room), in(room);
   if (machine.rank == 0) std::printf("%6d%8d%10d", machine.nodes, others, bytes);
-  for (const auto& route : {crystal, direct, network}) {
+  for (const Route& route : kRoutes) {
+    if (!only.empty() && only != route.name) continue;
     MPI_Barrier(MPI_COMM_WORLD);
     const double begin = MPI_Wtime();
-    route(machine, parcels, bytes, out, in);
+    route.go(machine, parcels, bytes, out, in);
     double seconds = MPI_Wtime() - begin, slowest = 0;
     MPI_Reduce(&seconds, &slowest, 1, MPI_DOUBLE, MPI_MAX, 0, MPI_COMM_WORLD);
     if (machine.rank == 0) std::printf("%14.1f", 1e6 * slowest);
@@ -109,8 +119,12 @@ int main(int argc, char** argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &machine.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &machine.nodes);
   if (machine.rank == 0) std::printf("%6s%8s%10s%14s%14s%14s\n", "nodes", "others", "bytes", "crystal us", "direct us", "MPI us");
-  for (const int others : {4, 16})
-    for (const int bytes : {8, 256, 4096}) measure(machine, others, bytes);
+  const std::string only = argc > 3 ? argv[3] : "";
+  if (argc > 2)
+    measure(machine, std::atoi(argv[1]), std::atoi(argv[2]), only);
+  else
+    for (const int others : {4, 16})
+      for (const int bytes : {8, 256, 4096}) measure(machine, others, bytes, only);
   MPI_Finalize();
   return 0;
 }
