@@ -1,4 +1,5 @@
-// A rank of jobs that must end with a failure, quickly (mpi_faults_test.cpp): argument 1 says how.
+// A rank of jobs that must end with a failure, quickly (mpi_faults_test.cpp): argument 1 says how, or 1 the
+// way and 2 the moment (faults/faults.h).
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -9,6 +10,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/process.h"
 #include "hal/shared_memory.h"
+#include "tests/hal/faults/faults.h"
 
 namespace mars::hal {
 namespace {
@@ -59,7 +61,7 @@ void leaves_messages() {
   csend(1, bytes, 8, -1, 0);
 }
 
-int run(int, char** argv) {
+int run(int argc, char** argv) {
   const std::map<std::string, void (*)()> faults = {
       {"host", nothing},
       {"node", nothing},
@@ -71,7 +73,10 @@ int run(int, char** argv) {
       {"too_much_shared_memory", too_much_shared_memory},
       {"leaves_messages", leaves_messages},
   };
-  faults.at(argv[1])();
+  if (argc > 2)
+    faults::run_rank({argv[1], argv[2]});
+  else
+    faults.at(argv[1])();
   return 0;
 }
 

@@ -91,5 +91,21 @@ TEST(MpiFaults, MessagesThatNobodyReceivesDoNotHinderTheEnd) {
   EXPECT_LT(outcome.seconds, 20);
 }
 
+TEST(MpiFaults, ANodeThrowsInItsMidst) {
+  for (const std::string moment : {"handler", "sending"}) {
+    SCOPED_TRACE(moment);
+    expect_fault(run_ranks(5, "throws " + moment), "node 1: a fault on purpose");
+  }
+}
+
+TEST(MpiFaults, ANodeDiesInItsMidst) {
+  for (const std::string how : {"killed collective", "exits waiting"}) {
+    SCOPED_TRACE(how);
+    const Outcome outcome = run_ranks(5, how);
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_LT(outcome.seconds, 20);
+  }
+}
+
 }  // namespace
 }  // namespace mars::hal

@@ -70,7 +70,8 @@ RULE(pairs_keep_their_order, "between one sender and one receiver messages stay 
 
 RULE(long_and_short_keep_their_order, "a short message does not overtake a long one, by csend or by isend",
      "a wildcard does not get the short one first") {
-  const std::vector<long> lengths = {3 << 20, 0, 70000, 8, 5000, 101, 100, 1 << 20, 1};
+  const long longest = numnodes() <= 8 ? 3 << 20 : 300'000;
+  const std::vector<long> lengths = {longest, 0, 70000, 8, 5000, 101, 100, longest / 3, 1};
   if (is_host()) return;
   std::vector<Bytes> mine;
   for (const long length : lengths) mine.push_back(pattern(length, 3));
