@@ -1,4 +1,15 @@
-# Programs of simulated ranks are libraries that smpirun loads.
-add_library(smpi_rules MODULE smpi_rules.cpp)
-target_link_libraries(smpi_rules PRIVATE mars_nx_rules mars_hal_smpi)
-target_link_options(smpi_rules PRIVATE -Wl,--no-undefined)
+# Programs of simulated ranks are libraries that smpirun loads: cluster/platforms/simulate starts them.
+foreach(program rules times)
+  add_library(smpi_${program} MODULE smpi_${program}.cpp)
+  target_link_libraries(smpi_${program} PRIVATE mars_hal_smpi)
+  target_link_options(smpi_${program} PRIVATE -Wl,--no-undefined)
+endforeach()
+target_link_libraries(smpi_rules PRIVATE mars_nx_rules)
+
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME smpi_test
+           COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/smpi_test.py
+                   ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules> $<TARGET_FILE:smpi_times>)
+  set_tests_properties(smpi_test PROPERTIES TIMEOUT 120)
+endif()

