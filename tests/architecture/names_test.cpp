@@ -89,11 +89,13 @@ namespace mars { union Four {}; }
 
 TEST(Names, EveryTypeHasANameOfItsOwn) {
   std::map<std::string, std::string> files;
-  for (const mars::test::Source& source : mars::test::sources())
+  for (const mars::test::Source& source : mars::test::sources()) {
+    if (source.path.find("/smpi_") != std::string::npos) continue;  // stands in for another file, never beside it
     for (const std::string& name : types_of(source.text)) {
       const auto [first, is_new] = files.emplace(name, source.path);
       EXPECT_TRUE(is_new) << name << " is defined in " << first->second << " and in " << source.path;
     }
+  }
   EXPECT_GT(files.size(), 200u) << "nothing to scan: the test is broken";
 }
 
