@@ -1,6 +1,7 @@
 /* NX/2: global operations. All nodes call, in the same order, with equal lengths; the host takes no part.
  * Results are left in `x` on every node, with the same bits; `work` is as long as `x`. d is double, s float,
- * i long. Failures are as in nx_messages.h. */
+ * i long. Failures are as in nx_messages.h; what is wrong on one node, or different lengths (EQLEN), fails the
+ * call on all. */
 #pragma once
 
 #include "nx_errno.h"
