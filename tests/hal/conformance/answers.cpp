@@ -70,7 +70,7 @@ RULE(isendrecv_is_one_id, "isendrecv is one id, done when the answer is there", 
 
 RULE(wrong_arguments_of_answers, "both parts of csendrecv and isendrecv are checked before anything is sent",
      "EQTYPE, EQNODE, EQPID, EQLEN, EQPBUF, and no question has gone") {
-  static long x = 0;
+  long x = 0;
   REFUSED(EQTYPE, csendrecv, (1'000'000'000, &x, 8, mynode(), 0, 1, &x, 8), "1000000000");
   REFUSED(EQTYPE, csendrecv, (1, &x, 8, mynode(), 0, 1'000'000'001, &x, 8), "1000000001");
   REFUSED(EQNODE, csendrecv, (1, &x, 8, numnodes() + 1, 0, 1, &x, 8), "no node");

@@ -253,7 +253,7 @@ RULE(handlers_run_in_probes, "a handler runs while its process waits in cprobe",
 }
 
 RULE(wrong_arguments_of_handlers, "hsend, hrecv and hsendrecv check as isend and irecv do", "EQTYPE, EQNODE, EQPID, EQLEN, EQPBUF") {
-  static long x = 0;
+  long x = 0;
   REFUSED(EQTYPE, hrecv, (1'000'000'000, &x, 8, note), "reserved");
   REFUSED(EQLEN, hrecv, (1, &x, -8, note), "length -8");
   REFUSED(EQPBUF, hrecv, (1, nullptr, 8, note), "null");

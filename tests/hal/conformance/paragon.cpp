@@ -129,7 +129,7 @@ RULE(handlers_with_a_parameter, "hrecvx and hsendx give their parameter to the h
 
 RULE(wrong_arguments_of_forms_with_x, "the forms with x check as those without, and the sender they name",
      "EQTYPE, EQNODE, EQPID, EQLEN, EQPBUF") {
-  static long x = 0;
+  long x = 0;
   REFUSED(EQTYPE, crecvx, (1'000'000'000, &x, 8, -1, -1, nullptr), "reserved");
   REFUSED(EQNODE, crecvx, (1, &x, 8, numnodes() + 1, -1, nullptr), "no node");
   REFUSED(EQPID, irecvx, (1, &x, 8, -1, 4, nullptr), "4");

@@ -129,8 +129,8 @@ RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result
 
 RULE(wrong_arguments_of_reductions, "what is wrong on all nodes fails on all, plain and twin", "EQLEN, EQPBUF; afterwards all goes on") {
   if (is_host()) return;
-  static double x = 0, work = 0;
-  static long whole = 0, whole_work = 0, count = 0;
+  double x = 0, work = 0;
+  long whole = 0, whole_work = 0, count = 0;
   REFUSED(EQLEN, gdsum, (&x, -1, &work), "length -1");
   REFUSED(EQPBUF, gdhigh, (nullptr, 1, &work), "null");
   REFUSED(EQPBUF, gisum, (&whole, 1, nullptr), "null");
@@ -182,7 +182,7 @@ RULE(gsendx_to_a_list, "gsendx sends to each node of a list; those receive by cr
 }
 
 RULE(wrong_arguments_of_gsendx, "gsendx checks all its list before it sends", "EQNODE, EQTYPE, EQLEN, EQPBUF, and nothing has gone") {
-  static long x = 0;
+  long x = 0;
   const long list[2] = {mynode(), numnodes() + 1};
   REFUSED(EQNODE, gsendx, (73, &x, 8, list, 2), "no node");
   REFUSED(EQTYPE, gsendx, (-1, &x, 8, list, 1), "type -1");
