@@ -188,12 +188,24 @@ bool over_mpi(const RunOptions& options) {
   return !options.hostfile.empty() || own_environment().value("SLURM_TASKS_PER_NODE").has_value();
 }
 
+// More processes than this would keep the machine busy with changing between them.
+constexpr int kNodesAProcessor = 64;
+
+void check_nodes(int nodes, const topology::Machine& machine) {
+  const int most = kNodesAProcessor * machine.processors();
+  if (nodes <= most) return;
+  throw Failure(std::to_string(nodes) + " nodes are too many for this machine's " +
+                    std::to_string(machine.processors()) + " processors",
+                "--nodes", "use at most " + std::to_string(most) + ", or more machines by --hostfile");
+}
+
 int run(RunOptions& options) {
   const NxPrograms programs = programs_of(options);
   const hal::Settings settings = hal::read_settings();
   if (over_mpi(options)) return run_mpi(options, programs);
   const topology::Machine machine = topology::Machine::here();
   if (options.nodes == 0) options.nodes = machine.processors();
+  check_nodes(options.nodes, machine);
   return run_processes(options, programs, settings.nx_memory.value_or(message_memory(machine)));
 }
 

@@ -342,6 +342,7 @@ class Ends(NxRun):
             done = self.run_nx(*words)
             self.assertClear(done.stderr, says)
             self.assertEqual(done.returncode, 2)
+        self.badly(1, "nodes are too many for this machine's", "--nodes", 64 * os.cpu_count() + 1, "./node")
         done = self.run_nx("--hostfile", "hosts", "--over", "processes", "./node")
         self.assertClear(done.stderr, "processes are all on this machine")
 
