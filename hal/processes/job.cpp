@@ -87,7 +87,9 @@ void Job::begin() {
 
 void Job::start(int index, const std::string& file) {
   const bool host = index == segment_.nodes();
-  segment_.slot(index).life = Life::started;
+  Slot& slot = segment_.slot(index);
+  slot.begun = ++segment_.header().age;
+  slot.life = Life::started;
   std::fflush(nullptr);
   const pid_t parent = getpid();
   const pid_t id = fork();
@@ -189,7 +191,10 @@ void Job::note_end(int index, int status) {
   const int code = signal != 0 ? -signal : WEXITSTATUS(status);
   const bool in_order = signal == 0 && slot.life != Life::joined;
   slot.code = code;
+  // In this order: whoever finds the new age also finds that the process has ended, and when.
+  slot.ended = segment_.header().age + 1;
   slot.life = in_order || killed ? Life::ended : Life::died;
+  ++segment_.header().age;
   segment_.flush(index);
   if (!killed) code_ = std::max(code_, signal != 0 ? 128 + signal : code);
   if (signal != 0 && !killed) note_failure(name(index) + " died: " + signal_text(signal));

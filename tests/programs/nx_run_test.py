@@ -82,7 +82,7 @@ static void tell_ends(void) {
 int main(int argc, char** argv) {
   const char* what = argv[1];
   char line[80];
-  long x, n;
+  long i, x, n;
   struct cubetable table[1];
   if (!strcmp(what, "sum")) printf("sum %ld\n", squares());
   if (!strcmp(what, "cube")) {
@@ -111,6 +111,10 @@ int main(int argc, char** argv) {
     relcube("");
   }
   if (!strcmp(what, "ends")) tell_ends();
+  if (!strcmp(what, "rounds")) for (n = 0; n < 30; n++) {
+    for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
+    waitall(-1, 0);
+  }
   if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); tell_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
   if (!strcmp(what, "more")) getcube("mine", "16", NULL, 0);
   if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
@@ -125,6 +129,15 @@ int main(int argc, char** argv) {
 """
 
 NOTHING = "int main(void) { return 0; }\n"
+TALK = r"""
+#include <cube.h>
+int main(void) {
+  long x = 0, left = 10 + mynode(), right = 10 + (mynode() + 1) % numnodes();
+  csend(right, &x, sizeof x, right - 10, 0);
+  crecv(left, &x, sizeof x);
+  return 0;
+}
+"""
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
 SQUARE = '#include <cube.h>\nint main(void) { long x; crecv(10, &x, sizeof x); x *= x; csend(11, &x, sizeof x, myhost(), 0); return 0; }\n'
 
@@ -134,7 +147,7 @@ class NxRun(ProgramTest):
     def setUpClass(cls):
         cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.programs)
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("square", SQUARE)]:
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("talk", TALK), ("square", SQUARE)]:
             source = cls.programs / f"{name}.c"
             source.write_text(text)
             subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
@@ -249,6 +262,9 @@ class Cubes(NxRun):
     def test_other_programs_on_the_same_nodes(self):
         told = self.well("--nodes", 4, "--host", "./host", "--", "again", "square")
         self.assertEqual(told, "sum 14\n" * 3 + "killed -9\nsum 14\n")
+
+    def test_messages_to_a_node_that_is_about_to_be_loaded_again(self):
+        self.well("--nodes", 3, "--host", "./host", "--", "rounds")
 
     def test_ends_are_told(self):
         for over in OVER:
