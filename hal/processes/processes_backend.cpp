@@ -44,7 +44,9 @@ ProcessesBackend::ProcessesBackend(const Segment& segment, int index)
       ended_before_(slot_.ended),
       heap_(segment, index),
       oversubscribed_(segment.nodes() > processors()),
-      next_shared_(segment.shared_memory()) {}
+      next_shared_(segment.shared_memory()) {
+  slot_.waiting = Waiting::no;  // as the process before this one may have been
+}
 
 void ProcessesBackend::check_running() const {
   if (segment_.stopped()) throw Failure(segment_.reason(), "", "");

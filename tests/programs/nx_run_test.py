@@ -115,6 +115,7 @@ int main(int argc, char** argv) {
     for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
     waitall(-1, 0);
   }
+  if (!strcmp(what, "busy")) { load("loop", -1, 0); sleep(1); killcube(-1, -1); load("busy", -1, 0); waitall(-1, 0); }
   if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); tell_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
   if (!strcmp(what, "more")) getcube("mine", "16", NULL, 0);
   if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
@@ -139,6 +140,7 @@ int main(void) {
 }
 """
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
+BUSY = '#include <cube.h>\n#include <unistd.h>\nint main(void) { mynode(); sleep(2); return 0; }\n'
 SQUARE = '#include <cube.h>\nint main(void) { long x; crecv(10, &x, sizeof x); x *= x; csend(11, &x, sizeof x, myhost(), 0); return 0; }\n'
 
 
@@ -147,7 +149,7 @@ class NxRun(ProgramTest):
     def setUpClass(cls):
         cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.programs)
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("talk", TALK), ("square", SQUARE)]:
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("busy", BUSY), ("talk", TALK), ("square", SQUARE)]:
             source = cls.programs / f"{name}.c"
             source.write_text(text)
             subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
@@ -265,6 +267,9 @@ class Cubes(NxRun):
 
     def test_messages_to_a_node_that_is_about_to_be_loaded_again(self):
         self.well("--nodes", 3, "--host", "./host", "--", "rounds")
+
+    def test_a_node_computes_where_one_waited_before(self):
+        self.well("--nodes", 2, "--host", "./host", "--", "busy")
 
     def test_ends_are_told(self):
         for over in OVER:
