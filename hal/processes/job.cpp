@@ -224,7 +224,8 @@ void Job::look_for_standstill() {
   if (Clock::now() < next_look_) return;
   next_look_ = Clock::now() + kTick;
   // What is looked at one after the other is true at once only if nothing has moved since the last look.
-  const bool still = stands_still() && std::exchange(last_taken_, taken()) == last_taken_;
+  const std::uint64_t before = std::exchange(last_taken_, taken());
+  const bool still = stands_still() && before == last_taken_;
   standing_still_ = still ? standing_still_ + 1 : 0;
   if (standing_still_ < kStandstill || segment_.stopped()) return;
   std::string reason = "every process waits for a message, and none is on its way";
