@@ -79,6 +79,7 @@ static void tell_ends(void) {
   long i, node, pid, code;
   for (i = 0; i < numnodes(); i++) { waitone(-1, 0, &node, &pid, &code); printf("node %ld pid %ld code %ld\n", node, pid, code); }
 }
+static char longer[1000];
 int main(int argc, char** argv) {
   const char* what = argv[1];
   char line[80];
@@ -115,6 +116,11 @@ int main(int argc, char** argv) {
     for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
     waitall(-1, 0);
   }
+  if (!strcmp(what, "long")) for (n = 0; n < 3; n++) {
+    load("echo", -1, 0);
+    for (i = 0; i < numnodes(); i++) { csend(1, longer, sizeof longer, i, 0); crecv(2, longer, sizeof longer); }
+    waitall(-1, 0);
+  }
   if (!strcmp(what, "busy")) { load("loop", -1, 0); sleep(1); killcube(-1, -1); load("busy", -1, 0); waitall(-1, 0); }
   if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); tell_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
   if (!strcmp(what, "more")) getcube("mine", "16", NULL, 0);
@@ -140,6 +146,7 @@ int main(void) {
 }
 """
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
+ECHO = '#include <cube.h>\nstatic char x[1000];\nint main(void) { crecv(1, x, sizeof x); csend(2, x, sizeof x, myhost(), 0); return 0; }\n'
 BUSY = '#include <cube.h>\n#include <unistd.h>\nint main(void) { mynode(); sleep(2); return 0; }\n'
 SQUARE = '#include <cube.h>\nint main(void) { long x; crecv(10, &x, sizeof x); x *= x; csend(11, &x, sizeof x, myhost(), 0); return 0; }\n'
 
@@ -149,7 +156,7 @@ class NxRun(ProgramTest):
     def setUpClass(cls):
         cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.programs)
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("busy", BUSY), ("talk", TALK), ("square", SQUARE)]:
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("busy", BUSY), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
             source = cls.programs / f"{name}.c"
             source.write_text(text)
             subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
@@ -267,6 +274,9 @@ class Cubes(NxRun):
 
     def test_messages_to_a_node_that_is_about_to_be_loaded_again(self):
         self.well("--nodes", 3, "--host", "./host", "--", "rounds")
+
+    def test_strict_messages_with_a_node_that_is_loaded_again(self):
+        self.well("--nodes", 2, "--host", "./host", "--", "long", env=dict(ENVIRONMENT, MARS_NX_STRICT="yes"))
 
     def test_a_node_computes_where_one_waited_before(self):
         self.well("--nodes", 2, "--host", "./host", "--", "busy")
