@@ -63,7 +63,10 @@ void leave(int code, void*) try {
 std::unique_ptr<World> connect() {
   if (const std::optional<Place> place = take_place()) return std::make_unique<ProcessesWorld>(*place);
 #ifdef MARS_NX_MPI
-  if (started_by_mpi()) return join_mpi(read_settings().nx_host);
+  if (started_by_mpi()) {
+    const Settings settings = read_settings();
+    return join_mpi(settings.nx_host, settings.nx_handler_thread);
+  }
 #endif
   return std::make_unique<ProcessesWorld>();
 }

@@ -145,6 +145,17 @@ int main(void) {
   return 0;
 }
 """
+# MPI comes with the library.
+BEGUN = r"""
+#define _GNU_SOURCE
+#include <cube.h>
+#include <dlfcn.h>
+int main(void) {
+  ((int (*)(int*, char***))dlsym(RTLD_DEFAULT, "MPI_Init"))(0, 0);
+  mynode();
+  return 0;
+}
+"""
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
 ECHO = '#include <cube.h>\nstatic char x[1000];\nint main(void) { crecv(1, x, sizeof x); csend(2, x, sizeof x, myhost(), 0); return 0; }\n'
 BUSY = '#include <cube.h>\n#include <unistd.h>\nint main(void) { mynode(); sleep(2); return 0; }\n'
@@ -156,7 +167,7 @@ class NxRun(ProgramTest):
     def setUpClass(cls):
         cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.programs)
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("busy", BUSY), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
             source = cls.programs / f"{name}.c"
             source.write_text(text)
             subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
@@ -241,6 +252,12 @@ class Starts(NxRun):
         done = self.run_program(*OWN_MPIRUN, "-n", 1, "./square", ":", "-n", 3, "./node", "to-host",
                                 env=dict(ENVIRONMENT, MARS_NX_HOST="no"))
         self.assertIn("this job has no host", done.stderr)
+
+    @needs_mpi
+    def test_mpi_for_one_thread(self):
+        for handlers, code in [("calls", 0), ("thread", 1)]:
+            done = self.run_nx("--over", "mpi", "--nodes", 2, "./begun", env=dict(ENVIRONMENT, MARS_NX_HANDLERS=handlers))
+            self.assertEqual((done.returncode, "MPI takes calls of one thread only" in done.stderr), (code, code == 1))
 
     def test_no_call_at_all(self):
         for over in OVER:
