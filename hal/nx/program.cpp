@@ -29,7 +29,7 @@ struct Program {
   std::optional<Process> process;
   std::optional<ProgressThread> progress;  // of the process
   std::thread::id thread;
-  pid_t id = 0;
+  pid_t id = 0;  // of the process that is the rank: the first, or the one that made the first call
 };
 
 // Never destroyed: the program's own exit functions may still call.
@@ -49,7 +49,7 @@ Program& program() {
 void leave(int code, void*) try {
 #ifdef MARS_NX_MPI
   // The others wait for it.
-  if (program().world == nullptr && started_by_mpi()) world();
+  if (program().world == nullptr && program().id == getpid() && started_by_mpi()) world();
 #endif
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
@@ -87,6 +87,7 @@ Process& find_process() {
 [[gnu::constructor]] void prepare() {
   // Each line is told as it is written, and is not lost with a process that is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  program().id = getpid();
   find_process_by(find_process);
   end_program_on_failure(end);
   on_exit(leave, nullptr);

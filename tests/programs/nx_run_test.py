@@ -156,6 +156,20 @@ int main(void) {
   return 0;
 }
 """
+# The one that makes the folder has a child that ends before any call.
+FORK = r"""
+#include <cube.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+int main(void) {
+  if (mkdir("forked", 0700) == 0 && fork() == 0) exit(0);
+  wait(NULL);
+  gsync();
+  return 0;
+}
+"""
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
 ECHO = '#include <cube.h>\nstatic char x[1000];\nint main(void) { crecv(1, x, sizeof x); csend(2, x, sizeof x, myhost(), 0); return 0; }\n'
 BUSY = '#include <cube.h>\n#include <unistd.h>\nint main(void) { mynode(); sleep(2); return 0; }\n'
@@ -167,7 +181,7 @@ class NxRun(ProgramTest):
     def setUpClass(cls):
         cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.programs)
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY), ("fork", FORK), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
             source = cls.programs / f"{name}.c"
             source.write_text(text)
             subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
@@ -263,6 +277,11 @@ class Starts(NxRun):
         for over in OVER:
             self.assertEqual(self.well("--nodes", 3, "./nothing", over=over), "")
         self.assertEqual(self.well("--nodes", 3, "./nothing", "./nothing"), "")
+
+    def test_a_child_that_ends_before_any_call(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 2, "./fork", over=over), "")
+            (self.folder / "forked").rmdir()
 
     def test_input(self):
         for over in OVER:
