@@ -27,6 +27,8 @@ class Ledger {
   // Each message has a number among all from its sender to its receiver, the same for both.
   std::uint32_t sent(const Envelope& to, double begin);
   std::uint32_t taken(const Envelope& envelope, double begin);
+  // Numbers begin again.
+  void forget(int rank) { numbers_[static_cast<std::size_t>(rank)] = {}; }
   void waited(const Envelope& came, double begin);
 
   // The time to give as `begin`: 0 where nobody records.

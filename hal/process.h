@@ -67,6 +67,9 @@ class Process : public Progress {
   // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
   void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
 
+  // Another program is about to run as `rank`, and counts its messages from the first.
+  void meet_anew(int rank);
+
   // For collectives, which are named `call`: one internal message from node to node. How many bytes came is
   // returned; more than `length` are thrown away.
   void send_internal(int to, const void* data, std::size_t length);

@@ -83,7 +83,7 @@ class JoinedBackend : public MpiBackend {
 
 class MpiWorld : public World {
  public:
-  explicit MpiWorld(std::optional<bool> host);
+  MpiWorld(std::optional<bool> host, bool two_threads);
 
   Backend& backend() override;
   bool is_host() const override { return has_host_ && rank_ == 0; }
@@ -123,12 +123,23 @@ void JoinedBackend::idle(int turn, std::chrono::microseconds longest) {
   MpiBackend::idle(turn, longest);
 }
 
-MpiWorld::MpiWorld(std::optional<bool> host) {
+// The program may have done so itself.
+void begin_mpi(bool two_threads) {
   int before = 0;
   MPI_Initialized(&before);
   int level = MPI_THREAD_SINGLE;
-  // A progress thread (hal/progress_thread.h) may call too, though never at the same time.
-  if (before == 0) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
+  if (before == 0)
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
+  else
+    MPI_Query_thread(&level);
+  if (two_threads && level < MPI_THREAD_SERIALIZED)
+    throw Failure("handlers are to run on a thread of their own, and MPI takes calls of one thread only",
+                  "environment variable MARS_NX_HANDLERS",
+                  before == 0 ? "unset it" : "unset it, or call MPI_Init_thread for MPI_THREAD_SERIALIZED");
+}
+
+MpiWorld::MpiWorld(std::optional<bool> host, bool two_threads) {
+  begin_mpi(two_threads);
   succeed(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   prepare_to_wait();
   rank_ = rank_in(MPI_COMM_WORLD);
@@ -262,6 +273,8 @@ void MpiWorld::fail(const std::string& reason) {
 
 }  // namespace
 
-std::unique_ptr<World> join_mpi(std::optional<bool> host) { return std::make_unique<MpiWorld>(host); }
+std::unique_ptr<World> join_mpi(std::optional<bool> host, bool two_threads) {
+  return std::make_unique<MpiWorld>(host, two_threads);
+}
 
 }  // namespace mars::hal

@@ -11,7 +11,7 @@
 namespace mars::hal {
 
 // Collective over all ranks. `host`: whether rank 0 is the host; none: it is if its program is no other
-// rank's.
-std::unique_ptr<World> join_mpi(std::optional<bool> host);
+// rank's. `two_threads` of this program are to make NX calls, one at a time: a Failure where MPI forbids it.
+std::unique_ptr<World> join_mpi(std::optional<bool> host, bool two_threads);
 
 }  // namespace mars::hal

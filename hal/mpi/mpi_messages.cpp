@@ -72,7 +72,8 @@ bool MpiBackend::test(MPI_Request& request, MPI_Status* status) {
 
 void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
   if (mpi_waits_well()) return succeed(MPI_Wait(&request, status), "MPI_Wait");
-  for (int turn = 0; !test(request, status); ++turn) idle(turn, kLongestBlindSleep);
+  // In the middle of a message: whoever stands by in an idle of its own is not asked.
+  for (int turn = 0; !test(request, status); ++turn) MpiBackend::idle(turn, kLongestBlindSleep);
 }
 
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {

@@ -40,9 +40,11 @@ void pass_on(long mid) {
 void move_on(long mid, long other, std::multimap<long, std::unique_ptr<Telling>>& to) {
   if (mid == other && &to == &tellings) return;
   const std::lock_guard lock(mutex);
-  const auto [first, last] = tellings.equal_range(mid);
-  std::for_each(first, last, [&](auto& entry) { to.emplace(other, std::move(entry.second)); });
-  tellings.erase(first, last);
+  for (auto at = tellings.find(mid); at != tellings.end(); at = tellings.find(mid)) {
+    auto telling = tellings.extract(at);
+    telling.key() = other;
+    to.insert(std::move(telling));
+  }
 }
 
 using Handler = void (*)(const Integer* type, const Integer* length, const Integer* node,

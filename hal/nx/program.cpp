@@ -29,7 +29,7 @@ struct Program {
   std::optional<Process> process;
   std::optional<ProgressThread> progress;  // of the process
   std::thread::id thread;
-  pid_t id = 0;
+  pid_t id = 0;  // of the process that is the rank: the first, or the one that made the first call
 };
 
 // Never destroyed: the program's own exit functions may still call.
@@ -49,7 +49,7 @@ Program& program() {
 void leave(int code, void*) try {
 #ifdef MARS_NX_MPI
   // The others wait for it.
-  if (program().world == nullptr && started_by_mpi()) world();
+  if (program().world == nullptr && program().id == getpid() && started_by_mpi()) world();
 #endif
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
@@ -63,7 +63,10 @@ void leave(int code, void*) try {
 std::unique_ptr<World> connect() {
   if (const std::optional<Place> place = take_place()) return std::make_unique<ProcessesWorld>(*place);
 #ifdef MARS_NX_MPI
-  if (started_by_mpi()) return join_mpi(read_settings().nx_host);
+  if (started_by_mpi()) {
+    const Settings settings = read_settings();
+    return join_mpi(settings.nx_host, settings.nx_handler_thread);
+  }
 #endif
   return std::make_unique<ProcessesWorld>();
 }
@@ -84,6 +87,7 @@ Process& find_process() {
 [[gnu::constructor]] void prepare() {
   // Each line is told as it is written, and is not lost with a process that is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  program().id = getpid();
   find_process_by(find_process);
   end_program_on_failure(end);
   on_exit(leave, nullptr);

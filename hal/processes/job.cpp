@@ -87,7 +87,9 @@ void Job::begin() {
 
 void Job::start(int index, const std::string& file) {
   const bool host = index == segment_.nodes();
-  segment_.slot(index).life = Life::started;
+  Slot& slot = segment_.slot(index);
+  slot.begun = ++segment_.header().age;
+  slot.life = Life::started;
   std::fflush(nullptr);
   const pid_t parent = getpid();
   const pid_t id = fork();
@@ -189,7 +191,10 @@ void Job::note_end(int index, int status) {
   const int code = signal != 0 ? -signal : WEXITSTATUS(status);
   const bool in_order = signal == 0 && slot.life != Life::joined;
   slot.code = code;
+  // In this order: whoever finds the new age also finds that the process has ended, and when.
+  slot.ended = segment_.header().age + 1;
   slot.life = in_order || killed ? Life::ended : Life::died;
+  ++segment_.header().age;
   segment_.flush(index);
   if (!killed) code_ = std::max(code_, signal != 0 ? 128 + signal : code);
   if (signal != 0 && !killed) note_failure(name(index) + " died: " + signal_text(signal));
@@ -219,7 +224,8 @@ void Job::look_for_standstill() {
   if (Clock::now() < next_look_) return;
   next_look_ = Clock::now() + kTick;
   // What is looked at one after the other is true at once only if nothing has moved since the last look.
-  const bool still = stands_still() && std::exchange(last_taken_, taken()) == last_taken_;
+  const std::uint64_t before = std::exchange(last_taken_, taken());
+  const bool still = stands_still() && before == last_taken_;
   standing_still_ = still ? standing_still_ + 1 : 0;
   if (standing_still_ < kStandstill || segment_.stopped()) return;
   std::string reason = "every process waits for a message, and none is on its way";

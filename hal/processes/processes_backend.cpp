@@ -41,12 +41,22 @@ ProcessesBackend::ProcessesBackend(const Segment& segment, int index)
     : segment_(segment),
       index_(index),
       slot_(segment.slot(index)),
+      ended_before_(slot_.ended),
       heap_(segment, index),
       oversubscribed_(segment.nodes() > processors()),
-      next_shared_(segment.shared_memory()) {}
+      next_shared_(segment.shared_memory()) {
+  slot_.waiting = Waiting::no;  // as the process before this one may have been
+}
 
 void ProcessesBackend::check_running() const {
   if (segment_.stopped()) throw Failure(segment_.reason(), "", "");
+}
+
+// One that has ended before this process began is to be followed by another.
+bool ProcessesBackend::will_not_receive(const Slot& receiver) const {
+  const Life life = receiver.life;
+  if (life == Life::ended || life == Life::died) return slot_.begun < receiver.ended;
+  return life == Life::left;
 }
 
 void ProcessesBackend::send(int to, int type, const void* data, std::size_t length) {
@@ -55,12 +65,13 @@ void ProcessesBackend::send(int to, int type, const void* data, std::size_t leng
   if (target == segment_.slots())
     throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
   Slot& receiver = segment_.slot(target);
-  const Life life = receiver.life.load(std::memory_order_relaxed);
-  if (life == Life::left || life == Life::ended || life == Life::died) return;  // nobody will ever receive it
+  const std::uint32_t now = segment_.header().age;
+  if (will_not_receive(receiver)) return;
   const Offset offset = heap_.acquire(length);
   Block& block = segment_.block(offset);
   block.type = type;
   block.from = static_cast<std::uint32_t>(index_);
+  block.sent = now;
   if (length > 0) std::memcpy(block.bytes(), data, length);
   segment_.push(receiver.arrived, offset);
   if (target != index_) Segment::wake(receiver);
@@ -72,18 +83,35 @@ Ticket ProcessesBackend::start_send(int to, int type, const void* data, std::siz
   return 0;
 }
 
+// The message that is next, or 0. One that was under way to the process before this one is nobody's.
+Offset ProcessesBackend::first_seen() {
+  for (;;) {
+    const Offset first = slot_.seen.load(std::memory_order_relaxed);
+    if (first == 0 && !see_arrived()) return 0;
+    if (first == 0) continue;
+    const Block& block = segment_.block(first);
+    if (block.sent >= ended_before_) return first;
+    slot_.seen.store(block.next, std::memory_order_relaxed);
+    segment_.give_back(first);
+  }
+}
+
+// Takes what has arrived, which is then in the order of arrival.
+bool ProcessesBackend::see_arrived() {
+  Offset first = 0;
+  for (Offset at = slot_.arrived.load(std::memory_order_relaxed) == 0 ? 0 : slot_.arrived.exchange(0); at != 0;)
+    first = std::exchange(at, std::exchange(segment_.block(at).next, first));
+  if (first == 0) return false;
+  slot_.seen = first;
+  slot_.waiting.store(Waiting::no, std::memory_order_relaxed);
+  return true;
+}
+
 std::optional<Envelope> ProcessesBackend::peek() {
   check_running();
-  if (slot_.seen.load(std::memory_order_relaxed) == 0) {
-    Offset first = 0;
-    for (Offset at = slot_.arrived.load(std::memory_order_relaxed) == 0 ? 0 : slot_.arrived.exchange(0);
-         at != 0;)
-      first = std::exchange(at, std::exchange(segment_.block(at).next, first));
-    if (first == 0) return std::nullopt;
-    slot_.seen = first;
-    slot_.waiting.store(Waiting::no, std::memory_order_relaxed);
-  }
-  const Block& block = segment_.block(slot_.seen.load(std::memory_order_relaxed));
+  const Offset offset = first_seen();
+  if (offset == 0) return std::nullopt;
+  const Block& block = segment_.block(offset);
   return Envelope{id(static_cast<int>(block.from)), block.type, block.length};
 }
 

@@ -34,12 +34,15 @@ class ProcessesBackend : public Backend {
   int index(int id) const { return id == nodes() ? segment_.nodes() : id; }
 
   void check_running() const;
-  void look_for(std::chrono::nanoseconds time);
+  bool will_not_receive(const Slot& receiver) const;
+  Offset first_seen();
+  bool see_arrived();
   void release(int share, Offset begin, std::size_t bytes);
 
   const Segment& segment_;
   const int index_;
   Slot& slot_;
+  const std::uint32_t ended_before_;  // the process that had this slot before
   Heap heap_;
   const bool oversubscribed_;
   Offset next_shared_;

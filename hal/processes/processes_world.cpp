@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "hal/failure.h"
+#include "hal/process.h"
 
 namespace mars::hal {
 namespace {
@@ -117,10 +118,12 @@ void ProcessesWorld::resize(int nodes) {
 
 void ProcessesWorld::load(const std::string& file, int node) {
   begun_ = true;
-  const int error = ask(Asking::What::load, node, fs::absolute(find_program(file)).string());
-  if (error == EBUSY)
+  const std::string program = fs::absolute(find_program(file)).string();
+  if (status(node).state == State::running)
     throw Failure("node " + std::to_string(node) + " still runs another program", "",
                   "wait for its end or kill it first");
+  process().meet_anew(node);
+  const int error = ask(Asking::What::load, node, program);
   if (error != 0) throw Failure(std::strerror(error), file, "");
 }
 

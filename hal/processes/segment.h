@@ -28,6 +28,7 @@ struct alignas(64) Block {
   std::uint32_t from;
   std::uint32_t size_class;  // room for 2^size_class bytes
   State state;               // changed by the heap's owner alone
+  std::uint32_t sent;        // the job's age then
 
   std::byte* bytes() { return reinterpret_cast<std::byte*>(this + 1); }
 };
@@ -60,6 +61,9 @@ struct alignas(64) Slot {
   std::atomic<std::uint64_t> taken;  // messages; likewise
   std::atomic<Life> life;
   std::atomic<std::int32_t> code;  // of an ended one; minus the signal of one that died
+  // The job's age when its process began, and when the one before that or, where none runs, the last ended.
+  std::atomic<std::uint32_t> begun;
+  std::atomic<std::uint32_t> ended;
 };
 
 // One memory that all nodes share: granted to all or to none.
@@ -75,6 +79,7 @@ struct alignas(64) Header {
   std::int32_t nodes;  // the machine's
   std::int32_t has_host;
   std::atomic<std::int32_t> cube;       // of which the first so many are the cube
+  std::atomic<std::uint32_t> age;       // begins and ends of processes so far
   std::uint64_t heap_room;              // addresses that each heap has
   std::uint64_t limit;                  // bytes that messages under way may take in all heaps
   std::atomic<std::uint64_t> used;      // of these

@@ -291,6 +291,7 @@ C     What the Paragon added.
       EXTERNAL XHANDL
       COMMON /HANDLED/ NTIMES, NLAST(4)
       INTEGER INFO(8), FIRST(8), SECOND(8), GOT, OTHER, ME, BOTH
+      INTEGER I, PLAIN, TOLD
       ME = MYNODE()
       CALL CSEND(60, 5, 4, ME, 0)
       CALL CPROBEX(60, ME, 0, INFO)
@@ -308,6 +309,17 @@ C     What the Paragon added.
       CALL MSGWAIT(BOTH)
       CALL EXPECT(GOT .EQ. 6 .AND. OTHER .EQ. 7, 'msgmerge')
       CALL EXPECT(FIRST(1) .EQ. 62 .AND. FIRST(2) .EQ. 4, 'irecvx')
+      DO 10 I = 1, 2
+         SECOND(1) = 0
+         IF (I .EQ. 2) PLAIN = IRECV(66, GOT, 4)
+         TOLD = IRECVX(67, OTHER, 4, ME, -1, SECOND)
+         IF (I .EQ. 1) PLAIN = IRECV(66, GOT, 4)
+         BOTH = MSGMERGE(PLAIN, TOLD)
+         CALL CSEND(66, 6, 4, ME, 0)
+         CALL CSEND(67, 7, 4, ME, 0)
+         CALL MSGWAIT(BOTH)
+         CALL EXPECT(SECOND(1) .EQ. 67, 'irecvx, merged with irecv')
+   10 CONTINUE
       CALL MSGIGNORE(IRECVX(64, GOT, 4, ME, -1, INFO))
       NTIMES = 0
       CALL HRECVX(65, OTHER, 4, ME, 0, XHANDL, 1234)

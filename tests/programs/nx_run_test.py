@@ -79,10 +79,11 @@ static void tell_ends(void) {
   long i, node, pid, code;
   for (i = 0; i < numnodes(); i++) { waitone(-1, 0, &node, &pid, &code); printf("node %ld pid %ld code %ld\n", node, pid, code); }
 }
+static char longer[1000];
 int main(int argc, char** argv) {
   const char* what = argv[1];
   char line[80];
-  long x, n;
+  long i, x, n;
   struct cubetable table[1];
   if (!strcmp(what, "sum")) printf("sum %ld\n", squares());
   if (!strcmp(what, "cube")) {
@@ -111,6 +112,16 @@ int main(int argc, char** argv) {
     relcube("");
   }
   if (!strcmp(what, "ends")) tell_ends();
+  if (!strcmp(what, "rounds")) for (n = 0; n < 30; n++) {
+    for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
+    waitall(-1, 0);
+  }
+  if (!strcmp(what, "long")) for (n = 0; n < 3; n++) {
+    load("echo", -1, 0);
+    for (i = 0; i < numnodes(); i++) { csend(1, longer, sizeof longer, i, 0); crecv(2, longer, sizeof longer); }
+    waitall(-1, 0);
+  }
+  if (!strcmp(what, "busy")) { load("loop", -1, 0); sleep(1); killcube(-1, -1); load("busy", -1, 0); waitall(-1, 0); }
   if (!strcmp(what, "ends-and-again")) { load("node", -1, 0); tell_ends(); killcube(-1, -1); load("square", -1, 0); printf("sum %ld\n", squares()); }
   if (!strcmp(what, "more")) getcube("mine", "16", NULL, 0);
   if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
@@ -125,7 +136,43 @@ int main(int argc, char** argv) {
 """
 
 NOTHING = "int main(void) { return 0; }\n"
+TALK = r"""
+#include <cube.h>
+int main(void) {
+  long x = 0, left = 10 + mynode(), right = 10 + (mynode() + 1) % numnodes();
+  csend(right, &x, sizeof x, right - 10, 0);
+  crecv(left, &x, sizeof x);
+  return 0;
+}
+"""
+# MPI comes with the library.
+BEGUN = r"""
+#define _GNU_SOURCE
+#include <cube.h>
+#include <dlfcn.h>
+int main(void) {
+  ((int (*)(int*, char***))dlsym(RTLD_DEFAULT, "MPI_Init"))(0, 0);
+  mynode();
+  return 0;
+}
+"""
+# The one that makes the folder has a child that ends before any call.
+FORK = r"""
+#include <cube.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+int main(void) {
+  if (mkdir("forked", 0700) == 0 && fork() == 0) exit(0);
+  wait(NULL);
+  gsync();
+  return 0;
+}
+"""
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
+ECHO = '#include <cube.h>\nstatic char x[1000];\nint main(void) { crecv(1, x, sizeof x); csend(2, x, sizeof x, myhost(), 0); return 0; }\n'
+BUSY = '#include <cube.h>\n#include <unistd.h>\nint main(void) { mynode(); sleep(2); return 0; }\n'
 SQUARE = '#include <cube.h>\nint main(void) { long x; crecv(10, &x, sizeof x); x *= x; csend(11, &x, sizeof x, myhost(), 0); return 0; }\n'
 
 
@@ -134,7 +181,7 @@ class NxRun(ProgramTest):
     def setUpClass(cls):
         cls.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.programs)
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("square", SQUARE)]:
+        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY), ("fork", FORK), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
             source = cls.programs / f"{name}.c"
             source.write_text(text)
             subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
@@ -220,10 +267,21 @@ class Starts(NxRun):
                                 env=dict(ENVIRONMENT, MARS_NX_HOST="no"))
         self.assertIn("this job has no host", done.stderr)
 
+    @needs_mpi
+    def test_mpi_for_one_thread(self):
+        for handlers, code in [("calls", 0), ("thread", 1)]:
+            done = self.run_nx("--over", "mpi", "--nodes", 2, "./begun", env=dict(ENVIRONMENT, MARS_NX_HANDLERS=handlers))
+            self.assertEqual((done.returncode, "MPI takes calls of one thread only" in done.stderr), (code, code == 1))
+
     def test_no_call_at_all(self):
         for over in OVER:
             self.assertEqual(self.well("--nodes", 3, "./nothing", over=over), "")
         self.assertEqual(self.well("--nodes", 3, "./nothing", "./nothing"), "")
+
+    def test_a_child_that_ends_before_any_call(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 2, "./fork", over=over), "")
+            (self.folder / "forked").rmdir()
 
     def test_input(self):
         for over in OVER:
@@ -249,6 +307,15 @@ class Cubes(NxRun):
     def test_other_programs_on_the_same_nodes(self):
         told = self.well("--nodes", 4, "--host", "./host", "--", "again", "square")
         self.assertEqual(told, "sum 14\n" * 3 + "killed -9\nsum 14\n")
+
+    def test_messages_to_a_node_that_is_about_to_be_loaded_again(self):
+        self.well("--nodes", 3, "--host", "./host", "--", "rounds")
+
+    def test_strict_messages_with_a_node_that_is_loaded_again(self):
+        self.well("--nodes", 2, "--host", "./host", "--", "long", env=dict(ENVIRONMENT, MARS_NX_STRICT="yes"))
+
+    def test_a_node_computes_where_one_waited_before(self):
+        self.well("--nodes", 2, "--host", "./host", "--", "busy")
 
     def test_ends_are_told(self):
         for over in OVER:
