@@ -3,6 +3,7 @@
 // never spins for long (see idle), also inside of what MPI itself would spin for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -93,6 +94,7 @@ class MpiBackend : public Backend {
   std::vector<MPI_Request> tickets_;  // by ticket
   std::vector<Ticket> free_tickets_;
   std::vector<int> counts_;           // of an all-to-all under way: lengths to, offsets to, lengths from, offsets from
+  std::vector<std::byte> operands_;   // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
   std::optional<Envelope> peeked_;
   Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
   Overflow caught_;            // where messages come whose length is not known before

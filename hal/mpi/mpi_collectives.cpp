@@ -48,9 +48,13 @@ Ticket MpiBackend::ticket_of_collective(MPI_Request request) {
 
 std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void* x, std::size_t n) {
   if (n > INT_MAX) return std::nullopt;
+  const MPI_Datatype type = datatype(reduction.element);
+  int bytes = 0;
+  succeed(MPI_Type_size(type, &bytes), "MPI_Type_size");
+  const auto* values = static_cast<const std::byte*>(x);
+  operands_.assign(values, values + n * static_cast<std::size_t>(bytes));
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Iallreduce(MPI_IN_PLACE, x, static_cast<int>(n), datatype(reduction.element), operation(reduction.rule),
-                         nodes_only_, &request),
+  succeed(MPI_Iallreduce(operands_.data(), x, static_cast<int>(n), type, operation(reduction.rule), nodes_only_, &request),
           "MPI_Iallreduce");
   return ticket_of_collective(request);
 }

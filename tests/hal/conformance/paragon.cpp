@@ -77,6 +77,7 @@ RULE(merged_ids, "msgmerge makes one id of two, done when both are; the other is
   msgwait(both);
   expect_equal(first, 1);
   expect_equal(second, 2);
+  expect_equal(infotype(), 83);  // of the first receive among them
   REFUSED(EQMID, msgwait, (one), "no message id");
   REFUSED(EQMID, msgwait, (two), "no message id");
 }
@@ -100,6 +101,7 @@ RULE(ignored_ids, "msgignore frees the id, and what it stands for goes on", "the
   receive_empty(87);  // the one before has come
   expect_equal(iprobe(86), 0);
   expect_equal(value, 3);
+  expect_equal(infotype(), 87);
 }
 
 std::vector<long>& parameters() {

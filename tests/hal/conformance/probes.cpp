@@ -44,7 +44,7 @@ RULE(iprobe_does_not_wait, "iprobe of what is not there is 0", "info* stay as th
 RULE(cprobe_waits, "cprobe waits until a message that it selects has come", "others do not end it") {
   if (is_host()) {
     send_empty(63, -1);
-    let_pass(0.02);
+    let_pass(0.002);
     send_empty(64, -1);
     return;
   }

@@ -1,8 +1,10 @@
 // Every reduction by name, gopf, and gsendx.
 #include <vector>
 
+#include "hal/collectives.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
+#include "hal/process.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
@@ -25,20 +27,30 @@ T factor(long node, long i) {
   return static_cast<T>((node + i) % 5 == 0 ? -2 : 1);
 }
 
+// What the values of i repeat after.
+constexpr long kPeriod = 20;
+
+// Short vectors go whole across each dimension, long ones in parts, and odd ones do not halve evenly.
+std::vector<long> lengths() {
+  if (numnodes() <= 8) return {0, 1, 3, 2160, 17'001};
+  return {0, 1, 3, 500};
+}
+
 // On every node, at several lengths, `call` gives what `fold` gives of all nodes' values in any order.
 template <class T>
 void expect_folded(void (*call)(T*, long, T*), T (*of)(long, long), Fold<T> fold, const Place& at = Place::current()) {
   if (is_host()) return;
-  for (const long length : {1L, 3L, 500L}) {
-    std::vector<T> x, wanted, work(static_cast<std::size_t>(length));
-    for (long i = 0; i < length; ++i) {
-      x.push_back(of(mynode(), i));
-      T all = of(0, i);
-      for (long node = 1; node < numnodes(); ++node) all = fold(all, of(node, i));
-      wanted.push_back(all);
-    }
+  std::vector<T> mine, wanted;
+  for (long i = 0; i < kPeriod; ++i) {
+    mine.push_back(of(mynode(), i));
+    wanted.push_back(of(0, i));
+    for (long node = 1; node < numnodes(); ++node) wanted.back() = fold(wanted.back(), of(node, i));
+  }
+  for (const long length : lengths()) {
+    std::vector<T> x(static_cast<std::size_t>(length)), work(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = mine[i % kPeriod];
     call(x.data(), length, work.data());
-    for (long i = 0; i < length; ++i) expect_equal(x[static_cast<std::size_t>(i)], wanted[static_cast<std::size_t>(i)], at);
+    for (std::size_t i = 0; i < x.size(); ++i) expect_equal(x[i], wanted[i % kPeriod], at);
   }
 }
 
@@ -51,31 +63,50 @@ T high(T a, T b) { return a < b ? b : a; }
 template <class T>
 T low(T a, T b) { return b < a ? b : a; }
 
-RULE(reductions_of_doubles, "gdsum, gdprod, gdhigh and gdlow", "no element, and no node, is left out") {
+void reduce_doubles() {
   expect_folded<double>(gdsum, value, sum);
   expect_folded<double>(gdprod, factor, product);
   expect_folded<double>(gdhigh, value, high);
   expect_folded<double>(gdlow, value, low);
 }
 
-RULE(reductions_of_floats, "gssum, gsprod, gshigh and gslow", "no element, and no node, is left out") {
+void reduce_floats() {
   expect_folded<float>(gssum, value, sum);
   expect_folded<float>(gsprod, factor, product);
   expect_folded<float>(gshigh, value, high);
   expect_folded<float>(gslow, value, low);
 }
 
-RULE(reductions_of_longs, "gisum, giprod, gihigh and gilow", "no element, and no node, is left out") {
+void reduce_longs() {
   expect_folded<long>(gisum, value, sum);
   expect_folded<long>(giprod, factor, product);
   expect_folded<long>(gihigh, value, high);
   expect_folded<long>(gilow, value, low);
 }
 
-RULE(bits, "giand, gior and gixor work bit by bit, negative numbers too", "bits of different places do not mix") {
-  expect_folded<long>(giand, value, [](long a, long b) { return a & b; });
-  expect_folded<long>(gior, value, [](long a, long b) { return a | b; });
-  expect_folded<long>(gixor, value, [](long a, long b) { return a ^ b; });
+// All 64 bits, of positive and negative numbers.
+long word(long node, long i) {
+  return static_cast<long>(static_cast<unsigned long>(node + 1) * 0x9e3779b97f4a7c15 >> (i % kPeriod));
+}
+
+void reduce_bits() {
+  expect_folded<long>(giand, word, [](long a, long b) { return a & b; });
+  expect_folded<long>(gior, word, [](long a, long b) { return a | b; });
+  expect_folded<long>(gixor, word, [](long a, long b) { return a ^ b; });
+}
+
+RULE(reductions_of_doubles, "gdsum, gdprod, gdhigh and gdlow",
+     "no element, and no node, is left out") {
+  reduce_doubles();
+}
+RULE(reductions_of_floats, "gssum, gsprod, gshigh and gslow",
+     "no element, and no node, is left out") {
+  reduce_floats();
+}
+RULE(reductions_of_longs, "gisum, giprod, gihigh and gilow", "no element, and no node, is left out") { reduce_longs(); }
+RULE(bits, "giand, gior and gixor work bit by bit, negative numbers too",
+     "bits of different places do not mix") {
+  reduce_bits();
 }
 
 // As if every value had been made 0 or 1 first: on one node alone, too.
@@ -95,10 +126,26 @@ long both(long a, long b) { return a & b; }
 long either(long a, long b) { return a | b; }
 long one(long a, long b) { return a ^ b; }
 
-RULE(truths, "gland, glor and glxor take what is not 0 for true and give 0 or 1", "never another number, not on one node either") {
+void reduce_truths() {
   expect_truth<both>(gland);
   expect_truth<either>(glor);
   expect_truth<one>(glxor);
+}
+
+RULE(truths, "gland, glor and glxor take what is not 0 for true and give 0 or 1",
+     "never another number, not on one node either") {
+  reduce_truths();
+}
+
+RULE(reductions_by_the_network, "all of them give the same where MARS_NX_COLLECTIVES=mpi has the network reduce by itself",
+     "not one is another operation of the network's") {
+  process().collectives_by(Collectives::network);
+  reduce_doubles();
+  reduce_floats();
+  reduce_longs();
+  reduce_bits();
+  reduce_truths();
+  process().collectives_by(Collectives::automatic);
 }
 
 struct Peak {
@@ -114,7 +161,8 @@ long higher_peak(void* x, void* work) {
   return 0;
 }
 
-RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result on every node", "ties do not depend on who asks") {
+RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result on every node",
+     "ties do not depend on who asks") {
   if (is_host()) return;
   Peak x{static_cast<double>(mynode() * 5 % 3), mynode()}, work{};
   gopf(&x, sizeof x, &work, higher_peak);
@@ -127,7 +175,8 @@ RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result
   expect_equal(x.node, wanted.node);
 }
 
-RULE(wrong_arguments_of_reductions, "what is wrong on all nodes fails on all, plain and twin", "EQLEN, EQPBUF; afterwards all goes on") {
+RULE(wrong_arguments_of_reductions, "what is wrong on all nodes fails on all, plain and twin",
+     "EQLEN, EQPBUF; afterwards all goes on") {
   if (is_host()) return;
   double x = 0, work = 0;
   long whole = 0, whole_work = 0, count = 0;
@@ -140,32 +189,6 @@ RULE(wrong_arguments_of_reductions, "what is wrong on all nodes fails on all, pl
   REFUSED(EQPBUF, gcol, (&x, 8, &x, 8, nullptr), "null");
   REFUSED(EQPBUF, gcolx, (&x, nullptr, &x), "null");
   gsync();
-}
-
-RULE(wrong_on_one_node, "what is wrong on one node fails on all that wait for it", "none is left waiting; afterwards all goes on") {
-  if (is_host()) return;
-  const long wrong = numnodes() - 1;
-  double x = 1, work = 0;
-  expect_equal(_gdsum(&x, mynode() == wrong ? -1 : 1, &work), -1);
-  if (mynode() == wrong) expect_errno(EQLEN, [&] { return _gdsum(&x, -1, &work); });
-  else expect_equal(_gdsum(&x, 1, &work), -1);
-  x = 1;
-  gdsum(&x, 1, &work);
-  expect_equal(x, numnodes());
-}
-
-RULE(gcolx_of_known_lengths, "gcolx takes each node's length from the list", "a node of length 0 gives nothing") {
-  if (is_host()) return;
-  std::vector<long> lengths, wanted;
-  for (long node = 0; node < numnodes(); ++node) {
-    lengths.push_back(node % 3 * static_cast<long>(sizeof(long)));
-    for (long i = 0; i < node % 3; ++i) wanted.push_back(10 * node + i);
-  }
-  const long mine[2] = {10 * mynode(), 10 * mynode() + 1};
-  std::vector<long> y(wanted.size() + 1, -7);
-  gcolx(mine, lengths.data(), y.data());
-  wanted.push_back(-7);
-  expect(y == wanted, "the parts are in node order, and nothing is behind them");
 }
 
 RULE(gsendx_to_a_list, "gsendx sends to each node of a list; those receive by crecv", "nodes not in it get nothing") {
@@ -181,7 +204,8 @@ RULE(gsendx_to_a_list, "gsendx sends to each node of a list; those receive by cr
   expect_equal(iprobe(73), 0);
 }
 
-RULE(wrong_arguments_of_gsendx, "gsendx checks all its list before it sends", "EQNODE, EQTYPE, EQLEN, EQPBUF, and nothing has gone") {
+RULE(wrong_arguments_of_gsendx, "gsendx checks all its list before it sends",
+     "EQNODE, EQTYPE, EQLEN, EQPBUF, and nothing has gone") {
   long x = 0;
   const long list[2] = {mynode(), numnodes() + 1};
   REFUSED(EQNODE, gsendx, (73, &x, 8, list, 2), "no node");

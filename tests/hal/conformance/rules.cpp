@@ -57,11 +57,8 @@ const std::vector<Rule>& rules() {
   return sorted;
 }
 
-void run_rules() { run_rules_but(""); }
-
-void run_rules_but(const std::string& body) {
+void run_rules() {
   for (const Rule& rule : rules()) {
-    if (rule.body == body) continue;
     if (is_host()) {
       std::printf("%2ld nodes: %s", numnodes(), full_name(rule).c_str());
       std::fflush(stdout);

@@ -31,8 +31,6 @@ const std::vector<Rule>& rules();
 // Every rank of a world calls it. Runs all rules; throws a Failure that names the first one broken on this rank. The
 // host tells standard output which one runs and how long it took.
 void run_rules();
-// Likewise, all but one, where that would take too long.
-void run_rules_but(const std::string& body);
 
 // The page of all rules, as Markdown.
 std::string table_of_rules();

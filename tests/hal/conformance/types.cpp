@@ -72,7 +72,7 @@ RULE(sets_do_not_probe_others, "iprobe takes a set as receives do", "0 where onl
 }
 
 RULE(force_is_discarded, "a force message is discarded where no receive is posted",
-     "a receive posted later does not get it") {
+     "a receive posted later does not get it; iprobe finds none, and cprobe, which would wait for ever, is EQTYPE") {
   if (is_host()) {
     send_empty(kForce, -1);
     send_empty(1, -1);
@@ -83,6 +83,7 @@ RULE(force_is_discarded, "a force message is discarded where no receive is poste
   }
   receive_empty(1);
   expect_equal(iprobe(kForce), 0);
+  REFUSED(EQTYPE, cprobe, (kForce), "force");
   long forced = 0;
   const long mid = irecv(kForce, &forced, sizeof forced);
   expect_equal(msgdone(mid), 0);
