@@ -1,32 +1,20 @@
 #include "hal/mpi/bells.h"
 
-#include <linux/futex.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <memory>
 #include <new>
 
+#include "hal/futex.h"
 #include "hal/mpi/mpi_call.h"
 
 namespace mars::hal {
+
+static_assert(std::atomic<std::int32_t>::is_always_lock_free, "processes share these");
 
 struct alignas(64) Bells::Bell {
   std::atomic<std::uint32_t> armed{0};          // 1: its rank may be asleep
   std::atomic<std::int32_t> awaited{kNothing};  // type
 };
-
-namespace {
-
-static_assert(std::atomic<std::uint32_t>::is_always_lock_free && std::atomic<std::int32_t>::is_always_lock_free, "processes share these");
-
-// Not one of glibc's calls. Any of its errors means: look again.
-void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* timeout) {
-  syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&word), operation, value, timeout, nullptr, 0);
-}
-
-}  // namespace
 
 Bells::Bells(MPI_Comm here, MPI_Comm all) {
   const int count = size_of(here);

@@ -1,9 +1,7 @@
 #include "hal/processes/segment.h"
 
-#include <linux/futex.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,12 +10,12 @@
 #include <ctime>
 
 #include "hal/failure.h"
+#include "hal/futex.h"
 
 namespace mars::hal {
 namespace {
 
-static_assert(std::atomic<Offset>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free,
-              "processes share these");
+static_assert(std::atomic<Offset>::is_always_lock_free, "processes share these");
 
 constexpr std::size_t kPage = 1 << 16;
 // A heap has more addresses than it may use memory: blocks are rounded up, and may have given theirs back.
@@ -28,11 +26,6 @@ constexpr std::size_t kSharedRoom = std::size_t{1} << 40;  // addresses, of whic
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
 std::size_t front_size(int slots) { return whole_pages(sizeof(Header) + slots * sizeof(Slot)); }
-
-// Not one of glibc's calls. Any of its errors means: look again.
-void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* timeout) {
-  syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&word), operation, value, timeout, nullptr, 0);
-}
 
 Failure no_memory(const std::string& what) {
   return Failure("the machine gives no memory that its processes could share: " + what, "",

@@ -39,12 +39,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// Folders that we may not look into have nothing for us.
-bool runnable(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
-}
-
 // In the first folder of `path` that has any of `names`, the first of these.
 std::optional<fs::path> find_first(std::span<const std::string_view> names, std::string_view path) {
   while (!path.empty()) {
@@ -109,6 +103,11 @@ Mpi our_mpi() { return MARS_MPICH ? Mpi::mpich : Mpi::open_mpi; }
 
 const char* name_of(Mpi mpi) { return mpi == Mpi::mpich ? "MPICH" : "Open MPI"; }
 const char* package_of(Mpi mpi) { return mpi == Mpi::mpich ? "mpich" : "openmpi-bin"; }
+
+bool runnable(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
+}
 
 std::optional<fs::path> find_program(const std::string& name, const std::string& path) {
   const std::string_view only = name;

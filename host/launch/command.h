@@ -23,6 +23,9 @@ struct Command {
 // As it can be pasted into a shell.
 std::string shell_text(const Command& command);
 
+// A file that may be executed. Folders that we may not look into have none for us.
+bool runnable(const std::filesystem::path& file);
+
 // The program of that name in `path`, folders separated by colons; none: in none of them.
 std::optional<std::filesystem::path> find_program(const std::string& name, const std::string& path);
 

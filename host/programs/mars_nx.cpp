@@ -71,11 +71,6 @@ std::string path_of(const Environment& environment) {
   return environment.value("PATH").value_or("/usr/bin:/bin");
 }
 
-bool runnable(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
-}
-
 // Here, or where a shell would find it.
 fs::path program_file(const std::string& word) {
   if (runnable(word)) return fs::absolute(word);
