@@ -57,6 +57,7 @@ class MpiBackend : public Backend {
   enum class Ending { not_yet, counting, leaving, ended };
 
   void look_around();
+  void check_length(int type, std::size_t length) const;
   MPI_Request isend(int to, int type, const void* data, std::size_t length);
   Message* with_type(std::int32_t type, const void* data, std::size_t length);
   Envelope open_wide(const Envelope& whole);

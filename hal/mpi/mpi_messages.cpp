@@ -52,8 +52,13 @@ int MpiBackend::type(int tag) const {
   return tag <= last_tag_ ? tag : kFirstInternalType + (tag - last_tag_ - 1);
 }
 
+// Before anything is copied.
+void MpiBackend::check_length(int type, std::size_t length) const {
+  const std::size_t behind = tag(type) == wide_tag_ ? sizeof(std::int32_t) : 0;
+  if (length + behind > INT_MAX) fail_length(length);
+}
+
 MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t length) {
-  if (length > INT_MAX) fail_length(length);
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag(type), all_, &request),
           "MPI_Isend");
@@ -77,6 +82,7 @@ void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
 }
 
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
+  check_length(type, length);
   send_copy(to, type, tag(type) == wide_tag_ ? with_type(type, data, length) : pool_.copy({rank_, type, length}, data));
 }
 
@@ -96,6 +102,7 @@ std::optional<Ticket> MpiBackend::send_or_start(int to, int type, const void* da
     send(to, type, data, length);
     return std::nullopt;
   }
+  check_length(type, length);
   Message* copy = pool_.acquire({rank_, type, length});
   for (std::size_t done = 0; done < length; done += kCopiedAtOnce) {
     if (bells_->claim(to, type)) {
@@ -135,7 +142,10 @@ void MpiBackend::reclaim_some() {
 }
 
 Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
-  if (tag(type) != wide_tag_) return ticket_for(isend(to, type, data, length));
+  if (tag(type) != wide_tag_) {
+    check_length(type, length);
+    return ticket_for(isend(to, type, data, length));
+  }
   send(to, type, data, length);
   return ticket_for(MPI_REQUEST_NULL);
 }

@@ -47,6 +47,12 @@ void longer_than_mpi() {
   wait_for_ever();
 }
 
+void copy_longer_than_mpi() {
+  char byte = 0;
+  if (mynode() == 0) csend(1, &byte, INT32_MAX + 1L, 1, 0);
+  wait_for_ever();
+}
+
 void too_much_shared_memory() {
   if (mynode() != myhost()) SharedMemory(std::size_t{1} << 50);
   wait_for_ever();
@@ -70,6 +76,7 @@ int run(int argc, char** argv) {
       {"host_throws", host_throws},
       {"message_too_long", message_too_long},
       {"longer_than_mpi", longer_than_mpi},
+      {"copy_longer_than_mpi", copy_longer_than_mpi},
       {"too_much_shared_memory", too_much_shared_memory},
       {"leaves_messages", leaves_messages},
   };
