@@ -27,7 +27,8 @@ void relcube(const char* name);
 void setpid(long pid);
 
 /* Starts the program `file` on `node`: the file as given, or one of its name beside the host program. Under MPI,
- * which has started the nodes already, it must be the program that they run; it goes on now. */
+ * which has started the nodes already, it must be the program that they run; it goes on now. What is sent to a node whose
+ * program has ended is nobody's, unless the sender was loaded after that end: then the node's next program gets it. */
 void load(const char* file, long node, long pid);
 
 /* Waits until the programs loaded on `node` have ended. */
