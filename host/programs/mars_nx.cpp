@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -42,8 +43,10 @@ receives for the first time, or when it has ended. What the programs write is
 what mars-nx writes; the host reads its input, without a host node 0 does.
 
 When a program dies, the others' message calls fail, unless the host kills and
-loads the nodes again; when every process waits for a message and none is on its
-way, all fail. Nothing is left behind, however mars-nx ends.
+loads the nodes again. Where every process waits for a message and none is on
+its way, all fail over processes; over MPI they do once a process has ended with
+a code above 0, else they wait for ever: MARS_NX_STRICT=yes tells who waits.
+Nothing is left behind, however mars-nx ends.
 
 Exit codes: the highest of all programs', 128 and the signal for one that died
 of it, 1 where a message call failed; 2 the command line is wrong.
@@ -72,7 +75,7 @@ std::string path_of(const Environment& environment) {
 }
 
 // Here, or where a shell would find it.
-fs::path program_file(const std::string& word) {
+fs::path program_file(const std::string& word, const char* remedy = "") {
   if (runnable(word)) return fs::absolute(word);
   if (word.find('/') == std::string::npos)
     if (const auto found = find_program(word, path_of(own_environment()))) return *found;
@@ -80,7 +83,7 @@ fs::path program_file(const std::string& word) {
   if (fs::is_directory(word, ignored)) throw Failure("is a folder, not a program", word, "");
   if (fs::exists(word, ignored))
     throw Failure("is not a program that can be run", word, "see whether it may be executed: chmod +x");
-  throw Failure("there is no such program", word, "");
+  throw Failure("there is no such program", word, remedy);
 }
 
 struct NxPrograms {
@@ -92,7 +95,8 @@ NxPrograms programs_of(RunOptions& options) {
   NxPrograms programs;
   std::size_t used = 0;
   if (options.host || options.words.size() >= 2) programs.host = program_file(options.words[used++]);
-  if (used < options.words.size()) programs.node = program_file(options.words[used++]);
+  const char* remedy = used == 0 ? "" : "arguments of the programs come after --";
+  if (used < options.words.size()) programs.node = program_file(options.words[used++], remedy);
   options.arguments.insert(options.arguments.begin(),
                            options.words.begin() + static_cast<std::ptrdiff_t>(used), options.words.end());
   return programs;
@@ -185,6 +189,7 @@ bool over_mpi(const RunOptions& options) {
 
 // More processes than this would keep the machine busy with changing between them.
 constexpr int kNodesAProcessor = 64;
+constexpr int kMostNodes = 1 << 12;
 
 void check_nodes(int nodes, const topology::Machine& machine) {
   const int most = kNodesAProcessor * machine.processors();
@@ -204,6 +209,16 @@ int run(RunOptions& options) {
   return run_processes(options, programs, settings.nx_memory.value_or(message_memory(machine)));
 }
 
+// Nothing, or what is wrong with the word.
+std::string is_count(const std::string& word) {
+  int count = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  return whole && count >= 1 && count <= kMostNodes
+             ? ""
+             : "'" + word + "' is not a number from 1 to " + std::to_string(kMostNodes);
+}
+
 void add_run(CLI::App& app, RunOptions& options, int& code) {
   CLI::App* command = app.add_subcommand("run", "Start a host and its nodes, or nodes alone");
   command
@@ -212,10 +227,10 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
       ->required()
       ->type_name("FILE");
   command
-      ->add_option("--nodes", options.nodes,
+      ->add_option("-n,--nodes", options.nodes,
                    "Number of nodes; default: one a processor, or what the hostfile or Slurm job has room "
                    "for. Example: --nodes 8")
-      ->check(CLI::Range(1, 1 << 12).description(""))
+      ->check(is_count)
       ->type_name("N");
   command->add_flag("--host", options.host,
                     "The first program is the host, also where it is the only one: it loads its nodes "

@@ -397,6 +397,7 @@ class Ends(NxRun):
 
     def test_wrong_command_lines(self):
         self.badly(1, "./none: there is no such program", "--nodes", 2, "./none")
+        self.badly(1, "long: there is no such program (arguments of the programs come after --)", "-n", 2, "./node", "long")
         self.badly(1, "./node.c: is not a program that can be run", "--nodes", 2, "./node.c")
         self.badly(1, "/: is a folder", "--nodes", 2, "/")
         script = self.write("unreadable", "#!/nowhere/sh\n")
@@ -404,7 +405,8 @@ class Ends(NxRun):
         done = self.run_nx("--nodes", 1, "./unreadable")
         self.assertClear(done.stderr, "unreadable: cannot be run: No such file or directory")
         self.assertEqual(done.returncode, 1)
-        for words, says in [([], "PROGRAM is required"), (["--nodes", "0", "./node"], "--nodes"),
+        for words, says in [([], "PROGRAM is required"), (["--nodes", "0", "./node"], "--nodes: '0' is not a number from 1"),
+                            (["-n", "4x", "./node"], "--nodes: '4x' is not a number from 1"),
                             (["--nodes", "5000", "./node"], "--nodes"), (["--over", "smoke", "./node"], "not auto or processes or mpi")]:
             done = self.run_nx(*words)
             self.assertClear(done.stderr, says)
