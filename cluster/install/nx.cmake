@@ -66,4 +66,10 @@ foreach(page IN LISTS pages)
 endforeach()
 add_custom_target(nx_manual ALL DEPENDS ${filled})
 
+# All that the two components install.
+add_custom_target(nx DEPENDS mars-nx mars_nx mars_nx_fortran nx_manual)
+if(TARGET nx_option_list)
+  add_dependencies(nx nx_option_list)
+endif()
+
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME mars)

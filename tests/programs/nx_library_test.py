@@ -2,6 +2,7 @@
 nothing else, and pkg-config and CMake find both wherever they are."""
 
 import re
+import unittest
 
 import harness
 from harness import main
@@ -85,6 +86,11 @@ class Library(NxInstallation):
         self.succeed("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.succeed("cmake", "--build", "build")
         self.assertRuns("build/rank")
+
+    @unittest.skipUnless((harness.PROGRAMS.parent / "build.ninja").exists(), "needs Ninja")
+    def test_is_built_without_mars(self):
+        commands = self.succeed("ninja", "-C", harness.PROGRAMS.parent, "-t", "commands", "nx")
+        self.assertEqual(re.findall(r" -o bin/(\S+)", commands), ["mars-nx"])
 
     def assertRuns(self, program):
         done = self.run_nx("--nodes", 3, program)
