@@ -7,6 +7,8 @@ target_include_directories(mars_nx_fortran
   PRIVATE ${PROJECT_SOURCE_DIR}
   INTERFACE $<BUILD_INTERFACE:${CMAKE_CURRENT_LIST_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/mars-nx-fortran>)
 target_link_libraries(mars_nx_fortran PUBLIC mars_nx)
+# Programs give one call buffers of many types, which gfortran takes for a mistake since version 10.
+target_compile_options(mars_nx_fortran INTERFACE $<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-std=legacy>)
 target_link_options(mars_nx_fortran PRIVATE
   -Wl,--version-script=${CMAKE_CURRENT_BINARY_DIR}/libmars-nx-fortran.map -Wl,--no-undefined)
 set_target_properties(mars_nx_fortran PROPERTIES

@@ -11,10 +11,11 @@ from nx_installation import NxInstallation
 FORTRAN = shutil.which("gfortran")
 
 PROJECT = """cmake_minimum_required(VERSION 3.16)
-project(pi LANGUAGES C Fortran)
+project(calls LANGUAGES C Fortran)
 find_package(mars-nx 0.1 CONFIG REQUIRED)
-add_executable(pi pi.f)
-target_link_libraries(pi PRIVATE mars-nx::nx-fortran)
+add_executable(calls fortran_calls.f)
+target_compile_options(calls PRIVATE -w)
+target_link_libraries(calls PRIVATE mars-nx::nx-fortran)
 """
 
 
@@ -49,11 +50,11 @@ class Fortran(NxInstallation):
         self.assertEqual(self.run_well("--nodes", 3, "--host", "./fortran_host"), said)
 
     def test_cmake_package(self):
-        shutil.copy(harness.EXAMPLES / "nx/pi.f", self.folder)
+        shutil.copy(harness.SOURCES / "tests/programs/fortran_calls.f", self.folder)
         self.write("CMakeLists.txt", PROJECT)
         self.succeed("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.succeed("cmake", "--build", "build")
-        self.assertEqual(self.run_well("--nodes", 2, "build/pi"), "pi: 3.14159265 by  2 nodes\n")
+        self.assertEqual(self.run_well("--nodes", 2, "build/calls"), "calls:  2 nodes,   0 wrong\n")
 
 
 if __name__ == "__main__":
