@@ -52,13 +52,22 @@ function prototype(name,    count, each, i, depth, letter, argument) {
   print ".Fc"
 }
 
-function definition(name) {
+# A struct has a line for each member.
+function definition(name,    text) {
   if (!match(headers, "typedef [^;{(]*(\\(\\*" name "\\)\\([^)]*\\)|\\{[^}]*\\} " name ");") &&
       !match(headers, "struct " name " \\{[^}]*\\};")) {
     print "nx_manual.awk: no header defines " name > "/dev/stderr"
     exit failed = 1
   }
-  print ".Vt \"" tidy(substr(headers, RSTART, RLENGTH)) "\""
+  text = tidy(substr(headers, RSTART, RLENGTH))
+  if (text ~ /\{/) {
+    gsub(/[{;] /, "&\n  ", text)
+    sub(/\n *}/, "\n}", text)
+    gsub(/ \n/, "\n", text)
+    print ".Bd -literal\n" text "\n.Ed"
+  } else {
+    print ".Vt \"" text "\""
+  }
   print ".Pp"
 }
 
