@@ -21,8 +21,11 @@ namespace {
 }
 
 [[noreturn]] void fail_node(const Progress& process, const char* call, long node, const char* all) {
+  const char* host = process.backend().has_host()
+                         ? ", the host is myhost()"
+                         : ", and this job has no host: mars-nx run ./host ./node starts one";
   process.fail(call, EQNODE, "there is no node " + std::to_string(node),
-               "nodes are 0 to " + std::to_string(process.backend().nodes() - 1) + ", the host is myhost(), -1 is " + all);
+               "nodes are 0 to " + std::to_string(process.backend().nodes() - 1) + host + ", -1 is " + all);
 }
 
 [[noreturn]] void fail_type(const Progress& process, const char* call, long type) {
@@ -47,7 +50,9 @@ void check_pid(const Progress& process, const char* call, long pid) {
 }
 
 void check_node(const Progress& process, const char* call, long node, const char* all) {
-  if (node < -1 || node > process.backend().host()) fail_node(process, call, node, all);
+  const Backend& backend = process.backend();
+  if (node < -1 || node > backend.host() || (node == backend.host() && !backend.has_host()))
+    fail_node(process, call, node, all);
 }
 
 }  // namespace

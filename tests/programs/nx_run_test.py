@@ -20,6 +20,7 @@ MARS_NX = PROGRAMS / "mars-nx"
 # What a node does is the last argument.
 NODE = r"""
 #include <cube.h>
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,9 +45,10 @@ static void work(const char* what) {
   if (!strcmp(what, "fill")) for (i = 0; i < 100; i++) csend(1, big, sizeof big, mynode(), 0);
   if (!strcmp(what, "reuse")) for (i = 0; i < 100; i++) { csend(1, big, sizeof big, mynode(), 0); crecv(1, big, sizeof big); }
   if (!strcmp(what, "to-host")) csend(1, &x, sizeof x, myhost(), 0);
+  if (!strcmp(what, "to-nobody")) { x = _csend(1, &x, sizeof x, numnodes(), 0); printf("%ld %d\n", x, errno == EQNODE); }
   if (!strcmp(what, "read")) { char line[80] = ""; if (mynode() == 0 && !fgets(line, sizeof line, stdin)) exit(1); printf("read %s", line); }
   if (!strcmp(what, "late")) { sleep(1); printf("late\n"); }
-  if (strcmp(what, "square") && strcmp(what, "late") && strcmp(what, "reuse") && strcmp(what, "read") && strcmp(what, "to-host")) crecv(10, &x, sizeof x);
+  if (strcmp(what, "square") && strcmp(what, "late") && strcmp(what, "reuse") && strcmp(what, "read") && strncmp(what, "to-", 3)) crecv(10, &x, sizeof x);
 }
 int main(int argc, char** argv) {
   if (argc < 2) {
@@ -388,7 +390,14 @@ class Ends(NxRun):
             self.assertIn("node 0, csend: there is no node 99", done.stderr)
             self.assertNotEqual(done.returncode, 0)
         self.badly(1, "node 0, csend: there is no node 99", "--nodes", 3, "./node", "--", "fail")
-        self.badly(1, "this job has no host", "--nodes", 1, "./node", "--", "to-host")
+
+    def test_a_message_to_a_host_that_is_not_there(self):
+        says = "node 0, csend: there is no node 1 (nodes are 0 to 0, and this job has no host"
+        for over in OVER:
+            self.assertIn(says, self.run_nx("--over", over, "--nodes", 1, "./node", "--", "to-host").stderr)
+            self.assertEqual(self.well("--nodes", 3, "./node", "--", "to-nobody", over=over), "-1 1\n" * 3)
+        done = self.run_program(self.folder / "node", "to-host")
+        self.assertClear(done.stderr, says)
 
     def test_too_much_under_way(self):
         little = dict(ENVIRONMENT, MARS_NX_MEMORY="64")
