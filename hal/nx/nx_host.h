@@ -23,7 +23,7 @@ void attachcube(const char* name);
 /* Ends what still runs on the nodes and gives the cube up; NULL or "": whatever its name. */
 void relcube(const char* name);
 
-/* Of the host process; must be 0. */
+/* Of the host process, which has it for mypid() and accepts messages to any pid; 0 or more. A node's is 0. */
 void setpid(long pid);
 
 /* Starts the program `file` on `node`: the file as given, or one of its name beside the host program. Under MPI,

@@ -40,6 +40,7 @@ static void work(const char* what) {
   if (!strcmp(what, "code")) exit((int)mynode() + 3);
   if (!strcmp(what, "give-up") && mynode() == 1) exit(7);
   if (!strcmp(what, "sleep")) { mynode(); printf("sleeping\n"); sleep(100); }
+  if (!strcmp(what, "to-pid")) csend(11, &x, sizeof x, myhost(), 100);
   if (!strcmp(what, "fail") && mynode() == 0) csend(1, &x, sizeof x, 99, 0);
   if (!strcmp(what, "load")) load("node", -1, 0);
   if (!strcmp(what, "fill")) for (i = 0; i < 100; i++) csend(1, big, sizeof big, mynode(), 0);
@@ -129,6 +130,13 @@ int main(int argc, char** argv) {
   if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
   if (!strcmp(what, "twin")) printf("%ld %ld %ld\n", _load("none", 0, 0), _getcube("mine", "16", NULL, 0), _relcube("other"));
   if (!strcmp(what, "load")) load(argv[2], 0, 0);
+  if (!strcmp(what, "pid")) {
+    printf("%ld ", mypid());
+    setpid(100);
+    getcube("mine", "", NULL, 0);
+    for (i = 0; i < numnodes(); i++) crecv(11, &x, sizeof x);
+    printf("%ld %ld\n", mypid(), _setpid(-1));
+  }
   if (!strcmp(what, "receive")) crecv(99, &x, sizeof x);
   if (!strcmp(what, "kill")) { csend(10, &n, 0, 0, 0); killcube(-1, -1); return 3; }
   if (!strcmp(what, "read")) { if (!fgets(line, sizeof line, stdin)) return 1; printf("read %s", line); }
@@ -301,6 +309,10 @@ class Cubes(NxRun):
         for over in OVER:
             told = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
             self.assertEqual(told, "1 cube mine of 2, host 2, me 2\nsum 1\n")
+
+    def test_the_host_has_a_pid_of_its_own(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 2, "./host", "./node", "pid", "to-pid", over=over), "0 100 -1\n")
 
     def test_loads_without_a_program_of_the_command_line(self):
         told = self.well("--nodes", 4, "--host", "./host", "--", "cube", "square")
