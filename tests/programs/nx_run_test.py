@@ -114,6 +114,13 @@ int main(int argc, char** argv) {
     printf("sum %ld\n", squares());
     relcube("");
   }
+  if (!strcmp(what, "two")) {
+    for (i = 0; i < 2; i++) load("node", i, 0);
+    for (i = 0; i < 2; i++) csend(10, &i, sizeof i, i, 0);
+    for (n = i = 0; i < 2; i++) { crecv(11, &x, sizeof x); n += x; }
+    waitall(-1, 0);
+    printf("two %ld\n", n);
+  }
   if (!strcmp(what, "ends")) tell_ends();
   if (!strcmp(what, "rounds")) for (n = 0; n < 30; n++) {
     for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
@@ -268,6 +275,8 @@ class Starts(NxRun):
     def test_own_mpirun(self):
         told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "sum", ":", "-n", 3, "./node", "square")
         self.assertEqual(told, "sum 5\n")
+        told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "two", ":", "-n", 3, "./node", "square")
+        self.assertEqual(told, "two 1\n")
         told = self.succeed(*OWN_MPIRUN, "-n", 3, "./node")
         self.assertIn("2 of 3 has word of 1", told)
 
@@ -309,6 +318,10 @@ class Cubes(NxRun):
         for over in OVER:
             told = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
             self.assertEqual(told, "1 cube mine of 2, host 2, me 2\nsum 1\n")
+
+    def test_a_node_that_is_not_loaded_never_begins(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 3, "./host", "./node", "two", "square", over=over), "two 1\n")
 
     def test_the_host_has_a_pid_of_its_own(self):
         for over in OVER:
