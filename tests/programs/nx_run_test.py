@@ -40,6 +40,11 @@ static void work(const char* what) {
   if (!strcmp(what, "code")) exit((int)mynode() + 3);
   if (!strcmp(what, "give-up") && mynode() == 1) exit(7);
   if (!strcmp(what, "sleep")) { mynode(); printf("sleeping\n"); sleep(100); }
+  if (!strcmp(what, "sum")) {
+    double one = 1, work;
+    if (_gdsum(&one, mynode() == 1 ? -1 : 1, &work) < 0) nx_perror("told");
+    exit(0);
+  }
   if (!strcmp(what, "to-pid")) csend(11, &x, sizeof x, myhost(), 100);
   if (!strcmp(what, "fail") && mynode() == 0) csend(1, &x, sizeof x, 99, 0);
   if (!strcmp(what, "load")) load("node", -1, 0);
@@ -415,6 +420,12 @@ class Ends(NxRun):
             self.assertIn("node 0, csend: there is no node 99", done.stderr)
             self.assertNotEqual(done.returncode, 0)
         self.badly(1, "node 0, csend: there is no node 99", "--nodes", 3, "./node", "--", "fail")
+
+    def test_a_global_operation_fails(self):
+        for over in OVER:
+            told = sorted(self.run_nx("--over", over, "--nodes", 3, "./node", "--", "sum").stderr.splitlines())
+            for node, says in enumerate(["another node's gdsum failed (", "length -1 is negative (", "another node's gdsum failed ("]):
+                self.assertIn(f"told: node {node}, gdsum: {says}", told[node])
 
     def test_a_message_to_a_host_that_is_not_there(self):
         says = "node 0, csend: there is no node 1 (nodes are 0 to 0, and this job has no host"
