@@ -17,12 +17,16 @@ namespace {
 }
 
 [[noreturn]] void fail_pid(const Progress& process, const char* call, long pid) {
-  process.fail(call, EQPID, "there is no pid " + std::to_string(pid), "every node runs one process, pid 0");
+  process.fail(call, EQPID, "there is no pid " + std::to_string(pid),
+               "every node runs one process, pid 0; the host may have any");
 }
 
 [[noreturn]] void fail_node(const Progress& process, const char* call, long node, const char* all) {
+  const char* host = process.backend().has_host()
+                         ? ", the host is myhost()"
+                         : ", and this job has no host: mars-nx run ./host ./node starts one";
   process.fail(call, EQNODE, "there is no node " + std::to_string(node),
-               "nodes are 0 to " + std::to_string(process.backend().nodes() - 1) + ", the host is myhost(), -1 is " + all);
+               "nodes are 0 to " + std::to_string(process.backend().nodes() - 1) + host + ", -1 is " + all);
 }
 
 [[noreturn]] void fail_type(const Progress& process, const char* call, long type) {
@@ -42,12 +46,16 @@ std::size_t check_buffer(const Progress& process, const char* call, const void* 
   return bytes;
 }
 
-void check_pid(const Progress& process, const char* call, long pid) {
-  if (pid != 0 && pid != -1) fail_pid(process, call, pid);
+// The host's is what it says itself, and it alone can be meant.
+void check_pid(const Progress& process, const char* call, long node, long pid) {
+  const bool any = node == process.backend().host();
+  if (pid < -1 || (pid > 0 && !any)) fail_pid(process, call, pid);
 }
 
 void check_node(const Progress& process, const char* call, long node, const char* all) {
-  if (node < -1 || node > process.backend().host()) fail_node(process, call, node, all);
+  const Backend& backend = process.backend();
+  if (node < -1 || node > backend.host() || (node == backend.host() && !backend.has_host()))
+    fail_node(process, call, node, all);
 }
 
 }  // namespace
@@ -60,7 +68,7 @@ Outgoing check_send(const Progress& process, const char* call, long type, const 
                     long node, long pid) {
   if (type_class(type) == TypeClass::reserved) fail_type(process, call, type);
   const std::size_t bytes = check_buffer(process, call, buffer, length);
-  check_pid(process, call, pid);
+  check_pid(process, call, node, pid);
   check_node(process, call, node, "all others");
   const int first = static_cast<int>(node);
   const Receivers receivers =
@@ -72,7 +80,7 @@ Selection check_selection(const Progress& process, const char* call, long typese
   const std::int32_t narrow = narrow_typesel(typesel);
   if (narrow >= 0 && type_class(narrow) == TypeClass::reserved) fail_typesel(process, call, narrow);
   check_node(process, call, node, "any");
-  check_pid(process, call, pid);
+  check_pid(process, call, node, pid);
   return {narrow, static_cast<int>(node)};
 }
 

@@ -51,6 +51,8 @@ class Backend {
   virtual int rank() const = 0;
   virtual int nodes() const = 0;
   int host() const { return nodes(); }
+  // False where there is none: nothing is sent to its id then.
+  virtual bool has_host() const { return true; }
 
   // Sends a copy: `data` may be used again on return. Never waits for the receiver. `to` may be this rank.
   virtual void send(int to, int type, const void* data, std::size_t length) = 0;

@@ -56,10 +56,13 @@ void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, v
 
 void DimensionExchange::check_came(int from, std::size_t came, std::size_t bytes) {
   if (came == bytes) return;
+  const char* remedy = "all nodes call the same collectives in the same order with the same lengths";
+  if (came == spoilt_length(bytes))
+    return spoil(EQLEN, std::string("another node's ") + call_ + " failed", remedy);
   spoil(EQLEN,
         rank_name(cube_.first + from, process_.backend().host()) + " gave " + bytes_text(came) + " where " +
             bytes_text(bytes) + " belong",
-        "all nodes call the same collectives in the same order with the same lengths");
+        remedy);
 }
 
 void DimensionExchange::spoil(int code, const std::string& what, const std::string& remedy) {

@@ -40,6 +40,9 @@ void Control::take(int from, const Note& note, bool waits, std::uint64_t taken) 
     case Note::kill:
       killed_ = true;
       break;
+    case Note::start:
+      begins_ = note.value != 0;
+      break;
     case Note::ask:
       send(from, {Note::answer, waits, taken});
       break;

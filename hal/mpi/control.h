@@ -1,5 +1,5 @@
-// What the ranks of a job of C programs tell each other beside their messages: that a node has ended, that
-// one is to end, and whether anything still moves when one has ended with an error.
+// What the ranks of a job of C programs tell each other beside their messages: that a node may begin, that one
+// has ended, that one is to end, and whether anything still moves when one has ended with an error.
 #pragma once
 
 #include <chrono>
@@ -22,12 +22,16 @@ class Control {
 
   void tell_end(int host, int code) { send(host, {Note::ended, code, 0}); }
   void kill(int id) { send(id, {Note::kill, 0, 0}); }
+  // The one word to each node that waits to begin: whether it does.
+  void start(int id, bool begins) { send(id, {Note::start, begins, 0}); }
 
   // Takes in what has come. `waits`: this rank can do nothing before a message comes, and has taken `taken`
   // so far.
   void look(bool waits, std::uint64_t taken);
 
   bool killed() const { return killed_; }
+  // Whether this node begins, once it has been told.
+  std::optional<bool> begins() const { return begins_; }
   // With which code a node has ended, once it has told.
   std::optional<int> ended(int id) const { return ended_[static_cast<std::size_t>(id)]; }
 
@@ -37,9 +41,9 @@ class Control {
 
  private:
   struct Note {
-    enum What : std::int32_t { ended, kill, ask, answer };
+    enum What : std::int32_t { ended, kill, start, ask, answer };
     std::int32_t what;
-    std::int32_t value;  // exit code; whether it waits
+    std::int32_t value;  // exit code; whether it begins; whether it waits
     std::uint64_t taken;
   };
   struct Sent {
@@ -57,6 +61,7 @@ class Control {
   int id_ = 0;
   std::deque<Sent> sent_;
   bool killed_ = false;
+  std::optional<bool> begins_;
   std::vector<std::optional<int>> ended_;
 
   // Of one who watches.

@@ -51,37 +51,26 @@ void wait(MPI_Request& request) {
 
 class MpiWorld;
 
-// The messages of a rank that also looks for what the job has to tell it.
+// The messages of a rank that also looks for what the job has to tell it. The host's first message is when nodes
+// begin at the latest.
 class JoinedBackend : public MpiBackend {
  public:
   JoinedBackend(MpiWorld& world, bool host, MPI_Comm ranks)
       : MpiBackend(host ? 0 : -1, ranks), world_(world), host_(host) {}
 
-  void send(int to, int type, const void* data, std::size_t length) override {
-    check_there(to);
-    MpiBackend::send(to, type, data, length);
-  }
-  std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override {
-    check_there(to);
-    return MpiBackend::send_or_start(to, type, data, length);
-  }
-  Ticket start_send(int to, int type, const void* data, std::size_t length) override {
-    check_there(to);
-    return MpiBackend::start_send(to, type, data, length);
-  }
+  bool has_host() const override { return host_; }
+  void send(int to, int type, const void* data, std::size_t length) override;
+  std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override;
+  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  std::optional<Envelope> peek() override;
   void idle(int turn, std::chrono::microseconds longest) override;
 
  private:
-  void check_there(int to) const {
-    if (to == nodes() && !host_)
-      throw Failure("this job has no host", "", "start one: mars-nx run ./host ./node");
-  }
-
   MpiWorld& world_;
   const bool host_;
 };
 
-class MpiWorld : public World {
+class MpiWorld final : public World {
  public:
   MpiWorld(std::optional<bool> host, bool two_threads);
 
@@ -92,7 +81,9 @@ class MpiWorld : public World {
 
   int all_nodes() const override { return size_ - 1; }
   void resize(int nodes) override;
-  void begin() override { begun_ = true; }
+  void begin() override {
+    if (!begun_) begin_all();
+  }
   void load(const std::string& file, int node) override;
   void kill(int node) override;
   Status status(int node) override;
@@ -103,6 +94,10 @@ class MpiWorld : public World {
 
  private:
   void make_cube();
+  void begin_all();
+  void start(int node);
+  void await_start();
+  void dismiss();
   [[noreturn]] void end_now(int code);
 
   int rank_ = 0;
@@ -112,11 +107,31 @@ class MpiWorld : public World {
   int cube_ = 0;             // nodes
   std::unique_ptr<JoinedBackend> backend_;
   std::optional<Control> control_;
-  std::vector<int> rank_of_;  // by id
-  std::vector<bool> loaded_;  // by id
-  bool begun_ = false;
+  std::vector<int> rank_of_;   // by id
+  std::vector<bool> started_;  // by id
+  bool begun_ = false;         // this node; for the host: one at least, and no other by itself any more
   std::optional<int> left_;  // the code with which it leaves
 };
+
+void JoinedBackend::send(int to, int type, const void* data, std::size_t length) {
+  world_.begin();
+  MpiBackend::send(to, type, data, length);
+}
+
+std::optional<Ticket> JoinedBackend::send_or_start(int to, int type, const void* data, std::size_t length) {
+  world_.begin();
+  return MpiBackend::send_or_start(to, type, data, length);
+}
+
+Ticket JoinedBackend::start_send(int to, int type, const void* data, std::size_t length) {
+  world_.begin();
+  return MpiBackend::start_send(to, type, data, length);
+}
+
+std::optional<Envelope> JoinedBackend::peek() {
+  world_.begin();
+  return MpiBackend::peek();
+}
 
 void JoinedBackend::idle(int turn, std::chrono::microseconds longest) {
   if (turn >= kLooksBefore) world_.look(longest >= kPatience);
@@ -153,10 +168,11 @@ MpiWorld::MpiWorld(std::optional<bool> host, bool two_threads) {
   succeed(MPI_Bcast(&has_host, 1, MPI_INT, 0, MPI_COMM_WORLD), "MPI_Bcast");
   has_host_ = has_host != 0;
   cube_ = size_ - has_host;
+  begun_ = !has_host_;
   if (!is_host()) make_cube();
 }
 
-// What the host says of the cube is when it begins: nodes wait for it here.
+// Nodes wait here for what the host says of the cube.
 void MpiWorld::make_cube() {
   if (has_host_) {
     MPI_Request request = MPI_REQUEST_NULL;
@@ -172,13 +188,32 @@ void MpiWorld::make_cube() {
   succeed(MPI_Comm_split(ranks, 0, backend_->rank(), &by_id), "MPI_Comm_split");
   rank_of_.resize(static_cast<std::size_t>(size_of(by_id)));
   succeed(MPI_Allgather(&rank_, 1, MPI_INT, rank_of_.data(), 1, MPI_INT, by_id), "MPI_Allgather");
-  loaded_.resize(rank_of_.size());
+  started_.resize(rank_of_.size());
   control_.emplace(by_id);
 }
 
 Backend& MpiWorld::backend() {
   if (backend_ == nullptr) make_cube();
+  if (!begun_ && !is_host()) await_start();
   return *backend_;
+}
+
+// One that was never loaded goes when the host does.
+void MpiWorld::await_start() {
+  for (; !control_->begins(); std::this_thread::sleep_for(kNap)) look(true);
+  begun_ = true;
+  if (!*control_->begins()) end_now(0);
+}
+
+void MpiWorld::start(int node) {
+  begun_ = true;
+  started_[static_cast<std::size_t>(node)] = true;
+  control_->start(node, true);
+}
+
+void MpiWorld::begin_all() {
+  backend();
+  for (int id = 0; id < cube_; ++id) start(id);
 }
 
 void MpiWorld::resize(int nodes) {
@@ -194,15 +229,13 @@ void MpiWorld::load(const std::string& file, int node) {
   if (runs.filename() != std::filesystem::path(file).filename())
     throw Failure("node " + std::to_string(node) + " runs " + runs.string() + ", as it was started under MPI",
                   file, "start that program on the nodes, or run without --over mpi");
-  if (loaded_[static_cast<std::size_t>(node)])
+  if (started_[static_cast<std::size_t>(node)])
     throw Failure("node " + std::to_string(node) + " has run its program already", file,
                   "under MPI it can once: run without --over mpi");
-  loaded_[static_cast<std::size_t>(node)] = true;
+  start(node);
 }
 
 void MpiWorld::kill(int node) {
-  const Traffic::Count& sent = process().traffic().to_nodes;
-  if (sent.messages > 0 || backend_->taken() > 0) begun_ = true;
   const int first = node < 0 ? 0 : node;
   const int last = node < 0 ? cube_ : node + 1;
   for (int id = first; id < last; ++id)
@@ -214,7 +247,7 @@ void MpiWorld::kill(int node) {
   for (int id = first; id < last; ++id)
     while (runs(id) && std::chrono::steady_clock::now() < deadline) wait_for_end();
   std::vector<std::byte> nothing;
-  while (const std::optional<Envelope> next = backend_->peek()) {
+  while (const std::optional<Envelope> next = backend_->MpiBackend::peek()) {
     nothing.resize(next->length);
     backend_->take(nothing.data());
   }
@@ -223,7 +256,7 @@ void MpiWorld::kill(int node) {
 World::Status MpiWorld::status(int node) {
   backend();
   look(false);
-  if (!begun_ && !loaded_[static_cast<std::size_t>(node)]) return {State::nothing, 0};
+  if (!started_[static_cast<std::size_t>(node)]) return {State::nothing, 0};
   const std::optional<int> code = control_->ended(node);
   return {code ? State::ended : State::running, code.value_or(0)};
 }
@@ -248,9 +281,17 @@ void MpiWorld::end_now(int code) {
   std::_Exit(0);
 }
 
+// Nodes that have not begun do so now, if none has been loaded; else they end.
+void MpiWorld::dismiss() {
+  begin();
+  for (int id = 0; id < cube_; ++id)
+    if (!started_[static_cast<std::size_t>(id)]) control_->start(id, false);
+}
+
 void MpiWorld::leave(int code) {
   if (rank_ < cube_ + has_host_) {
     backend();
+    if (is_host()) dismiss();
     left_ = code;
     if (has_host_ && !is_host()) control_->tell_end(backend_->host(), code);
     if (code > 0) control_->watch();

@@ -1,6 +1,7 @@
 #include "hal/nx/nx_messages.h"
 
 #include "hal/nx/guard.h"
+#include "hal/nx/pid.h"
 #include "hal/process.h"
 #include "topology/hypercube.h"
 
@@ -82,7 +83,7 @@ long numnodes(void) {
 long nodedim(void) {
   return plain([]() -> long { return mars::topology::dimension(process().backend().nodes()); });
 }
-long mypid(void) { return 0; }
+long mypid(void) { return mars::hal::own_pid; }
 long myhost(void) {
   return plain([]() -> long { return process().backend().host(); });
 }

@@ -10,6 +10,7 @@
 #include "hal/call_failure.h"
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_host.h"
+#include "hal/nx/pid.h"
 #include "hal/nx/program.h"
 
 namespace mars::hal {
@@ -127,7 +128,10 @@ void release_cube(const char* call, const char* name) {
 }
 
 void set_pid(const char* call, long pid) {
-  if (pid != 0) fail(call, EQPID, "pid " + std::to_string(pid) + " cannot be had", "the host's pid is 0");
+  if (pid < 0 || (pid > 0 && !world().is_host()))
+    fail(call, EQPID, "pid " + std::to_string(pid) + " cannot be had",
+         world().is_host() ? "the host's pid is 0 or more" : "a node's pid is 0");
+  own_pid = pid;
 }
 
 void load_nodes(const char* call, const char* file, long node, long pid) {

@@ -1,7 +1,7 @@
 /* NX/2: what a host program does with its cube of nodes, in the order in which programs do it: getcube or attachcube,
  * setpid, load, csend and crecv, waitall or waitone, killcube, relcube. The cube is made of the nodes that this job was
- * started with (mars-nx run --nodes 8 ..., or mpirun). Nodes that the host does not load itself begin by themselves,
- * with the program they were started for, when the host first sends, receives or ends.
+ * started with (mars-nx run --nodes 8 ..., or mpirun). A host that loads none itself lets all begin with the
+ * program they were started for when it first sends, receives, waits or ends; after a load none begins by itself.
  *
  * pid is 0, node and pid -1 mean all. Failures are as in nx_messages.h. A node calls none of these but killproc and
  * killcube, which there end the whole job. */
@@ -23,7 +23,7 @@ void attachcube(const char* name);
 /* Ends what still runs on the nodes and gives the cube up; NULL or "": whatever its name. */
 void relcube(const char* name);
 
-/* Of the host process; must be 0. */
+/* Of the host process, which has it for mypid() and accepts messages to any pid; 0 or more. A node's is 0. */
 void setpid(long pid);
 
 /* Starts the program `file` on `node`: the file as given, or one of its name beside the host program. Under MPI,

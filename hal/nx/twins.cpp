@@ -1,6 +1,7 @@
 // The twins of calls.cpp.
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_messages.h"
+#include "hal/nx/pid.h"
 #include "hal/process.h"
 #include "topology/hypercube.h"
 
@@ -82,7 +83,7 @@ long _numnodes(void) {
 long _nodedim(void) {
   return twin([] { return mars::topology::dimension(process().backend().nodes()); });
 }
-long _mypid(void) { return 0; }
+long _mypid(void) { return mars::hal::own_pid; }
 long _myhost(void) {
   return twin([] { return process().backend().host(); });
 }

@@ -17,6 +17,7 @@ class ProcessesBackend : public Backend {
 
   int rank() const override { return id(index_); }
   int nodes() const override { return segment_.header().cube; }
+  bool has_host() const override { return segment_.header().has_host; }
   void send(int to, int type, const void* data, std::size_t length) override;
   Ticket start_send(int to, int type, const void* data, std::size_t length) override;
   bool sent(Ticket) override { return true; }

@@ -17,6 +17,7 @@ class TemplateBackend : public Backend {
  public:
   int rank() const override { return 0; }
   int nodes() const override { return 1; }
+  bool has_host() const override { return false; }
 
   void send(int to, int type, const void* data, std::size_t length) override;
   Ticket start_send(int to, int type, const void* data, std::size_t length) override;

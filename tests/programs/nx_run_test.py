@@ -20,6 +20,7 @@ MARS_NX = PROGRAMS / "mars-nx"
 # What a node does is the last argument.
 NODE = r"""
 #include <cube.h>
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,14 +40,21 @@ static void work(const char* what) {
   if (!strcmp(what, "code")) exit((int)mynode() + 3);
   if (!strcmp(what, "give-up") && mynode() == 1) exit(7);
   if (!strcmp(what, "sleep")) { mynode(); printf("sleeping\n"); sleep(100); }
+  if (!strcmp(what, "sum")) {
+    double one = 1, work;
+    if (_gdsum(&one, mynode() == 1 ? -1 : 1, &work) < 0) nx_perror("told");
+    exit(0);
+  }
+  if (!strcmp(what, "to-pid")) csend(11, &x, sizeof x, myhost(), 100);
   if (!strcmp(what, "fail") && mynode() == 0) csend(1, &x, sizeof x, 99, 0);
   if (!strcmp(what, "load")) load("node", -1, 0);
   if (!strcmp(what, "fill")) for (i = 0; i < 100; i++) csend(1, big, sizeof big, mynode(), 0);
   if (!strcmp(what, "reuse")) for (i = 0; i < 100; i++) { csend(1, big, sizeof big, mynode(), 0); crecv(1, big, sizeof big); }
   if (!strcmp(what, "to-host")) csend(1, &x, sizeof x, myhost(), 0);
+  if (!strcmp(what, "to-nobody")) { x = _csend(1, &x, sizeof x, numnodes(), 0); printf("%ld %d\n", x, errno == EQNODE); }
   if (!strcmp(what, "read")) { char line[80] = ""; if (mynode() == 0 && !fgets(line, sizeof line, stdin)) exit(1); printf("read %s", line); }
   if (!strcmp(what, "late")) { sleep(1); printf("late\n"); }
-  if (strcmp(what, "square") && strcmp(what, "late") && strcmp(what, "reuse") && strcmp(what, "read") && strcmp(what, "to-host")) crecv(10, &x, sizeof x);
+  if (strcmp(what, "square") && strcmp(what, "late") && strcmp(what, "reuse") && strcmp(what, "read") && strncmp(what, "to-", 3)) crecv(10, &x, sizeof x);
 }
 int main(int argc, char** argv) {
   if (argc < 2) {
@@ -111,6 +119,13 @@ int main(int argc, char** argv) {
     printf("sum %ld\n", squares());
     relcube("");
   }
+  if (!strcmp(what, "two")) {
+    for (i = 0; i < 2; i++) load("node", i, 0);
+    for (i = 0; i < 2; i++) csend(10, &i, sizeof i, i, 0);
+    for (n = i = 0; i < 2; i++) { crecv(11, &x, sizeof x); n += x; }
+    waitall(-1, 0);
+    printf("two %ld\n", n);
+  }
   if (!strcmp(what, "ends")) tell_ends();
   if (!strcmp(what, "rounds")) for (n = 0; n < 30; n++) {
     for (i = 0; i < (n % 2 ? numnodes() : 1); i++) load("talk", n % 2 ? i : -1, 0);
@@ -127,6 +142,13 @@ int main(int argc, char** argv) {
   if (!strcmp(what, "long-name")) getcube("sixteen-letters-", "2", NULL, 0);
   if (!strcmp(what, "twin")) printf("%ld %ld %ld\n", _load("none", 0, 0), _getcube("mine", "16", NULL, 0), _relcube("other"));
   if (!strcmp(what, "load")) load(argv[2], 0, 0);
+  if (!strcmp(what, "pid")) {
+    printf("%ld ", mypid());
+    setpid(100);
+    getcube("mine", "", NULL, 0);
+    for (i = 0; i < numnodes(); i++) crecv(11, &x, sizeof x);
+    printf("%ld %ld\n", mypid(), _setpid(-1));
+  }
   if (!strcmp(what, "receive")) crecv(99, &x, sizeof x);
   if (!strcmp(what, "kill")) { csend(10, &n, 0, 0, 0); killcube(-1, -1); return 3; }
   if (!strcmp(what, "read")) { if (!fgets(line, sizeof line, stdin)) return 1; printf("read %s", line); }
@@ -258,6 +280,8 @@ class Starts(NxRun):
     def test_own_mpirun(self):
         told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "sum", ":", "-n", 3, "./node", "square")
         self.assertEqual(told, "sum 5\n")
+        told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "two", ":", "-n", 3, "./node", "square")
+        self.assertEqual(told, "two 1\n")
         told = self.succeed(*OWN_MPIRUN, "-n", 3, "./node")
         self.assertIn("2 of 3 has word of 1", told)
 
@@ -299,6 +323,14 @@ class Cubes(NxRun):
         for over in OVER:
             told = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
             self.assertEqual(told, "1 cube mine of 2, host 2, me 2\nsum 1\n")
+
+    def test_a_node_that_is_not_loaded_never_begins(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 3, "./host", "./node", "two", "square", over=over), "two 1\n")
+
+    def test_the_host_has_a_pid_of_its_own(self):
+        for over in OVER:
+            self.assertEqual(self.well("--nodes", 2, "./host", "./node", "pid", "to-pid", over=over), "0 100 -1\n")
 
     def test_loads_without_a_program_of_the_command_line(self):
         told = self.well("--nodes", 4, "--host", "./host", "--", "cube", "square")
@@ -388,7 +420,20 @@ class Ends(NxRun):
             self.assertIn("node 0, csend: there is no node 99", done.stderr)
             self.assertNotEqual(done.returncode, 0)
         self.badly(1, "node 0, csend: there is no node 99", "--nodes", 3, "./node", "--", "fail")
-        self.badly(1, "this job has no host", "--nodes", 1, "./node", "--", "to-host")
+
+    def test_a_global_operation_fails(self):
+        for over in OVER:
+            told = sorted(self.run_nx("--over", over, "--nodes", 3, "./node", "--", "sum").stderr.splitlines())
+            for node, says in enumerate(["another node's gdsum failed (", "length -1 is negative (", "another node's gdsum failed ("]):
+                self.assertIn(f"told: node {node}, gdsum: {says}", told[node])
+
+    def test_a_message_to_a_host_that_is_not_there(self):
+        says = "node 0, csend: there is no node 1 (nodes are 0 to 0, and this job has no host"
+        for over in OVER:
+            self.assertIn(says, self.run_nx("--over", over, "--nodes", 1, "./node", "--", "to-host").stderr)
+            self.assertEqual(self.well("--nodes", 3, "./node", "--", "to-nobody", over=over), "-1 1\n" * 3)
+        done = self.run_program(self.folder / "node", "to-host")
+        self.assertClear(done.stderr, says)
 
     def test_too_much_under_way(self):
         little = dict(ENVIRONMENT, MARS_NX_MEMORY="64")

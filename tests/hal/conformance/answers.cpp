@@ -75,7 +75,7 @@ RULE(wrong_arguments_of_answers, "both parts of csendrecv and isendrecv are chec
   REFUSED(EQTYPE, csendrecv, (1'000'000'000, &x, 8, mynode(), 0, 1, &x, 8), "1000000000");
   REFUSED(EQTYPE, csendrecv, (1, &x, 8, mynode(), 0, 1'000'000'001, &x, 8), "1000000001");
   REFUSED(EQNODE, csendrecv, (1, &x, 8, numnodes() + 1, 0, 1, &x, 8), "no node");
-  REFUSED(EQPID, csendrecv, (1, &x, 8, mynode(), 1, 1, &x, 8), "pid 1");
+  REFUSED(EQPID, csendrecv, (1, &x, 8, 0, 1, 1, &x, 8), "pid 1");
   REFUSED(EQLEN, csendrecv, (1, &x, 8, mynode(), 0, 1, &x, -8), "length -8");
   REFUSED(EQPBUF, csendrecv, (1, &x, 8, mynode(), 0, 1, nullptr, 8), "null");
   REFUSED(EQTYPE, isendrecv, (1, &x, 8, mynode(), 0, 1'000'000'001, &x, 8), "1000000001");

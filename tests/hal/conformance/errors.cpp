@@ -49,6 +49,8 @@ RULE(no_such_node, "nodes are 0 to numnodes() - 1, myhost() and -1", "others are
 RULE(no_such_pid, "a node runs one process, pid 0", "others are EQPID") {
   REFUSED(EQPID, csend, (1, &x, 8, 0, 3), "pid 3");
   REFUSED(EQPID, isend, (1, &x, 8, 0, -2), "pid -2");
+  REFUSED(EQPID, csend, (1, &x, 8, -1, 100), "pid 100");
+  REFUSED(EQPID, csend, (1, &x, 8, myhost(), -2), "pid -2");
 }
 
 RULE(negative_lengths, "lengths are not negative", "EQLEN") {
