@@ -1,7 +1,9 @@
 #include "host/doctor/checks.h"
 
+#include <cctype>
 #include <cstdio>
-#include <regex>
+
+#include "host/launch/text_reader.h"
 
 namespace mars::host {
 namespace {
@@ -25,12 +27,20 @@ bool has(const std::string& text, const char* part) { return text.find(part) != 
 
 bool several_machines(const Facts& facts) { return facts.slurm && facts.slurm->machines > 1; }
 
-// "5.0.3", with its first number; "" where an mpirun that tells this is another MPI's.
-std::string version_of(Mpi mpi, const std::string& told) {
-  std::smatch match;
-  static const std::regex open_mpi("\\((?:Open MPI|Open ?RTE|PRRTE)\\) (\\d[\\w.]*)");
-  static const std::regex mpich("HYDRA[^]*Version:\\s+(\\d[\\w.]*)");
-  return std::regex_search(told, match, mpi == Mpi::mpich ? mpich : open_mpi) ? match[1].str() : "";
+// "5.0.3", with its first number; "" where an mpirun that prints this is another MPI's.
+std::string version_of(Mpi mpi, const std::string& printed) {
+  const auto behind = [&](std::initializer_list<const char*> words) -> std::string {
+    TextReader reader(printed);
+    for (const char* each : words)
+      if (!reader.find(each)) return "";
+    reader.skip_space();
+    const std::string version = reader.word();
+    return !version.empty() && std::isdigit(static_cast<unsigned char>(version.front())) ? version : "";
+  };
+  if (mpi == Mpi::mpich) return behind({"HYDRA", "Version:"});
+  for (const char* name : {"(Open MPI)", "(Open RTE)", "(OpenRTE)", "(PRRTE)"})
+    if (const std::string version = behind({name}); !version.empty()) return version;
+  return "";
 }
 
 Finding check_mpi(const Facts& facts) {
@@ -47,13 +57,14 @@ Finding check_mpi(const Facts& facts) {
             "for several machines " + remedy};
   }
   const std::string where = ", " + facts.programs.mpirun->string();
-  if (facts.mpirun_version.empty()) {
+  if (!facts.mpirun_version) return {State::good, about, name + where, ""};
+  if (facts.mpirun_version->empty()) {
     return {State::trouble, about, "mpirun --version says nothing" + where,
             "mpirun --version must work: load MPI anew, or use --backend threads"};
   }
-  const std::string version = version_of(mpi, facts.mpirun_version);
+  const std::string version = version_of(mpi, *facts.mpirun_version);
   if (version.empty()) {
-    return {State::trouble, about, "mpirun is not " + name + "'s: " + first_line(facts.mpirun_version) + where,
+    return {State::trouble, about, "mpirun is not " + name + "'s: " + first_line(*facts.mpirun_version) + where,
             "put " + name + "'s mpirun first in the PATH " + load + ", or use --backend threads"};
   }
   if (version.starts_with("4.")) return {State::good, about, name + " " + version + where, ""};
@@ -193,11 +204,11 @@ void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
   const std::string found = "job " + job.id + ", " + counted(job.machines, "machine") +
                             (job.tasks != 0 ? ", " + counted(job.tasks, "task") : "");
   findings.push_back({State::good, "Slurm", found, ""});
-  if (!job.plugins) {
+  if (!job.srun) {
     const bool stuck = several_machines(facts) && facts.surroundings.no_remote_shell;
     findings.push_back({stuck ? State::trouble : State::note, "srun", "was not found",
                         "have Slurm's client programs on this machine, or start from one that has"});
-  } else if (!has(*job.plugins, "pmix")) {
+  } else if (job.plugins && !has(*job.plugins, "pmix")) {
     findings.push_back({State::note, "srun", "has no plugin pmix: srun cannot start Open MPI's programs",
                         "start by mars render or mpirun, or install the plugin (Debian: slurm-wlm-basic-plugins)"});
   }

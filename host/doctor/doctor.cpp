@@ -48,6 +48,7 @@ Answers ask(const Command& command) {
               [&] {
                 if (std::chrono::steady_clock::now() > deadline) child.stop();
               }});
+  fail_if_stopped(child);
   return answers;
 }
 
@@ -90,7 +91,7 @@ std::string names_of(const std::vector<MachineFindings>& machines) {
 }  // namespace
 
 bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self) {
-  Facts facts = gather_facts(self, options.nodes);
+  Facts facts = gather_facts(self, options.nodes, Ask::programs);
   if (options.this_machine) {
     std::cout << lines_of({facts.host, check_machine(facts)}) << std::flush;
     return true;
@@ -110,9 +111,12 @@ bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self)
 }
 
 Adviser adviser(const std::filesystem::path& self) {
-  return [self](const RenderOptions& options) {
-    return short_text(check_machine(gather_facts(self, options.nodes)));
+  const auto question = [self](Ask ask) {
+    return [self, ask](const RenderOptions& options) {
+      return short_text(check_machine(gather_facts(self, options.nodes, ask)));
+    };
   };
+  return {question(Ask::nobody), question(Ask::programs)};
 }
 
 }  // namespace mars::host

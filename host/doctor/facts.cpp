@@ -17,19 +17,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Both outputs of a short program; "" where it cannot be started. What does not answer soon is stopped.
-std::string answer(const std::vector<std::string>& words) try {
+// Both outputs of a short program; "" where it cannot be started. What does not answer soon is stopped. Throws Failure
+// where a signal to us stops it.
+std::string answer(const std::vector<std::string>& words) {
   constexpr std::chrono::seconds kLongest{10};
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
   std::string text;
   const auto take = [&](const std::string& line) { text += line + "\n"; };
-  Child child({{}, words});
-  child.wait({take, take, [&] {
-                if (std::chrono::steady_clock::now() > deadline) child.stop();
-              }});
+  std::optional<Child> child;
+  try {
+    child.emplace(Command{{}, words});
+  } catch (const Failure&) {
+    return "";
+  }
+  child->wait({take, take, [&] {
+                 if (std::chrono::steady_clock::now() > deadline) child->stop();
+               }});
+  fail_if_stopped(*child);
   return text;
-} catch (const Failure&) {
-  return "";
 }
 
 std::string host_name() {
@@ -90,7 +95,7 @@ std::uint32_t number(const std::optional<std::string>& text, std::uint32_t other
   return value;
 }
 
-std::optional<SlurmJob> slurm_job(const Environment& environment, const std::string& path) {
+std::optional<SlurmJob> slurm_job(const Environment& environment, const std::string& path, Ask ask) {
   const auto id = environment.value("SLURM_JOB_ID");
   if (!id) return std::nullopt;
   SlurmJob job{*id,
@@ -98,14 +103,17 @@ std::optional<SlurmJob> slurm_job(const Environment& environment, const std::str
                number(environment.value("SLURM_NTASKS"), 0),
                environment.value("SLURM_CPUS_PER_TASK").value_or(""),
                environment.value("SRUN_CPUS_PER_TASK").value_or(""),
+               false,
                std::nullopt};
-  if (const auto srun = find_program("srun", path)) job.plugins = answer({srun->string(), "--mpi=list"});
+  const auto srun = find_program("srun", path);
+  job.srun = srun.has_value();
+  if (srun && ask == Ask::programs) job.plugins = answer({srun->string(), "--mpi=list"});
   return job;
 }
 
 }  // namespace
 
-Facts gather_facts(const fs::path& self, std::uint32_t nodes) {
+Facts gather_facts(const fs::path& self, std::uint32_t nodes, Ask ask) {
   const Environment environment = own_environment();
   const std::string path = environment.value("PATH").value_or("/usr/bin:/bin");
   const topology::Machine machine = topology::Machine::here();
@@ -114,8 +122,9 @@ Facts gather_facts(const fs::path& self, std::uint32_t nodes) {
   facts.container = container(environment);
   facts.programs = find_programs(self, path);
   facts.surroundings = look_around(path);
-  if (facts.programs.mpirun) facts.mpirun_version = answer({facts.programs.mpirun->string(), "--version"});
-  if (facts.programs.node) facts.lacking = lacking_libraries(*facts.programs.node);
+  if (facts.programs.mpirun && ask == Ask::programs)
+    facts.mpirun_version = answer({facts.programs.mpirun->string(), "--version"});
+  if (facts.programs.node && ask == Ask::programs) facts.lacking = lacking_libraries(*facts.programs.node);
   facts.processors = static_cast<std::uint32_t>(machine.processors());
   facts.machine_processors = static_cast<std::uint32_t>(sysconf(_SC_NPROCESSORS_ONLN));
   facts.simd = simd();
@@ -126,7 +135,7 @@ Facts gather_facts(const fs::path& self, std::uint32_t nodes) {
   facts.temporary = temporary_folder(environment);
   facts.temporary_space = writable_space(facts.temporary);
   facts.ffmpeg = find_program("ffmpeg", path).has_value();
-  facts.slurm = slurm_job(environment, path);
+  facts.slurm = slurm_job(environment, path, ask);
   facts.nodes = nodes != 0 ? nodes : facts.processors;
   return facts;
 }

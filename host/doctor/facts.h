@@ -25,7 +25,8 @@ struct SlurmJob {
   std::uint32_t tasks = 0;          // 0: not said
   std::string cpus_per_task;        // "" where not said; in it Slurm says it, in the other srun reads it
   std::string srun_cpus_per_task;
-  std::optional<std::string> plugins;  // what srun --mpi=list says; none: there is no srun
+  bool srun = false;                   // whether it is there
+  std::optional<std::string> plugins;  // what srun --mpi=list says; none: it was not asked
 };
 
 struct Facts {
@@ -33,7 +34,7 @@ struct Facts {
   std::string container;  // "docker", "podman", ...; "" in none
   Programs programs;
   Surroundings surroundings;
-  std::string mpirun_version;            // all that mpirun --version says
+  std::optional<std::string> mpirun_version;  // all that mpirun --version says; none: it was not asked
   std::vector<std::string> lacking;      // libraries that mars-node needs and this machine has not
   std::uint32_t processors = 1;          // that this process may use
   std::uint32_t machine_processors = 1;  // that the machine has
@@ -49,7 +50,10 @@ struct Facts {
   std::uint32_t nodes = 1;  // of a rendering on this machine
 };
 
-// `self`: the running program's own file; `nodes`: 0 for one a processor.
-Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes);
+// Whether other programs are started to find facts; while a job is waited for none may be.
+enum class Ask { programs, nobody };
+
+// `self`: the running program's own file; `nodes`: 0 for one a processor. Throws Failure where a signal stops it.
+Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes, Ask ask);
 
 }  // namespace mars::host

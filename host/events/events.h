@@ -1,6 +1,6 @@
 // What the host tells while it renders: one JSON object a line on its standard output, read by `mars render`
-// and by whoever supervises or watches. Its key "event" says which it is: booted, progress, frame, fault or
-// done; readers pass over what they do not know. Seconds count from the first command to the nodes.
+// and by whoever supervises or watches. Its key "event" says which it is: loading, loaded, booted, progress, frame,
+// fault or done; readers pass over what they do not know. Seconds count from the first command to the nodes.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,20 @@
 #include "host/events/progress.h"
 
 namespace mars::host {
+
+// The host reads and compiles the film: long for a long one. Nodes wait meanwhile.
+struct Loading {
+  std::string film;  // its file, as the person gave it
+
+  bool operator==(const Loading&) const = default;
+};
+
+// That is done; now the host waits for its nodes.
+struct Loaded {
+  double seconds = 0;  // since Loading
+
+  bool operator==(const Loaded&) const = default;
+};
 
 // All nodes are there.
 struct Booted {
@@ -64,7 +78,7 @@ struct Done {
   bool operator==(const Done&) const = default;
 };
 
-using Event = std::variant<Booted, Progress, FrameTaken, Fault, Done>;
+using Event = std::variant<Loading, Loaded, Booted, Progress, FrameTaken, Fault, Done>;
 
 // One line, with its end.
 std::string line_of(const Event& event);

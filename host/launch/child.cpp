@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
-#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,29 +11,33 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 #include <vector>
 
-#include "hal/failure.h"
 #include "host/launch/environment.h"
 
 namespace mars::host {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
+constexpr std::size_t kLongestLine = 16 << 20;  // bytes; a longer one comes in pieces
 constexpr std::chrono::milliseconds kTick{100};
-constexpr std::chrono::seconds kGrace{6};     // from a signal passed on to the kill; mpirun takes up to five
-constexpr std::chrono::seconds kDraining{3};  // from its end to the kill of what it left
-constexpr std::chrono::seconds kReaping{1};   // from that to giving up on what the kernel holds
+constexpr std::chrono::milliseconds kSilentTick{5};  // once its output has ended: so will it
+constexpr std::chrono::seconds kGrace{6};            // from a signal passed on to the kill; mpirun takes up to five
+constexpr std::chrono::seconds kDraining{3};         // from its end to the kill of what it left
+constexpr std::chrono::seconds kReaping{1};          // from a kill to giving up on what the kernel holds
+static_assert(kGrace + kReaping + kDraining + kReaping < SignalRelay::kLongest);
+static_assert(kReaping + kDraining + kReaping < SignalRelay::kLongestOnceMore);
 
 struct Pipe {
   std::array<int, 2> ends{-1, -1};  // read, write
 
   Pipe() {
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Failure(std::strerror(errno), "starting a program", "");
+    if (pipe2(ends.data(), O_CLOEXEC) == 0) return;
+    const char* remedy = errno == EMFILE ? "raise ulimit -n" : "";
+    throw Failure(std::strerror(errno), "starting a program", remedy);
   }
   ~Pipe() {
     for (const int end : ends)
@@ -46,13 +49,6 @@ struct Pipe {
   int keep_reading_end() { return std::exchange(ends[0], -1); }
 };
 
-sigset_t watched_signals() {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&set, signal);
-  return set;
-}
-
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -61,14 +57,12 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 }
 
 // In the new process, after fork: nothing but system calls.
-[[noreturn]] void become(char** words, char** environment, int output, int error, int told,
-                         const sigset_t& signals, pid_t parent) {
+[[noreturn]] void become(char** words, char** environment, int output, int error, int told, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(1);
   // What was started in a shell's background ignores SIGINT, but not when it is we who pass it on.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  sigprocmask(SIG_SETMASK, &signals, nullptr);
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing >= 0 && dup2(nothing, 0) >= 0 && dup2(output, 1) >= 0 && dup2(error, 2) >= 0) {
     execve(words[0], words, environment);
@@ -78,34 +72,39 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   _exit(127);
 }
 
-// What it left when it ended.
-void kill_orphans() {
-  std::ifstream list("/proc/self/task/" + std::to_string(getpid()) + "/children");
-  for (pid_t orphan; list >> orphan;) kill(orphan, SIGKILL);
+// Those that we started, and those left to us by such that have ended.
+std::set<pid_t> children_of_ours() {
+  std::set<pid_t> children;
+  std::error_code none;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", none)) {
+    std::ifstream list(thread.path() / "children");
+    for (pid_t child; list >> child;) children.insert(child);
+  }
+  return children;
 }
 
 }  // namespace
 
 Child::Child(const Command& command) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const sigset_t watched = watched_signals();
-  sigprocmask(SIG_BLOCK, &watched, &signals_before_);
-  signals_ = signalfd(-1, &watched, SFD_CLOEXEC | SFD_NONBLOCK);
+  std::signal(SIGCHLD, SIG_DFL);  // ignored, as whoever started us may do, it would keep children's ends from us
+  strangers_ = children_of_ours();
   Pipe output;
   Pipe error;
   start(command, output.ends[1], error.ends[1]);
+  relay_.emplace(process_);
   output_.descriptor = output.keep_reading_end();
   error_.descriptor = error.keep_reading_end();
 }
 
 Child::~Child() {
-  if (!status_) {
+  if (!status_ && !given_up_) {
     kill(-process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
+    const auto last = Clock::now() + kReaping;
+    while (waitpid(process_, nullptr, WNOHANG) == 0 && Clock::now() < last) poll(nullptr, 0, 1);
   }
-  for (const int descriptor : {output_.descriptor, error_.descriptor, signals_})
+  for (const int descriptor : {output_.descriptor, error_.descriptor})
     if (descriptor >= 0) close(descriptor);
-  sigprocmask(SIG_SETMASK, &signals_before_, nullptr);
 }
 
 // The pipe `told` closes by itself when the program takes over, or brings the reason why it could not.
@@ -120,7 +119,7 @@ void Child::start(const Command& command, int output, int error) {
   process_ = fork();
   if (process_ == 0) {
     become(const_cast<char**>(word_pointers.data()), const_cast<char**>(environment_pointers.data()), output,
-           error, told.ends[1], signals_before_, parent);
+           error, told.ends[1], parent);
   }
   close(std::exchange(told.ends[1], -1));
   int reason = process_ < 0 ? errno : 0;
@@ -131,74 +130,98 @@ void Child::start(const Command& command, int output, int error) {
 }
 
 Ending Child::wait(const Listener& listener) {
-  while (!ended()) {
-    std::array<pollfd, 3> ready{
-        {{output_.descriptor, POLLIN, 0}, {error_.descriptor, POLLIN, 0}, {signals_, POLLIN, 0}}};
-    poll(ready.data(), ready.size(), static_cast<int>(kTick.count()));
-    if (ready[0].revents != 0) take(output_, listener.output);
-    if (ready[1].revents != 0) take(error_, listener.error);
-    if (ready[2].revents != 0) take_signals();
+  while (!ended() && !given_up_) {
+    wait_for_output();
+    take(output_, listener.output);
+    take(error_, listener.error);
+    reap();
     listener.tick();
-    if (!deadline_ || Clock::now() < *deadline_) continue;
-    if (status_) {
-      if (std::exchange(orphans_killed_, true)) break;
-      kill_orphans();
-      deadline_ = Clock::now() + kReaping;
-      continue;
-    }
-    kill(-process_, SIGKILL);
-    deadline_.reset();
+    notice_signals();
+    if (Clock::now() >= deadline_) end_what_is_due();
   }
+  if (!status_) return {0, SIGKILL};
   return WIFSIGNALED(*status_) ? Ending{0, WTERMSIG(*status_)} : Ending{WEXITSTATUS(*status_), 0};
 }
 
-void Child::take(Stream& stream, const std::function<void(const std::string&)>& tell) {
+void Child::wait_for_output() {
+  std::array<pollfd, 2> ready{{{output_.descriptor, POLLIN, 0}, {error_.descriptor, POLLIN, 0}}};
+  const bool silent = output_.descriptor < 0 && error_.descriptor < 0;
+  poll(ready.data(), ready.size(), static_cast<int>((silent ? kSilentTick : kTick).count()));
+}
+
+// One piece of what there is: the other stream, the signals and the tick have their turn.
+void Child::take(Stream& stream, const std::function<void(const std::string&)>& listener) {
+  pollfd ready{stream.descriptor, POLLIN, 0};
+  if (stream.descriptor < 0 || poll(&ready, 1, 0) <= 0) return;
   std::array<char, 65536> bytes;
   const ssize_t count = read(stream.descriptor, bytes.data(), bytes.size());
   if (count < 0) return;
+  std::size_t first = 0, searched = stream.rest.size();
   stream.rest.append(bytes.data(), static_cast<std::size_t>(count));
-  std::size_t first = 0;
-  for (std::size_t end; (end = stream.rest.find('\n', first)) != std::string::npos; first = end + 1) {
-    tell(stream.rest.substr(first, end - first));
+  for (std::size_t end; (end = stream.rest.find('\n', searched)) != std::string::npos; first = searched = end + 1) {
+    listener(stream.rest.substr(first, end - first));
   }
   stream.rest.erase(0, first);
-  if (count > 0) return;
-  if (!stream.rest.empty()) tell(stream.rest);
-  close(std::exchange(stream.descriptor, -1));
-}
-
-void Child::take_signals() {
-  signalfd_siginfo signal;
-  while (read(signals_, &signal, sizeof signal) == sizeof signal) {
-    if (signal.ssi_signo == SIGCHLD) {
-      reap();
-      continue;
-    }
-    pass_on(static_cast<int>(signal.ssi_signo));
-  }
-}
-
-void Child::pass_on(int signal) {
-  const bool first = passed_on_ == 0;
-  if (first) passed_on_ = signal;
-  // Whoever asks twice does not want to wait.
-  kill(-process_, first ? signal : SIGKILL);
-  if (!status_) deadline_ = Clock::now() + kGrace;
-}
-
-void Child::stop() {
-  if (passed_on_ == 0) pass_on(SIGTERM);
+  const bool last = count == 0;
+  if (!stream.rest.empty() && (last || stream.rest.size() > kLongestLine)) listener(std::exchange(stream.rest, ""));
+  if (last) close(std::exchange(stream.descriptor, -1));
 }
 
 void Child::reap() {
   int status = 0;
-  pid_t ended = 0;
-  while ((ended = waitpid(-1, &status, WNOHANG)) > 0) {
-    if (ended != process_) continue;
+  if (!status_ && waitpid(process_, &status, WNOHANG) == process_) {
     status_ = status;
+    stage_ = Stage::draining;
     deadline_ = Clock::now() + kDraining;
   }
-  orphans_ = ended == 0;
+  if (!status_) return;
+  orphans_ = false;
+  for (const pid_t orphan : children_of_ours()) {
+    if (strangers_.contains(orphan)) continue;
+    if (stage_ == Stage::orphans_killed) kill(orphan, SIGKILL);
+    if (waitpid(orphan, nullptr, WNOHANG) == 0) orphans_ = true;
+  }
+  if (!orphans_) relay_->forget_group();
+}
+
+// The relay has passed them on already.
+void Child::notice_signals() {
+  const int count = relay_->count();
+  if (count == signals_noticed_) return;
+  const bool again = count > 1;
+  signals_noticed_ = count;
+  if (status_) return;
+  stage_ = again ? Stage::killed : Stage::asked_to_end;
+  deadline_ = Clock::now() + (again ? kReaping : kGrace);
+}
+
+void Child::end_what_is_due() {
+  switch (stage_) {
+    case Stage::running:
+    case Stage::asked_to_end:
+      kill(-process_, SIGKILL);
+      stage_ = Stage::killed;
+      deadline_ = Clock::now() + kReaping;
+      return;
+    case Stage::draining:
+      stage_ = Stage::orphans_killed;
+      deadline_ = Clock::now() + kReaping;
+      return;
+    case Stage::killed:
+    case Stage::orphans_killed:
+      given_up_ = true;
+  }
+}
+
+void Child::stop() {
+  if (stage_ != Stage::running) return;
+  signal_group(process_, SIGTERM);
+  stage_ = Stage::asked_to_end;
+  deadline_ = Clock::now() + kGrace;
+}
+
+void fail_if_stopped(const Child& child) {
+  if (child.passed_on() != 0) throw Failure("stopped by " + std::string(strsignal(child.passed_on())), "", "");
 }
 
 }  // namespace mars::host

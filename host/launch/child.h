@@ -1,6 +1,6 @@
 // A program started in a process group of its own, whose output and end come in as they happen, and which
 // ends when we do. What it started and did not wait for becomes ours and is waited for too, so nothing is
-// left behind. Waiting is sleeping: one poll over its output and the signals sent to us. One child at a time.
+// left behind. One child at a time: listeners start none.
 #pragma once
 
 #include <sys/types.h>
@@ -8,9 +8,12 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "hal/failure.h"
 #include "host/launch/command.h"
+#include "host/launch/signal_relay.h"
 
 namespace mars::host {
 
@@ -35,16 +38,18 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   // Until it has ended and its output is read. SIGINT, SIGTERM and SIGHUP that come to us are passed on; what
-  // has not ended some seconds after is killed.
+  // has not ended some seconds after is killed, and what the kernel holds even then is left.
   Ending wait(const Listener& listener);
 
   // For listeners: ends it as a SIGTERM to us would.
   void stop();
 
-  // The first signal that was passed on; 0: none.
-  int passed_on() const { return passed_on_; }
+  // The first signal that came to us and was passed on; 0: none.
+  int passed_on() const { return relay_ ? relay_->first() : 0; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   // A pipe's reading end and the line that is not complete yet.
   struct Stream {
     int descriptor = -1;
@@ -52,22 +57,27 @@ class Child {
   };
 
   void start(const Command& command, int output, int error);
-  void take(Stream& stream, const std::function<void(const std::string&)>& tell);
-  void take_signals();
-  void pass_on(int signal);
+  void wait_for_output();
+  void take(Stream& stream, const std::function<void(const std::string&)>& listener);
   void reap();
+  void notice_signals();
+  void end_what_is_due();
   bool ended() const { return status_ && !orphans_ && output_.descriptor < 0 && error_.descriptor < 0; }
 
+  std::set<pid_t> strangers_;  // children of ours that were there before it
   pid_t process_ = -1;
+  std::optional<SignalRelay> relay_;
   Stream output_;
   Stream error_;
-  int signals_ = -1;  // a signalfd
-  sigset_t signals_before_{};
   std::optional<int> status_;  // once it has ended
   bool orphans_ = false;       // processes that it started may still run
-  bool orphans_killed_ = false;
-  int passed_on_ = 0;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;  // to be killed, or to have read the rest
+  bool given_up_ = false;      // what is left does not die
+  int signals_noticed_ = 0;
+  enum class Stage { running, asked_to_end, killed, draining, orphans_killed } stage_ = Stage::running;
+  Clock::time_point deadline_ = Clock::time_point::max();  // of the stage
 };
+
+// Throws Failure where a signal to us ended the child.
+void fail_if_stopped(const Child& child);
 
 }  // namespace mars::host

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <regex>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -17,6 +16,7 @@
 #include "hal/failure.h"
 #include "hal/settings.h"
 #include "host/launch/environment.h"
+#include "host/launch/text_reader.h"
 #include "topology/machine.h"
 
 namespace mars::host {
@@ -147,27 +147,57 @@ Surroundings look_around(const std::string& path) {
 }
 
 std::uint32_t task_count(const std::string& tasks_per_node) {
-  static const std::regex part("(\\d{1,6})(\\(x(\\d{1,6})\\))?(,|$)");
   std::uint32_t sum = 0;
-  for (std::sregex_iterator at(tasks_per_node.begin(), tasks_per_node.end(), part), end; at != end; ++at) {
-    const std::smatch& match = *at;
-    sum += std::stoul(match[1]) * (match[3].matched ? std::stoul(match[3]) : 1);
-  }
+  TextReader words(tasks_per_node);
+  do {
+    const std::uint32_t tasks = words.number().value_or(0);
+    sum += tasks * (words.skip("(x") ? words.number().value_or(0) : 1);
+    words.skip(")");
+  } while (words.skip(","));
   return sum;
 }
 
+namespace {
+
+constexpr std::uint32_t kMostSlots = 999999;
+constexpr const char* kHostfileForm = "write a line a host, like: n1 slots=4";
+
+// "n1 slots=4 max_slots=8  # of four cores"; none: a line without a host.
+std::optional<Slots> read_slots(const std::string& line, const std::string& where) {
+  TextReader words(std::string_view(line).substr(0, line.find('#')));
+  words.skip_space();
+  if (words.at_end()) return std::nullopt;
+  Slots slots{words.word(), 1};
+  if (slots.host.size() == TextReader::kLongestWord)
+    throw Failure("is no host's name: it is too long", where, kHostfileForm);
+  for (words.skip_space(); !words.at_end(); words.skip_space()) {
+    if (!words.skip("slots")) {
+      words.word();
+      continue;
+    }
+    words.skip_space();
+    words.skip("=");
+    words.skip_space();
+    const auto count = words.number();
+    if (!count || *count > kMostSlots)
+      throw Failure("slots has no number up to " + std::to_string(kMostSlots), where, kHostfileForm);
+    slots.count = *count;
+  }
+  return slots;
+}
+
+}  // namespace
+
 std::vector<Slots> read_hostfile(const fs::path& hostfile) {
-  static const std::regex form("\\s*([^\\s#]+)[^#]*?(\\sslots\\s*=\\s*(\\d{1,6})[^#]*)?(#.*)?");
   std::ifstream file(hostfile);
   if (!file) throw Failure("cannot be read", hostfile.string(), "--hostfile names a file of lines like: n1 slots=4");
   std::vector<Slots> hosts;
+  int number = 0;
   for (std::string line; std::getline(file, line);) {
-    std::smatch match;
-    if (!std::regex_match(line, match, form)) continue;
-    const auto count = static_cast<std::uint32_t>(match[3].matched ? std::stoul(match[3]) : 1);
-    if (count > 0) hosts.push_back({match[1], count});
+    const auto slots = read_slots(line, hostfile.string() + ":" + std::to_string(++number));
+    if (slots && slots->count > 0) hosts.push_back(*slots);
   }
-  if (hosts.empty()) throw Failure("names no host", hostfile.string(), "write a line a host, like: n1 slots=4");
+  if (hosts.empty()) throw Failure("names no host", hostfile.string(), kHostfileForm);
   return hosts;
 }
 

@@ -8,10 +8,10 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
-#include <regex>
 #include <set>
 
 #include "host/launch/mpi_words.h"
+#include "host/launch/text_reader.h"
 
 namespace mars::host {
 
@@ -40,13 +40,6 @@ std::string remedy_for(int signal) {
   return "please report it with the film";
 }
 
-Failure stopped(const Remains& remains, const RenderOptions& options) {
-  return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
-                     std::to_string(remains.progress.done()) + " of " +
-                     std::to_string(remains.progress.of()) + " frames",
-                 options.folder, "");
-}
-
 Failure told(const Fault& fault) {
   const std::string again = fault.replay.empty() ? "" : "to see it again: " + fault.replay;
   const std::string remedy =
@@ -64,22 +57,26 @@ std::string who_is(int rank, const std::optional<Booted>& booted) {
 }
 
 // "mpirun noticed that process rank 2 with PID 0 on node ada exited on signal 9 (Killed)."
-std::optional<Failure> lost_rank(const std::string& words, const std::optional<Booted>& booted) {
-  static const std::regex form("process rank (\\d+) with PID \\d+ on node (\\S+) exited on\\s+signal (\\d+)");
-  std::smatch match;
-  if (!std::regex_search(words, match, form)) return std::nullopt;
-  const int signal = std::stoi(match[3]);
-  return Failure(killed_by(who_is(std::stoi(match[1]), booted), signal), "machine " + match[2].str(),
-                 remedy_for(signal));
+std::optional<Failure> lost_rank(const std::string& line, const std::optional<Booted>& booted) {
+  for (TextReader words(line); words.find("process rank ");) {
+    const auto rank = words.number();
+    if (!rank || !words.skip(" with PID ") || !words.number() || !words.skip(" on node ")) continue;
+    const std::string machine = words.word();
+    if (!words.skip(" exited on signal ")) continue;
+    const int signal = static_cast<int>(words.number().value_or(0));
+    return Failure(killed_by(who_is(static_cast<int>(*rank), booted), signal), "machine " + machine, remedy_for(signal));
+  }
+  return std::nullopt;
 }
 
 // MPICH's mpirun: "=   PID 17078 RUNNING AT ada", and then "... EXIT STRING: Killed (signal 9)".
-std::optional<Failure> lost_process(const std::string& words) {
-  static const std::regex form("PID \\d+ RUNNING AT (\\S+)[^]*EXIT STRING: [^\n]*\\(signal (\\d+)\\)");
-  std::smatch match;
-  if (!std::regex_search(words, match, form)) return std::nullopt;
-  const int signal = std::stoi(match[2]);
-  return Failure(killed_by("the host or a node", signal), "machine " + match[1].str(), remedy_for(signal));
+std::optional<Failure> lost_process(const std::string& line) {
+  TextReader words(line);
+  if (!words.find(" RUNNING AT ")) return std::nullopt;
+  const std::string machine = words.word();
+  if (!words.find("EXIT STRING: ") || !words.find("(signal ")) return std::nullopt;
+  const int signal = static_cast<int>(words.number().value_or(0));
+  return Failure(killed_by("the host or a node", signal), "machine " + machine, remedy_for(signal));
 }
 
 // The machine's name, or the address itself where none is known.
@@ -93,6 +90,8 @@ std::string name_of(const std::string& address) {
   return failed == 0 ? name : address;
 }
 
+std::string without_port(const std::string& address) { return address.substr(0, address.rfind(':')); }
+
 std::string machines_of(const Booted& booted) {
   std::set<std::string> names;
   for (const Booted::Node& node : booted.nodes) names.insert(node.host);
@@ -105,19 +104,19 @@ std::string machines_of(const Booted& booted) {
 // "ORTE has lost communication with a remote daemon. ... Remote daemon: [[6456,0],2] on node n3";
 // where the daemon's ssh ends first "ORTE was unable to reliably start one or more daemons", long after they have
 // started; and a rank's "connect() to 10.77.0.14:1028 failed", which alone tells the machine then.
-std::optional<std::string> machine_lost(const std::string& words, const std::optional<Booted>& booted) {
-  static const std::regex daemon("lost communication with a remote daemon[^]*Remote daemon: \\S+ on node (\\S+)");
-  static const std::regex connection("connect\\(\\) to (\\S+):\\d+ failed");
-  std::smatch match;
-  if (std::regex_search(words, match, daemon)) return match[1].str();
+std::optional<std::string> machine_lost(const std::string& line, const std::optional<Booted>& booted) {
+  TextReader daemon(line);
+  if (daemon.find("lost communication with a remote daemon") && daemon.find("Remote daemon: ") && daemon.find(" on node "))
+    return daemon.word();
   if (!booted) return std::nullopt;
-  if (std::regex_search(words, match, connection)) return name_of(match[1].str());
-  if (words.find("unable to reliably start one or more daemons") != std::string::npos) return machines_of(*booted);
+  TextReader connection(line);
+  if (connection.find("connect() to ")) return name_of(without_port(connection.word()));
+  if (line.find("unable to reliably start one or more daemons") != std::string::npos) return machines_of(*booted);
   return std::nullopt;
 }
 
-std::optional<Failure> lost_machine(const std::string& words, const std::optional<Booted>& booted) {
-  const std::optional<std::string> machine = machine_lost(words, booted);
+std::optional<Failure> lost_machine(const std::string& line, const std::optional<Booted>& booted) {
+  const std::optional<std::string> machine = machine_lost(line, booted);
   if (!machine) return std::nullopt;
   return Failure("nothing is heard of it any more", "machine " + *machine,
                  "see whether it still runs and can be reached; --frames renders what is missing");
@@ -153,6 +152,13 @@ Failure with_advice(const Failure& failure, const Advice& advice) {
 
 }  // namespace
 
+Failure stopped(const Remains& remains, const RenderOptions& options) {
+  return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
+                     std::to_string(remains.progress.done()) + " of " +
+                     std::to_string(remains.progress.of()) + " frames",
+                 options.folder, "");
+}
+
 Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice) {
   if (remains.passed_on != 0) return stopped(remains, options);
   if (remains.fault) return told(*remains.fault);
@@ -160,7 +166,7 @@ Failure diagnose(const Remains& remains, const RenderOptions& options, const Adv
     return remains.booted ? failure : with_advice(failure, advice);
   };
   if (const auto own = own_words(remains.last_words)) return advised(*own);
-  const std::string words = join(remains.last_words, remains.last_words.size());
+  const std::string words = on_one_line(join(remains.last_words, remains.last_words.size()));
   if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);
   if (const auto lost = lost_process(words)) return advised(*lost);
   if (const auto lost = lost_machine(words, remains.booted)) return *lost;

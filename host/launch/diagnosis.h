@@ -27,6 +27,9 @@ struct Remains {
 // What is wrong with the surroundings, as lines without the last one's end.
 using Advice = std::function<std::string()>;
 
+// Of a run that a person's signal ended.
+Failure stopped(const Remains& remains, const RenderOptions& options);
+
 // The one message a person gets; with advice where the run never began or nothing else is known.
 Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <iostream>
+#include <thread>
 
 #include "hal/settings.h"
 #include "host/events/events.h"
@@ -18,7 +20,9 @@ namespace mars::host {
 namespace {
 
 constexpr std::size_t kLastWords = 400;  // lines: each rank may tell the same loss in its own dozen
-constexpr std::chrono::seconds kSlowStart{20};  // until a person is told that no node has answered
+constexpr std::size_t kLongestWords = 4096;  // bytes of such a line
+constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
+constexpr std::chrono::seconds kSlowLoad{3};    // of compiling the film, until a person learns what takes so long
 constexpr std::chrono::seconds kLongestTrial{30};
 
 Command command_for(RenderOptions& options, const std::filesystem::path& self) {
@@ -31,6 +35,32 @@ Command command_for(RenderOptions& options, const std::filesystem::path& self) {
   return mpi_command(options, programs, surroundings);
 }
 
+// A text that is looked for on a thread of its own: what the thread looks at, a dead disk perhaps, may hold it up.
+class BackgroundText {
+ public:
+  void begin(std::function<std::string()> find) {
+    std::packaged_task<std::string()> task([find = std::move(find)] {
+      try {
+        return find();
+      } catch (const std::exception& failure) {
+        return reason_of(failure);  // the run goes on
+      }
+    });
+    text_ = task.get_future();
+    std::thread(std::move(task)).detach();
+  }
+  // Once it is there; "" before and after.
+  std::string take() { return ready_within(std::chrono::seconds(0)) ? text_.get() : ""; }
+  // What is held up longer than this does nothing that could hurt the end of the process.
+  ~BackgroundText() { ready_within(std::chrono::seconds(1)); }
+
+ private:
+  bool ready_within(std::chrono::seconds wait) {
+    return text_.valid() && text_.wait_for(wait) == std::future_status::ready;
+  }
+  std::future<std::string> text_;
+};
+
 // Follows one run from its events to its end.
 class Run {
  public:
@@ -38,18 +68,20 @@ class Run {
 
   explicit Run(Display& display) : display_(display) {}
 
-  // `waited` is called once when no node has answered for `patience`.
-  void follow(const Command& command, Clock::duration patience, const std::function<void(Child&)>& waited) {
+  // `waited` is called once when nodes have been waited for for `patience` and did not all answer; `tick` now and then.
+  void follow(const Command& command, Clock::duration patience, const std::function<void(Child&)>& waited,
+              const std::function<void()>& tick) {
     remains_.program = command.words.front();
-    const Clock::time_point deadline = started_ + patience;
-    bool told = false;
+    bool overdue = false;
     Child child(command);
     remains_.ending = child.wait({[this](const std::string& line) { take_output(line); },
                                   [this](const std::string& line) { take_error(line); },
                                   [&] {
+                                    tick();
                                     if (remains_.booted) return display_.show(remains_.progress);
-                                    if (told || Clock::now() < deadline) return;
-                                    told = true;
+                                    if (loading_) return show_slow_load();
+                                    if (overdue || Clock::now() - waiting_since_ < patience) return;
+                                    overdue = true;
                                     waited(child);
                                   }});
     remains_.passed_on = child.passed_on();
@@ -64,6 +96,8 @@ class Run {
   void take_output(const std::string& line) {
     const std::optional<Event> event = read_event(line);
     if (!event) return take_error(line);  // the words of an mpirun
+    if (const auto* loading = std::get_if<Loading>(&*event)) begin_loading(*loading);
+    if (const auto* loaded = std::get_if<Loaded>(&*event)) end_loading(*loaded);
     if (const auto* booted = std::get_if<Booted>(&*event)) {
       display_.tell(booted_text(*booted));
       remains_.booted = *booted;
@@ -74,13 +108,34 @@ class Run {
     if (const auto* done = std::get_if<Done>(&*event)) done_ = *done;
   }
 
+  void begin_loading(const Loading& loading) {
+    loading_ = loading;
+    waiting_since_ = Clock::now();
+  }
+
+  void show_slow_load() {
+    if (slow_load_shown_ || Clock::now() - waiting_since_ < kSlowLoad) return;
+    slow_load_shown_ = true;
+    display_.tell("compiling " + loading_->film + " ...");
+  }
+
+  // Nodes are waited for only from now on: the host does not listen to them before.
+  void end_loading(const Loaded& loaded) {
+    loading_.reset();
+    waiting_since_ = Clock::now();
+    if (slow_load_shown_) display_.tell("compiled in " + clock_text(loaded.seconds));
+  }
+
   void take_error(const std::string& line) {
-    remains_.last_words.push_back(line);
+    remains_.last_words.push_back(line.substr(0, kLongestWords));
     if (remains_.last_words.size() > kLastWords) remains_.last_words.pop_front();
   }
 
   Display& display_;
-  Clock::time_point started_ = Clock::now();
+  const Clock::time_point started_ = Clock::now();
+  Clock::time_point waiting_since_ = started_;  // for nodes; while loading_, for the film
+  std::optional<Loading> loading_;
+  bool slow_load_shown_ = false;
   double boot_seconds_ = 0;
   std::optional<Done> done_;
   Remains remains_;
@@ -94,10 +149,18 @@ void launch_render(RenderOptions options, const std::filesystem::path& self, con
   hal::read_settings();  // what makes no sense is told before anything is started
   const Command command = command_for(options, self);
   display.tell(shell_text(command));
-  const Advice advice = [&] { return adviser(options); };
+  const Advice advice = [&] { return adviser.after_a_failed_start(options); };
+  BackgroundText hint;
   Run run(display);
-  run.follow(command, kSlowStart,
-             [&](Child&) { display.tell("no node has answered yet; is this why?\n" + advice()); });
+  run.follow(
+      command, kSlowStart,
+      [&](Child&) {
+        display.tell("no node has answered for " + std::to_string(kSlowStart.count()) + " seconds");
+        hint.begin([ask = adviser.while_it_starts, options] { return ask(options); });
+      },
+      [&] {
+        if (const std::string text = hint.take(); !text.empty()) display.tell(text);
+      });
   display.settle();
   if (!run.well()) {
     if (!options.folder.empty()) remove_parts(options.folder);
@@ -114,10 +177,14 @@ Trial try_start(RenderOptions options, const std::filesystem::path& self) {
   Display nothing(Display::Kind::silent, std::cout);
   Run run(nothing);
   bool given_up = false;
-  run.follow(command, kLongestTrial, [&](Child& child) {
-    given_up = true;
-    child.stop();
-  });
+  run.follow(
+      command, kLongestTrial,
+      [&](Child& child) {
+        given_up = true;
+        child.stop();
+      },
+      [] {});
+  if (run.remains().passed_on != 0) throw stopped(run.remains(), options);
   Trial trial{shell_text(command), run.boot_seconds(), {}, 0, std::nullopt};
   if (const auto& booted = run.remains().booted) trial.booted = *booted;
   if (run.well()) {

@@ -14,9 +14,12 @@
 
 namespace mars::host {
 
-// What is wrong with the surroundings for a run with these options, in lines; asked for only when a start
-// fails.
-using Adviser = std::function<std::string(const RenderOptions& options)>;
+// What is wrong with the surroundings for a run with these options, in lines.
+struct Adviser {
+  using Question = std::function<std::string(const RenderOptions& options)>;
+  Question while_it_starts;  // asked on a thread of its own while the run is waited for: starts no program
+  Question after_a_failed_start;
+};
 
 // Returns when all frames are where they belong. `self`: the running program's own file. Throws Failure where
 // the run fails or is stopped; nothing it started runs on.

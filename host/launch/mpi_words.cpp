@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "host/launch/text_reader.h"
 
 namespace mars::host {
 namespace {
@@ -54,16 +55,6 @@ constexpr std::array kTable = {
              "--cap-add=SYS_PTRACE"},
     MpiWords{"not enough space for", "there is too little shared memory for messages", kMakeShmLarger},
 };
-
-// Help texts are wrapped at any word.
-std::string on_one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    const bool space = std::isspace(static_cast<unsigned char>(c)) != 0;
-    if (!space || (!line.empty() && line.back() != ' ')) line += space ? ' ' : c;
-  }
-  return line;
-}
 
 }  // namespace
 

@@ -106,8 +106,16 @@ std::unique_ptr<Trace> begin_trace(const RenderOptions& options) {
   return std::make_unique<Trace>();
 }
 
+CompiledFilm load_film_with_events(const RenderOptions& options) {
+  tell(Loading{options.film});
+  const double started = dclock();
+  CompiledFilm film = load_film_of(options);
+  tell(Loaded{dclock() - started});
+  return film;
+}
+
 void render(const RenderOptions& options, const char* backend, Trace* trace) {
-  const CompiledFilm film = load_film_of(options);
+  const CompiledFilm film = load_film_with_events(options);
   const node::FilmSettings& settings = film.view().settings();
   FarmOptions farm;
   farm.mapping = options.mapping;

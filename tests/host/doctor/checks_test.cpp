@@ -35,7 +35,7 @@ Facts sound() {
 }
 
 SlurmJob job(std::uint32_t machines) {
-  return {"71", machines, 0, "", "", "MPI plugin types are...\n\tnone\n\tpmi2\n\tpmix\nspecific pmix plugin versions: pmix_v4\n"};
+  return {"71", machines, 0, "", "", true, "MPI plugin types are...\n\tnone\n\tpmi2\n\tpmix\nspecific pmix plugin versions: pmix_v4\n"};
 }
 
 // Of the surroundings as `change` leaves them.
@@ -79,6 +79,7 @@ TEST(Checks, Mpi) {
   });
   expect(State::trouble, "MPI", "not MPICH's: mpirun (Open MPI) 4.1.4", "module load mpich",
          [](Facts& f) { f.programs.mpi = Mpi::mpich; });
+  expect(State::good, "MPI", "Open MPI, /usr/bin/mpirun", "", [](Facts& f) { f.mpirun_version.reset(); });
   expect(State::trouble, "MPI", "says nothing", "--backend threads", [](Facts& f) { f.mpirun_version = ""; });
 }
 
@@ -160,7 +161,7 @@ TEST(Checks, OtherMachines) {
          [](Facts& f) { f.surroundings.no_remote_shell = true; });
   expect(State::trouble, "srun", "was not found", "client", [](Facts& f) {
     f.slurm = job(3);
-    f.slurm->plugins.reset();
+    f.slurm->srun = false;
     f.surroundings.no_remote_shell = true;
   });
   expect(State::good, "Slurm", "job 71, 3 machines", "", [](Facts& f) { f.slurm = job(3); });

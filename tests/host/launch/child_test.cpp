@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 #include <vector>
 
@@ -15,6 +17,11 @@ namespace {
 
 using namespace std::chrono_literals;
 using Lines = std::vector<std::string>;
+
+// A signal that came leaves an alarm behind, which would end the tests.
+struct ChildTest : testing::Test {
+  void TearDown() override { alarm(0); }
+};
 
 struct Outcome {
   Lines output;
@@ -67,7 +74,7 @@ TEST(Child, AMissingProgramIsAFailure) {
             "/no/such/program: cannot be started: No such file or directory");
 }
 
-TEST(Child, SignalsToUsArePassedOn) {
+TEST_F(ChildTest, SignalsToUsArePassedOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Outcome outcome =
         run("trap 'echo stopped; exit 3' INT TERM; echo ready; while :; do sleep 0.05; done",
@@ -78,14 +85,14 @@ TEST(Child, SignalsToUsArePassedOn) {
   }
 }
 
-TEST(Child, WhoDoesNotListenIsKilled) {
+TEST_F(ChildTest, WhoDoesNotListenIsKilled) {
   const Outcome once =
       run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] { kill(getpid(), SIGTERM); });
   EXPECT_EQ(once.ending.signal, SIGKILL);
   EXPECT_LT(once.seconds, 12);
 }
 
-TEST(Child, ASecondSignalKillsAtOnce) {
+TEST_F(ChildTest, ASecondSignalKillsAtOnce) {
   const Outcome outcome = run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] {
     kill(getpid(), SIGTERM);
     std::thread([] {
@@ -95,6 +102,83 @@ TEST(Child, ASecondSignalKillsAtOnce) {
   });
   EXPECT_EQ(outcome.ending.signal, SIGKILL);
   EXPECT_LT(outcome.seconds, 4);
+}
+
+// As a stopped mpirun: it does not even hear the signal that ends it.
+TEST_F(ChildTest, WhatIsStoppedIsEnded) {
+  const Outcome outcome = run("echo ready; kill -STOP $$; sleep 60", [] { kill(getpid(), SIGTERM); });
+  EXPECT_EQ(outcome.ending.signal, SIGTERM);
+  EXPECT_LT(outcome.seconds, 5);
+}
+
+// What ignores the signal and has ended its output is waited for no longer than other children.
+TEST_F(ChildTest, SignalsCountOnceTheOutputHasEnded) {
+  const Outcome outcome = run("echo ready; exec >/dev/null 2>&1; exec sleep 60", [] { kill(getpid(), SIGINT); });
+  EXPECT_EQ(outcome.ending.signal, SIGINT);
+  EXPECT_LT(outcome.seconds, 5);
+}
+
+// A listener that hangs, as one that writes where nobody reads: the alarm ends us. In a process of its own.
+TEST_F(ChildTest, ASignalEndsUsWhateverWeDo) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EXIT(
+      {
+        run("echo ready; trap '' TERM; sleep 60", [] {
+          kill(getpid(), SIGTERM);
+          kill(getpid(), SIGTERM);
+          for (;;) std::this_thread::sleep_for(1h);
+        });
+      },
+      testing::ExitedWithCode(1), "");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, SignalRelay::kLongestOnceMore + 3s);
+}
+
+TEST_F(ChildTest, AnIgnoredHangupStaysIgnored) {
+  std::signal(SIGHUP, SIG_IGN);
+  const Outcome outcome = run("echo ready; sleep 0.3; exit 5", [] { kill(getpid(), SIGHUP); });
+  std::signal(SIGHUP, SIG_DFL);
+  EXPECT_EQ(outcome.ending.code, 5);
+  EXPECT_EQ(outcome.passed_on, 0);
+}
+
+TEST(Child, TheOneWhoStartedUsMayIgnoreOurChildren) {
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(run("exit 4").ending.code, 4);
+}
+
+// Others' ends are left to those who wait for them.
+TEST(Child, WaitsForNoOtherChild) {
+  const pid_t other = fork();
+  if (other == 0) _exit(9);
+  EXPECT_EQ(run("sleep 0.2; exit 3").ending.code, 3);
+  int status = 0;
+  ASSERT_EQ(waitpid(other, &status, 0), other);
+  EXPECT_EQ(WEXITSTATUS(status), 9);
+}
+
+TEST(Child, KillsNoOtherChild) {
+  const pid_t other = fork();
+  if (other == 0) {
+    std::this_thread::sleep_for(60s);
+    _exit(9);
+  }
+  run("setsid sleep 60 &");
+  EXPECT_EQ(waitpid(other, nullptr, WNOHANG), 0) << "it should still run";
+  kill(other, SIGKILL);
+  waitpid(other, nullptr, 0);
+}
+
+TEST(Child, ListenersStartNone) {
+  EXPECT_THROW(run("echo ready", [] { run("echo"); }), std::logic_error);
+  EXPECT_EQ(run("echo again").output, Lines{"again"});
+}
+
+TEST(Child, MayWriteALineWithoutEnd) {
+  const Outcome outcome = run("head -c 40000000 /dev/zero | tr '\\0' x");
+  EXPECT_GT(outcome.output.size(), 1u);
+  std::size_t bytes = 0;
+  for (const std::string& piece : outcome.output) bytes += piece.size();
+  EXPECT_EQ(bytes, 40000000u);
 }
 
 // A process in a group of its own, as mpirun starts them, that outlives its parent.

@@ -100,6 +100,12 @@ TEST(Command, HostfilesAreRead) {
     found += slots.host + ":" + std::to_string(slots.count) + " ";
   EXPECT_EQ(found, "n1:2 n2:3 n4:1 ");
   EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }), "names no host"));
+  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, "n1\nn2 slots=many\n")); }),
+                    "hosts:2: slots has no number up to 999999"));
+  const std::string long_name(100000, 'y');
+  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
+                    "hosts:1: is no host's name: it is too long"));
+  EXPECT_EQ(read_hostfile(write_hostfile(folder, "n1 " + long_name + " slots=2 #" + long_name)).at(0).count, 2u);
   EXPECT_TRUE(holds(failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
 }
 

@@ -73,6 +73,29 @@ TEST(Diagnosis, OfAMachineWhoseDaemonEndsFirst) {
   EXPECT_TRUE(holds(message(remains), "machine n1 or n4: nothing is heard of it any more"));
 }
 
+// MPI may say very much in between, and in very long words.
+TEST(Diagnosis, OfAnyAmountOfWords) {
+  const std::string long_word(100000, 'y');
+  for (const std::string& noise : {std::string(80, 'y'), long_word, std::string(100000, ' ')}) {
+    std::deque<std::string> words{"ORTE has lost communication with a remote daemon.", "=   PID 17078 RUNNING AT ada"};
+    words.insert(words.end(), noise.size() > 80 ? 10 : 380, noise);
+    EXPECT_TRUE(holds(message(failed_with(words)), "a machine was lost"));
+    std::deque<std::string> named = words;
+    named.push_back("  Remote daemon: [[6456,0],2] on node n3");
+    EXPECT_TRUE(holds(message(failed_with(named)), "machine n3: nothing is heard of it any more"));
+    named.back() += long_word;
+    EXPECT_LT(message(failed_with(named)).size(), 1000u);
+    words.push_back("YOUR APPLICATION TERMINATED WITH THE EXIT STRING: Killed (signal 9)");
+    EXPECT_TRUE(holds(message(failed_with(words)), "machine ada: the host or a node was killed by signal 9"));
+  }
+}
+
+TEST(Diagnosis, OfAKilledRankWhoseWordsAreWrapped) {
+  Remains remains = failed_with({"process rank x of", "mpirun noticed that process rank 0 with PID 17",
+                                 "on node ada exited on", "    signal 11 (Segmentation fault)."});
+  EXPECT_TRUE(holds(message(remains), "machine ada: the host was killed by signal 11"));
+}
+
 TEST(Diagnosis, ShowsTheLastOfManyWords) {
   std::deque<std::string> words(300, "earlier");
   words.push_back("at last");

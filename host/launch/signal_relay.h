@@ -1,0 +1,43 @@
+// The signals that ask us to stop (SIGINT, SIGTERM, SIGHUP) while a child runs. Each goes to the child's process group
+// as it comes: from the handler, so that it also arrives while we write to a terminal that nobody reads or wait for a
+// disk that does not answer. Who is still held up like that some seconds later is ended by an alarm.
+#pragma once
+
+#include <signal.h>
+#include <sys/types.h>
+
+#include <array>
+#include <chrono>
+
+namespace mars::host {
+
+class SignalRelay {
+ public:
+  // From the first signal to the end of this process, whatever it is doing then: longer than Child::wait takes.
+  static constexpr std::chrono::seconds kLongest{15};
+  // The same from the second: who asks twice does not want to wait.
+  static constexpr std::chrono::seconds kLongestOnceMore{6};
+
+  // `group`: the process group that gets the signals. One relay at a time in a process. A SIGHUP that is ignored, as
+  // under nohup, stays ignored.
+  explicit SignalRelay(pid_t group);
+  // The signals are again what they were. A stop that was asked for stays asked for: the alarm stays set.
+  ~SignalRelay();
+  SignalRelay(const SignalRelay&) = delete;
+  SignalRelay& operator=(const SignalRelay&) = delete;
+
+  // How many signals have come, and which came first; 0: none.
+  int count() const;
+  int first() const;
+
+  // The group is gone: signals go nowhere from now on.
+  void forget_group();
+
+ private:
+  std::array<struct sigaction, 3> before_{};
+};
+
+// `signal` to a process group. Wakes what was stopped, which would not hear it.
+void signal_group(pid_t group, int signal);
+
+}  // namespace mars::host
