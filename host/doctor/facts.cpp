@@ -1,6 +1,7 @@
 #include "host/doctor/facts.h"
 
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -82,6 +83,11 @@ std::optional<Space> writable_space(const std::string& folder) {
   return space(folder);
 }
 
+std::uint64_t open_files_limit() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_NOFILE, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
+}
+
 // As Open MPI looks for it.
 std::string temporary_folder(const Environment& environment) {
   for (const char* name : {"TMPDIR", "TEMP", "TMP"})
@@ -131,6 +137,7 @@ Facts gather_facts(const fs::path& self, std::uint32_t nodes, Ask ask) {
   facts.memory = machine.memory();
   facts.limit = topology::memory_limit();
   facts.memory_setting = hal::read_settings().memory;
+  facts.open_files = open_files_limit();
   facts.shared = space("/dev/shm");
   facts.temporary = temporary_folder(environment);
   facts.temporary_space = writable_space(facts.temporary);

@@ -42,6 +42,7 @@ struct Facts {
   std::uint64_t memory = 0;              // bytes of the machine; 0: unknown
   topology::MemoryLimit limit;
   std::optional<std::uint64_t> memory_setting;  // MARS_MEMORY, bytes
+  std::uint64_t open_files = ~std::uint64_t{0};  // that one process may have (ulimit -n)
   std::optional<Space> shared;                  // /dev/shm; none: there is none
   std::string temporary;                        // the folder for temporary files
   std::optional<Space> temporary_space;         // none: we may not write there

@@ -35,6 +35,7 @@ constexpr std::array kTable = {
              "set TMPDIR to a folder on a local disk that you may write, on every machine"},
     MpiWords{"orte_session_dir failed", "Open MPI cannot write its temporary files",
              "set TMPDIR to a folder on a local disk that you may write, on every machine"},
+    MpiWords{"Too many open files", "mpirun or a node may not open as many files as it must", "ulimit -n 1024"},
     MpiWords{"No space left on device", "a disk is full", "empty it, or set TMPDIR to a folder that has room"},
     MpiWords{"plm_rsh_agent", "there is neither ssh nor rsh to reach the other machines with",
              "install ssh (Debian: openssh-client), or start inside a Slurm job"},

@@ -156,6 +156,12 @@ TEST(Checks, TemporaryFiles) {
          [](Facts& f) { f.temporary_space = Space{kGiB, kMiB}; });
 }
 
+TEST(Checks, OpenFiles) {
+  expect(State::trouble, "open files", "a process may have 40, mpirun needs about 72 for 8 nodes", "ulimit -n 1024",
+         [](Facts& f) { f.open_files = 40; });
+  expect(State::good, "open files", "enough for 8 nodes", "", [](Facts& f) { f.open_files = 72; });
+}
+
 TEST(Checks, OtherMachines) {
   expect(State::note, "ssh", "this machine only", "openssh-client",
          [](Facts& f) { f.surroundings.no_remote_shell = true; });
