@@ -78,9 +78,10 @@ class Player {
     if (shown_ && !missing_ && notes == notes_ && status(now) == status_) return;
     for (std::size_t above = notes.size(); above < notes_.size(); ++above) write_line(above + 1, "");
     show_picture(now, notes.size());
-    for (std::size_t above = 0; above < notes.size(); ++above) write_line(above + 1, notes[above]);
-    write_line(0, status_ = status(now));
+    if (notes != notes_)
+      for (std::size_t above = 0; above < notes.size(); ++above) write_line(above + 1, notes[above]);
     notes_ = std::move(notes);
+    write_line(0, status_ = status(now));
     shown_ = true;
   }
 
@@ -93,7 +94,7 @@ class Player {
     if (!image) return;
     if (PictureSize{image->width, image->height} != extent_) {
       if (shown_) terminal_.write("\x1b[2J");
-      picture_->forget();
+      empty();
       extent_ = {image->width, image->height};
     }
     const std::uint32_t height = picture_->room(terminal_, 1 + static_cast<std::uint32_t>(notes)).height;
