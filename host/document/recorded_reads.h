@@ -15,6 +15,7 @@ struct FileStamp {
   bool exists = false;  // and can be reached
   dev_t device = 0;
   ino_t inode = 0;
+  mode_t mode = 0;
   off_t size = 0;
   std::int64_t written = 0, changed = 0;  // nanoseconds
 

@@ -10,22 +10,27 @@ using Characters = std::vector<std::string_view>;
 
 constexpr std::string_view kMore = "...";
 
-bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xc0) == 0x80; }  // in UTF-8
+// Bytes of the character that `text` begins with, in UTF-8; what is none is one of one byte.
+std::size_t length_of_first(std::string_view text) {
+  const auto byte = [text](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
+  const std::size_t length = byte(0) < 0xc0 ? 1 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
+  for (std::size_t at = 1; at < length; ++at)
+    if ((byte(at) & 0xc0) != 0x80) return 1;
+  return length;
+}
 
-// Also those of two bytes, U+0080 to U+009F.
+// Or no character. Of two bytes are U+0080 to U+009F.
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]);
-  if (character.size() == 1) return first < 0x20 || first == 0x7f || first >= 0x80;
-  return character.size() == 2 && first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
+  if (character.size() == 1) return first < 0x20 || first >= 0x7f;
+  return first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
 }
 
 Characters characters_of(std::string_view text) {
   Characters characters;
-  for (std::size_t at = 0, next; at < text.size(); at = next) {
-    next = at + 1;
-    while (next < text.size() && continues_character(text[next])) ++next;
-    characters.push_back(text.substr(at, next - at));
-    if (is_control(characters.back())) characters.back() = "?";
+  for (; !text.empty(); text.remove_prefix(length_of_first(text))) {
+    const std::string_view character = text.substr(0, length_of_first(text));
+    characters.push_back(is_control(character) ? "?" : character);
   }
   return characters;
 }
