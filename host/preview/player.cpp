@@ -79,7 +79,7 @@ class Player {
     for (std::size_t above = notes.size(); above < notes_.size(); ++above) write_line(above + 1, "");
     show_picture(now, notes.size());
     if (notes != notes_)
-      for (std::size_t above = 0; above < notes.size(); ++above) write_line(above + 1, notes[above]);
+      for (std::size_t i = 0; i < notes.size(); ++i) write_line(notes.size() - i, notes[i]);
     notes_ = std::move(notes);
     write_line(0, status_ = status(now));
     shown_ = true;
@@ -110,7 +110,7 @@ class Player {
                   terminal_.cells().width);
   }
 
-  // What stands between the picture and the status, from below.
+  // What stands between the picture and the status.
   std::vector<std::string> notes() const {
     const PictureSize cells = terminal_.cells();
     std::vector<std::string> notes;
@@ -120,7 +120,6 @@ class Player {
     }
     for (const std::string& line : wrapped(pictures_.trouble(), cells.width, std::max(cells.height / 3, 1u)))
       notes.push_back(std::string(kTroubleColor) + line);
-    std::reverse(notes.begin(), notes.end());
     return notes;
   }
 

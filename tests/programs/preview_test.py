@@ -48,16 +48,17 @@ def pixels_of(png):
 
 
 class Screen:
-    """mars in a terminal of its own, of 80 x 24 characters, whose answers to questions are `answers`."""
+    """mars in a terminal of its own, of 80 x 24 characters, whose answers to questions are `answers`. `shell`: words of
+    a program that starts it."""
 
-    def __init__(self, folder, *words, answers=b"\x1b[?62;22c", **variables):
+    def __init__(self, folder, *words, shell=(), answers=b"\x1b[?62;22c", **variables):
         self.master, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
         self.slave = slave
         self.before = termios.tcgetattr(slave)
         environment = {**ENVIRONMENT, "TERM": "xterm-256color", "COLORTERM": "truecolor", **variables}
-        self.process = subprocess.Popen([str(harness.PROGRAMS / "mars"), *map(str, words)], stdin=slave, stdout=slave,
-                                        stderr=slave, env=environment, cwd=folder, start_new_session=True,
+        self.process = subprocess.Popen([*shell, str(harness.PROGRAMS / "mars"), *map(str, words)], stdin=slave,
+                                        stdout=slave, stderr=slave, env=environment, cwd=folder, start_new_session=True,
                                         preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
         self.seen, self.answers = b"", answers
 
@@ -177,20 +178,63 @@ class InATerminal(ProgramTest):
         self.assertTrue(screen.given_back())
         self.assertIn(b"frame-0003.png: not a whole PNG picture", screen.seen[screen.seen.rindex(LEAVE):])
 
-    def test_suspends_and_resumes(self):
+    def test_ends_though_the_terminal_takes_nothing(self):
+        for number, code in [(signal.SIGTERM, -signal.SIGTERM), (signal.SIGINT, 0)]:
+            screen = self.preview("preview", ARM)
+            screen.wait_for(b"prisms")
+            termios.tcflow(screen.slave, termios.TCOOFF)
+            time.sleep(0.2)  # until the next picture is written
+            screen.process.send_signal(number)
+            self.assertEqual(screen.process.wait(SECONDS), code)
+            self.assertEqual(termios.tcgetattr(screen.slave), screen.before)
+
+    def test_ends_when_the_terminal_is_closed(self):
+        for words in [("preview", ARM), ("play", self.rendered(6))]:
+            for key in [b"", b" "]:  # playing, and paused
+                screen = Screen(self.folder, *words)
+                screen.wait_for(b"frames/s")
+                if key:
+                    screen.press(key, b"paused")
+                os.close(screen.slave)
+                os.close(screen.master)
+                self.assertEqual(screen.process.wait(SECONDS), -signal.SIGHUP)
+
+    def test_suspends_and_resumes_under_a_shell(self):
+        for words in [("preview", ARM), ("play", self.rendered(6))]:
+            screen = self.preview(*words, shell=["sh", "-mc", '"$@"; echo its place; read line; fg', "sh"])
+            screen.wait_for(b"frames/s")
+            screen.press(b"\x1a", b"its place")
+            self.assertTrue(screen.given_back())
+            screen.press(b"\n", re.escape(ENTER) + b".*frames/s")
+            screen.press(b" ", b"paused")  # without a new line
+            os.write(screen.master, b"q")
+            self.assertEqual(screen.end(), 0)
+            self.assertTrue(screen.given_back())
+
+    def test_plays_on_where_nobody_could_continue_it(self):
         screen = self.preview("preview", ARM)
         screen.wait_for(b"prisms")
-        screen.process.send_signal(signal.SIGTSTP)
+        screen.press(b"\x1a", re.escape(ENTER) + b".*prisms")
+        screen.press(b" ", b"paused")
+
+    def test_plays_on_after_a_stop_that_nobody_can_prepare_for(self):
+        """Whoever stopped it may have changed the terminal's modes meanwhile."""
+        screen = self.preview("preview", ARM)
+        screen.wait_for(b"prisms")
+        screen.process.send_signal(signal.SIGSTOP)
         harness.wait_until(lambda: self.stopped(screen.process.pid), SECONDS, "not stopped")
-        while screen.read(0.1):
+        while screen.read(0.05):
             pass
-        self.assertTrue(screen.given_back())
+        termios.tcsetattr(screen.slave, termios.TCSANOW, screen.before)
         since = len(screen.seen)
         screen.process.send_signal(signal.SIGCONT)
         screen.wait_for(re.escape(ENTER) + b".*prisms", since)
-        os.write(screen.master, b"q")
-        self.assertEqual(screen.end(), 0)
-        self.assertTrue(screen.given_back())
+        screen.press(b" ", b"paused")  # without a new line
+        screen.process.send_signal(signal.SIGSTOP)
+        screen.process.send_signal(signal.SIGTERM)
+        screen.process.send_signal(signal.SIGCONT)
+        self.assertEqual(screen.end(), -signal.SIGTERM)
+        self.assertEqual(termios.tcgetattr(screen.slave), screen.before)
 
     @staticmethod
     def stopped(process):
