@@ -192,6 +192,7 @@ class InATerminal(ProgramTest):
         for words in [("preview", ARM), ("play", self.rendered(6))]:
             for key in [b"", b" "]:  # playing, and paused
                 screen = Screen(self.folder, *words)
+                self.addCleanup(screen.process.kill)
                 screen.wait_for(b"frames/s")
                 if key:
                     screen.press(key, b"paused")
