@@ -26,8 +26,7 @@ void paste(const Image& from, Image& to, std::uint32_t x, std::uint32_t y) {
 
 }  // namespace
 
-FilmPictures::FilmPictures(const View& view, SurfaceSource& surface, const Look& look)
-    : look_(look) {
+FilmPictures::FilmPictures(const View& view, SurfaceSource& surface, const Look& look) : look_(look) {
   change_film(view, surface);
 }
 
@@ -66,8 +65,7 @@ Image FilmPictures::drawn(As as, std::uint32_t frame, PictureSize extent) {
   const Image* old = drawing_ ? &drawing_->image() : nullptr;
   if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
     drawing_.emplace(pen * extent.width, pen * extent.height);
-  lines_->draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen,
-              look_.ground);
+  lines_->draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen, look_.ground);
   return look_.smooth ? halved(drawing_->image()) : drawing_->image();
 }
 

@@ -43,7 +43,7 @@ void FilmReloader::load() {
   }
   std::unique_ptr<Previewed> film;
   std::string trouble;
-  const RecordedReads reads;
+  RecordedReads reads;
   try {
     film = std::make_unique<Previewed>(load_previewed(film_));
   } catch (const std::exception& failure) {

@@ -75,7 +75,7 @@ class Player {
   void show() {
     const std::uint32_t now = frame();
     std::vector<std::string> notes = this->notes();
-    if (shown_ && !missing_ && notes == notes_ && status(now) == status_) return;
+    if (shown_ && !missing_ && now == shown_frame_ && notes == notes_ && status(now) == status_) return;
     for (std::size_t above = notes.size(); above < notes_.size(); ++above) write_line(above + 1, "");
     show_picture(now, notes.size());
     if (notes != notes_)
@@ -83,6 +83,7 @@ class Player {
     notes_ = std::move(notes);
     write_line(0, status_ = status(now));
     shown_ = true;
+    shown_frame_ = now;
   }
 
   // Its size leaves room for the status; what would be behind `notes` lines more is left out.
@@ -93,7 +94,7 @@ class Player {
     missing_ = !pictures_.complete();
     if (!image) return;
     if (PictureSize{image->width, image->height} != extent_) {
-      if (shown_) terminal_.write("\x1b[2J");
+      terminal_.write("\x1b[2J");
       empty();
       extent_ = {image->width, image->height};
     }
@@ -173,6 +174,7 @@ class Player {
   bool paused_ = false, loop_ = true, help_ = false;
   bool shown_ = false;    // what is due stands on the screen
   bool missing_ = false;  // it was not ready
+  std::uint32_t shown_frame_ = 0;
   std::vector<std::string> notes_;  // as they stand on the screen
   std::string status_;
   PictureSize extent_{0, 0};

@@ -114,7 +114,7 @@ void write_preview(Wishes& wishes, const Previewed& film) {
 }
 
 void preview(Wishes& wishes) {
-  const RecordedReads reads;
+  RecordedReads reads;
   auto film = std::make_unique<Previewed>(load_previewed(wishes.source));
   if (!wishes.write.file.empty()) return write_preview(wishes, *film);
   std::optional<ReloadingPictures> pictures;

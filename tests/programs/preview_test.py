@@ -179,14 +179,13 @@ class InATerminal(ProgramTest):
         self.assertIn(b"frame-0003.png: not a whole PNG picture", screen.seen[screen.seen.rindex(LEAVE):])
 
     def test_ends_though_the_terminal_takes_nothing(self):
-        for number, code in [(signal.SIGTERM, -signal.SIGTERM), (signal.SIGINT, 0)]:
-            screen = self.preview("preview", ARM)
-            screen.wait_for(b"prisms")
-            termios.tcflow(screen.slave, termios.TCOOFF)
-            time.sleep(0.2)  # until the next picture is written
-            screen.process.send_signal(number)
-            self.assertEqual(screen.process.wait(SECONDS), code)
-            self.assertEqual(termios.tcgetattr(screen.slave), screen.before)
+        screen = self.preview("preview", ARM)
+        screen.wait_for(b"prisms")
+        termios.tcflow(screen.slave, termios.TCOOFF)
+        time.sleep(0.2)  # until the next picture is written
+        screen.process.send_signal(signal.SIGTERM)
+        self.assertEqual(screen.process.wait(SECONDS), -signal.SIGTERM)
+        self.assertEqual(termios.tcgetattr(screen.slave), screen.before)
 
     def test_ends_when_the_terminal_is_closed(self):
         for words in [("preview", ARM), ("play", self.rendered(6))]:
@@ -321,8 +320,8 @@ class FollowsFiles(ProgramTest):
         screen.press(b"f", b"prisms, front")
         self.saved(screen, "film.json", self.film(96), rb" 47/95  24 frames/s  paused  prisms, front")
         since = len(screen.seen)
-        os.replace(self.write("film.tmp", self.film(24)), film)
-        screen.wait_for(rb" 23/23  24 frames/s  paused  prisms, front", since)
+        os.replace(self.write("film.tmp", {**self.film(24), "size": [36, 64]}), film)
+        screen.wait_for(rb"\x1b\[2J.* 23/23  24 frames/s  paused  prisms, front", since)
         since = len(screen.seen)
         film.unlink()
         screen.wait_for(b"film.json: there is no such file", since)
@@ -331,8 +330,6 @@ class FollowsFiles(ProgramTest):
             self.write("film.json", self.film(frames) if frames % 2 else "{")
             time.sleep(0.01)
         screen.wait_for(rb" 23/58 ")
-        self.assertNotIn(b"film.json:1", screen.seen)
-        self.assertIsNone(screen.process.poll())
 
     def test_goes_on_while_they_are_broken(self):
         self.write("box.json", self.box([1, 1, 1]))
@@ -379,23 +376,32 @@ class FollowsFiles(ProgramTest):
         self.wait_for_color(screen, 0, since)
 
     def test_keys_work_while_a_long_film_is_loaded(self):
-        """Which takes seconds, and is not waited for in the end."""
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.write("box.json", self.box([1, 1, 1]))
-        self.write("film.json", self.film(10))
-        screen = self.preview("film.json")
+        """Which takes one processor seconds, and is not waited for in the end."""
+        processors = os.sched_getaffinity(0)
+        os.sched_setaffinity(0, [min(processors)])
+        self.addCleanup(os.sched_setaffinity, 0, processors)
         joints = [{"name": f"j{n}", **({"parent": f"j{n - 1}"} if n else {}), "segment": {"shape": "box"}}
                   for n in range(100)]
-        turns = [{"frame": frame, "pose": {f"j{n}": [turn] * 3 for n in range(100)}} for frame, turn in [(0, 0), (5000, 90)]]
-        long = {**self.film(5001, {"joints": joints}),
-                "actors": [{"name": f"a{n}", "model": "box", "keys": turns} for n in range(40)]}
-        self.saved(screen, "film.json", long, rb" \d/9  24 frames/s  prisms, camera  loading ...")
+        turns = [{"frame": frame, "pose": {f"j{n}": [turn] * 3 for n in range(100)}}
+                 for frame, turn in [(0, 0), (5000, 90)]]
+        actors = [{"name": f"a{n}", "model": "box", "keys": turns} for n in range(40)]
+        self.write("box.json", self.box([1, 1, 1]))
+        self.write("film.json", self.film(10))
+        before = self.processor_seconds()
+        screen = self.preview("film.json")
+        self.saved(screen, "film.json", {**self.film(5001, {"joints": joints}), "actors": actors},
+                   rb" \d/9  24 frames/s  prisms, camera  loading ...")
         screen.press(b"f", rb" \d/9  24 frames/s  prisms, front  loading ...")
         os.write(screen.master, b"q")
         self.assertEqual(screen.end(), 0)
         self.assertTrue(screen.given_back())
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 1.5)
+        self.assertLess(self.processor_seconds() - before, 2)
+
+    @staticmethod
+    def processor_seconds():
+        """Of all processes that this one started and that have ended."""
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
 
 
 class Written(ProgramTest):

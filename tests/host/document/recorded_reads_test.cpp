@@ -17,7 +17,7 @@ TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
   const TemporaryFolder folder;
   for (const char* name : {"before", "read", "start", "exists", "inner"}) write_whole_file(folder / name, name);
   read_file(folder / "before");
-  const RecordedReads reads;
+  RecordedReads reads;
   EXPECT_EQ(read_file(folder / "read"), "read");
   EXPECT_EQ(read_start(folder / "start", 3), "sta");
   EXPECT_EQ(read_start(folder / "start", 30), "start");
@@ -25,7 +25,7 @@ TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
   EXPECT_TRUE(file_exists(folder / "exists"));
   EXPECT_NE(failure_of([&] { read_file(folder / "no/file"); }), "");
   {
-    const RecordedReads inner;
+    RecordedReads inner;
     read_file(folder / "inner");
     EXPECT_EQ(inner.stamps(), (FileStamps{{folder / "inner", stamp_of(folder / "inner")}}));
   }
@@ -42,7 +42,7 @@ TEST(RecordedReads, HoldAFileAsItStoodFirst) {
   const TemporaryFolder folder;
   write_whole_file(folder / "file", "first");
   const FileStamp first = stamp_of(folder / "file");
-  const RecordedReads reads;
+  RecordedReads reads;
   read_file(folder / "file");
   write_whole_file(folder / "file", "second");
   read_file(folder / "file");

@@ -85,7 +85,7 @@ TEST(WatchedFiles, OfAFilmAreThoseItIsReadFrom) {
   const fs::path a = written("a.json", R"({"from": "c.json", "proportions": {"scale": [1, 1, 2]}})");
   const fs::path c = written("c.json", R"({"joints": [{"name": "a", "segment": {"shape": "box"}}]})");
   const auto files_of = [](const fs::path& path) {
-    const RecordedReads reads;
+    RecordedReads reads;
     try {
       load_previewed(path);
     } catch (const Failure&) {
