@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "host/animator/read_keys.h"
+#include "host/document/file.h"
 #include "host/modeler/read_model.h"
 #include "node/film.h"
 
@@ -322,7 +323,7 @@ Model read_film_model(const Element& element, const Film& film, const std::files
   for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
   if (element.kind() == Kind::text) {
     const std::filesystem::path path = folder / read_text(element);
-    if (!std::filesystem::exists(path))
+    if (!file_exists(path))
       element.refuse("is '" + path.string() + "', which does not exist", "name a model file as seen from the film's folder");
     return load_model(path, materials);
   }

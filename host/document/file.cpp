@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "hal/failure.h"
+#include "host/document/recorded_reads.h"
 
 namespace mars::host {
 namespace {
@@ -34,16 +35,36 @@ std::uintmax_t checked_size(const fs::path& path, std::uintmax_t largest) {
   return size;
 }
 
+using OpenFile = std::unique_ptr<FILE, int (*)(FILE*)>;
+
+OpenFile open_to_read(const fs::path& path) { return {std::fopen(path.c_str(), "rb"), &std::fclose}; }
+
 }  // namespace
 
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
+  RecordedReads::record(path);
   std::string content(checked_size(path, largest), '\0');
-  const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  const OpenFile file = open_to_read(path);
   if (!file) throw Failure("cannot be read: " + reason(errno), path.string(), "check its permissions");
   content.resize(std::fread(content.data(), 1, content.size(), file.get()));
   if (std::ferror(file.get()))
     throw Failure("cannot be read: " + reason(errno), path.string(), "check the disk");
   return content;
+}
+
+std::string read_start(const fs::path& path, std::size_t bytes) {
+  RecordedReads::record(path);
+  std::error_code error;
+  const OpenFile file = fs::is_regular_file(path, error) ? open_to_read(path) : OpenFile{nullptr, &std::fclose};
+  std::string start(bytes, '\0');
+  start.resize(file ? std::fread(start.data(), 1, bytes, file.get()) : 0);
+  return start;
+}
+
+bool file_exists(const fs::path& path) {
+  RecordedReads::record(path);
+  std::error_code error;
+  return fs::exists(path, error);
 }
 
 }  // namespace mars::host

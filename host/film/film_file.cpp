@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 
 #include "hal/failure.h"
 #include "host/document/file.h"
@@ -57,11 +56,7 @@ void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
 }
 
 bool is_compiled_film(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  std::array<char, 8> start{};
-  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-  return start == kMagic;
+  return read_start(path, kMagic.size()) == std::string_view(kMagic.data(), kMagic.size());
 }
 
 CompiledFilm load_compiled_film(const std::filesystem::path& path) {

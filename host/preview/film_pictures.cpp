@@ -26,16 +26,24 @@ void paste(const Image& from, Image& to, std::uint32_t x, std::uint32_t y) {
 
 }  // namespace
 
-FilmPictures::FilmPictures(const View& view, SurfaceSource& surface, const Look& look)
-    : view_(view), surface_(surface), lines_(view), look_(look) {}
+FilmPictures::FilmPictures(const View& view, SurfaceSource& surface, const Look& look) : look_(look) {
+  change_film(view, surface);
+}
+
+void FilmPictures::change_film(const View& view, SurfaceSource& surface) {
+  view_ = &view;
+  surface_ = &surface;
+  lines_.emplace(view);
+  aim_.reset();
+}
 
 node::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
   if (look_.from != From::camera || orbit_) {
-    Orbit orbit = orbit_ ? *orbit_ : orbit_from(look_.from, view_.subject, aspect);
+    Orbit orbit = orbit_ ? *orbit_ : orbit_from(look_.from, view_->subject, aspect);
     orbit.distance /= zoom_;
     return camera_of(orbit);
   }
-  node::Camera camera = view_.camera_at(frame);
+  node::Camera camera = view_->camera_at(frame);
   camera.focal *= zoom_;
   return camera;
 }
@@ -57,8 +65,7 @@ Image FilmPictures::drawn(As as, std::uint32_t frame, PictureSize extent) {
   const Image* old = drawing_ ? &drawing_->image() : nullptr;
   if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
     drawing_.emplace(pen * extent.width, pen * extent.height);
-  lines_.draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen,
-              look_.ground);
+  lines_->draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen, look_.ground);
   return look_.smooth ? halved(drawing_->image()) : drawing_->image();
 }
 
@@ -69,14 +76,14 @@ SharedImage FilmPictures::rendered(std::uint32_t frame, PictureSize extent) {
   if (!aim_ || *aim_ != aim) {
     std::vector<std::uint32_t> frames = look_.frames;
     if (frames.empty()) {
-      frames.resize(view_.frames);
+      frames.resize(view_->frames);
       std::iota(frames.begin(), frames.end(), 0u);
       std::rotate(frames.begin(), frames.begin() + frame, frames.end());
     }
-    surface_.aim(extent, aim.camera, std::move(frames));
+    surface_->aim(extent, aim.camera, std::move(frames));
     aim_ = aim;
   }
-  const SharedImage image = look_.wait ? surface_.wait_for(frame) : surface_.frame(frame);
+  const SharedImage image = look_.wait ? surface_->wait_for(frame) : surface_->frame(frame);
   complete_ = image != nullptr;
   return image;
 }
@@ -96,8 +103,8 @@ SharedImage FilmPictures::all(std::uint32_t frame, PictureSize extent) {
 
 Orbit& FilmPictures::orbit() {
   if (!orbit_)
-    orbit_ = look_.from == From::camera ? orbit_near(view_.camera_at(frame_), view_.subject)
-                                        : orbit_from(look_.from, view_.subject, aspect_);
+    orbit_ = look_.from == From::camera ? orbit_near(view_->camera_at(frame_), view_->subject)
+                                        : orbit_from(look_.from, view_->subject, aspect_);
   return *orbit_;
 }
 
@@ -143,7 +150,7 @@ std::string FilmPictures::state() const {
   constexpr std::array<const char*, 4> from{"camera", "front", "side", "top"};
   std::string text = std::string(name_of(look_.as)) + ", " +
                      (orbit_ ? "turned" : from[static_cast<std::size_t>(look_.from)]);
-  if (look_.as == As::stick && view_.sticks_of_prisms) text += ", sticks from prisms";
+  if (look_.as == As::stick && view_->sticks_of_prisms) text += ", sticks from prisms";
   return text;
 }
 

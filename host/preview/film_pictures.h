@@ -25,9 +25,12 @@ class FilmPictures : public Pictures {
   // Both must outlive it.
   FilmPictures(const View& view, SurfaceSource& surface, const Look& look);
 
-  std::uint32_t frames() const override { return view_.frames; }
-  double rate() const override { return view_.rate; }
-  PictureSize extent() const override { return {view_.width, view_.height}; }
+  // Another film from now on, seen as the one before. Both must outlive it.
+  void change_film(const View& view, SurfaceSource& surface);
+
+  std::uint32_t frames() const override { return view_->frames; }
+  double rate() const override { return view_->rate; }
+  PictureSize extent() const override { return {view_->width, view_->height}; }
   SharedImage picture(std::uint32_t frame, PictureSize extent) override;
   bool complete() const override { return complete_; }
   bool obey(const KeyPress& key) override;
@@ -53,9 +56,9 @@ class FilmPictures : public Pictures {
   bool look_from(From from);
   Orbit& orbit();
 
-  const View& view_;
-  SurfaceSource& surface_;
-  FilmDrawing lines_;
+  const View* view_ = nullptr;
+  SurfaceSource* surface_ = nullptr;
+  std::optional<FilmDrawing> lines_;  // of view_
   Look look_;
   std::optional<Orbit> orbit_;  // where a person went from look_.from
   double zoom_ = 1;

@@ -1,5 +1,5 @@
 // Where the pictures of a film come from, for who shows them one after the other: drawn, rendered, or read from a
-// folder.
+// folder. Only renew() changes their number, rate and size.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,11 @@ class Pictures {
 
   // Whether nothing of the last picture is still to come.
   virtual bool complete() const { return true; }
+
+  // Follows what they are made from. True: they are others now.
+  virtual bool renew() { return false; }
+  // Why they cannot follow it now, in one line; "": they do.
+  virtual std::string trouble() const { return ""; }
 
   // A person's wish: true if it changes what is to be seen.
   virtual bool obey(const KeyPress&) { return false; }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "host/preview/terminal_picture.h"
+#include "host/preview/text_lines.h"
 
 namespace mars::host {
 namespace {
@@ -14,7 +15,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
+constexpr std::string_view kTroubleColor = "\x1b[1;31m";
 constexpr std::string_view kOwnKeys = " space pause  , . step  home end  [ ] speed  l loop  h help  q quit";
+
+Image upper_part(const Image& image, std::uint32_t height) {
+  const auto end = image.pixels.begin() + static_cast<std::ptrdiff_t>(std::size_t{height} * image.width);
+  return {image.width, height, {image.pixels.begin(), end}};
+}
 
 class Player {
  public:
@@ -24,6 +31,7 @@ class Player {
   int play() {
     go_on_from(0);
     while (true) {
+      renew();
       show();
       const TerminalEvents events = terminal_.wait(until_next());
       if (events.ended_by != 0) return events.ended_by;
@@ -49,61 +57,84 @@ class Player {
     start_ = Clock::now();
   }
 
-  // While nothing moves, pictures that are being rendered may still come.
+  // Pictures that are others now go on from the same frame.
+  void renew() {
+    const double at = due();
+    if (!pictures_.renew()) return;
+    go_on_from(std::min<double>(at, pictures_.frames() - 1));
+    shown_ = false;
+  }
+
+  // While nothing moves, pictures that are being rendered may still come, or become others.
   std::chrono::nanoseconds until_next() const {
     const double seconds = (std::floor(due()) + 1 - due()) / (pictures_.rate() * speed_);
-    const double at_most = missing_ ? 0.05 : 0.5;
+    const double at_most = missing_ ? 0.05 : 0.1;
     return std::chrono::nanoseconds(static_cast<std::int64_t>(std::clamp(paused_ ? 1.0 : seconds, 0.0, at_most) * 1e9));
   }
 
   void show() {
     const std::uint32_t now = frame();
-    if (shown_ && now == shown_frame_ && !missing_) return;
-    PictureSize room = picture_->room(terminal_, 1 + static_cast<std::uint32_t>(help().size()));
-    room = {std::min(room.width, kLargest.width), std::min(room.height, kLargest.height)};
-    const SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), room));
-    missing_ = !pictures_.complete();
-    if (image && PictureSize{image->width, image->height} != extent_) {
-      if (shown_) terminal_.write("\x1b[2J");
-      picture_->forget();
-      extent_ = {image->width, image->height};
-    }
-    if (image) terminal_.write(picture_->shown(*image));
+    std::vector<std::string> notes = this->notes();
+    if (shown_ && !missing_ && now == shown_frame_ && notes == notes_ && status(now) == status_) return;
+    for (std::size_t above = notes.size(); above < notes_.size(); ++above) write_line(above + 1, "");
+    show_picture(now, notes.size());
+    if (notes != notes_)
+      for (std::size_t i = 0; i < notes.size(); ++i) write_line(notes.size() - i, notes[i]);
+    notes_ = std::move(notes);
+    write_line(0, status_ = status(now));
     shown_ = true;
     shown_frame_ = now;
-    show_status();
   }
 
-  void show_status() {
+  // Its size leaves room for the status; what would be behind `notes` lines more is left out.
+  void show_picture(std::uint32_t now, std::size_t notes) {
+    const PictureSize room = picture_->room(terminal_, 1);
+    const PictureSize most{std::min(room.width, kLargest.width), std::min(room.height, kLargest.height)};
+    SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), most));
+    missing_ = !pictures_.complete();
+    if (!image) return;
+    if (PictureSize{image->width, image->height} != extent_) {
+      terminal_.write("\x1b[2J");
+      empty();
+      extent_ = {image->width, image->height};
+    }
+    const std::uint32_t height = picture_->room(terminal_, 1 + static_cast<std::uint32_t>(notes)).height;
+    if (image->height > height) image = std::make_shared<const Image>(upper_part(*image, height));
+    terminal_.write(picture_->shown(*image));
+  }
+
+  std::string status(std::uint32_t now) const {
     char numbers[120];
-    std::snprintf(numbers, sizeof numbers, " %u/%u  %g frames/s%s%s  ", shown_frame_, pictures_.frames() - 1,
+    std::snprintf(numbers, sizeof numbers, " %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
                   pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
-    std::string status =
-        numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit");
+    return cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit"),
+                  terminal_.cells().width);
+  }
+
+  // What stands between the picture and the status.
+  std::vector<std::string> notes() const {
+    const PictureSize cells = terminal_.cells();
+    std::vector<std::string> notes;
+    if (help_) {
+      std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
+      for (std::string line; std::getline(keys, line);) notes.push_back(cut_to(line, cells.width));
+    }
+    for (const std::string& line : wrapped(pictures_.trouble(), cells.width, std::max(cells.height / 3, 1u)))
+      notes.push_back(std::string(kTroubleColor) + line);
+    return notes;
+  }
+
+  // `above`: lines above the lowest one.
+  void write_line(std::size_t above, const std::string& text) {
     const std::uint32_t lines = terminal_.cells().height;
-    const std::vector<std::string> help = this->help();
-    for (std::uint32_t i = 0; i < help.size(); ++i)
-      if (lines + i > help.size()) write_line(lines + i - static_cast<std::uint32_t>(help.size()), help[i]);
-    write_line(lines, status);
-  }
-
-  // The lines above the status.
-  std::vector<std::string> help() const {
-    std::vector<std::string> lines;
-    if (!help_) return lines;
-    std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
-    for (std::string line; std::getline(keys, line);) lines.push_back(line);
-    return lines;
-  }
-
-  void write_line(std::uint32_t line, std::string text) {
-    text.resize(std::min<std::size_t>(text.size(), terminal_.cells().width));
-    terminal_.write("\x1b[" + std::to_string(line) + ";1H\x1b[0m" + text + "\x1b[K");
+    if (above < lines)
+      terminal_.write("\x1b[" + std::to_string(lines - above) + ";1H\x1b[0m" + text + "\x1b[0m\x1b[K");
   }
 
   void empty() {
     picture_->forget();
     shown_ = false;
+    notes_.clear();
   }
 
   // False: the person has seen enough.
@@ -117,11 +148,7 @@ class Player {
       case ']': speed_ = std::min(speed_ * 2, 16.0); go_on_from(at); break;
       case '[': speed_ = std::max(speed_ / 2, 1.0 / 64); go_on_from(at); break;
       case 'l': go_on_from(at); loop_ = !loop_; break;
-      case 'h': case '?':
-        help_ = !help_;
-        terminal_.write("\x1b[2J");
-        empty();
-        break;
+      case 'h': case '?': help_ = !help_; break;
       default:
         if (key.special == Special::home) go_on_from(0);
         if (key.special == Special::end) go_on_from(pictures_.frames() - 1);
@@ -148,6 +175,8 @@ class Player {
   bool shown_ = false;    // what is due stands on the screen
   bool missing_ = false;  // it was not ready
   std::uint32_t shown_frame_ = 0;
+  std::vector<std::string> notes_;  // as they stand on the screen
+  std::string status_;
   PictureSize extent_{0, 0};
 };
 

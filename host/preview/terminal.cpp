@@ -1,5 +1,6 @@
 #include "host/preview/terminal.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/signalfd.h>
@@ -20,9 +21,11 @@ using Clock = std::chrono::steady_clock;
 // The second screen, no cursor, no wrapping; and all of it back.
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[2J";
 constexpr std::string_view kLeave = "\x1b[?2026l\x1b[0m\x1b[?7h\x1b[?25h\x1b[?1049l";
+constexpr std::string_view kEndPicture = "\x1b\\";  // that was cut off
+constexpr std::string_view kDeletePictures = "\x1b_Ga=d,d=A,q=2\x1b\\";
 // Do you know kitty's graphics? Who are you? Every terminal answers the second, so it ends the waiting.
 constexpr std::string_view kQuestions = "\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[c";
-constexpr std::chrono::milliseconds kPatience{400};  // for answers, over slow lines too
+constexpr std::chrono::milliseconds kPatience{400};  // for answers and the last words, over slow lines too
 
 // Of the answer "ESC [ ? 62 ; 4 ; 6 c": is 4, sixel, among its numbers?
 bool has_sixel(const std::string& answer) {
@@ -39,6 +42,13 @@ bool is_complete(const std::string& answer) {
   return start != std::string::npos && answer.find('c', start) != std::string::npos;
 }
 
+// Standard output, opened once more so that writing never blocks: who shares it is not to notice. Where that is not
+// allowed, as in another user's terminal, it does block.
+int open_output() {
+  const int own = open("/proc/self/fd/1", O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  return own >= 0 ? own : fcntl(1, F_DUPFD_CLOEXEC, 0);
+}
+
 }  // namespace
 
 Terminal::Terminal(Graphics wanted, const std::string& kind, bool colors24) : graphics_(wanted) {
@@ -48,7 +58,8 @@ Terminal::Terminal(Graphics wanted, const std::string& kind, bool colors24) : gr
   if (kind.empty() || kind == "dumb")
     throw Failure("the terminal cannot place pictures (TERM is '" + kind + "')", "",
                   "write a file instead: -o sheet.png, -o film.gif or -o film.mp4");
-  take_signals();
+  block_signals();
+  output_ = open_output();
   tcgetattr(0, &before_);
   try {
     enter();
@@ -59,7 +70,7 @@ Terminal::Terminal(Graphics wanted, const std::string& kind, bool colors24) : gr
   }
 }
 
-void Terminal::take_signals() {
+void Terminal::block_signals() {
   sigset_t set;
   sigemptyset(&set);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH}) sigaddset(&set, signal);
@@ -78,8 +89,15 @@ void Terminal::ask(bool colors24) {
 
 Terminal::~Terminal() {
   leave();
-  if (signals_ >= 0) close(signals_);
+  close(output_);
+  close(signals_);
   pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
+}
+
+// Without waiting for the output, which may never be taken.
+void Terminal::set_modes(const termios& modes) {
+  tcsetattr(0, TCSANOW, &modes);
+  tcflush(0, TCIFLUSH);
 }
 
 void Terminal::enter() {
@@ -88,7 +106,7 @@ void Terminal::enter() {
   raw.c_lflag &= ~static_cast<tcflag_t>(ECHO | ICANON | IEXTEN);  // Ctrl-C and Ctrl-Z stay signals
   raw.c_cc[VMIN] = 0;
   raw.c_cc[VTIME] = 0;
-  tcsetattr(0, TCSAFLUSH, &raw);
+  set_modes(raw);
   entered_ = true;
   measure();
   write(kEnter);
@@ -98,20 +116,27 @@ void Terminal::leave() {
   if (!entered_) return;
   entered_ = false;
   try {
-    if (graphics_ == Graphics::kitty) write("\x1b_Ga=d,d=A,q=2\x1b\\");
-    write(kLeave);
+    std::string last(kEndPicture);
+    if (graphics_ == Graphics::kitty) last += kDeletePictures;
+    write_within(last.append(kLeave), kPatience);
   } catch (const Failure&) {
     // The terminal is gone: nothing is left to be put right.
   }
-  tcsetattr(0, TCSAFLUSH, &before_);
+  set_modes(before_);
 }
 
-// Gives the terminal back, stops as anyone would, and goes on where it was.
+// Gives the terminal back, stops as anyone would, and goes on where it was. The system does not stop whom nobody could
+// continue.
 void Terminal::suspend() {
   leave();
-  raise(SIGSTOP);
+  sigset_t stop;
+  sigemptyset(&stop);
+  sigaddset(&stop, SIGTSTP);
+  raise(SIGTSTP);
+  pthread_sigmask(SIG_UNBLOCK, &stop, nullptr);
+  pthread_sigmask(SIG_BLOCK, &stop, nullptr);
   tcgetattr(0, &before_);
-  enter();
+  read_signals();
 }
 
 void Terminal::measure() {
@@ -123,17 +148,34 @@ void Terminal::measure() {
              static_cast<std::uint32_t>(size.ws_ypixel / size.ws_row)};
 }
 
+// Takes from `bytes` what the terminal takes at once; false: that is nothing.
+bool Terminal::write_some(std::string_view& bytes) {
+  const ssize_t done = ::write(output_, bytes.data(), bytes.size());
+  if (done > 0) bytes.remove_prefix(static_cast<std::size_t>(done));
+  if (done >= 0 || errno == EINTR) return true;
+  if (errno == EAGAIN) return false;
+  if (errno != EIO) throw Failure(std::string("cannot write to the terminal: ") + std::strerror(errno), "", "");
+  ended_by_ = SIGHUP;  // it was closed
+  bytes = {};
+  return true;
+}
+
 void Terminal::write(std::string_view bytes) {
+  while (!bytes.empty() && ended_by_ == 0) {
+    if (write_some(bytes)) continue;
+    std::array<pollfd, 2> sources{{{output_, POLLOUT, 0}, {signals_, POLLIN, 0}}};
+    poll(sources.data(), sources.size(), -1);
+    read_signals();
+  }
+}
+
+void Terminal::write_within(std::string_view bytes, std::chrono::milliseconds time) {
+  const auto deadline = Clock::now() + time;
   while (!bytes.empty()) {
-    const ssize_t done = ::write(1, bytes.data(), bytes.size());
-    if (done < 0 && errno == EAGAIN) {
-      pollfd ready{1, POLLOUT, 0};
-      poll(&ready, 1, 100);
-    } else if (done < 0 && errno != EINTR) {
-      throw Failure(std::string("cannot write to the terminal: ") + std::strerror(errno), "", "");
-    } else if (done > 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(done));
-    }
+    if (write_some(bytes)) continue;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    pollfd ready{output_, POLLOUT, 0};
+    if (left <= 0 || poll(&ready, 1, static_cast<int>(left)) <= 0) return;
   }
 }
 
@@ -153,31 +195,49 @@ std::string Terminal::answers(std::string_view questions) {
   return answer;
 }
 
-TerminalEvents Terminal::wait(std::chrono::nanoseconds time) {
-  TerminalEvents events;
-  std::array<pollfd, 2> sources{{{0, POLLIN, 0}, {signals_, POLLIN, 0}}};
-  const timespec limit{static_cast<time_t>(time.count() / 1'000'000'000),
-                       static_cast<long>(time.count() % 1'000'000'000)};
-  ppoll(sources.data(), sources.size(), &limit, nullptr);
+void Terminal::read_signals() {
   signalfd_siginfo signal;
-  while (read(signals_, &signal, sizeof signal) == sizeof signal) {
-    const auto number = static_cast<int>(signal.ssi_signo);
-    if (number == SIGTSTP) suspend();
-    if (number == SIGTSTP || number == SIGCONT || number == SIGWINCH)
-      events.redraw = true;
-    else
-      events.ended_by = number;
-  }
-  if (events.redraw) {
+  while (read(signals_, &signal, sizeof signal) == sizeof signal) switch (signal.ssi_signo) {
+      case SIGTSTP: stop_ = true; break;
+      case SIGCONT: continued_ = true; break;
+      case SIGWINCH: resized_ = true; break;
+      default: ended_by_ = static_cast<int>(signal.ssi_signo);
+    }
+}
+
+// Whoever continues us may have changed the terminal's modes and screen meanwhile.
+void Terminal::obey_signals() {
+  if (stop_) suspend();
+  if (ended_by_ != 0) return;
+  if (stop_ || continued_) {
+    enter();
+  } else if (resized_) {
     measure();
     write("\x1b[2J");
   }
-  if (sources[0].revents == 0) return events;
+  stop_ = continued_ = resized_ = false;
+}
+
+void Terminal::read_keys() {
   std::array<char, 256> bytes;
   const ssize_t done = read(0, bytes.data(), bytes.size());
   if (done > 0) unread_.append(bytes.data(), static_cast<std::size_t>(done));
-  if (done == 0 && (sources[0].revents & POLLHUP) != 0) events.ended_by = SIGHUP;
+  if (done < 0 && errno == EIO) ended_by_ = SIGHUP;  // closed, or no longer ours
+}
+
+TerminalEvents Terminal::wait(std::chrono::nanoseconds time) {
+  std::array<pollfd, 2> sources{{{0, POLLIN, 0}, {signals_, POLLIN, 0}}};
+  const timespec limit{static_cast<time_t>(time.count() / 1'000'000'000),
+                       static_cast<long>(time.count() % 1'000'000'000)};
+  if (ended_by_ == 0) ppoll(sources.data(), sources.size(), &limit, nullptr);
+  read_signals();
+  TerminalEvents events;
+  events.redraw = stop_ || continued_ || resized_;
+  obey_signals();
+  if (sources[0].revents != 0) read_keys();
+  if ((sources[0].revents & POLLHUP) != 0) ended_by_ = SIGHUP;
   events.keys = take_keys(unread_);
+  events.ended_by = ended_by_;
   return events;
 }
 

@@ -37,18 +37,26 @@ class Terminal {
   Graphics graphics() const { return graphics_; }
   PictureSize cells() const { return cells_; }
   PictureSize cell() const { return cell_; }  // pixels of one, where graphics have pixels
+  // Waits while the terminal takes nothing, but for no longer than until a signal wants us to end; what is left is then
+  // dropped.
   void write(std::string_view bytes);
 
   // What happens within `time`; returns as soon as something does.
   TerminalEvents wait(std::chrono::nanoseconds time);
 
  private:
-  void take_signals();
+  void block_signals();
+  void read_signals();
+  void obey_signals();
   void ask(bool colors24);
+  void set_modes(const termios& modes);
   void enter();
   void leave();
   void suspend();
   void measure();
+  bool write_some(std::string_view& bytes);
+  void write_within(std::string_view bytes, std::chrono::milliseconds time);
+  void read_keys();
   std::string answers(std::string_view questions);
 
   Graphics graphics_;
@@ -57,7 +65,10 @@ class Terminal {
   termios before_{};
   sigset_t signals_before_{};
   int signals_ = -1;  // a signalfd
+  int output_ = -1;   // standard output's terminal, never waited for by the system
   bool entered_ = false;
+  bool stop_ = false, continued_ = false, resized_ = false;  // what signals told, until it is obeyed
+  int ended_by_ = 0;
   std::string unread_;  // of a key that is not complete
 };
 

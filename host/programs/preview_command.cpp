@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "hal/failure.h"
 #include "hal/settings.h"
@@ -12,6 +14,7 @@
 #include "host/preview/folder_pictures.h"
 #include "host/preview/load.h"
 #include "host/preview/player.h"
+#include "host/preview/reloading_pictures.h"
 #include "host/preview/write_pictures.h"
 #include "host/programs/surface_frames.h"
 
@@ -102,20 +105,26 @@ void play_in_terminal(const Wishes& wishes, const std::function<int(Terminal&)>&
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
 }
 
-void preview(Wishes& wishes) {
-  const Previewed film = load_previewed(wishes.source);
+void write_preview(Wishes& wishes, const Previewed& film) {
   SurfaceFrames surface(film.film);
-  if (!wishes.write.file.empty()) {
-    wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
-    wishes.look.smooth = wishes.look.wait = true;
-    FilmPictures pictures(film.view, surface, wishes.look);
-    return write_pictures(pictures, wishes.write);
-  }
+  wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
+  wishes.look.smooth = wishes.look.wait = true;
+  FilmPictures pictures(film.view, surface, wishes.look);
+  write_pictures(pictures, wishes.write);
+}
+
+void preview(Wishes& wishes) {
+  RecordedReads reads;
+  auto film = std::make_unique<Previewed>(load_previewed(wishes.source));
+  if (!wishes.write.file.empty()) return write_preview(wishes, *film);
+  std::optional<ReloadingPictures> pictures;
   play_in_terminal(wishes, [&](Terminal& terminal) {
     wishes.look.smooth = terminal.graphics() >= Graphics::blocks;  // few pixels: they cost little, and need it most
-    FilmPictures pictures(film.view, surface, wishes.look);
-    return play(pictures, terminal);
+    const auto make_surface = [](const CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); };
+    pictures.emplace(wishes.source, std::move(film), reads.stamps(), make_surface, wishes.look);
+    return play(*pictures, terminal);
   });
+  if (pictures->loading()) std::quick_exit(0);  // nobody wants the film any more: its end is not waited for
 }
 
 void play_folder(const Wishes& wishes) {
@@ -129,7 +138,7 @@ void play_folder(const Wishes& wishes) {
 void add_preview(CLI::App& app) {
   const auto wishes = std::make_shared<Wishes>();
   CLI::App* command = app.add_subcommand("preview", "Play a film or a model in the terminal before it is rendered");
-  command->add_option("FILM", wishes->source, "A film (.json, .mars) or a model. Example: examples/demo.json")->required();
+  command->add_option("FILM", wishes->source, "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")->required();
   add_choice(*command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
              [wishes](std::size_t number) {
                wishes->look.as = number < 4 ? std::optional(static_cast<As>(number)) : std::nullopt;

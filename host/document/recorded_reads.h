@@ -1,0 +1,50 @@
+// Which files were read, and how they stood then, so that one who shows what they say can tell when to read them again.
+// Films name models, and models other models: only their readers know all the names.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+
+namespace mars::host {
+
+// A file as it stands: whoever writes, replaces or removes it, or lets others read it, changes its stamp.
+struct FileStamp {
+  bool exists = false;  // and can be reached
+  dev_t device = 0;
+  ino_t inode = 0;
+  mode_t mode = 0;
+  off_t size = 0;
+  std::int64_t written = 0, changed = 0;  // nanoseconds
+
+  bool operator==(const FileStamp&) const = default;
+};
+
+FileStamp stamp_of(const std::filesystem::path& path);
+
+using FileStamps = std::map<std::filesystem::path, FileStamp>;
+
+// While it lives, records what this thread reads through file.h, also in vain.
+class RecordedReads {
+ public:
+  RecordedReads() : outer_(innermost_) { innermost_ = this; }
+  ~RecordedReads() { innermost_ = outer_; }
+  RecordedReads(const RecordedReads&) = delete;
+  RecordedReads& operator=(const RecordedReads&) = delete;
+
+  // As they stood before they were read for the first time.
+  const FileStamps& stamps() const { return stamps_; }
+
+  // For readers, before they look at a file.
+  static void record(const std::filesystem::path& path);
+
+ private:
+  static thread_local RecordedReads* innermost_;
+
+  RecordedReads* outer_;
+  FileStamps stamps_;
+};
+
+}  // namespace mars::host

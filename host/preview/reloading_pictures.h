@@ -1,0 +1,42 @@
+// A film's pictures, which follow its files: when these change, the film is loaded again and seen as before. While they
+// make no film, the last one goes on, and what is wrong is told.
+#pragma once
+
+#include <functional>
+
+#include "host/preview/film_pictures.h"
+#include "host/preview/film_reloader.h"
+
+namespace mars::host {
+
+class ReloadingPictures : public Pictures {
+ public:
+  using MakeSurface = std::function<std::unique_ptr<SurfaceSource>(const CompiledFilm&)>;
+
+  // `film`: what was loaded from `path`, by reading `read`. Has a thread from now on.
+  ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film, FileStamps read,
+                    MakeSurface make_surface, const Look& look);
+
+  std::uint32_t frames() const override { return pictures_.frames(); }
+  double rate() const override { return pictures_.rate(); }
+  PictureSize extent() const override { return pictures_.extent(); }
+  SharedImage picture(std::uint32_t frame, PictureSize extent) override { return pictures_.picture(frame, extent); }
+  bool complete() const override { return pictures_.complete(); }
+  bool renew() override;
+  std::string trouble() const override { return reloader_.trouble(); }
+  bool obey(const KeyPress& key) override { return pictures_.obey(key); }
+  std::string state() const override;
+  std::string keys() const override { return pictures_.keys(); }
+
+  // Whether its end would wait for a film that is being loaded.
+  bool loading() const { return reloader_.loading().has_value(); }
+
+ private:
+  std::unique_ptr<Previewed> film_;
+  MakeSurface make_surface_;
+  std::unique_ptr<SurfaceSource> surface_;
+  FilmPictures pictures_;
+  FilmReloader reloader_;
+};
+
+}  // namespace mars::host

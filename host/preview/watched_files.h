@@ -1,0 +1,29 @@
+// Whether files are others than those that were read. They are looked at again and again rather than by inotify, which
+// is not told what other machines write to a shared file system; a dozen of them cost some microseconds.
+#pragma once
+
+#include "host/document/recorded_reads.h"
+
+namespace mars::host {
+
+class WatchedFiles {
+ public:
+  explicit WatchedFiles(FileStamps read) { set_read(std::move(read)); }
+
+  // The files were read again; those that are no longer among them are not looked at any more.
+  void set_read(FileStamps read);
+
+  // Looks at them. True if they are others than those that were read, and the same as at the last look: editors that
+  // empty a file and then fill it, or remove it and then make it, must have time to do so.
+  bool changed_and_settled();
+
+  // Whether they are still those that were read.
+  bool are_as_read() const { return stamps_now() == read_; }
+
+ private:
+  FileStamps stamps_now() const;
+
+  FileStamps read_, last_look_;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,53 @@
+// Which files were read, and what changes a file's stamp.
+#include "host/document/recorded_reads.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "host/document/file.h"
+#include "host/document/whole_file.h"
+#include "tests/host/document/failure_of.h"
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
+  const TemporaryFolder folder;
+  for (const char* name : {"before", "read", "start", "exists", "inner"}) write_whole_file(folder / name, name);
+  read_file(folder / "before");
+  RecordedReads reads;
+  EXPECT_EQ(read_file(folder / "read"), "read");
+  EXPECT_EQ(read_start(folder / "start", 3), "sta");
+  EXPECT_EQ(read_start(folder / "start", 30), "start");
+  EXPECT_EQ(read_start(folder / "none", 3), "");
+  EXPECT_TRUE(file_exists(folder / "exists"));
+  EXPECT_NE(failure_of([&] { read_file(folder / "no/file"); }), "");
+  {
+    RecordedReads inner;
+    read_file(folder / "inner");
+    EXPECT_EQ(inner.stamps(), (FileStamps{{folder / "inner", stamp_of(folder / "inner")}}));
+  }
+  std::thread([&] { read_file(folder / "inner"); }).join();
+  FileStamps expected;
+  for (const char* name : {"read", "start", "none", "exists", "no/file"})
+    expected.emplace(folder / name, stamp_of(folder / name));
+  EXPECT_EQ(reads.stamps(), expected);
+  EXPECT_FALSE(expected.at(folder / "none").exists);
+  EXPECT_TRUE(expected.at(folder / "read").exists);
+}
+
+TEST(RecordedReads, HoldAFileAsItStoodFirst) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "file", "first");
+  const FileStamp first = stamp_of(folder / "file");
+  RecordedReads reads;
+  read_file(folder / "file");
+  write_whole_file(folder / "file", "second");
+  read_file(folder / "file");
+  EXPECT_EQ(reads.stamps().at(folder / "file"), first);
+}
+
+}  // namespace
+}  // namespace mars::host
