@@ -106,12 +106,12 @@ class Apart {
   Apart(const Apart&) = delete;
   Apart& operator=(const Apart&) = delete;
 
-  // None where the process is not done in time, or says more than it may: it is ended then.
+  // None where the process is not done in time: it is ended then. Its memory's limit is the answer's too.
   std::optional<std::string> answer() {
     const auto end = std::chrono::steady_clock::now() + limits_.time;
     std::string text;
     std::vector<char> piece(1 << 16);
-    while (text.size() <= limits_.memory && is_ready(end)) {
+    while (is_ready(end)) {
       const ssize_t count = read(answer_, piece.data(), piece.size());
       if (count == 0) return text;
       if (count > 0) text.append(piece.data(), static_cast<std::size_t>(count));
@@ -149,8 +149,8 @@ std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) 
 std::string seconds(std::chrono::seconds time) { return std::to_string(time.count()) + " s"; }
 
 // Why a process without an answer ended so.
-std::string reason_of_end(int status, bool ended_here, const ApartLimits& limits) {
-  if (ended_here) return "takes more than " + seconds(std::chrono::ceil<std::chrono::seconds>(limits.time)) + " to read";
+std::string reason_of_end(int status, bool too_late, const ApartLimits& limits) {
+  if (too_late) return "takes more than " + seconds(std::chrono::ceil<std::chrono::seconds>(limits.time)) + " to read";
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return "takes more than " + seconds(limits.processor_time) + " of processor time to read";
   if (WIFEXITED(status) && WEXITSTATUS(status) == kHasNoMemory)

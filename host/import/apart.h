@@ -15,7 +15,7 @@ struct ApartLimits {
   std::uint64_t memory;            // bytes, beyond what this process has
 };
 
-// What `work` returns, at most `limits.memory` bytes; its Failure is thrown here. Where the process dies or reaches a
+// What `work` returns; its Failure is thrown here. Where the process dies or reaches a
 // limit, that is a Failure at `where` with `remedy`. The process ends with this one.
 std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
                       const std::string& remedy);

@@ -63,7 +63,7 @@ std::vector<std::string> read_of(const MeshFile& file) {
   }
   const bool joined = vertices < file.vertices;
   std::vector<std::string> read = {
-      counted(vertices, "vertex", "vertices") + (joined ? " joined from " + std::to_string(file.vertices) : ""),
+      counted(vertices, "vertex", "vertices") + (joined ? " of the file's " + std::to_string(file.vertices) : ""),
       counted(faces, "face", "faces")};
   if (!file.parts[0].mesh.normals.empty()) read.push_back("normals");
   if (colors > 0) read.push_back(counted(colors, "colour", "colours"));

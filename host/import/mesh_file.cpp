@@ -47,6 +47,7 @@ class SceneReader {
     visit(*scene_.mRootNode, Matrix());
     MeshFile file = builder_.finish(is_gltf_ ? 0 : kDefaultCrease);
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
+    file.vertices = promised_.vertices.value_or(file.vertices);
     append(file.not_read, unread_parts(scene_, is_gltf_));
     append(file.not_read, promised_.not_read);
     return file;

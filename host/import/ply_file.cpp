@@ -301,11 +301,11 @@ class BodyReader {
   }
 
   [[noreturn]] void fail_short(const PlyElement& element, std::uint64_t rows) {
-    const std::string what = element.name == "vertex" ? "vertices"
-                             : element.name == "face" ? "faces"
-                                                      : "rows of element '" + printable(element.name) + "'";
-    fail(path_, "promises " + std::to_string(element.count) + " " + what + ", " + std::to_string(rows) +
-                    (rows == 1 ? " was read" : " were read"));
+    const std::string row = "row of element '" + printable(element.name) + "'", rows_of = "rows" + row.substr(3);
+    const bool vertices = element.name == "vertex", faces = element.name == "face";
+    fail(path_, "promises " + counted(element.count, vertices ? "vertex" : faces ? "face" : row,
+                                      vertices ? "vertices" : faces ? "faces" : rows_of) +
+                    ", " + counted(rows, "was read", "were read"));
   }
 
   void add_vertex(const std::vector<double>& row) {

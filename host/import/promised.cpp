@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 
 #include "hal/failure.h"
@@ -41,12 +42,13 @@ std::size_t words_in(std::string_view line) {
 }
 
 Promised promised_by_obj(const std::filesystem::path& path, std::string_view text) {
-  Promised promised{0, {}};
+  Promised promised{0, 0, {}};
   std::size_t surfaces = 0;
   while (!text.empty()) {
     std::string_view line = take_line(text);
     const std::string_view word = take_word(line);
     if (word == "f") *promised.faces += words_in(line) >= 3;
+    *promised.vertices += word == "v";
     surfaces += word == "surf" || word == "curv" || word == "curv2";
     if (word != "mtllib") continue;
     line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
@@ -68,9 +70,9 @@ Promised promised_by_stl(std::string_view bytes) {
   constexpr std::size_t kHeader = 84, kFacet = 50;
   if (bytes.size() >= kHeader) {
     const std::size_t facets = little_endian_at(bytes, kHeader - 4);
-    if (bytes.size() == kHeader + kFacet * facets) return {facets, {}};
+    if (bytes.size() == kHeader + kFacet * facets) return {facets, {}, {}};
   }
-  Promised promised{0, {}};
+  Promised promised{0, {}, {}};
   while (!bytes.empty()) {
     std::string_view line = take_line(bytes);
     *promised.faces += take_word(line) == "facet";
@@ -91,6 +93,13 @@ std::size_t number(const Tree& tree, std::size_t otherwise) {
   return tree.is_number_unsigned() ? tree.get<std::size_t>() : otherwise;
 }
 
+// Item `index` of a list; null where there is none.
+const Tree& item(const Tree& list, const Tree& index) {
+  static const Tree null;
+  const std::size_t place = number(index, list.size());
+  return list.is_array() && place < list.size() ? list[place] : null;
+}
+
 // Without the shapes of these, the file cannot be read; other extensions are about what models do not have.
 void refuse_extensions(const std::filesystem::path& path, const Tree& required) {
   for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"})
@@ -101,12 +110,28 @@ void refuse_extensions(const std::filesystem::path& path, const Tree& required) 
 
 std::size_t triangles_of(const Tree& primitive, const Tree& accessors) {
   const Tree& indices = at(primitive, "indices");
-  const std::size_t accessor = number(indices.is_null() ? at(at(primitive, "attributes"), "POSITION") : indices, accessors.size());
-  if (!accessors.is_array() || accessor >= accessors.size()) return 0;
-  const std::size_t corners = number(at(accessors[accessor], "count"), 0);
+  const Tree& accessor = item(accessors, indices.is_null() ? at(at(primitive, "attributes"), "POSITION") : indices);
+  const std::size_t corners = number(at(accessor, "count"), 0);
   const std::size_t mode = number(at(primitive, "mode"), 4);
   if (mode == 4) return corners / 3;                                  // triangles
   return (mode == 5 || mode == 6) && corners > 2 ? corners - 2 : 0;  // a strip, a fan
+}
+
+// The numbers of the meshes that the nodes of the file's scene name: the others are not read.
+std::set<std::size_t> meshes_in_scene(const Tree& tree) {
+  std::set<std::size_t> meshes, visited;
+  std::vector<Tree> nodes;
+  const Tree& scene = at(tree, "scene");
+  for (const Tree& node : at(item(at(tree, "scenes"), scene.is_null() ? Tree(0u) : scene), "nodes")) nodes.push_back(node);
+  while (!nodes.empty()) {
+    const Tree index = std::move(nodes.back());
+    nodes.pop_back();
+    const Tree& node = item(at(tree, "nodes"), index);
+    if (node.is_null() || !visited.insert(number(index, 0)).second) continue;
+    if (const Tree& mesh = at(node, "mesh"); !item(at(tree, "meshes"), mesh).is_null()) meshes.insert(number(mesh, 0));
+    for (const Tree& child : at(node, "children")) nodes.push_back(child);
+  }
+  return meshes;
 }
 
 // The JSON of a GLB: after its header of 12 bytes, a chunk of its length, "JSON" and itself.
@@ -120,10 +145,14 @@ Promised promised_by_gltf(const std::filesystem::path& path, std::string_view by
   const Tree tree = Tree::parse(json, nullptr, false);
   if (tree.is_discarded()) return {};
   refuse_extensions(path, at(tree, "extensionsRequired"));
-  Promised promised{0, {}};
-  for (const Tree& mesh : at(tree, "meshes"))
-    for (const Tree& primitive : at(mesh, "primitives"))
+  Promised promised{0, {}, {}};
+  const Tree& meshes = at(tree, "meshes");
+  const std::set<std::size_t> placed = meshes_in_scene(tree);
+  for (const std::size_t mesh : placed)
+    for (const Tree& primitive : at(meshes[mesh], "primitives"))
       *promised.faces += triangles_of(primitive, at(tree, "accessors"));
+  if (placed.size() < meshes.size())
+    promised.not_read.push_back(counted(meshes.size() - placed.size(), "mesh", "meshes") + " outside the scene");
   return promised;
 }
 

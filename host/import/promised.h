@@ -12,11 +12,12 @@
 namespace mars::host {
 
 struct Promised {
-  std::optional<std::size_t> faces;   // none: what it says is not understood, and Assimp's refusal says why
-  std::vector<std::string> not_read;  // of what Assimp passes over
+  std::optional<std::size_t> faces;     // none: what it says is not understood, and Assimp's refusal says why
+  std::optional<std::size_t> vertices;  // OBJ's, which Assimp gives once for each corner of a face
+  std::vector<std::string> not_read;    // of what Assimp passes over
 };
 
-// Of OBJ, STL, glTF and GLB. glTF's meshes count once each, wherever they stand. Refuses glTF that requires an
+// Of OBJ, STL, glTF and GLB. glTF's meshes count once each, however often they stand in its scene. Refuses glTF that requires an
 // extension without which its shapes cannot be read.
 Promised promised_by(const std::filesystem::path& path, FileKind kind);
 

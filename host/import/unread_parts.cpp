@@ -13,7 +13,7 @@ namespace {
 
 struct Counts {
   std::set<std::string> bones, textures;
-  std::size_t nodes = 0, placed_meshes = 0, colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0,
+  std::size_t nodes = 0, colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0,
               glosses = 0, transparencies = 0;
 };
 
@@ -60,10 +60,10 @@ void add_material(const aiMaterial& material, Counts& counts) {
   counts.transparencies += is_transparent(material);
 }
 
-void add_nodes(const aiNode& node, Counts& counts, std::set<unsigned>& placed) {
-  ++counts.nodes;
-  placed.insert(node.mMeshes, node.mMeshes + node.mNumMeshes);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) add_nodes(*node.mChildren[i], counts, placed);
+std::size_t nodes_from(const aiNode& node) {
+  std::size_t count = 1;
+  for (unsigned i = 0; i < node.mNumChildren; ++i) count += nodes_from(*node.mChildren[i]);
+  return count;
 }
 
 // Assimp puts a node of its own above several.
@@ -74,10 +74,8 @@ bool is_added(const aiNode& root) {
 
 Counts counts_of(const aiScene& scene) {
   Counts counts;
-  std::set<unsigned> placed, materials;
-  add_nodes(*scene.mRootNode, counts, placed);
-  counts.nodes -= is_added(*scene.mRootNode);
-  counts.placed_meshes = placed.size();
+  std::set<unsigned> materials;
+  counts.nodes = nodes_from(*scene.mRootNode) - is_added(*scene.mRootNode);
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     add_mesh(*scene.mMeshes[i], counts);
     materials.insert(scene.mMeshes[i]->mMaterialIndex);
@@ -107,7 +105,6 @@ std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree) {
   add(counts.lines, "line", "lines");
   add(scene.mNumCameras, "camera", "cameras", " (a film has the camera)");
   add(scene.mNumLights, "light", "lights", " (a film has the lights)");
-  add(scene.mNumMeshes - counts.placed_meshes, "mesh", "meshes", " that stand in no scene");
   return parts;
 }
 

@@ -1,4 +1,4 @@
-// What a scene of Assimp's holds besides the meshes that stand in it: a model takes none of it.
+// What a scene of Assimp's holds besides its meshes: a model takes none of it.
 #pragma once
 
 #include <string>
