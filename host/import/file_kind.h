@@ -11,7 +11,7 @@ enum class FileKind { obj, stl, ply, gltf, glb, patches };
 // one that can be read.
 FileKind kind_of_name(const std::filesystem::path& path);
 
-// Refuses a file whose first bytes are another kind's.
+// Refuses a file whose first bytes are another kind's; what is no file is left to its reader.
 void check_first_bytes(const std::filesystem::path& path, FileKind kind);
 
 }  // namespace mars::host

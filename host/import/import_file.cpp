@@ -4,6 +4,7 @@
 #include <cctype>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <vector>
 
 #include "hal/failure.h"
@@ -14,6 +15,7 @@
 #include "host/import/import_report.h"
 #include "host/import/mesh_file.h"
 #include "host/import/model_text.h"
+#include "host/import/promised.h"
 #include "host/modeler/patch_file.h"
 
 namespace mars::host {
@@ -79,16 +81,25 @@ Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
           model_text(parts, file.bounds, options.joint)};
 }
 
-// Of the work on a file of so many bytes; a sound file takes a fraction of that.
-ApartLimits limits_for(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  const std::uint64_t bytes = error ? 0 : size;
+// Of the work on so many bytes; a sound file takes a fraction of that.
+ApartLimits limits_for(std::uint64_t bytes) {
   const std::chrono::seconds processor_time(5 + (bytes >> 20));
   return {processor_time, processor_time + std::chrono::minutes(1), (std::uint64_t{1} << 30) + 64 * bytes};
 }
 
-// Assimp does not come back from every damaged file. The report ends in a zero, the model follows.
+// A library does not come back from every damaged file.
+std::string read_apart(const std::filesystem::path& path, FileKind kind, const std::function<std::string()>& read) {
+  constexpr const char* kRemedy = "the file may be damaged: export it again";
+  std::error_code error;
+  std::uint64_t bytes = std::filesystem::file_size(path, error);
+  if (error) bytes = 0;
+  if (kind == FileKind::gltf)
+    bytes += std::stoull(
+        run_apart([&] { return std::to_string(bytes_of_buffers(path)); }, limits_for(bytes), path.string(), kRemedy));
+  return run_apart(read, limits_for(bytes), path.string(), kRemedy);
+}
+
+// The report, a zero, the model.
 std::string run(const ImportOptions& options, FileKind kind, char up) {
   const Imported imported = kind == FileKind::patches ? import_patches(options, up) : import_mesh(options, kind, up);
   return text_of(imported.report, options.to.string()) + '\0' + imported.model;
@@ -125,8 +136,7 @@ std::string import_model(const ImportOptions& given) {
   check_first_bytes(options.from, kind);
   check_target(options);
   const char up = options.up.value_or(usual_up(kind));
-  const std::string answer = run_apart([&] { return run(options, kind, up); }, limits_for(options.from),
-                                       options.from.string(), "the file may be damaged: export it again");
+  const std::string answer = read_apart(options.from, kind, [&] { return run(options, kind, up); });
   const std::size_t end = answer.find('\0');
   write_whole_file(options.to, std::string_view(answer).substr(end + 1));
   return answer.substr(0, end);

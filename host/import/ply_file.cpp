@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -77,7 +76,7 @@ class HeaderReader {
       const std::string_view line = next_line();
       const std::vector<std::string> words = words_of(line);
       if (words.empty()) continue;
-      if (words[0] == "end_header") return std::move(header_);
+      if (words[0] == "end_header") return finished();
       if (words[0] == "comment" || words[0] == "obj_info")
         add_comment(words);
       else if (!add(words))
@@ -97,6 +96,11 @@ class HeaderReader {
     const std::string_view line = rest_.substr(0, at);
     rest_.remove_prefix(at + 1);
     return line.substr(0, line.find_last_not_of(" \t\r") + 1);
+  }
+
+  Header finished() {
+    if (!has_format_) fail(path_, "does not say its format");
+    return std::move(header_);
   }
 
   void add_comment(const std::vector<std::string>& words) {
@@ -122,6 +126,7 @@ class HeaderReader {
   }
 
   bool set_format(const std::string& word) {
+    has_format_ = true;
     if (word == "ascii")
       header_.format = Format::text;
     else if (word == "binary_little_endian")
@@ -151,6 +156,7 @@ class HeaderReader {
   const std::filesystem::path& path_;
   std::string_view rest_;
   char end_ = 0;
+  bool has_format_ = false;
   Header header_;
 };
 

@@ -1,7 +1,6 @@
 #include "host/import/promised.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -163,6 +162,19 @@ Promised promised_by(const std::filesystem::path& path, FileKind kind) {
   if (kind == FileKind::obj) return promised_by_obj(path, bytes);
   if (kind == FileKind::stl) return promised_by_stl(bytes);
   return promised_by_gltf(path, bytes, kind);
+}
+
+std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
+  const Tree tree = Tree::parse(read_file(path, kLargestFile), nullptr, false);
+  std::uintmax_t sum = 0;
+  for (const Tree& buffer : at(tree, "buffers")) {
+    const Tree& uri = at(buffer, "uri");
+    if (!uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:")) continue;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path.parent_path() / uri.get_ref<const std::string&>(), error);
+    if (!error) sum += size;
+  }
+  return sum;
 }
 
 }  // namespace mars::host

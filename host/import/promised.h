@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,5 +21,8 @@ struct Promised {
 // Of OBJ, STL, glTF and GLB. glTF's meshes count once each, however often they stand in its scene. Refuses glTF that requires an
 // extension without which its shapes cannot be read.
 Promised promised_by(const std::filesystem::path& path, FileKind kind);
+
+// The size of the files that a glTF file's buffers name, which are read with it.
+std::uintmax_t bytes_of_buffers(const std::filesystem::path& path);
 
 }  // namespace mars::host

@@ -2,6 +2,7 @@
 #include "host/import/import_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 #include "host/document/whole_file.h"
 #include "host/import/mesh_file.h"
+#include "host/import/promised.h"
 #include "host/modeler/meshlets.h"
 #include "host/modeler/patch_file.h"
 #include "host/modeler/read_model.h"
@@ -214,6 +216,13 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "m.json"));
 }
 
+TEST_F(ImportTest, WhatIsNoFileIsRefusedAtOnce) {
+  for (const char* name : {"pipe.obj", "pipe.ply", "pipe.glb", "pipe.gltf", "pipe.bpt"}) {
+    ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
+    EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(folder_ / name)); }), "is not a regular file"));
+  }
+}
+
 TEST_F(ImportTest, OtherEndingsAreRefusedByName) {
   EXPECT_TRUE(holds(failure("a.FBX", "x"), "is an FBX scene, which cannot be imported (open it in Blender and export glTF)"));
   EXPECT_TRUE(holds(failure("a.dae", "x"), "COLLADA"));
@@ -337,6 +346,13 @@ std::string gltf_numbers() {
   std::string bytes(numbers.size() * sizeof(float), '\0');
   std::memcpy(bytes.data(), numbers.data(), bytes.size());
   return bytes;
+}
+
+TEST_F(ImportTest, BuffersBesideAFileCountAsItsSize) {
+  const fs::path gltf = write("figure.gltf", gltf_figure());
+  EXPECT_EQ(bytes_of_buffers(gltf), 0u);
+  write("figure.bin", gltf_numbers());
+  EXPECT_EQ(bytes_of_buffers(gltf), 256u);
 }
 
 TEST_F(ImportTest, WhatIsNotReadIsListed) {

@@ -135,6 +135,7 @@ TEST_F(PlyFileTest, HeadersAreUnderstoodOrRefused) {
   EXPECT_TRUE(holds(failure(""), "ends within its header"));
   EXPECT_TRUE(holds(failure("solid\n"), "does not begin with 'ply'"));
   EXPECT_TRUE(holds(failure("ply\nformat ascii 1.0\nelement vertex 3\n"), "ends within its header"));
+  EXPECT_TRUE(holds(failure("ply\nelement vertex 0\nend_header\n"), "does not say its format"));
   for (const char* line : {"format ebcdic 1.0", "element vertex many", "element vertex -1", "element vertex 3",
                            "property float x", "property quad w", "property list int vertex_indices", "end_9der"})
     EXPECT_TRUE(holds(failure(header("ascii", "element vertex 3\n" + kPlaces + line + "\n")), "is not understood: " + std::string(line)));
