@@ -53,9 +53,8 @@ struct Beginning {
 };
 
 // Only kinds that say what they are: an OBJ may begin with any word, a binary STL with any byte.
-constexpr Beginning kBeginnings[] = {{"glTF", FileKind::glb, "GLB"},
-                                     {"ply\n", FileKind::ply, "PLY"},
-                                     {"ply\r", FileKind::ply, "PLY"}};
+constexpr Beginning kBeginnings[] = {
+    {"glTF", FileKind::glb, "GLB"}, {"ply\n", FileKind::ply, "PLY"}, {"ply\r", FileKind::ply, "PLY"}};
 
 std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();

@@ -34,7 +34,8 @@ std::string counted(std::size_t count, std::string_view one, std::string_view se
 
 std::string printable(std::string_view text) {
   std::string shown(text.substr(0, kLongestName));
-  std::replace_if(shown.begin(), shown.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
   return shown;
 }
 

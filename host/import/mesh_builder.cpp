@@ -116,7 +116,8 @@ Mesh MeshBuilder::mesh_of(const Part& part, const Box& bounds, double crease) co
     if (takes_normals_) mesh.normals.push_back(unit_normal(vertex.normal, extent));
   }
   for (std::size_t face = 0, first = 0; face < part.ends.size(); first = part.ends[face++])
-    add_drawable(mesh, std::vector(part.corners.begin() + std::ptrdiff_t(first), part.corners.begin() + part.ends[face]));
+    add_drawable(mesh,
+                 std::vector(part.corners.begin() + std::ptrdiff_t(first), part.corners.begin() + part.ends[face]));
   return mesh;
 }
 

@@ -21,7 +21,10 @@ class MeshBuilder {
 
   // `file` is what failures name. Without normals those given to vertex() are passed over.
   MeshBuilder(std::string file, const MeshWishes& wishes, bool has_normals)
-      : file_(std::move(file)), wishes_(wishes), has_normals_(has_normals), takes_normals_(has_normals && !wishes.crease) {}
+      : file_(std::move(file)),
+        wishes_(wishes),
+        has_normals_(has_normals),
+        takes_normals_(has_normals && !wishes.crease) {}
 
   // The number of the part of this colour.
   std::size_t part_of(const Color& color);

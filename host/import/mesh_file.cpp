@@ -65,7 +65,8 @@ class SceneReader {
     rethrow_memory();
     std::string why = importer_.GetErrorString();
     if (why.size() > 160) why = why.substr(0, 160) + " ...";
-    std::replace_if(why.begin(), why.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
+    std::replace_if(
+        why.begin(), why.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
     fail("is no sound mesh file: " + why, "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
   }
 
@@ -89,7 +90,8 @@ class SceneReader {
   void check_faces() const {
     std::size_t faces = 0;
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i)
-      for (unsigned f = 0; f < scene_.mMeshes[i]->mNumFaces; ++f) faces += scene_.mMeshes[i]->mFaces[f].mNumIndices >= 3;
+      for (unsigned f = 0; f < scene_.mMeshes[i]->mNumFaces; ++f)
+        faces += scene_.mMeshes[i]->mFaces[f].mNumIndices >= 3;
     if (promised_.faces.value_or(0) > faces)
       fail("promises " + std::to_string(*promised_.faces) + " faces, " + std::to_string(faces) +
                (faces == 1 ? " was read" : " were read"),
@@ -115,7 +117,8 @@ class SceneReader {
       for (unsigned c = 0; c < mesh.mFaces[f].mNumIndices; ++c) {
         const unsigned index = mesh.mFaces[f].mIndices[c];
         const Vector normal = mesh.HasNormals() ? across * static_cast<Vector>(mesh.mNormals[index]) : Vector();
-        face.push_back(builder_.vertex(part, dvec3_of(matrix * static_cast<Vector>(mesh.mVertices[index])), dvec3_of(normal)));
+        face.push_back(
+            builder_.vertex(part, dvec3_of(matrix * static_cast<Vector>(mesh.mVertices[index])), dvec3_of(normal)));
       }
       if (mirrored) std::reverse(face.begin(), face.end());
       builder_.add_face(part, face);

@@ -18,7 +18,7 @@ namespace mars::host {
 
 // How a person wants the file read.
 struct MeshWishes {
-  glm::dmat3 upright{1};         // turns the file's axes into ours
+  glm::dmat3 upright{1};  // turns the file's axes into ours
   double scale = 1;
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
 };

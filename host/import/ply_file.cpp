@@ -10,179 +10,46 @@
 #include <optional>
 #include <string_view>
 
-#include "hal/failure.h"
 #include "host/document/file.h"
 #include "host/import/import_report.h"
+#include "host/import/ply_header.h"
 
 namespace mars::host {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-struct TypeName {
-  std::string_view name;
-  Type type;
-};
-
-constexpr TypeName kTypeNames[] = {
-    {"char", Type::int8},     {"int8", Type::int8},     {"uchar", Type::uint8},     {"uint8", Type::uint8},
-    {"short", Type::int16},   {"int16", Type::int16},   {"ushort", Type::uint16},   {"uint16", Type::uint16},
-    {"int", Type::int32},     {"int32", Type::int32},   {"uint", Type::uint32},     {"uint32", Type::uint32},
-    {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64}};
-
-struct Property {
-  std::string name;
-  Type type;
-  std::optional<Type> count;  // of a list: its length's
-};
-
-struct PlyElement {
-  std::string name;
-  std::uint64_t count;
-  std::vector<Property> properties;
-};
-
-enum class Format { text, little_endian, big_endian };
-
-struct Header {
-  Format format = Format::text;
-  std::vector<PlyElement> elements;
-  std::vector<std::string> textures;
-};
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
-  throw Failure(problem, path.string(), "export it again, or as another of OBJ, STL, glTF, GLB");
-}
-
-std::vector<std::string> words_of(std::string_view line) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) < line.size();) {
-    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-    words.emplace_back(line.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
-class HeaderReader {
- public:
-  HeaderReader(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {}
-
-  Header read() {
-    if (next_line() != "ply") fail(path_, "does not begin with 'ply'");
-    for (;;) {
-      const std::string_view line = next_line();
-      const std::vector<std::string> words = words_of(line);
-      if (words.empty()) continue;
-      if (words[0] == "end_header") return finished();
-      if (words[0] == "comment" || words[0] == "obj_info")
-        add_comment(words);
-      else if (!add(words))
-        fail(path_, "has a line in its header that is not understood: " + printable(line));
-    }
-  }
-
-  std::string_view rest() const { return rest_; }
-
- private:
-  // Lines end as the first one does, in "\n" with or without "\r" before it, or in "\r" alone: the bytes after the last
-  // line may look like another end.
-  std::string_view next_line() {
-    if (end_ == 0) end_ = rest_.find('\n') <= rest_.find('\r') || rest_.starts_with("ply\r\n") ? '\n' : '\r';
-    const std::size_t at = rest_.find(end_);
-    if (at == std::string_view::npos) fail(path_, "ends within its header");
-    const std::string_view line = rest_.substr(0, at);
-    rest_.remove_prefix(at + 1);
-    return line.substr(0, line.find_last_not_of(" \t\r") + 1);
-  }
-
-  Header finished() {
-    if (!has_format_) fail(path_, "does not say its format");
-    return std::move(header_);
-  }
-
-  void add_comment(const std::vector<std::string>& words) {
-    if (words.size() > 2 && words[1] == "TextureFile") header_.textures.push_back(words[2]);
-  }
-
-  bool add(const std::vector<std::string>& words) {
-    if (words[0] == "format" && words.size() == 3) return set_format(words[1]);
-    if (words[0] == "element" && words.size() == 3) return add_element(words[1], words[2]);
-    if (words[0] != "property" || header_.elements.empty()) return false;
-    auto& properties = header_.elements.back().properties;
-    for (const Property& other : properties)
-      if (other.name == words.back()) return false;
-    if (words.size() == 3) {
-      const auto type = type_of(words[1]);
-      if (type) properties.push_back({words[2], *type, {}});
-      return type.has_value();
-    }
-    if (words.size() != 5 || words[1] != "list") return false;
-    const auto count = type_of(words[2]), type = type_of(words[3]);
-    if (count && type) properties.push_back({words[4], *type, count});
-    return count && type;
-  }
-
-  bool set_format(const std::string& word) {
-    has_format_ = true;
-    if (word == "ascii")
-      header_.format = Format::text;
-    else if (word == "binary_little_endian")
-      header_.format = Format::little_endian;
-    else if (word == "binary_big_endian")
-      header_.format = Format::big_endian;
-    else
-      return false;
-    return true;
-  }
-
-  bool add_element(const std::string& name, const std::string& number) {
-    std::uint64_t count = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
-    for (const PlyElement& other : header_.elements)
-      if (other.name == name) return false;
-    header_.elements.push_back({name, count, {}});
-    return error == std::errc() && end == number.data() + number.size();
-  }
-
-  static std::optional<Type> type_of(const std::string& word) {
-    for (const TypeName& known : kTypeNames)
-      if (known.name == word) return known.type;
-    return std::nullopt;
-  }
-
-  const std::filesystem::path& path_;
-  std::string_view rest_;
-  char end_ = 0;
-  bool has_format_ = false;
-  Header header_;
-};
-
 // The numbers after the header, one after another; none after the last.
 class Numbers {
  public:
-  Numbers(std::string_view bytes, Format format) : rest_(bytes), format_(format) {}
+  Numbers(std::string_view bytes, PlyFormat format) : rest_(bytes), format_(format) {}
 
-  std::optional<double> next(Type type) {
-    if (format_ == Format::text) return next_word();
+  std::optional<double> next(PlyType type) {
+    if (format_ == PlyFormat::text) return next_word();
     switch (type) {
-      case Type::int8: return next_of<std::int8_t>();
-      case Type::uint8: return next_of<std::uint8_t>();
-      case Type::int16: return next_of<std::int16_t>();
-      case Type::uint16: return next_of<std::uint16_t>();
-      case Type::int32: return next_of<std::int32_t>();
-      case Type::uint32: return next_of<std::uint32_t>();
-      case Type::float32: return next_of<float>();
-      case Type::float64: return next_of<double>();
+      case PlyType::int8:
+        return next_of<std::int8_t>();
+      case PlyType::uint8:
+        return next_of<std::uint8_t>();
+      case PlyType::int16:
+        return next_of<std::int16_t>();
+      case PlyType::uint16:
+        return next_of<std::uint16_t>();
+      case PlyType::int32:
+        return next_of<std::int32_t>();
+      case PlyType::uint32:
+        return next_of<std::uint32_t>();
+      case PlyType::float32:
+        return next_of<float>();
+      case PlyType::float64:
+        return next_of<double>();
     }
     return std::nullopt;
   }
 
   // White space does not count in a text.
   std::size_t left() {
-    if (format_ == Format::text) skip_space();
+    if (format_ == PlyFormat::text) skip_space();
     return rest_.size();
   }
 
@@ -207,26 +74,26 @@ class Numbers {
     if (rest_.size() < bytes.size()) return std::nullopt;
     std::copy_n(rest_.begin(), bytes.size(), bytes.begin());
     rest_.remove_prefix(bytes.size());
-    const bool little = format_ == Format::little_endian;
+    const bool little = format_ == PlyFormat::little_endian;
     if (little != (std::endian::native == std::endian::little)) std::reverse(bytes.begin(), bytes.end());
     return std::bit_cast<Number>(bytes);
   }
 
   std::string_view rest_;
-  Format format_;
+  PlyFormat format_;
 };
 
 // Reads the elements in the header's order.
 class BodyReader {
  public:
-  BodyReader(const std::filesystem::path& path, const Header& header, std::string_view body)
+  BodyReader(const std::filesystem::path& path, const PlyHeader& header, std::string_view body)
       : path_(path), header_(header), numbers_(body, header.format) {}
 
   PlyFile read() {
     for (const std::string& texture : header_.textures) file_.not_read.push_back("texture " + printable(texture));
     for (const PlyElement& element : header_.elements) read_element(element);
     const std::size_t left = numbers_.left();
-    if (left > 0 && header_.format == Format::text) fail(path_, "goes on after all that its header promises");
+    if (left > 0 && header_.format == PlyFormat::text) fail_ply(path_, "goes on after all that its header promises");
     if (left > 0) file_.not_read.push_back(counted(left, "byte", "bytes") + " after all that the header promises");
     check_corners();
     return std::move(file_);
@@ -238,7 +105,7 @@ class BodyReader {
     const auto names = wanted(element);
     note_others(element, names);
     std::vector<std::size_t> places;  // of each property in names; names.size() for the others
-    for (const Property& property : element.properties)
+    for (const PlyProperty& property : element.properties)
       places.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), property.name) - names.begin()));
     std::vector<double> row(names.size()), list;
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -255,7 +122,7 @@ class BodyReader {
   }
 
   static bool has(const PlyElement& element, std::string_view name, bool list) {
-    return std::any_of(element.properties.begin(), element.properties.end(), [&](const Property& property) {
+    return std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& property) {
       return property.name == name && property.count.has_value() == list;
     });
   }
@@ -264,7 +131,7 @@ class BodyReader {
   std::vector<std::string_view> wanted(const PlyElement& element) const {
     if (element.name == "vertex") {
       for (const char* axis : {"x", "y", "z"})
-        if (!has(element, axis, false)) fail(path_, std::string("gives its vertices no ") + axis);
+        if (!has(element, axis, false)) fail_ply(path_, std::string("gives its vertices no ") + axis);
       if (has(element, "nx", false) && has(element, "ny", false) && has(element, "nz", false))
         return {"x", "y", "z", "nx", "ny", "nz"};
       return {"x", "y", "z"};
@@ -283,14 +150,14 @@ class BodyReader {
       return;
     }
     std::string others;
-    for (const Property& property : element.properties)
+    for (const PlyProperty& property : element.properties)
       if (std::find(names.begin(), names.end(), property.name) == names.end())
         others += (others.empty() ? "" : ", ") + printable(property.name);
     if (!others.empty()) file_.not_read.push_back("of element '" + name + "': " + others);
   }
 
   // Into `list`; a single number is a list of one. False at the end of the file.
-  bool read_property(const Property& property, std::vector<double>& list) {
+  bool read_property(const PlyProperty& property, std::vector<double>& list) {
     list.clear();
     double count = 1;
     if (property.count) {
@@ -309,9 +176,15 @@ class BodyReader {
   [[noreturn]] void fail_short(const PlyElement& element, std::uint64_t rows) {
     const std::string row = "row of element '" + printable(element.name) + "'", rows_of = "rows" + row.substr(3);
     const bool vertices = element.name == "vertex", faces = element.name == "face";
-    fail(path_, "promises " + counted(element.count, vertices ? "vertex" : faces ? "face" : row,
-                                      vertices ? "vertices" : faces ? "faces" : rows_of) +
-                    ", " + counted(rows, "was read", "were read"));
+    fail_ply(path_, "promises " +
+                        counted(element.count,
+                                vertices ? "vertex"
+                                : faces  ? "face"
+                                         : row,
+                                vertices ? "vertices"
+                                : faces  ? "faces"
+                                         : rows_of) +
+                        ", " + counted(rows, "was read", "were read"));
   }
 
   void add_vertex(const std::vector<double>& row) {
@@ -348,7 +221,7 @@ class BodyReader {
 
   std::uint32_t corner_of(double number) const {
     if (!(number >= 0 && number < std::numeric_limits<std::uint32_t>::max()) || number != std::floor(number))
-      fail(path_, "has a face with a corner that is no vertex's number");
+      fail_ply(path_, "has a face with a corner that is no vertex's number");
     return static_cast<std::uint32_t>(number);
   }
 
@@ -357,8 +230,8 @@ class BodyReader {
     std::vector<bool> used(file_.places.size());
     for (const std::uint32_t corner : file_.corners) {
       if (corner >= used.size())
-        fail(path_, "has a face with a corner at vertex " + std::to_string(corner) + ", of " +
-                        std::to_string(used.size()) + " from 0");
+        fail_ply(path_, "has a face with a corner at vertex " + std::to_string(corner) + ", of " +
+                            std::to_string(used.size()) + " from 0");
       used[corner] = true;
     }
     const auto lonely = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
@@ -367,7 +240,7 @@ class BodyReader {
   }
 
   const std::filesystem::path& path_;
-  const Header& header_;
+  const PlyHeader& header_;
   Numbers numbers_;
   PlyFile file_;
 };
@@ -376,9 +249,8 @@ class BodyReader {
 
 PlyFile read_ply_file(const std::filesystem::path& path) {
   const std::string text = read_file(path, kLargestFile);
-  HeaderReader reader(path, text);
-  const Header header = reader.read();
-  return BodyReader(path, header, reader.rest()).read();
+  const PlyHeader header = read_ply_header(path, text);
+  return BodyReader(path, header, std::string_view(text).substr(header.bytes)).read();
 }
 
 }  // namespace mars::host

@@ -1,6 +1,6 @@
 // PLY files, as text or in bytes of either order, with their faces as lists or as triangle strips. Assimp 5.2 makes one
 // triangle of all strips, loses bytes of files whose first number begins as a line ends, and takes faces for vertices
-// where vertices are missing; no other library that Debian 12 has reads PLY.
+// where vertices are missing. What else Debian 12 has for PLY - VTK, PCL, CGAL - is far larger than this.
 #pragma once
 
 #include <cstdint>

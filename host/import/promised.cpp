@@ -55,7 +55,8 @@ Promised promised_by_obj(const std::filesystem::path& path, std::string_view tex
     if (!std::filesystem::exists(path.parent_path() / name))
       promised.not_read.push_back("colours of " + printable(name) + " (no such file beside the mesh)");
   }
-  if (surfaces > 0) promised.not_read.push_back(counted(surfaces, "free-form curve or surface", "free-form curves or surfaces"));
+  if (surfaces > 0)
+    promised.not_read.push_back(counted(surfaces, "free-form curve or surface", "free-form curves or surfaces"));
   return promised;
 }
 
@@ -112,7 +113,7 @@ std::size_t triangles_of(const Tree& primitive, const Tree& accessors) {
   const Tree& accessor = item(accessors, indices.is_null() ? at(at(primitive, "attributes"), "POSITION") : indices);
   const std::size_t corners = number(at(accessor, "count"), 0);
   const std::size_t mode = number(at(primitive, "mode"), 4);
-  if (mode == 4) return corners / 3;                                  // triangles
+  if (mode == 4) return corners / 3;                                 // triangles
   return (mode == 5 || mode == 6) && corners > 2 ? corners - 2 : 0;  // a strip, a fan
 }
 
@@ -121,7 +122,8 @@ std::set<std::size_t> meshes_in_scene(const Tree& tree) {
   std::set<std::size_t> meshes, visited;
   std::vector<Tree> nodes;
   const Tree& scene = at(tree, "scene");
-  for (const Tree& node : at(item(at(tree, "scenes"), scene.is_null() ? Tree(0u) : scene), "nodes")) nodes.push_back(node);
+  for (const Tree& node : at(item(at(tree, "scenes"), scene.is_null() ? Tree(0u) : scene), "nodes"))
+    nodes.push_back(node);
   while (!nodes.empty()) {
     const Tree index = std::move(nodes.back());
     nodes.pop_back();
@@ -171,7 +173,8 @@ std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
     const Tree& uri = at(buffer, "uri");
     if (!uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:")) continue;
     std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path.parent_path() / uri.get_ref<const std::string&>(), error);
+    const std::uintmax_t size =
+        std::filesystem::file_size(path.parent_path() / uri.get_ref<const std::string&>(), error);
     if (!error) sum += size;
   }
   return sum;

@@ -1,4 +1,5 @@
-// What a mesh file itself says that it holds, found without Assimp, which leaves out without a word what it cannot read.
+// What a mesh file itself says that it holds, found without Assimp, which leaves out without a word what it cannot
+// read.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ struct Promised {
   std::vector<std::string> not_read;    // of what Assimp passes over
 };
 
-// Of OBJ, STL, glTF and GLB. glTF's meshes count once each, however often they stand in its scene. Refuses glTF that requires an
-// extension without which its shapes cannot be read.
+// Of OBJ, STL, glTF and GLB. glTF's meshes count once each, however often they stand in its scene. Refuses glTF that
+// requires an extension without which its shapes cannot be read.
 Promised promised_by(const std::filesystem::path& path, FileKind kind);
 
 // The size of the files that a glTF file's buffers name, which are read with it.

@@ -13,8 +13,8 @@ namespace {
 
 struct Counts {
   std::set<std::string> bones, textures;
-  std::size_t nodes = 0, colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0,
-              glosses = 0, transparencies = 0;
+  std::size_t nodes = 0, colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0, glosses = 0,
+              transparencies = 0;
 };
 
 void add_mesh(const aiMesh& mesh, Counts& counts) {

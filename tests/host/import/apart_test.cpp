@@ -42,7 +42,8 @@ TEST(Apart, ItsFailureIsOurs) {
 TEST(Apart, DyingIsTold) {
   EXPECT_EQ(failure([] { return raise(SIGSEGV), std::string(); }),
             "a file: cannot be read: its reader crashed, Segmentation fault (mend it)");
-  EXPECT_EQ(failure([]() -> std::string { _exit(1); }), "a file: cannot be read: its reader ended with code 1 (mend it)");
+  EXPECT_EQ(failure([]() -> std::string { _exit(1); }),
+            "a file: cannot be read: its reader ended with code 1 (mend it)");
 }
 
 TEST(Apart, NeverEndingIsTold) {
@@ -51,7 +52,8 @@ TEST(Apart, NeverEndingIsTold) {
     }
     return std::string();
   };
-  EXPECT_EQ(failure(endless, {1s, 60s, kLimits.memory}), "a file: takes more than 1 s of processor time to read (mend it)");
+  EXPECT_EQ(failure(endless, {1s, 60s, kLimits.memory}),
+            "a file: takes more than 1 s of processor time to read (mend it)");
   const auto asleep = [] { return pause(), std::string(); };
   EXPECT_EQ(failure(asleep, {5s, 200ms, kLimits.memory}), "a file: takes more than 1 s to read (mend it)");
 }

@@ -99,7 +99,9 @@ TEST_F(PlyFileTest, StripsAreTriangles) {
   const std::string vertices = "element vertex 4\n" + kPlaces;
   const std::string places = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
   const auto corners = [&](const std::string& strip) {
-    return read(header("ascii", vertices + "element tristrips 1\nproperty list int int vertex_indices\n") + places + strip).corners;
+    return read(header("ascii", vertices + "element tristrips 1\nproperty list int int vertex_indices\n") + places +
+                strip)
+        .corners;
   };
   const std::vector<std::uint32_t> both = {0, 1, 2, 2, 1, 3};
   EXPECT_EQ(corners("4 0 1 2 3\n"), both) << "the second turns as the first";
@@ -108,14 +110,16 @@ TEST_F(PlyFileTest, StripsAreTriangles) {
 }
 
 TEST_F(PlyFileTest, NormalsAreReadAndTheRestIsTold) {
-  const PlyFile file = read(header("ascii", "comment TextureFile skin.png\nelement vertex 4\n" + kPlaces +
-                                                "property float nx\nproperty float ny\nproperty float nz\n"
-                                                "property uchar red\nelement face 1\nproperty float area\n" + kCorners +
-                                                "element edge 1\nproperty int vertex1\nelement scan 0\nproperty int a\n") +
-                            "0 0 0 0 0 1 9\n1 0 0 0 0 1 9\n0 1 0 0 0 1 9\n5 5 5 0 0 1 9\n0.5 3 0 1 2\n7\n");
+  const PlyFile file =
+      read(header("ascii", "comment TextureFile skin.png\nelement vertex 4\n" + kPlaces +
+                               "property float nx\nproperty float ny\nproperty float nz\n"
+                               "property uchar red\nelement face 1\nproperty float area\n" +
+                               kCorners + "element edge 1\nproperty int vertex1\nelement scan 0\nproperty int a\n") +
+           "0 0 0 0 0 1 9\n1 0 0 0 0 1 9\n0 1 0 0 0 1 9\n5 5 5 0 0 1 9\n0.5 3 0 1 2\n7\n");
   EXPECT_EQ(file.normals, std::vector<glm::dvec3>(4, {0, 0, 1}));
-  EXPECT_EQ(file.not_read, (std::vector<std::string>{"texture skin.png", "of element 'vertex': red", "of element 'face': area",
-                                                     "1 row of element 'edge'", "1 vertex without a face"}));
+  EXPECT_EQ(file.not_read,
+            (std::vector<std::string>{"texture skin.png", "of element 'vertex': red", "of element 'face': area",
+                                      "1 row of element 'edge'", "1 vertex without a face"}));
   const std::string more = triangle_header("binary_little_endian") + triangle_bytes(0, true) + "abc";
   EXPECT_EQ(read(more).not_read, std::vector<std::string>{"3 bytes after all that the header promises"});
 }
@@ -123,9 +127,11 @@ TEST_F(PlyFileTest, NormalsAreReadAndTheRestIsTold) {
 TEST_F(PlyFileTest, WhatIsPromisedMustBeThere) {
   const std::string many = header("binary_little_endian", "element vertex 4000000000\n" + kPlaces);
   EXPECT_TRUE(holds(failure(many + triangle_bytes(0, true)), "promises 4000000000 vertices, 4 were read"));
-  EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), "promises 1 face, 0 were read"));
+  EXPECT_TRUE(
+      holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), "promises 1 face, 0 were read"));
   EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 x\n"), "promises 3 vertices, 1 was read"));
-  EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"), "goes on after all"));
+  EXPECT_TRUE(
+      holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"), "goes on after all"));
   EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "at vertex 3, of 3 from 0"));
   EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"), "no vertex's number"));
   EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "promises 1 face"));
@@ -138,8 +144,10 @@ TEST_F(PlyFileTest, HeadersAreUnderstoodOrRefused) {
   EXPECT_TRUE(holds(failure("ply\nelement vertex 0\nend_header\n"), "does not say its format"));
   for (const char* line : {"format ebcdic 1.0", "element vertex many", "element vertex -1", "element vertex 3",
                            "property float x", "property quad w", "property list int vertex_indices", "end_9der"})
-    EXPECT_TRUE(holds(failure(header("ascii", "element vertex 3\n" + kPlaces + line + "\n")), "is not understood: " + std::string(line)));
-  EXPECT_TRUE(holds(failure(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 1\n"), "no z"));
+    EXPECT_TRUE(holds(failure(header("ascii", "element vertex 3\n" + kPlaces + line + "\n")),
+                      "is not understood: " + std::string(line)));
+  EXPECT_TRUE(
+      holds(failure(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 1\n"), "no z"));
 }
 
 }  // namespace
