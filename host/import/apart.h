@@ -1,16 +1,23 @@
-// Work in a process of its own: a library that crashes or never ends at a damaged file takes nothing with it.
+// Work in a process of its own: a library that crashes, never ends or takes all memory at a damaged file takes nothing
+// with it.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 
-#include "hal/failure.h"
-
 namespace mars::host {
 
-// What `work` returns; its Failure is thrown here. Throws `lost` where the process dies or needs more than so much
-// processor time.
-std::string run_apart(const std::function<std::string()>& work, std::chrono::seconds most, const Failure& lost);
+struct ApartLimits {
+  std::chrono::seconds processor_time;
+  std::chrono::milliseconds time;  // by the clock
+  std::uint64_t memory;            // bytes, beyond what this process has
+};
+
+// What `work` returns; its Failure is thrown here. Where the process dies or reaches a
+// limit, that is a Failure at `where` with `remedy`. The process ends with this one.
+std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
+                      const std::string& remedy);
 
 }  // namespace mars::host

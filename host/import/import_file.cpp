@@ -2,163 +2,144 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <chrono>
+#include <cstdio>
+#include <functional>
 #include <vector>
 
 #include "hal/failure.h"
+#include "host/document/json_file.h"
 #include "host/document/whole_file.h"
 #include "host/import/apart.h"
+#include "host/import/file_kind.h"
+#include "host/import/import_report.h"
 #include "host/import/mesh_file.h"
+#include "host/import/model_text.h"
+#include "host/import/promised.h"
 #include "host/modeler/patch_file.h"
 
 namespace mars::host {
 namespace {
 
-void append(std::string& text, auto number) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-// "[1, 2, 3]"
-void append_row(std::string& text, const auto* numbers, std::size_t count) {
-  text += '[';
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0) text += ", ";
-    append(text, numbers[i]);
-  }
-  text += ']';
-}
-
-// A list of rows, a line each.
-void append_rows(std::string& text, std::size_t count, const auto& append_item) {
-  text += '[';
-  for (std::size_t i = 0; i < count; ++i) {
-    text += i == 0 ? "\n        " : ",\n        ";
-    append_item(i);
-  }
-  text += ']';
-}
-
-void append_places(std::string& text, const std::vector<Mesh::Place>& places) {
-  append_rows(text, places.size(), [&](std::size_t i) { append_row(text, places[i].data(), 3); });
-}
-
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + '"';
-}
-
-std::string numbered(const std::string& name, std::size_t number) {
-  return number == 0 ? name : name + "-" + std::to_string(number + 1);
-}
-
-// One joint of the model, with its shape and colour as JSON.
-struct Part {
-  std::string shape;
-  std::string color;  // "": grey
+struct Imported {
+  ImportReport report;
+  std::string model;
 };
 
-std::string shape_of(const std::vector<node::Patch>& patches) {
-  std::string text;
-  append_rows(text, patches.size(), [&](std::size_t number) {
-    text += '[';
-    for (std::size_t i = 0; i < 16; ++i) {
-      if (i > 0) text += ", ";
-      append_row(text, patches[number].points[i].data(), 3);
-    }
-    text += ']';
-  });
+// y up is glTF's rule and OBJ's custom.
+char usual_up(FileKind kind) {
+  return kind == FileKind::obj || kind == FileKind::gltf || kind == FileKind::glb ? 'y' : 'z';
+}
+
+// Turns the axis `up` into z: from y the file's x stays x; from x, as COLLADA has it, its -y becomes x.
+glm::dmat3 upright(char up) {
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  if (up == 'x') return {z, -x, -y};
+  return up == 'y' ? glm::dmat3(x, z, -y) : glm::dmat3(x, y, z);
+}
+
+std::string box_of(const Box& bounds, char up) {
+  const glm::dvec3 extent = bounds.max - bounds.min;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
   return text;
 }
 
-std::string shape_of(const Mesh& mesh) {
-  std::string text = "{\"mesh\": {\n      \"vertices\": ";
-  append_places(text, mesh.vertices);
-  text += ",\n      \"faces\": ";
-  append_rows(text, mesh.ends.size(),
-              [&](std::size_t i) { append_row(text, mesh.face(i).data(), mesh.face(i).size()); });
-  if (mesh.normals.empty()) {
-    text += ",\n      \"crease\": ";
-    append(text, mesh.crease);
-  } else {
-    text += ",\n      \"normals\": ";
-    append_places(text, mesh.normals);
-  }
-  return text + "}}";
+Imported import_patches(const ImportOptions& options, char up) {
+  if (options.crease)
+    throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
+  const PatchFile file = read_patch_file(options.from, upright(up) * options.scale);
+  return {{"model of one joint '" + options.joint + "'",
+           box_of(file.bounds, up),
+           {counted(file.patches.size(), "patch", "patches")},
+           {}},
+          model_text({{shape_text(file.patches), {}}}, file.bounds, options.joint)};
 }
 
-std::string model_text(const std::vector<Part>& parts, const Box& bounds, const std::string& joint) {
-  std::string materials, joints, shapes, sbb = "[";
-  append_row(sbb, &bounds.min.x, 3);
-  sbb += ", ";
-  append_row(sbb, &bounds.max.x, 3);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string comma = i == 0 ? "\n    " : ",\n    ";
-    const std::string shape = quoted(numbered("imported", i)), material = quoted(numbered("color", i));
-    joints += comma + "{\"name\": " + quoted(numbered(joint, i));
-    if (i > 0) joints += ", \"parent\": " + quoted(joint) + ", \"limits\": {}";
-    joints += ", \"segment\": {\"shape\": " + shape + ", \"sbb\": " + sbb + "]";
-    if (!parts[i].color.empty()) {
-      joints += ", \"material\": " + material;
-      materials += (materials.empty() ? "\n    " : ",\n    ") + material + ": {\"color\": " + parts[i].color + "}";
-    }
-    joints += "}}";
-    shapes += comma + shape + ": " + parts[i].shape;
-  }
-  if (!materials.empty()) materials = "  \"materials\": {" + materials + "\n  },\n";
-  return "{\n" + materials + "  \"joints\": [" + joints + "\n  ],\n  \"shapes\": {" + shapes + "\n  }\n}\n";
-}
-
-std::string import_patches(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& joint) {
-  const PatchFile file = read_patch_file(from);
-  write_whole_file(to, model_text({{shape_of(file.patches), ""}}, file.bounds, joint));
-  return "model of one joint '" + joint + "', " + std::to_string(file.patches.size()) + " patches";
-}
-
-std::string import_mesh(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& joint) {
-  const MeshFile file = read_mesh_file(from);
-  std::vector<Part> parts;
-  std::size_t vertices = 0, faces = 0;
+std::vector<std::string> read_of(const MeshFile& file) {
+  std::size_t vertices = 0, faces = 0, colors = 0;
   for (const MeshPart& part : file.parts) {
-    parts.push_back({shape_of(part.mesh), ""});
-    if (part.color) append_row(parts.back().color, part.color->data(), 3);
     vertices += part.mesh.vertices.size();
     faces += part.mesh.ends.size();
+    colors += part.color.has_value();
   }
-  write_whole_file(to, model_text(parts, file.bounds, joint));
-  const bool one = parts.size() == 1;
-  return "model of " + (one ? "one joint" : std::to_string(parts.size()) + " joints, the first") + " '" + joint + "', " +
-         std::to_string(vertices) + " vertices, " + std::to_string(faces) + " faces";
+  const bool joined = vertices < file.vertices;
+  std::vector<std::string> read = {
+      counted(vertices, "vertex", "vertices") + (joined ? " of the file's " + std::to_string(file.vertices) : ""),
+      counted(faces, "face", "faces")};
+  if (!file.parts[0].mesh.normals.empty()) read.push_back("normals");
+  if (colors > 0) read.push_back(counted(colors, "colour", "colours"));
+  return read;
 }
 
-// Assimp does not come back from every damaged file.
-std::string import_mesh_apart(const std::filesystem::path& from, const std::filesystem::path& to,
-                              const std::string& joint) {
+Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
+  const MeshFile file = read_mesh_file(options.from, kind, {upright(up), options.scale, options.crease});
+  std::vector<ImportedPart> parts;
+  for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});
+  const std::string joints = parts.size() == 1 ? "one joint" : std::to_string(parts.size()) + " joints, the first";
+  return {{"model of " + joints + " '" + options.joint + "'", box_of(file.bounds, up), read_of(file), file.not_read},
+          model_text(parts, file.bounds, options.joint)};
+}
+
+// Of the work on so many bytes; a sound file takes a fraction of that.
+ApartLimits limits_for(std::uint64_t bytes) {
+  const std::chrono::seconds processor_time(5 + (bytes >> 20));
+  return {processor_time, processor_time + std::chrono::minutes(1), (std::uint64_t{1} << 30) + 64 * bytes};
+}
+
+// A library does not come back from every damaged file.
+std::string read_apart(const std::filesystem::path& path, FileKind kind, const std::function<std::string()>& read) {
+  constexpr const char* kRemedy = "the file may be damaged: export it again";
   std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(from, error);
-  const std::chrono::seconds most(5 + (error ? 0 : bytes >> 20));  // a sound file takes a fraction of that
-  return run_apart([&] { return import_mesh(from, to, joint); }, most,
-                   Failure("is no sound mesh file: reading it does not end well", from.string(),
-                           "export it again, or as another of OBJ, STL, PLY, glTF, GLB"));
+  std::uint64_t bytes = std::filesystem::file_size(path, error);
+  if (error) bytes = 0;
+  if (kind == FileKind::gltf)
+    bytes += std::stoull(
+        run_apart([&] { return std::to_string(bytes_of_buffers(path)); }, limits_for(bytes), path.string(), kRemedy));
+  return run_apart(read, limits_for(bytes), path.string(), kRemedy);
+}
+
+// The report, a zero, the model.
+std::string run(const ImportOptions& options, FileKind kind, char up) {
+  const Imported imported = kind == FileKind::patches ? import_patches(options, up) : import_mesh(options, kind, up);
+  return text_of(imported.report, options.to.string()) + '\0' + imported.model;
+}
+
+bool is_utf8(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)) == text;
+}
+
+void check_joint(const std::string& joint) {
+  constexpr std::size_t kMost = 90;  // of a name's 100 bytes: numbers may follow
+  const bool plain = !joint.empty() && joint.size() <= kMost && joint.find('/') == std::string::npos &&
+                     std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); }) &&
+                     is_utf8(joint);
+  if (!plain)
+    throw Failure("cannot name a joint", "'" + printable(joint) + "'",
+                  "choose a name of 1 to 90 bytes of UTF-8, without '/', with --joint");
+}
+
+void check_target(const ImportOptions& options) {
+  refuse_same_file(options.from, options.to);
+  if (!options.force && std::filesystem::exists(options.to))
+    throw Failure("is there already", options.to.string(), "choose another name, or replace it with --force");
+  check_can_write(options.to);
 }
 
 }  // namespace
 
-std::string import_model(const std::filesystem::path& from, const std::filesystem::path& to, std::string joint) {
-  if (joint.empty()) joint = from.stem().string();
-  constexpr std::size_t kMost = 90;  // of a name's 100 bytes: numbers may follow
-  const bool plain = !joint.empty() && joint.size() <= kMost && joint.find('/') == std::string::npos &&
-                     std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); });
-  if (!plain) throw Failure("cannot name a joint", joint, "choose a name of 1 to 90 bytes without '/' with --joint");
-  check_can_write(to);
-  refuse_same_file(from, to);
-  const std::string told = is_mesh_file(from) ? import_mesh_apart(from, to, joint) : import_patches(from, to, joint);
-  return to.string() + ": " + told;
+std::string import_model(const ImportOptions& given) {
+  ImportOptions options = given;
+  const FileKind kind = kind_of_name(options.from);
+  if (options.joint.empty()) options.joint = options.from.stem().string();
+  check_joint(options.joint);
+  check_first_bytes(options.from, kind);
+  check_target(options);
+  const char up = options.up.value_or(usual_up(kind));
+  const std::string answer = read_apart(options.from, kind, [&] { return run(options, kind, up); });
+  const std::size_t end = answer.find('\0');
+  write_whole_file(options.to, std::string_view(answer).substr(end + 1));
+  return answer.substr(0, end);
 }
 
 }  // namespace mars::host

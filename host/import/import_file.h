@@ -3,13 +3,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace mars::host {
 
-// Reads the patch file (.bpt) or mesh file `from` and writes a model file `to`. Its joint is named `joint`, or as the
-// file if that is "". A mesh of several colours has a joint for each, fixed to the first. Tells what was written in one
-// line.
-std::string import_model(const std::filesystem::path& from, const std::filesystem::path& to, std::string joint);
+struct ImportOptions {
+  std::filesystem::path from, to;
+  std::string joint;             // the model's; "": as the file is named
+  std::optional<char> up;        // the file's axis that points up: x, y, z; none: as is usual for its kind
+  double scale = 1;              // above 0
+  std::optional<double> crease;  // degrees, of meshes; none: the file's normals, or what is usual for its kind
+  bool force = false;            // `to` may be there already: it is replaced
+};
+
+// Reads the patch file or mesh file `from` and writes the model file `to`. A mesh of several colours has a joint for
+// each, fixed to the first. The report of what was read, and what was not.
+std::string import_model(const ImportOptions& options);
 
 }  // namespace mars::host

@@ -1,17 +1,27 @@
 // Mesh files of other programs - OBJ, STL, PLY, glTF, GLB - as meshes in the unit cube. What stands still is read;
-// bones, animations, textures, lines and points are not.
+// what else the file holds is listed.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <glm/mat3x3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host/import/file_kind.h"
 #include "host/modeler/mesh.h"
 #include "host/modeler/model.h"
 
 namespace mars::host {
+
+// How a person wants the file read.
+struct MeshWishes {
+  glm::dmat3 upright{1};  // turns the file's axes into ours
+  double scale = 1;
+  std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
+};
 
 // The faces of one colour.
 struct MeshPart {
@@ -23,14 +33,13 @@ struct MeshPart {
 struct MeshFile {
   std::vector<MeshPart> parts;  // at least one, in the file's order
   Box bounds;
+  std::size_t vertices = 0;           // in the file, before those that agree in place and normal are joined
+  std::vector<std::string> not_read;  // "19 bones", ...
 };
 
-// Whether a file of this name is one that read_mesh_file() knows.
-bool is_mesh_file(const std::filesystem::path& path);
-
-// Normals are the file's where it gives them for all; else the mesh has a crease: 0 for glTF, which says so, 30 degrees
-// for the others. Faces that run against their normals are turned, those with fewer than three different vertices left
-// out. glTF's y becomes z, as it is up there.
-MeshFile read_mesh_file(const std::filesystem::path& path);
+// `kind` is a mesh's. Normals are the file's where it gives them for all; else the mesh has a crease: 0 for glTF, which
+// says so, 30 degrees for the others. Faces that run against their normals are turned, those with fewer than three
+// different vertices left out. A file that promises more faces or vertices than can be read is refused.
+MeshFile read_mesh_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes);
 
 }  // namespace mars::host

@@ -61,7 +61,16 @@ class Words {
 
 using Points = std::vector<glm::dvec3>;
 
-Points read_points(Words& words) {
+glm::dvec3 placed(const Words& words, glm::dvec3 point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(point[axis]) > kFarthest)
+      words.fail("has a point at " + shown(point[axis]), "scale it to at most 1e9 from the origin");
+    point[axis] += 0.0;  // no negative zero
+  }
+  return point;
+}
+
+Points read_points(Words& words, const glm::dmat3& placing) {
   const double count = words.number("the number of patches");
   if (!(count >= 1 && count <= kMostPatches && count == std::floor(count)))
     words.fail("has no sensible number of patches",
@@ -74,7 +83,7 @@ Points read_points(Words& words) {
                  "only bicubic patches, 3 3, can be read");
     for (int point = 0; point < 16; ++point) {
       const double x = words.number("x"), y = words.number("y"), z = words.number("z");
-      points.emplace_back(x, y, z);
+      points.push_back(placed(words, placing * glm::dvec3(x, y, z)));
     }
   }
   if (!words.at_end())
@@ -97,10 +106,10 @@ Box bounds_of(const Points& points) {
 
 }  // namespace
 
-PatchFile read_patch_file(const std::filesystem::path& path) {
+PatchFile read_patch_file(const std::filesystem::path& path, const glm::dmat3& placing) {
   const std::string text = read_file(path, kLargestFile);
   Words words(text, path.string());
-  const Points points = read_points(words);
+  const Points points = read_points(words, placing);
   PatchFile file{std::vector<node::Patch>(points.size() / 16), bounds_of(points)};
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {

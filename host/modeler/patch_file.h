@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/mat3x3.hpp>
 #include <vector>
 
 #include "host/modeler/model.h"
@@ -15,6 +16,7 @@ struct PatchFile {
   Box bounds;
 };
 
-PatchFile read_patch_file(const std::filesystem::path& path);
+// Each point is first multiplied by `placing`.
+PatchFile read_patch_file(const std::filesystem::path& path, const glm::dmat3& placing = glm::dmat3(1));
 
 }  // namespace mars::host

@@ -14,12 +14,12 @@
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
-#include "host/import/import_file.h"
 #include "host/launch/bench.h"
 #include "host/launch/launch.h"
 #include "host/options/command_line.h"
 #include "host/programs/animate_command.h"
 #include "host/programs/film_of.h"
+#include "host/programs/import_command.h"
 #include "host/programs/model_command.h"
 #include "host/programs/node_job.h"
 #include "host/programs/plot_command.h"
@@ -61,7 +61,6 @@ constexpr const char* kEnds =
 struct Names {
   std::string from;
   std::string to;
-  std::string joint;
 };
 
 std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
@@ -120,17 +119,6 @@ void add_verify(CLI::App& app, Names& names, int& code) {
   command->callback([&] { code = verify(names.from); });
 }
 
-void add_import(CLI::App& app, Names& names) {
-  CLI::App* command = app.add_subcommand("import", "Make a model file from a mesh file or a patch file");
-  command->add_option("FILE", names.from, "A mesh (.obj, .stl, .ply, .gltf, .glb) or patch file (.bpt). Example: teapot.bpt")->required();
-  command->add_option("-o,--output", names.to, "The model file. Example: -o teapot.json")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--joint", names.joint, "Name of its joint; default: the file's. Example: --joint body")
-      ->type_name("NAME");
-  command->callback([&] { std::cout << import_model(names.from, names.to, names.joint) << '\n'; });
-}
-
 void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
   CLI::App* command = app.add_subcommand(
       "doctor", "See whether films can be rendered here, and what to do where not");
@@ -185,7 +173,7 @@ int run(int argc, char** argv) {
   add_compile(app, options, names);
   add_info(app, names);
   add_verify(app, names, code);
-  add_import(app, names);
+  add_import(app);
   add_preview(app);
   add_play(app);
   add_animate(app, code);

@@ -1,11 +1,13 @@
 """What each command of mars is for, and what the options of render change."""
 
 import json
+import os
 import shutil
+import signal
 import struct
 import subprocess
 
-from harness import EXAMPLES, PROGRAMS, SOURCES, ProgramTest, main, needs_mpi
+from harness import EXAMPLES, PROGRAMS, SECONDS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
 
 TEAPOT = EXAMPLES / "teapot.json"
 SMALL = ["--size", "96x54", "--nodes", 2, "--backend", "threads"]
@@ -103,14 +105,44 @@ class Commands(ProgramTest):
     def test_import_takes_meshes(self):
         self.write("tent.obj", "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 0 1.5 2\nv 4 1.5 2\n"
                                "f 1 2 6 5\nf 3 4 5 6\nf 2 3 6\nf 4 1 5\nf 4 3 2 1\n")
-        told = self.succeed("mars", "import", "tent.obj", "-o", "tent.json")
-        self.assertIn("tent.json: model of one joint 'tent', 6 vertices, 5 faces", told)
+        told = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--up", "z")
+        self.assertEqual(told, "tent.json: model of one joint 'tent'\n"
+                               "  box        4 x 3 x 2, the file's z upward\n"
+                               "  read       6 vertices, 5 faces\n"
+                               "  not read   nothing: all of the file was read\n")
         film = {"frames": 1, "size": [64, 64], "camera": {"eye": [2, -9, 3], "at": [2, 1, 1]},
                 "models": {"tent": "tent.json"}, "actors": [{"name": "tent", "model": "tent"}]}
         film = self.write("film.json", film)
         self.assertRegex(self.succeed("mars", "info", film), r"triangles +8, 8 of them stored")
         self.succeed("mars", "render", film, "-o", "out", "--backend", "threads")
         self.fail_clearly(1, "import", self.write("bad.obj", "f 1 2 3\n"), "-o", "bad.json", says="bad.obj")
+
+    def test_import_replaces_a_model_only_by_force(self):
+        self.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.write("flat.json", "mine")
+        self.fail_clearly(1, "import", "flat.obj", "-o", "flat.json", says="replace it with --force")
+        self.assertEqual((self.folder / "flat.json").read_text(), "mine")
+        self.succeed("mars", "import", "flat.obj", "-o", "flat.json", "--force", "--scale", "2", "--crease", "22.5")
+        self.assertEqual(json.loads((self.folder / "flat.json").read_text())["joints"][0]["segment"]["sbb"][1], [2, 1, 2])
+        for option, value in [("--scale", "0"), ("--scale", "nan"), ("--crease", "181"), ("--up", "w")]:
+            self.fail_clearly(2, "import", "flat.obj", "-o", "other.json", option, value, says=value)
+
+    def test_an_import_that_waits_ends_with_mars(self):
+        """Its reader waits for ever, for nobody writes into the pipe that the file names."""
+        os.mkfifo(self.folder / "nobody")
+        self.write("waits.gltf", {"asset": {"version": "2.0"}, "buffers": [{"uri": "nobody", "byteLength": 8}],
+                                  "bufferViews": [{"buffer": 0, "byteLength": 8}], "scenes": [{"nodes": [0]}],
+                                  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR"}],
+                                  "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})
+        mars = subprocess.Popen([PROGRAMS / "mars", "import", "waits.gltf", "-o", "waits.json"], cwd=self.folder)
+        self.addCleanup(mars.kill)
+        reader = {}
+        wait_until(lambda: reader.update(family(mars.pid)) or reader, SECONDS, "no reader")
+        self.addCleanup(lambda: [os.kill(each, signal.SIGKILL) for each in living(reader)])
+        mars.terminate()
+        self.assertEqual(mars.wait(SECONDS), -signal.SIGTERM)
+        wait_until(lambda: not living(reader), SECONDS, "the reader goes on")
+        self.assertFalse((self.folder / "waits.json").exists())
 
     def test_film_of_the_readme(self):
         text = (SOURCES / "README.md").read_text()

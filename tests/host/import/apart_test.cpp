@@ -1,11 +1,14 @@
-// Work in a process of its own: what it says comes back; dying or never ending is one failure.
+// Work in a process of its own: what it says comes back; dying, never ending and taking all memory are one failure.
 #include "host/import/apart.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <vector>
 
+#include "hal/failure.h"
 #include "tests/host/document/failure_of.h"
 
 namespace mars::host {
@@ -13,33 +16,58 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const Failure kLost("was lost", "some file", "try another");
+constexpr ApartLimits kLimits{5s, 60s, std::uint64_t{256} << 20};
+
+std::string apart(const std::function<std::string()>& work, const ApartLimits& limits = kLimits) {
+  return run_apart(work, limits, "a file", "mend it");
+}
+
+std::string failure(const std::function<std::string()>& work, const ApartLimits& limits = kLimits) {
+  const std::string text = failure_of([&] { apart(work, limits); });
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no process is left behind";
+  return text;
+}
 
 TEST(Apart, WhatItSaysComesBack) {
-  EXPECT_EQ(run_apart([] { return std::string("done"); }, 5s, kLost), "done");
+  EXPECT_EQ(apart([] { return std::string("done"); }), "done");
   const std::string much(1 << 20, 'x');
-  EXPECT_EQ(run_apart([&] { return much; }, 5s, kLost), much);
+  EXPECT_EQ(apart([&] { return much; }), much);
 }
 
 TEST(Apart, ItsFailureIsOurs) {
-  const auto failing = [] { return run_apart([]() -> std::string { throw Failure("is bad", "a file", "mend it"); }, 5s, kLost); };
-  EXPECT_EQ(failure_of(failing), std::string(Failure("is bad", "a file", "mend it").what()));
-  const auto other = [] { return run_apart([]() -> std::string { throw std::runtime_error("odd"); }, 5s, kLost); };
-  EXPECT_TRUE(holds(failure_of(other), "odd"));
+  EXPECT_EQ(failure([]() -> std::string { throw Failure("is bad", "b", "look at it"); }), "b: is bad (look at it)");
+  EXPECT_EQ(failure([]() -> std::string { throw std::runtime_error("odd"); }), "odd");
 }
 
-TEST(Apart, DyingAndNeverEndingAreToldOnce) {
-  const auto dying = [] { return run_apart([] { return raise(SIGKILL), std::string(); }, 5s, kLost); };
-  EXPECT_TRUE(holds(failure_of(dying), "was lost"));
+TEST(Apart, DyingIsTold) {
+  EXPECT_EQ(failure([] { return raise(SIGSEGV), std::string(); }),
+            "a file: cannot be read: its reader crashed, Segmentation fault (mend it)");
+  EXPECT_EQ(failure([]() -> std::string { _exit(1); }),
+            "a file: cannot be read: its reader ended with code 1 (mend it)");
+}
+
+TEST(Apart, NeverEndingIsTold) {
   const auto endless = [] {
-    return run_apart([] {
-      for (volatile bool on = true; on;) {
-      }
-      return std::string();
-    }, 1s, kLost);
+    for (volatile bool on = true; on;) {
+    }
+    return std::string();
   };
-  EXPECT_TRUE(holds(failure_of(endless), "was lost"));
-  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no process is left behind";
+  EXPECT_EQ(failure(endless, {1s, 60s, kLimits.memory}),
+            "a file: takes more than 1 s of processor time to read (mend it)");
+  const auto asleep = [] { return pause(), std::string(); };
+  EXPECT_EQ(failure(asleep, {5s, 200ms, kLimits.memory}), "a file: takes more than 1 s to read (mend it)");
+}
+
+TEST(Apart, TakingAllMemoryIsTold) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer ends a process that gets no memory";
+#endif
+  const auto greedy = [] {
+    std::vector<std::vector<char>> all;
+    for (;;) all.emplace_back(1 << 20);
+    return std::string();
+  };
+  EXPECT_EQ(failure(greedy), "a file: takes more than 256 MiB of memory to read (mend it)");
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// Which files `mars import` takes: by their name's ending, which their first bytes must not contradict.
+#pragma once
+
+#include <filesystem>
+
+namespace mars::host {
+
+enum class FileKind { obj, stl, ply, gltf, glb, patches };
+
+// By the ending, in capitals or not. Refuses every other: for files of well-known programs with the way from them to
+// one that can be read.
+FileKind kind_of_name(const std::filesystem::path& path);
+
+// Refuses a file whose first bytes are another kind's; what is no file is left to its reader.
+void check_first_bytes(const std::filesystem::path& path, FileKind kind);
+
+}  // namespace mars::host

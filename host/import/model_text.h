@@ -1,0 +1,28 @@
+// The model file that `mars import` writes. Its numbers are many, so they go straight into text.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/modeler/mesh.h"
+#include "host/modeler/model.h"
+#include "node/film.h"
+
+namespace mars::host {
+
+// What one joint shows.
+struct ImportedPart {
+  std::string shape;  // JSON
+  std::optional<std::array<double, 3>> color;
+};
+
+// A shape as JSON.
+std::string shape_text(const std::vector<node::Patch>& patches);
+std::string shape_text(const Mesh& mesh);
+
+// `joint`, in UTF-8, is the first's name; the others hang on it and cannot turn. `bounds` are the sbb of all.
+std::string model_text(const std::vector<ImportedPart>& parts, const Box& bounds, const std::string& joint);
+
+}  // namespace mars::host

@@ -1,0 +1,29 @@
+// What a mesh file itself says that it holds, found without Assimp, which leaves out without a word what it cannot
+// read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/import/file_kind.h"
+
+namespace mars::host {
+
+struct Promised {
+  std::optional<std::size_t> faces;     // none: what it says is not understood, and Assimp's refusal says why
+  std::optional<std::size_t> vertices;  // OBJ's, which Assimp gives once for each corner of a face
+  std::vector<std::string> not_read;    // of what Assimp passes over
+};
+
+// Of OBJ, STL, glTF and GLB. glTF's meshes count once each, however often they stand in its scene. Refuses glTF that
+// requires an extension without which its shapes cannot be read.
+Promised promised_by(const std::filesystem::path& path, FileKind kind);
+
+// The size of the files that a glTF file's buffers name, which are read with it.
+std::uintmax_t bytes_of_buffers(const std::filesystem::path& path);
+
+}  // namespace mars::host

@@ -1,0 +1,111 @@
+#include "host/import/unread_parts.h"
+
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include <set>
+#include <string_view>
+
+#include "host/import/import_report.h"
+
+namespace mars::host {
+namespace {
+
+struct Counts {
+  std::set<std::string> bones, textures;
+  std::size_t nodes = 0, colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0, glosses = 0,
+              transparencies = 0;
+};
+
+void add_mesh(const aiMesh& mesh, Counts& counts) {
+  for (unsigned i = 0; i < mesh.mNumBones; ++i) counts.bones.insert(mesh.mBones[i]->mName.C_Str());
+  if (mesh.HasVertexColors(0)) counts.colored_vertices += mesh.mNumVertices;
+  if (mesh.HasTextureCoords(0)) counts.mapped_vertices += mesh.mNumVertices;
+  counts.targets += mesh.mNumAnimMeshes;
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    counts.points += mesh.mFaces[i].mNumIndices == 1;
+    counts.lines += mesh.mFaces[i].mNumIndices == 2;
+  }
+}
+
+float number_of(const aiMaterial& material, const char* key, unsigned type, unsigned index, float otherwise) {
+  float number = otherwise;
+  material.Get(key, type, index, number);
+  return number;
+}
+
+bool shines(const aiMaterial& material) {
+  aiColor3D specular(0, 0, 0), emissive(0, 0, 0);
+  material.Get(AI_MATKEY_COLOR_SPECULAR, specular);
+  material.Get(AI_MATKEY_COLOR_EMISSIVE, emissive);
+  return !specular.IsBlack() || !emissive.IsBlack() || number_of(material, AI_MATKEY_METALLIC_FACTOR, -1) >= 0;
+}
+
+bool is_transparent(const aiMaterial& material) {
+  aiColor4D base(1, 1, 1, 1);
+  material.Get(AI_MATKEY_BASE_COLOR, base);
+  return base.a < 1 || number_of(material, AI_MATKEY_OPACITY, 1) < 1;
+}
+
+// Only materials that meshes have: Assimp makes some of its own.
+void add_material(const aiMaterial& material, Counts& counts) {
+  for (int type = aiTextureType_NONE; type <= AI_TEXTURE_TYPE_MAX; ++type)
+    for (unsigned i = 0; i < material.GetTextureCount(static_cast<aiTextureType>(type)); ++i) {
+      aiString path;
+      material.GetTexture(static_cast<aiTextureType>(type), i, &path);
+      counts.textures.insert(path.C_Str());
+    }
+  if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME) || material.GetName().length == 0) return;
+  counts.glosses += shines(material);
+  counts.transparencies += is_transparent(material);
+}
+
+std::size_t nodes_from(const aiNode& node) {
+  std::size_t count = 1;
+  for (unsigned i = 0; i < node.mNumChildren; ++i) count += nodes_from(*node.mChildren[i]);
+  return count;
+}
+
+// Assimp puts a node of its own above several.
+bool is_added(const aiNode& root) {
+  return root.mName == aiString("ROOT") && root.mNumChildren > 1 && root.mNumMeshes == 0 &&
+         root.mTransformation.IsIdentity();
+}
+
+Counts counts_of(const aiScene& scene) {
+  Counts counts;
+  std::set<unsigned> materials;
+  counts.nodes = nodes_from(*scene.mRootNode) - is_added(*scene.mRootNode);
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    add_mesh(*scene.mMeshes[i], counts);
+    materials.insert(scene.mMeshes[i]->mMaterialIndex);
+  }
+  for (const unsigned number : materials) add_material(*scene.mMaterials[number], counts);
+  return counts;
+}
+
+}  // namespace
+
+std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree) {
+  const Counts counts = counts_of(scene);
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t count, std::string_view one, std::string_view several, const char* remedy = "") {
+    if (count > 0) parts.push_back(counted(count, one, several) + remedy);
+  };
+  add(has_tree && counts.nodes > 1 ? counts.nodes : 0, "node", "nodes", " as joints: all stand as one");
+  add(counts.bones.size(), "bone", "bones", " (mars model add makes joints)");
+  add(scene.mNumAnimations, "animation", "animations", " (mars animate sets keys)");
+  add(counts.targets, "morph target", "morph targets");
+  add(counts.textures.size(), "texture", "textures", " (mars model set --color gives one colour)");
+  add(counts.mapped_vertices, "vertex's place in a texture", "vertices' places in a texture");
+  add(counts.colored_vertices, "vertex's colour", "vertices' colours", " (mars model set --color gives one colour)");
+  add(counts.glosses, "material's gloss", "materials' gloss", " (mars model set --specular)");
+  add(counts.transparencies, "material's transparency", "materials' transparency");
+  add(counts.points, "point", "points");
+  add(counts.lines, "line", "lines");
+  add(scene.mNumCameras, "camera", "cameras", " (a film has the camera)");
+  add(scene.mNumLights, "light", "lights", " (a film has the lights)");
+  return parts;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,14 @@
+// What a scene of Assimp's holds besides its meshes: a model takes none of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+struct aiScene;
+
+namespace mars::host {
+
+// "19 bones (...)", ... with what to do about it. Nodes are told where `has_tree`: where the file's own nodes move.
+std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree);
+
+}  // namespace mars::host

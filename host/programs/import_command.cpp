@@ -1,0 +1,60 @@
+#include "host/programs/import_command.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "host/import/import_file.h"
+
+namespace mars::host {
+namespace {
+
+constexpr const char* kAfterwards = R"(What was read is printed at the end, and what was not, such as bones,
+animations and textures. docs/model-format.md tells more.
+)";
+
+// Not numbers are refused too.
+auto number_from(double least, double greatest, const char* what) {
+  return [=](const std::string& word) {
+    double number = 0;
+    const bool fits = CLI::detail::lexical_cast(word, number) && number >= least && number <= greatest;
+    return fits ? std::string() : "'" + word + "' is " + what;
+  };
+}
+
+}  // namespace
+
+void add_import(CLI::App& app) {
+  const auto options = std::make_shared<ImportOptions>();
+  CLI::App* command = app.add_subcommand("import", "Make a model file from a mesh file or a patch file");
+  command
+      ->add_option("FILE", options->from,
+                   "A mesh (.obj, .stl, .ply, .gltf, .glb) or patch file (.bpt). Example: teapot.bpt")
+      ->required();
+  command->add_option("-o,--output", options->to, "The model file. Example: -o teapot.json")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--joint", options->joint, "Name of its joint; default: the file's. Example: --joint body")
+      ->type_name("NAME");
+  command
+      ->add_option("--up", options->up,
+                   "Which axis of the file points up, where z does in MARS; default: y for OBJ and glTF, z for "
+                   "others. Example: --up y")
+      ->check(CLI::IsMember({"x", "y", "z"}).description(""))
+      ->type_name("x|y|z");
+  command->add_option("--scale", options->scale, "Makes it so many times larger; default: 1. Example: --scale 0.01")
+      ->check(number_from(1e-9, 1e9, "no factor: write a number from 1e-9 to 1e9"))
+      ->type_name("FACTOR");
+  command
+      ->add_option("--crease", options->crease,
+                   "Edges at which faces meet at more degrees are sharp, others smooth, whatever normals the file "
+                   "has; default: its normals, else 30, for glTF 0. Example: --crease 60")
+      ->check(number_from(0, 180, "no such angle: write degrees from 0 to 180"))
+      ->type_name("DEGREES");
+  command->add_flag("--force", options->force, "Replace a model file that is there already. Example: --force");
+  command->footer(kAfterwards);
+  command->callback([options] { std::cout << import_model(*options); });
+}
+
+}  // namespace mars::host
