@@ -1,0 +1,89 @@
+"""A skipped case shows by its name and reason, whatever tells it: GoogleTest, a test in Python, CMake. Takes ctest."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from cases import main
+
+TESTS = pathlib.Path(__file__).parent
+GOOGLE_TEST = """[ RUN      ] Sets.Sse2
+[       OK ] Sets.Sse2 (0 ms)
+[ RUN      ] Sets.Avx512
+/sets_test.cpp:12: Skipped
+this CPU has no avx512
+
+[  SKIPPED ] Sets.Avx512 (3 ms)
+[  PASSED  ] 1 test.
+[  SKIPPED ] 1 test, listed below:
+[  SKIPPED ] Sets.Avx512
+"""
+PYTHON = """import unittest
+from cases import main
+class Disks(unittest.TestCase):
+    def test_full(self): pass
+    def test_small(self):
+        with self.subTest(size=1): self.skipTest("may not mount")
+        with self.subTest(size=2): pass
+class Peers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls): raise unittest.SkipTest("none was built")
+    def test_all(self): pass
+main()
+"""
+LINES = ["google Sets.Avx512: this CPU has no avx512", "python Disks.test_small (size=1): may not mount",
+         "python setUpClass (Peers): none was built", "mpi: built without MPI"]
+
+
+class Totals(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="mars-totals-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "output").write_text(GOOGLE_TEST)
+        (self.folder / "disks_test.py").write_text(PYTHON)
+        python = f'"{sys.executable}" disks_test.py'
+        self.tests = f"""add_test(google cat output)
+add_test(python {python})
+set_tests_properties(python PROPERTIES ENVIRONMENT PYTHONPATH={TESTS})
+add_test(mpi echo "built without MPI")
+set_tests_properties(mpi PROPERTIES SKIP_REGULAR_EXPRESSION ".")
+add_test(plain true)
+"""
+
+    def totals(self, *words):
+        (self.folder / "CTestTestfile.cmake").write_text(self.tests)
+        subprocess.run([sys.argv[1], "--output-junit", "tests.xml"], cwd=self.folder, capture_output=True)
+        return subprocess.run([sys.executable, TESTS / "totals.py", "tests.xml", *words], cwd=self.folder,
+                              capture_output=True, text=True)
+
+    def test_counts_cases(self):
+        done = self.totals()
+        self.assertEqual(done.stdout, "".join(f"skipped: {line}\n" for line in LINES) + "3 passed, 0 failed, 4 skipped\n")
+        self.assertEqual(done.returncode, 0)
+
+    def test_counts_what_fails_without_a_word(self):
+        self.tests += "add_test(crash false)\n"
+        done = self.totals()
+        self.assertIn("\n3 passed, 1 failed, 4 skipped\n", done.stdout)
+        self.assertEqual(done.returncode, 1)
+
+    def test_counts_failed_cases(self):
+        (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", "full(self): self.fail()"))
+        self.assertIn("\n2 passed, 1 failed, 4 skipped\n", self.totals().stdout)
+
+    def test_holds_skips_against_a_list(self):
+        expected = self.folder / "skips.txt"
+        expected.write_text("# why\n" + "\n".join(LINES[:3]) + "\nmpi: built*   # elsewhere\n")
+        done = self.totals("skips.txt")
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        expected.write_text("\n".join(LINES[1:]) + "\nnetwork: *\n")
+        done = self.totals("skips.txt")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout, f"skipped, but not in skips.txt: {LINES[0]}\nin skips.txt, but not skipped: network: *\n")
+
+
+if __name__ == "__main__":
+    main()
