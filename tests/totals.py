@@ -16,7 +16,7 @@ import xml.etree.ElementTree
 
 PASSED = re.compile(r"^\[  PASSED  \] (\d+) tests?\.$", re.M)
 FAILED = re.compile(r"^\[  FAILED  \] (?!\d+ tests?, listed)(.+?)(?:, where .*?)?(?: \(\d+ ms\))?$", re.M)
-SKIPPED = re.compile(r"\bSkipped\n(.*?)\n+\[  SKIPPED \] (.+?)(?: \(\d+ ms\))?$", re.M | re.S)
+SKIPPED = re.compile(r"\bSkipped\n((?:(?!\[ ).*\n)*)\[  SKIPPED \] (.+?)(?: \(\d+ ms\))?$", re.M)
 
 
 def count(test):

@@ -20,6 +20,15 @@ this CPU has no avx512
 [  SKIPPED ] 1 test, listed below:
 [  SKIPPED ] Sets.Avx512
 """
+FAILED_THOUGH_SKIPPED = """[ RUN      ] Sets.Sums
+/sets_test.cpp:12: Skipped
+this CPU has no avx512
+
+/sets_test.cpp:20: Failure
+[  FAILED  ] Sets.Sums (3 ms)
+[  FAILED  ] 1 test, listed below:
+[  FAILED  ] Sets.Sums
+"""
 PYTHON = """import unittest
 from cases import main
 class Disks(unittest.TestCase):
@@ -45,7 +54,7 @@ class Totals(unittest.TestCase):
         (self.folder / "output").write_text(GOOGLE_TEST)
         (self.folder / "disks_test.py").write_text(PYTHON)
         python = f'"{sys.executable}" disks_test.py'
-        self.tests = f"""add_test(google cat output)
+        self.tests = f"""add_test(google sh -c "cat output; ! grep -q FAILED output")
 add_test(python {python})
 set_tests_properties(python PROPERTIES ENVIRONMENT PYTHONPATH={TESTS})
 add_test(mpi echo "built without MPI")
@@ -71,8 +80,9 @@ add_test(plain true)
         self.assertEqual(done.returncode, 1)
 
     def test_counts_failed_cases(self):
+        (self.folder / "output").write_text(FAILED_THOUGH_SKIPPED + GOOGLE_TEST)
         (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", "full(self): self.fail()"))
-        self.assertIn("\n2 passed, 1 failed, 4 skipped\n", self.totals().stdout)
+        self.assertIn("\n2 passed, 2 failed, 4 skipped\n", self.totals().stdout)
 
     def test_holds_skips_against_a_list(self):
         expected = self.folder / "skips.txt"

@@ -147,11 +147,11 @@ TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
         EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
         for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
         EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << kernels->name << ", trial " << trial;
-        (all ? complete : incomplete) += last > first;
+        if (results.size() == 1) (all ? complete : incomplete) += last > first;
       }
   }
-  EXPECT_GT(complete, 500);
-  EXPECT_GT(incomplete, 500);
+  EXPECT_GT(complete, 70);
+  EXPECT_GT(incomplete, 70);
 }
 
 TEST(Kernels, EvaluateGivesPointsAndUnitNormals) {
