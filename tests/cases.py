@@ -7,9 +7,10 @@ import unittest
 
 def main():
     result = unittest.main(argv=[sys.argv[0]], verbosity=2, exit=False).result
-    failed = [test for test, _ in result.failures + result.errors] + result.unexpectedSuccesses
-    skipped = [test for test, _ in result.skipped]
-    print(f"[  PASSED  ] {result.testsRun - len({case(test) for test in failed + skipped} - {None})} tests.")
+    failed = [case_of(test) for test, _ in result.failures + result.errors] + result.unexpectedSuccesses
+    skipped = [case_of(test) for test, _ in result.skipped]
+    others = {test.id() for test in failed + skipped if isinstance(test, unittest.TestCase)}  # not what prepares a class
+    print(f"[  PASSED  ] {result.testsRun - len(others)} tests.")
     for test in failed:
         print(f"[  FAILED  ] {name(test)}")
     for test, why in result.skipped:
@@ -17,9 +18,9 @@ def main():
     sys.exit(not result.wasSuccessful())
 
 
-def case(test):
-    """Of a subtest the case that it is part of; none for what prepares a whole class."""
-    return getattr(test, "test_case", test).id() if isinstance(test, unittest.TestCase) else None
+def case_of(test):
+    """The case that a subtest is part of."""
+    return getattr(test, "test_case", test)
 
 
 def name(test):

@@ -74,14 +74,14 @@ add_test(plain true)
         self.assertEqual(done.returncode, 0)
 
     def test_counts_what_fails_without_a_word(self):
-        self.tests += "add_test(crash false)\n"
+        self.tests += "add_test(crash false)\nadd_test(lost ./not-built)\n"
         done = self.totals()
-        self.assertIn("\n3 passed, 1 failed, 4 skipped\n", done.stdout)
+        self.assertIn("\n3 passed, 2 failed, 4 skipped\n", done.stdout)
         self.assertEqual(done.returncode, 1)
 
     def test_counts_failed_cases(self):
         (self.folder / "output").write_text(FAILED_THOUGH_SKIPPED + GOOGLE_TEST)
-        (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", "full(self): self.fail()"))
+        (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", "full(self):\n        for i in 1, 2:\n            with self.subTest(i): self.fail()"))
         self.assertIn("\n2 passed, 2 failed, 4 skipped\n", self.totals().stdout)
 
     def test_holds_skips_against_a_list(self):
