@@ -17,9 +17,17 @@ CLUSTER = dict(ENVIRONMENT, TESTBED=f"test-{os.getpid()}", PATH=f"{PROGRAMS}:{os
 CANNOT = ["needs root", "not installed", "cannot make namespaces"]
 
 
-def testbed(*words, **more):
-    return subprocess.run([TESTBED, *map(str, words)], env=CLUSTER, capture_output=True, text=True,
+def testbed(*words, script=TESTBED, **more):
+    return subprocess.run([script, *map(str, words)], env=CLUSTER, capture_output=True, text=True,
                           **{"timeout": 120, **more})
+
+
+def start_cluster(script=TESTBED):
+    """The cluster that testbed() reaches; the test is skipped where there cannot be one."""
+    started = testbed("up", script=script)
+    if started.returncode != 0 and any(why in started.stderr for why in CANNOT):
+        raise unittest.SkipTest(started.stderr.strip())
+    assert started.returncode == 0, started.stderr
 
 
 def events(output):
@@ -33,10 +41,7 @@ class ClusterTest(ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        started = testbed("up")
-        if started.returncode != 0 and any(why in started.stderr for why in CANNOT):
-            raise unittest.SkipTest(started.stderr.strip())
-        assert started.returncode == 0, started.stderr
+        start_cluster()
         cls.addClassCleanup(testbed, "down")
         cls.hostfile = f"/var/tmp/testbed-{CLUSTER['TESTBED']}/hostfile"
 
