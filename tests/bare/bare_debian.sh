@@ -5,14 +5,14 @@
 # by an ordinary user, removed. With the word test: ./bootstrap test alone. No test may be skipped there but those
 # of tests/bare/skips.txt. What is committed is what is tested. --base keeps the bare system itself: FILE is
 # written where it is missing, and spares the next run debootstrap. Takes ten minutes and about 4 GB below TMPDIR
-# (/tmp). Ends with a line for each step; exit code 0 if all went well.
+# (/tmp). Ends with a line for each step; exit code 0 if all went well, 3 where no bare system can be made.
 set -euo pipefail
 
 suite=bookworm
 seconds_for_demo=120
 checkout=$(cd "$(dirname "$0")/../.." && pwd)
 
-give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 1; }
+give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 3; }
 
 # What apt on this machine fetches the suite from, as lines for sources.list; nothing where there is no apt.
 debian_sources() {
@@ -26,7 +26,7 @@ make_base() {
   local mirror
   mirror=$(debian_sources | awk -v suite="$suite" '$3 == suite && !found++ { print $2 }')
   # shellcheck disable=SC2086  # nothing where debootstrap's own mirror is taken
-  debootstrap --variant=minbase --include=ca-certificates "$suite" "$work/base" $mirror
+  debootstrap --variant=minbase --include=ca-certificates "$suite" "$work/base" $mirror || give_up "debootstrap failed"
   tar -C "$work/base" --numeric-owner -cf "$base.part" .
   mv "$base.part" "$base"
   rm -rf "$work/base"
@@ -206,6 +206,7 @@ case "$#:${1:-}" in
   *) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
 [ "$(id -u)" = 0 ] || give_up "needs root"
+unshare --mount --pid --fork mount -t tmpfs none /mnt || give_up "may not mount here"
 command -v debootstrap >/dev/null || give_up "needs debootstrap (apt-get install debootstrap)"
 work=$(mktemp -d "${TMPDIR:-/tmp}/mars-bare.XXXXXX")
 trap 'rm -rf --one-file-system "$work"' EXIT
