@@ -37,6 +37,7 @@ unpack_system() {
   local root=$work/$1 lines
   mkdir "$root"
   tar -C "$root" --numeric-owner -xpf "$base"
+  mount --bind "$root" "$root"  # tests that mount want a root that is a mount point
   lines=$(debian_sources)
   [ -z "$lines" ] || echo "$lines" >"$root/etc/apt/sources.list"
   if command -v apt-config >/dev/null; then
