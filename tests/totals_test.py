@@ -1,6 +1,9 @@
-"""A skipped case shows by its name and reason, whatever tells it: GoogleTest, a test in Python, CMake. Takes ctest."""
+"""A skipped case shows by its name and reason, whatever tells it: GoogleTest, a test in Python, CMake. And what CI runs
+and makes of the totals. Takes ctest."""
 
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -42,6 +45,7 @@ class Peers(unittest.TestCase):
     def test_all(self): pass
 main()
 """
+CLUSTER = "echo 2 passed, 0 failed, 1 skipped"
 LINES = ["google Sets.Avx512: this CPU has no avx512", "python Disks.test_small (size=1): may not mount",
          "python setUpClass (Peers): none was built", "mpi: built without MPI"]
 
@@ -93,6 +97,39 @@ add_test(plain true)
         done = self.totals("skips.txt")
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout, f"skipped, but not in skips.txt: {LINES[0]}\nin skips.txt, but not skipped: network: *\n")
+
+
+class Ci(unittest.TestCase):
+    def ci(self, bare, test):
+        """Exit code, last line, and whether ./bootstrap test ran outside; `bare`, `test`: what the bare system and that do."""
+        with tempfile.TemporaryDirectory(prefix="mars-ci-") as name:
+            folder = pathlib.Path(name)
+            scripts = {"bin/debootstrap": "", "tests/bare/bare_debian.sh": bare,
+                       "bootstrap": f'echo "$1" >>ran; case $1 in test) {test};; cluster) {CLUSTER};; esac'}
+            for path, does in scripts.items():
+                (folder / path).parent.mkdir(parents=True, exist_ok=True)
+                (folder / path).write_text(f"#!/bin/sh\n{does}\n")
+                (folder / path).chmod(0o755)
+            (folder / ".ci").mkdir()
+            shutil.copy(TESTS.parent / ".ci/run", folder / ".ci/run")
+            done = subprocess.run([folder / ".ci/run"], capture_output=True, text=True,
+                                  env=dict(os.environ, PATH=f"{folder}/bin:{os.environ['PATH']}"))
+            ran = (folder / "ran").read_text() if (folder / "ran").exists() else ""
+            return done.returncode, done.stdout.splitlines()[-1], "test" in ran
+
+    def test_adds_up_the_bare_system_and_the_cluster(self):
+        cluster = os.geteuid() == 0
+        self.assertEqual(self.ci("echo 3 passed, 0 failed, 1 skipped", test="false"),
+                         (0, f"{3 + 2 * cluster} passed, 0 failed, {1 + cluster} skipped", False))
+
+    def test_runs_here_where_there_is_no_bare_system(self):
+        code, last, here = self.ci("exit 3", test="echo 4 passed, 1 failed, 0 skipped; exit 1")
+        self.assertRegex(last, r"^\d passed, 1 failed, ")
+        self.assertEqual((code, here), (1, True))
+
+    def test_fails_where_the_bare_system_does(self):
+        self.assertEqual(self.ci("echo 3 passed, 0 failed, 1 skipped; exit 1", test="false")[0], 1)
+        self.assertEqual(self.ci("exit 3", test="exit 1")[0], 1)
 
 
 if __name__ == "__main__":
