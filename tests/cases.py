@@ -9,7 +9,8 @@ def main():
     result = unittest.main(argv=[sys.argv[0]], verbosity=2, exit=False).result
     failed = [case_of(test) for test, _ in result.failures + result.errors] + result.unexpectedSuccesses
     skipped = [case_of(test) for test, _ in result.skipped]
-    others = {test.id() for test in failed + skipped if isinstance(test, unittest.TestCase)}  # not what prepares a class
+    # Without what prepares a whole class, which does not count as run.
+    others = {test.id() for test in failed + skipped if isinstance(test, unittest.TestCase)}
     print(f"[  PASSED  ] {result.testsRun - len(others)} tests.")
     for test in failed:
         print(f"[  FAILED  ] {name(test)}")

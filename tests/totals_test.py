@@ -45,6 +45,10 @@ class Peers(unittest.TestCase):
     def test_all(self): pass
 main()
 """
+FULL_FAILS = """full(self):
+        for i in 1, 2:
+            with self.subTest(i): self.fail()
+"""
 CLUSTER = "echo 2 passed, 0 failed, 1 skipped"
 LINES = ["google Sets.Avx512: this CPU has no avx512", "python Disks.test_small (size=1): may not mount",
          "python setUpClass (Peers): none was built", "mpi: built without MPI"]
@@ -74,7 +78,8 @@ add_test(plain true)
 
     def test_counts_cases(self):
         done = self.totals()
-        self.assertEqual(done.stdout, "".join(f"skipped: {line}\n" for line in LINES) + "3 passed, 0 failed, 4 skipped\n")
+        shown = "".join(f"skipped: {line}\n" for line in LINES)
+        self.assertEqual(done.stdout, shown + "3 passed, 0 failed, 4 skipped\n")
         self.assertEqual(done.returncode, 0)
 
     def test_counts_what_fails_without_a_word(self):
@@ -85,7 +90,7 @@ add_test(plain true)
 
     def test_counts_failed_cases(self):
         (self.folder / "output").write_text(FAILED_THOUGH_SKIPPED + GOOGLE_TEST)
-        (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", "full(self):\n        for i in 1, 2:\n            with self.subTest(i): self.fail()"))
+        (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", FULL_FAILS))
         self.assertIn("\n2 passed, 2 failed, 4 skipped\n", self.totals().stdout)
 
     def test_holds_skips_against_a_list(self):
@@ -96,12 +101,13 @@ add_test(plain true)
         expected.write_text("\n".join(LINES[1:]) + "\nnetwork: *\n")
         done = self.totals("skips.txt")
         self.assertEqual(done.returncode, 1)
-        self.assertEqual(done.stdout, f"skipped, but not in skips.txt: {LINES[0]}\nin skips.txt, but not skipped: network: *\n")
+        self.assertEqual(done.stdout.splitlines(), [f"skipped, but not in skips.txt: {LINES[0]}",
+                                                    "in skips.txt, but not skipped: network: *"])
 
 
 class Ci(unittest.TestCase):
     def ci(self, bare, test):
-        """Exit code, last line, and whether ./bootstrap test ran outside; `bare`, `test`: what the bare system and that do."""
+        """Exit code, last line, and whether ./bootstrap test ran outside; `bare` and `test` are what these do."""
         with tempfile.TemporaryDirectory(prefix="mars-ci-") as name:
             folder = pathlib.Path(name)
             scripts = {"bin/debootstrap": "", "tests/bare/bare_debian.sh": bare,

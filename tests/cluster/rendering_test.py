@@ -2,8 +2,8 @@
 
 import shutil
 
-from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, TESTBED, ClusterTest, ProgramTest, events, run_on_cluster,
-                             spinning_teapot, start_cluster, testbed, wait_until)
+from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, TESTBED, ClusterTest, ProgramTest, events,
+                             run_on_cluster, spinning_teapot, start_cluster, testbed, wait_until)
 
 SLURM = SOURCES / "cluster/slurm"
 

@@ -27,7 +27,8 @@ inline std::vector<const node::Kernels*> kernels_here() {
 inline void skip_sets_not_here() {
   if (testing::Test::IsSkipped()) return;
   for (const char* set : kSets)
-    if (node::best_kernels(set).name != std::string_view(set)) GTEST_SKIP() << "not on " << set << ", which this CPU lacks";
+    if (node::best_kernels(set).name != std::string_view(set))
+      GTEST_SKIP() << "not on " << set << ", which this CPU lacks";
 }
 
 // For a test's body: kernels_here(), of which it says when they are not all.
