@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # A virtual Beowulf on one machine: head n0 and hosts n1 to n4 of two processors each, with sshd and Slurm.
 # Every host has its own name, network, processes, /tmp, /run and /dev/shm; the rest of the file system is
-# shared, as NFS would be. All run on this machine's processors: it shows how things behave, not how fast.
+# shared, as NFS would be, and so is the checkout that this file is in, also below /tmp. All run on this
+# machine's processors: it shows how things behave, not how fast.
 #
 #   testbed.sh up                   start it (first ending one that is there)
 #   testbed.sh exec HOST COMMAND    run a command on a host, in this folder
@@ -18,6 +19,7 @@ set -euo pipefail
 name=${TESTBED:-mars}
 # Not in /tmp, of which every host has its own. Programs refuse keys in folders that others could write to.
 dir=/var/tmp/testbed-$name
+checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
 hosts="n0 n1 n2 n3 n4"
 workers="n1 n2 n3 n4"
 export SLURM_CONF=$dir/slurm.conf
@@ -70,15 +72,24 @@ start_namespaces() {
   done
 }
 
+# The checkout is held elsewhere while a folder of the host's own may be laid over it.
+own_folders() {
+  local host=$1 folder
+  on "$host" mount --bind "$checkout" "$dir/checkout"
+  for folder in /tmp /dev/shm /run; do on "$host" mount -t tmpfs tmpfs "$folder"; done
+  on "$host" mkdir -p "$checkout"
+  on "$host" mount --move "$dir/checkout" "$checkout"
+}
+
 start_host() {
   local host=$1 number=${1#n}
   start_namespaces "$host" --uts --mount --ipc --pid --mount-proc
   at_switch ip link add "$host" type veth peer name eth0 netns "$(pid_of "$host")"
   at_switch ip link set "$host" master bridge up
+  own_folders "$host"
   on "$host" sh -euc "
     hostname $host
     ip address add 10.77.0.1$number/24 dev eth0; ip link set eth0 up; ip link set lo up
-    mount -t tmpfs tmpfs /tmp; mount -t tmpfs tmpfs /dev/shm; mount -t tmpfs tmpfs /run
     mount --bind $dir/hosts /etc/hosts; mount --bind $dir/ssh /root/.ssh
     mkdir -p /run/sshd /run/munge"
 }
@@ -150,7 +161,7 @@ up() {
   down
   trap '[ $? = 0 ] || stop_all' EXIT
   trap 'exit 130' INT TERM HUP
-  mkdir -p "$dir"/{pid,log,spool,state,ssh} /root/.ssh
+  mkdir -p "$dir"/{pid,log,spool,state,ssh,checkout} /root/.ssh
   chmod 700 "$dir" "$dir/ssh"
   write_settings
   start_namespaces switch --pid

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # Proves MARS on a bare Debian 12. Needs root, debootstrap and a network:
-#   tests/bare/bare_debian.sh [--base FILE.tar]
+#   tests/bare/bare_debian.sh [--base FILE.tar] [test]
 # In one bare system: ./bootstrap demo, test and deb. In a second: the .deb, installed by apt, used by root and
-# by an ordinary user, removed. What is committed is what is tested. --base keeps the bare system itself: FILE
-# is written where it is missing, and spares the next run debootstrap. Takes ten minutes and about 4 GB below
-# TMPDIR (/tmp). Ends with a line for each step; exit code 0 if all went well.
+# by an ordinary user, removed. With the word test: ./bootstrap test alone. No test may be skipped there but those
+# of tests/bare/skips.txt. What is committed is what is tested. --base keeps the bare system itself: FILE is
+# written where it is missing, and spares the next run debootstrap. Takes ten minutes and about 4 GB below TMPDIR
+# (/tmp). Ends with a line for each step; exit code 0 if all went well, 3 where no bare system can be made.
 set -euo pipefail
 
 suite=bookworm
 seconds_for_demo=120
 checkout=$(cd "$(dirname "$0")/../.." && pwd)
 
-give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 1; }
+give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 3; }
 
 # What apt on this machine fetches the suite from, as lines for sources.list; nothing where there is no apt.
 debian_sources() {
@@ -25,7 +26,7 @@ make_base() {
   local mirror
   mirror=$(debian_sources | awk -v suite="$suite" '$3 == suite && !found++ { print $2 }')
   # shellcheck disable=SC2086  # nothing where debootstrap's own mirror is taken
-  debootstrap --variant=minbase --include=ca-certificates "$suite" "$work/base" $mirror
+  debootstrap --variant=minbase --include=ca-certificates "$suite" "$work/base" $mirror || give_up "debootstrap failed"
   tar -C "$work/base" --numeric-owner -cf "$base.part" .
   mv "$base.part" "$base"
   rm -rf "$work/base"
@@ -36,6 +37,7 @@ unpack_system() {
   local root=$work/$1 lines
   mkdir "$root"
   tar -C "$root" --numeric-owner -xpf "$base"
+  mount --bind "$root" "$root"  # tests that mount want a root that is a mount point
   lines=$(debian_sources)
   [ -z "$lines" ] || echo "$lines" >"$root/etc/apt/sources.list"
   if command -v apt-config >/dev/null; then
@@ -72,9 +74,19 @@ step() {
   summary+=("$(printf '%-6s %5d s  %5d s of processors  %s' "$verdict" "$seconds" "$processors" "$name")")
 }
 
-prove_bootstrap() {
+unpack_build() {
   unpack_system build
   git -c safe.directory='*' clone -q --no-hardlinks "$checkout" "$work/build/root/mars"
+}
+
+prove_tests() {
+  step "./bootstrap test" build root 'mars/bootstrap test'
+  step "none skipped but those of tests/bare/skips.txt" build root '
+    cd mars
+    python3 tests/totals.py build/release/tests.xml tests/bare/skips.txt'
+}
+
+prove_bootstrap() {
   step "./bootstrap demo, nothing installed" build root 'mars/bootstrap demo'
   step "./bootstrap demo, again" build root 'mars/bootstrap demo'
   step "./bootstrap demo, packages in and nothing built" build root 'rm -r mars/build; mars/bootstrap demo'
@@ -87,7 +99,7 @@ prove_bootstrap() {
     cd mars/build
     release/bin/mars verify demo
     [ "$(ls demo/frame-*.png | wc -l)" -ge 24 ]'
-  step "./bootstrap test" build root 'mars/bootstrap test'
+  prove_tests
   step "./bootstrap deb" build root 'mars/bootstrap deb'
 }
 
@@ -161,8 +173,13 @@ prove_package() {
 
 run() {
   [ -f "$base" ] || make_base
-  prove_bootstrap
-  if ls "$work"/build/root/mars/build/release/mars_*.deb >/dev/null 2>&1; then prove_package; fi
+  unpack_build
+  if [ "$only" = test ]; then
+    prove_tests
+  else
+    prove_bootstrap
+    if ls "$work"/build/root/mars/build/release/mars_*.deb >/dev/null 2>&1; then prove_package; fi
+  fi
   printf '\n==== Summary\n'
   printf '%s\n' "${summary[@]}"
   [ "$failed" = 0 ]
@@ -173,22 +190,28 @@ failed=0
 
 # The work is done in mount and process namespaces of its own: whatever ends it, nothing stays mounted or running.
 if [ "${1:-}" = --within ]; then
-  work=$2 base=$3
+  work=$2 base=$3 only=$4
   exec 3>&1 4>&2
   run
   exit
 fi
 
-case "${1:-}" in
-  "") ;;
-  --base) [ $# = 2 ] || give_up "--base needs a file" ;;
-  *) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 2 ;;
+kept=""
+if [ "${1:-}" = --base ]; then
+  [ $# -ge 2 ] || give_up "--base needs a file"
+  kept=$2
+  shift 2
+fi
+case "$#:${1:-}" in
+  0: | 1:test) only=${1:-} ;;
+  *) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
 [ "$(id -u)" = 0 ] || give_up "needs root"
+unshare --mount --pid --fork mount -t tmpfs none /mnt || give_up "may not mount here"
 command -v debootstrap >/dev/null || give_up "needs debootstrap (apt-get install debootstrap)"
 work=$(mktemp -d "${TMPDIR:-/tmp}/mars-bare.XXXXXX")
 trap 'rm -rf --one-file-system "$work"' EXIT
 trap 'exit 130' INT TERM HUP
-base=$(realpath -m "${2:-$work/base.tar}")
+base=$(realpath -m "${kept:-$work/base.tar}")
 chmod 755 "$work"
-unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base"
+unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base" "$only"

@@ -18,7 +18,10 @@ class Losses(ClusterTest):
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(self.process.kill)
         out = self.folder / "out"
-        wait_until(lambda: len(list(out.glob("*.png"))) > 3, SECONDS, "no frame")
+        begun = lambda: self.process.poll() is not None or len(list(out.glob("*.png"))) > 3
+        wait_until(begun, SECONDS, "no frame")
+        if self.process.poll() is not None:
+            self.fail("it ended too soon: " + self.process.stderr.read())
         self.assertTrue(all(self.processes(host, "mars-node") for host in HOSTS))
 
     def processes(self, host, *programs):

@@ -1,7 +1,9 @@
 """The same pixels across the hosts of a cluster, however the film is started."""
 
-from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, ClusterTest, events, run_on_cluster, spinning_teapot, testbed,
-                             wait_until)
+import shutil
+
+from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, TESTBED, ClusterTest, ProgramTest, events,
+                             run_on_cluster, spinning_teapot, start_cluster, testbed, wait_until)
 
 SLURM = SOURCES / "cluster/slurm"
 
@@ -83,6 +85,20 @@ class Rendering(ClusterTest):
         told = look(1)
         self.assertRegex(told, r"TROUBLE +/dev/shm +n3: 8 MiB")
         self.assertRegex(told, r"/dev/shm +n1,n2,n4: ")
+
+
+class Checkout(ProgramTest):
+    FOLDERS = "/tmp"  # of which every host has its own
+
+    def test_every_host_sees_it_below_tmp(self):
+        script = self.folder / "cluster/testbed/testbed.sh"
+        script.parent.mkdir(parents=True)
+        shutil.copy(TESTBED, script)
+        start_cluster(script)
+        self.addCleanup(testbed, "down")
+        for host in HOSTS:
+            seen = testbed("exec", host, "ls", "/tmp", script).stdout.split()
+            self.assertEqual(seen, [str(script), "/tmp:", self.folder.name])
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "programs"))
 from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, main, spinning_teapot,  # noqa: E402
@@ -13,13 +14,20 @@ from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, main,
 TESTBED = SOURCES / "cluster/testbed/testbed.sh"
 HOSTS = ["n1", "n2", "n3", "n4"]
 CLUSTER = dict(ENVIRONMENT, TESTBED=f"test-{os.getpid()}", PATH=f"{PROGRAMS}:{os.environ['PATH']}")
-SKIPPED = 77  # for ctest
 CANNOT = ["needs root", "not installed", "cannot make namespaces"]
 
 
-def testbed(*words, **more):
-    return subprocess.run([TESTBED, *map(str, words)], env=CLUSTER, capture_output=True, text=True,
+def testbed(*words, script=TESTBED, **more):
+    return subprocess.run([script, *map(str, words)], env=CLUSTER, capture_output=True, text=True,
                           **{"timeout": 120, **more})
+
+
+def start_cluster(script=TESTBED):
+    """The cluster that testbed() reaches; the test is skipped where there cannot be one."""
+    started = testbed("up", script=script)
+    if started.returncode != 0 and any(why in started.stderr for why in CANNOT):
+        raise unittest.SkipTest(started.stderr.strip())
+    assert started.returncode == 0, started.stderr
 
 
 def events(output):
@@ -33,8 +41,7 @@ class ClusterTest(ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        started = testbed("up")
-        assert started.returncode == 0, started.stderr
+        start_cluster()
         cls.addClassCleanup(testbed, "down")
         cls.hostfile = f"/var/tmp/testbed-{CLUSTER['TESTBED']}/hostfile"
 
@@ -52,12 +59,7 @@ class ClusterTest(ProgramTest):
 
 
 def run_on_cluster():
-    """Runs the tests, or says why not: 77 where a cluster cannot be made here. Who kills them leaves no cluster."""
+    """Runs the tests. Who kills them leaves no cluster."""
     subprocess.Popen(["sh", "-c", f"while kill -0 {os.getpid()}; do sleep 1; done; exec {TESTBED} down"], env=CLUSTER,
                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-    tried = testbed("up")
-    testbed("down")
-    if tried.returncode != 0 and any(why in tried.stderr for why in CANNOT):
-        print(tried.stderr, "skipped", sep="\n")
-        sys.exit(SKIPPED)
     main()

@@ -6,10 +6,7 @@ foreach(program rules times)
 endforeach()
 target_link_libraries(smpi_rules PRIVATE mars_nx_rules)
 
-find_package(Python3 COMPONENTS Interpreter)
-if(Python3_FOUND)
-  add_test(NAME smpi_test
-           COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/smpi_test.py
-                   ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules> $<TARGET_FILE:smpi_times>)
-  set_tests_properties(smpi_test PROPERTIES TIMEOUT 120)
-endif()
+add_test(NAME smpi_test
+         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/smpi_test.py
+                 ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules> $<TARGET_FILE:smpi_times>)
+set_tests_properties(smpi_test PROPERTIES TIMEOUT 120)

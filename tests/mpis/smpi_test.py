@@ -1,9 +1,13 @@
 """The rules of NX over simulated ranks, and simulated times against those that the platform's figures make.
 Takes: cluster/platforms/simulate, and the programs of the rules and of the times."""
 
+import pathlib
 import subprocess
 import sys
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from cases import main  # noqa: E402
 
 SIMULATE, RULES, TIMES = sys.argv[1:4]
 # What simulate says of an iPSC/2, in microseconds, with what MPI adds to a message.
@@ -41,4 +45,4 @@ class Simulated(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0]], verbosity=2)
+    main()

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tests/node/kernel_sets.h"
 #include "tests/node/patches.h"
 
 namespace mars::test {
@@ -252,8 +253,8 @@ TEST(Bezier, RatesAreTheSameEverywhere) {
   for (int trial = 0; trial < 3000; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, random.real(-20, 1)}, std::pow(10, random.real(-3, 1)));
     const node::Rates expected = node::rates(node::best_kernels("sse2"), patch, view, 0);
-    for (const char* set : {"sse4", "avx2", "avx512"})
-      ASSERT_EQ(node::rates(node::best_kernels(set), patch, view, 0), expected) << set << ' ' << trial;
+    for (const node::Kernels* set : all_kernels())
+      ASSERT_EQ(node::rates(*set, patch, view, 0), expected) << set->name << ' ' << trial;
   }
 }
 

@@ -108,7 +108,6 @@ TEST(Kernels, AreChosenByName) {
   EXPECT_EQ(std::string_view(node::best_kernels("sse2").name), "sse2");
   EXPECT_EQ(&node::best_kernels(""), &node::best_kernels("avx512"));
   EXPECT_THROW(node::best_kernels("mmx"), Failure);
-  if (all_kernels().size() < 2) GTEST_SKIP() << "this CPU has nothing wider than SSE2 to compare";
 }
 
 // Tables of a basis of their own, with garbage in their slack.
@@ -148,11 +147,11 @@ TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
         EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
         for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
         EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << kernels->name << ", trial " << trial;
-        (all ? complete : incomplete) += last > first;
+        if (results.size() == 1) (all ? complete : incomplete) += last > first;
       }
   }
-  EXPECT_GT(complete, 500);
-  EXPECT_GT(incomplete, 500);
+  EXPECT_GT(complete, 70);
+  EXPECT_GT(incomplete, 70);
 }
 
 TEST(Kernels, EvaluateGivesPointsAndUnitNormals) {

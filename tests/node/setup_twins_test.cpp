@@ -83,8 +83,9 @@ struct Paths {
 class SetUpTwins : public testing::Test {
  protected:
   SetUpTwins() {
-    for (const node::Kernels* kernels : all_kernels()) dicers.push_back({kernels, Dicer(*kernels)});
+    for (const node::Kernels* kernels : kernels_here()) dicers.push_back({kernels, Dicer(*kernels)});
   }
+  void TearDown() override { skip_sets_not_here(); }
 
   void expect_same(const EyePatch& patch, int rate, const PatchIdentity& identity) {
     Made expected;

@@ -3,11 +3,9 @@
 import json
 import os
 import re
-import shutil
 import subprocess
-import unittest
 
-from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, SOURCES, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, SOURCES, ProgramTest, main, needs
 
 ARM = {"joints": [
     {"name": "shoulder", "limits": {"x": [-90, 90], "y": [-90, 90], "z": [-90, 90]}, "segment": {"shape": "box"}},
@@ -175,19 +173,25 @@ class Animate(ProgramTest):
         self.assertLessEqual(set(range(0, 60, 5)) | set(range(100, 160, 5)), frames)
         self.assertEqual(sorted(os.listdir(self.folder)), ["film.json"])
 
-    def test_films_of_very_many_keys_and_frames(self):
+    def write_very_many_keys(self):
         turns = [{"frame": frame, "turn": [0, 0, frame % 90]} for frame in range(100000)]
         self.write("film.json", film(frames=1000000, actors=[{"name": "robot", "model": "arm", "keys": turns}]))
+
+    def test_films_of_very_many_keys_and_frames(self):
+        self.write_very_many_keys()
         self.assertEqual(len(self.succeed("mars", "animate", "film.json", "list").splitlines()), 100003)
-        if shutil.which("gnuplot"):
-            self.succeed("mars", "plot", "film.json", "-o", "a.svg")
+
+    @needs("gnuplot")
+    def test_plot_of_very_many_keys_and_frames(self):
+        self.write_very_many_keys()
+        self.succeed("mars", "plot", "film.json", "-o", "a.svg")
 
     def test_examples_are_sound(self):
         for name in ["robot-arm", "teapot", "demo"]:
             ended = self.mars("animate", EXAMPLES / f"{name}.json", "check")
             self.assertEqual(ended.returncode, 0, ended.stdout)
 
-    @unittest.skipUnless(shutil.which("gnuplot"), "there is no gnuplot")
+    @needs("gnuplot")
     def test_the_page_about_it_holds_what_it_says(self):
         page = (SOURCES / "docs/animating.md").read_text()
         blocks = re.findall(r"^```(\w+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
@@ -204,7 +208,7 @@ class Animate(ProgramTest):
             told = ended.stdout
         self.assertTrue((self.folder / "lamp.png").exists())
 
-    @unittest.skipUnless(shutil.which("gnuplot"), "there is no gnuplot")
+    @needs("gnuplot")
     def test_plot(self):
         self.changed("pose", "robot", "elbow.y=90", "shoulder.x=20", "--frame", 12)
         self.succeed("mars", "plot", "film.json", "-o", "a.png")

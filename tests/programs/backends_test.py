@@ -1,6 +1,6 @@
 """The same film gives the same pixels with any backend, number of nodes, starter and division of work."""
 
-from harness import BACKENDS, EXAMPLES, OWN_MPIRUN, PROGRAMS, ProgramTest, main, needs_mpi
+from harness import EXAMPLES, OWN_MPIRUN, PROGRAMS, ProgramTest, main, needs_mpi
 
 FILM = EXAMPLES / "robot-arm.json"
 FEW = ["--frames", "0,5-8,30", "--size", "192x108"]
@@ -21,7 +21,7 @@ class Backends(ProgramTest):
         return self.hashes["hash"]
 
     def test_any_number_of_nodes(self):
-        for backend in BACKENDS:
+        for backend in self.backends():
             for nodes in [1, 2, 3, 5, 8]:
                 with self.subTest(backend=backend, nodes=nodes):
                     self.assertEqual(self.hash_of("--backend", backend, "--nodes", nodes), self.expected())

@@ -5,7 +5,7 @@ import shutil
 import signal
 import time
 
-from harness import BACKENDS, MPICH, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
+from harness import MPICH, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
 
 SOON = 15  # seconds; two in practice
 
@@ -28,7 +28,7 @@ class Endings(ProgramTest):
         self.assertNothingTorn(self.folder / "out")
 
     def test_stopped(self):
-        for backend in BACKENDS:
+        for backend in self.backends():
             for sent, says in [(signal.SIGINT, "stopped by Interrupt"),
                                (signal.SIGTERM, "stopped by Terminated"),
                                (signal.SIGHUP, "stopped by Hangup")]:
@@ -62,7 +62,7 @@ class Endings(ProgramTest):
         self.assertEndsClearly("mars-threads was killed by signal 9")
 
     def test_killed_mars(self):
-        for backend in BACKENDS:
+        for backend in self.backends():
             with self.subTest(backend=backend):
                 self.start(backend)
                 self.process.kill()

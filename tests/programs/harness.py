@@ -15,12 +15,14 @@ import time
 import unittest
 import zlib
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from cases import main  # noqa: E402,F401
+
 PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
 SOURCES = pathlib.Path(sys.argv[2]).resolve()
 EXAMPLES = SOURCES / "examples"
 HAVE_MPI = (PROGRAMS / "mars-host").exists()
 MPICH = HAVE_MPI and b"libmpich" in (PROGRAMS / "mars-host").read_bytes()
-BACKENDS = ["threads"] + ["mpi"] * HAVE_MPI
 SECONDS = 60  # for any one program
 
 # For a person's own mpirun line: the tests may run as root, with more ranks than cores.
@@ -29,6 +31,11 @@ ENVIRONMENT = dict(
     os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0")
 
 needs_mpi = unittest.skipUnless(HAVE_MPI, "built without MPI")
+
+
+def needs(*tools):
+    missing = [tool for tool in tools if not shutil.which(tool)]
+    return unittest.skipIf(missing, f"not installed: {', '.join(missing)}")
 
 
 def spinning_teapot(frames, size):
@@ -100,6 +107,17 @@ class ProgramTest(unittest.TestCase):
         path.write_text(content if isinstance(content, str) else json.dumps(content))
         return path
 
+    def over_mpi(self, *values):
+        """`values`; where MPI was not built none, and a subtest that is skipped says so."""
+        if HAVE_MPI:
+            return values
+        with self.subTest(over="mpi"):
+            self.skipTest("built without MPI")
+        return ()
+
+    def backends(self):
+        return ["threads", *self.over_mpi("mpi")]
+
     def run_program(self, *words, **more):
         words = [str(word) for word in words]
         words[0] = str(PROGRAMS / words[0]) if (PROGRAMS / words[0]).exists() else words[0]
@@ -159,7 +177,3 @@ class ProgramTest(unittest.TestCase):
         process.communicate()
         for each in living(left):
             os.kill(each, signal.SIGKILL)
-
-
-def main():
-    unittest.main(argv=[sys.argv[0]], verbosity=2)

@@ -2,13 +2,11 @@
 pkg-config and CMake find the library."""
 
 import shutil
-import unittest
 
 import harness
 from harness import main
 from nx_installation import NxInstallation
 
-FORTRAN = shutil.which("gfortran")
 
 PROJECT = """cmake_minimum_required(VERSION 3.16)
 project(calls LANGUAGES C Fortran)
@@ -19,12 +17,12 @@ target_link_libraries(calls PRIVATE mars-nx::nx-fortran)
 """
 
 
-@unittest.skipUnless(FORTRAN, "there is no gfortran")
+@harness.needs("gfortran")
 class Fortran(NxInstallation):
     def compile(self, source, program):
         flags = self.succeed("pkg-config", "--cflags", "--libs", "mars-nx-fortran", env=self.nx_environment()).split()
         # Buffers are of any type: that is what the language's old standards allow.
-        self.succeed(FORTRAN, "-std=legacy", "-w", source, "-o", program, *flags)
+        self.succeed("gfortran", "-std=legacy", "-w", source, "-o", program, *flags)
 
     def run_well(self, *words):
         done = self.run_nx(*words)
@@ -51,9 +49,7 @@ class Fortran(NxInstallation):
 
     def test_cmake_package(self):
         shutil.copy(harness.SOURCES / "tests/programs/fortran_calls.f", self.folder)
-        self.write("CMakeLists.txt", PROJECT)
-        self.succeed("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
-        self.succeed("cmake", "--build", "build")
+        self.build_by_cmake(PROJECT)
         self.assertEqual(self.run_well("--nodes", 2, "build/calls"), "calls:  2 nodes,   0 wrong\n")
 
 

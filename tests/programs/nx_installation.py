@@ -40,6 +40,14 @@ class NxInstallation(ProgramTest):
         self.write(f"{program}.c", source)
         self.succeed("cc", *options, f"{program}.c", "-o", program, *self.flags("--cflags", "--libs"))
 
+    def build_by_cmake(self, project):
+        """With the generator that MARS was built with: no other need be installed."""
+        cache = (harness.PROGRAMS.parent / "CMakeCache.txt").read_text()
+        self.write("CMakeLists.txt", project)
+        self.succeed("cmake", "-G", re.search(r"^CMAKE_GENERATOR:INTERNAL=(.*)$", cache, re.M)[1], "-S", ".", "-B", "build",
+                     f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.succeed("cmake", "--build", "build")
+
     def run_nx(self, *words):
         return self.run_program(self.prefix / "bin/mars-nx", "run", *words, env=self.nx_environment())
 

@@ -82,9 +82,7 @@ class Library(NxInstallation):
 
     def test_cmake_package(self):
         self.write("rank.c", RANK)
-        self.write("CMakeLists.txt", PROJECT)
-        self.succeed("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
-        self.succeed("cmake", "--build", "build")
+        self.build_by_cmake(PROJECT)
         self.assertRuns("build/rank")
 
     @unittest.skipUnless((harness.PROGRAMS.parent / "build.ninja").exists(), "needs Ninja")

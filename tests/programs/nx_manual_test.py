@@ -4,10 +4,8 @@ lead somewhere, clean mdoc, and examples that compile."""
 import errno
 import gzip
 import re
-import shutil
-import unittest
 
-from harness import main
+from harness import main, needs
 from nx_installation import NxInstallation
 
 ANY_AGE = ["-std=c89", "-pedantic", "-Wall", "-Wextra", "-Werror"]
@@ -65,14 +63,14 @@ class Manual(NxInstallation):
             if name.endswith(".3nx"):
                 self.assertRegex(self.pages["nx.7"], rf"Xr {name.split('.')[0]} 3nx")
 
-    @unittest.skipUnless(shutil.which("mandoc"), "needs mandoc")
+    @needs("mandoc")
     def test_mandoc_finds_no_fault(self):
         for name in self.pages:
             told = self.run_program("mandoc", "-T", "lint", "-W", "warning", self.files[name]).stdout
             faults = [line for line in told.splitlines() if "unknown manual section: Dt ... 3nx" not in line]
             self.assertEqual(faults, [])
 
-    @unittest.skipUnless(shutil.which("groff"), "needs groff")
+    @needs("groff")
     def test_groff_finds_no_fault(self):
         for name, page in self.pages.items():
             self.succeed("groff", "-ww", "-mandoc", "-Tutf8", "-z", self.write(name, page))

@@ -3,11 +3,10 @@ under a person's own mpirun."""
 
 import unittest
 
-from harness import ENVIRONMENT, HAVE_MPI, OWN_MPIRUN, PROGRAMS, ProgramTest, main
+from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, ProgramTest, main
 
 NX = PROGRAMS.parent / "examples-nx"
 PROCESSES = [1, 2, 3, 4, 8]
-RANKS = [2, 4] if HAVE_MPI else []
 
 needs_fortran = unittest.skipUnless((NX / "fortran_pi").exists(), "built without a Fortran compiler")
 
@@ -24,7 +23,7 @@ class NxProgramsTest(ProgramTest):
             with self.subTest(programs=programs, nodes=nodes):
                 self.assertEqual(self.succeed("mars-nx", "run", "--nodes", nodes, *words), says(nodes))
         host = ["-n", 1, words[0], ":"] if len(words) == 2 else []
-        for nodes in RANKS:
+        for nodes in self.over_mpi(2, 4):
             with self.subTest(programs=programs, ranks=nodes):
                 self.assertEqual(self.succeed(*OWN_MPIRUN, *host, "-n", nodes, words[-1]), says(nodes))
 

@@ -11,10 +11,9 @@ import time
 import unittest
 
 import harness
-from harness import ENVIRONMENT, HAVE_MPI, OWN_MPIRUN, PROGRAMS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
+from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
 
 LIBRARY = PROGRAMS.parent / "hal"
-OVER = ["processes"] + ["mpi"] * HAVE_MPI
 MARS_NX = PROGRAMS / "mars-nx"
 
 # What a node does is the last argument.
@@ -218,6 +217,9 @@ class NxRun(ProgramTest):
     def run_nx(self, *words, **more):
         return self.run_program("mars-nx", "run", *words, **more)
 
+    def transports(self):
+        return ["processes", *self.over_mpi("mpi")]
+
     def well(self, *words, over="processes", **more):
         done = self.run_nx("--over", over, *words, **more)
         self.assertEqual((done.returncode, done.stderr), (0, ""), f"{words}\n{done.stdout}")
@@ -252,14 +254,14 @@ class NxRun(ProgramTest):
 
 class Starts(NxRun):
     def test_nodes_alone(self):
-        for over in OVER:
+        for over in self.transports():
             for count in [1, 2, 5]:
                 told = self.well("--nodes", count, "./node", over=over)
                 expected = {f"{i} of {count} has word of {(i - 1) % count}, call 1" for i in range(count)}
                 self.assertEqual(set(told.splitlines()), expected)
 
     def test_host_and_nodes(self):
-        for over in OVER:
+        for over in self.transports():
             for count in [1, 3, 8]:
                 told = self.well("--nodes", count, "./host", "./node", "sum", "square", over=over)
                 self.assertEqual(told, f"sum {sum(i * i for i in range(count))}\n")
@@ -298,17 +300,17 @@ class Starts(NxRun):
             self.assertEqual((done.returncode, "MPI takes calls of one thread only" in done.stderr), (code, code == 1))
 
     def test_no_call_at_all(self):
-        for over in OVER:
+        for over in self.transports():
             self.assertEqual(self.well("--nodes", 3, "./nothing", over=over), "")
         self.assertEqual(self.well("--nodes", 3, "./nothing", "./nothing"), "")
 
     def test_a_child_that_ends_before_any_call(self):
-        for over in OVER:
+        for over in self.transports():
             self.assertEqual(self.well("--nodes", 2, "./fork", over=over), "")
             (self.folder / "forked").rmdir()
 
     def test_input(self):
-        for over in OVER:
+        for over in self.transports():
             self.assertEqual(self.well("--nodes", 2, "./host", "./node", "read", "to-host", over=over, input="a line\n"), "read a line\n")
         self.assertEqual(set(self.well("--nodes", 2, "./node", "--", "read", input="a line\n").split("read ")), {"", "a line\n"} )
 
@@ -320,16 +322,16 @@ class Starts(NxRun):
 
 class Cubes(NxRun):
     def test_the_host_gets_a_cube_and_loads(self):
-        for over in OVER:
+        for over in self.transports():
             told = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
             self.assertEqual(told, "1 cube mine of 2, host 2, me 2\nsum 1\n")
 
     def test_a_node_that_is_not_loaded_never_begins(self):
-        for over in OVER:
+        for over in self.transports():
             self.assertEqual(self.well("--nodes", 3, "./host", "./node", "two", "square", over=over), "two 1\n")
 
     def test_the_host_has_a_pid_of_its_own(self):
-        for over in OVER:
+        for over in self.transports():
             self.assertEqual(self.well("--nodes", 2, "./host", "./node", "pid", "to-pid", over=over), "0 100 -1\n")
 
     def test_loads_without_a_program_of_the_command_line(self):
@@ -350,7 +352,7 @@ class Cubes(NxRun):
         self.well("--nodes", 2, "--host", "./host", "--", "busy")
 
     def test_ends_are_told(self):
-        for over in OVER:
+        for over in self.transports():
             done = self.run_nx("--over", over, "--nodes", 3, "./host", "./node", "ends", "code")
             self.assertEqual(sorted(done.stdout.splitlines()), [f"node {i} pid 0 code {i + 3}" for i in range(3)], done.stderr)
             self.assertNotEqual(done.returncode, 0)
@@ -364,7 +366,7 @@ class Cubes(NxRun):
         self.assertEqual(done.returncode, 139)
 
     def test_killcube(self):
-        for over in OVER:
+        for over in self.transports():
             done = self.run_nx("--over", over, "--nodes", 3, "./host", "./loop", "kill")
             self.assertEqual(done.returncode, 3, done.stderr)
 
@@ -385,7 +387,7 @@ class Cubes(NxRun):
 
 class Ends(NxRun):
     def test_the_host_ends_first(self):
-        for over in OVER:
+        for over in self.transports():
             self.assertEqual(self.well("--nodes", 2, "./host", "./node", "late", over=over), "late\n" * 2)
 
     def test_to_a_node_that_has_ended(self):
@@ -406,7 +408,7 @@ class Ends(NxRun):
         self.badly(4, "node 2 ended without leaving its job, with exit code 4", "--nodes", 4, "./node", "--", "leave")
 
     def test_nothing_can_come_any_more(self):
-        for over in OVER:
+        for over in self.transports():
             done = self.run_nx("--over", over, "--nodes", 3, "./node", "--", "give-up")
             self.assertIn("every process waits for a message, and none is on its way; node 1 has ended with exit code 7", done.stderr)
             self.assertNotEqual(done.returncode, 0)
@@ -415,21 +417,21 @@ class Ends(NxRun):
         self.badly(1, "every process waits for a message", "--nodes", 2, "./host", "./loop", "ends")
 
     def test_a_call_fails(self):
-        for over in OVER:
+        for over in self.transports():
             done = self.run_nx("--over", over, "--nodes", 3, "./node", "--", "fail")
             self.assertIn("node 0, csend: there is no node 99", done.stderr)
             self.assertNotEqual(done.returncode, 0)
         self.badly(1, "node 0, csend: there is no node 99", "--nodes", 3, "./node", "--", "fail")
 
     def test_a_global_operation_fails(self):
-        for over in OVER:
+        for over in self.transports():
             told = sorted(self.run_nx("--over", over, "--nodes", 3, "./node", "--", "sum").stderr.splitlines())
             for node, says in enumerate(["another node's gdsum failed (", "length -1 is negative (", "another node's gdsum failed ("]):
                 self.assertIn(f"told: node {node}, gdsum: {says}", told[node])
 
     def test_a_message_to_a_host_that_is_not_there(self):
         says = "node 0, csend: there is no node 1 (nodes are 0 to 0, and this job has no host"
-        for over in OVER:
+        for over in self.transports():
             self.assertIn(says, self.run_nx("--over", over, "--nodes", 1, "./node", "--", "to-host").stderr)
             self.assertEqual(self.well("--nodes", 3, "./node", "--", "to-nobody", over=over), "-1 1\n" * 3)
         done = self.run_program(self.folder / "node", "to-host")

@@ -7,7 +7,7 @@ import struct
 import subprocess
 import termios
 
-from harness import BACKENDS, ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, main, spinning_teapot
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, main, spinning_teapot
 
 TEAPOT = EXAMPLES / "teapot.json"
 
@@ -18,7 +18,7 @@ class Output(ProgramTest):
 
     def test_the_line_shown_can_be_pasted(self):
         film = self.write("it's a film.json", TEAPOT.read_text())
-        for backend in BACKENDS:
+        for backend in self.backends():
             told = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2)
             expected = self.verified_hash("a b")
             (self.folder / "a b/frame-0000.png").unlink()

@@ -8,22 +8,20 @@ import pty
 import re
 import resource
 import select
-import shutil
 import signal
 import struct
 import subprocess
 import termios
 import time
-import unittest
 import zlib
 
 import harness
-from harness import EXAMPLES, ENVIRONMENT, SECONDS, ProgramTest, intact, main
+from harness import EXAMPLES, ENVIRONMENT, SECONDS, ProgramTest, intact, main, needs
 
 HUMAN = EXAMPLES / "models/human.json"
 ARM = EXAMPLES / "robot-arm.json"
 ENTER, LEAVE = b"\x1b[?1049h", b"\x1b[?1049l"
-needs_ffmpeg = unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "no ffmpeg here")
+needs_ffmpeg = needs("ffmpeg", "ffprobe")
 
 
 def size_of(png):

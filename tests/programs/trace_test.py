@@ -4,7 +4,7 @@ import json
 import subprocess
 import unittest
 
-from harness import (BACKENDS, ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, main, needs_mpi,
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, main, needs_mpi,
                      spinning_teapot)
 
 ARM = EXAMPLES / "robot-arm.json"
@@ -20,7 +20,7 @@ class Traces(ProgramTest):
         return json.loads((self.folder / "trace.json").read_text())
 
     def test_every_rank_is_there(self):
-        for backend in BACKENDS:
+        for backend in self.backends():
             with self.subTest(backend=backend):
                 self.succeed("mars", "render", ARM, "-o", "out", "--size", "64x36", "--frames", "0-9", "--nodes", 2,
                              "--backend", backend, "--trace", "trace.json", "--report", "report.json")
@@ -46,7 +46,7 @@ class Traces(ProgramTest):
         """A node whose memory is too short for one line of a large picture says so when it has diced."""
         film = json.loads((EXAMPLES / "s2.json").read_text())
         fine = self.write("fine.json", {**film, "dice": 64})
-        for backend in BACKENDS:
+        for backend in self.backends():
             with self.subTest(backend=backend):
                 self.fail_clearly(1, "render", fine, "--sink", "none", "--size", "7680x4320", "--nodes", 2,
                                   "--backend", backend, "--trace", "trace.json", says="set MARS_MEMORY to more",

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "tests/hal/machines_backend.h"
+#include "tests/node/kernel_sets.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 
@@ -88,11 +89,11 @@ TEST_P(Identity, AnyBlockSize) {
 }
 
 TEST_P(Identity, AnyInstructionSet) {
-  for (const char* simd : {"sse2", "sse4", "avx2", "avx512"}) {
+  for (const node::Kernels* kernels : all_kernels()) {
     RunOptions options;
     options.nodes = 2;
-    options.simd = simd;
-    expect_as_from_scratch(options, simd);
+    options.simd = kernels->name;
+    expect_as_from_scratch(options, kernels->name);
   }
 }
 
