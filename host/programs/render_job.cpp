@@ -113,6 +113,7 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
   farm.mapping = options.mapping;
   farm.coherence = !options.no_coherence;
   farm.cubes = options.cubes;
+  farm.each_frame = !options.report.empty();
   farm.frames = options.frames.of_film(settings.frames);
   farm.trace = trace;
 
