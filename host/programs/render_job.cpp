@@ -137,11 +137,8 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
 // Why the run ends; of a node's failure also the command that shows it again, with one frame where it is
 // known.
 Fault fault_of(const std::exception& reason, RenderOptions options, const char* backend) {
-  Fault fault;
-  const auto* failure = dynamic_cast<const Failure*>(&reason);
-  fault.problem = failure ? failure->problem : reason_of(reason);
-  if (failure) fault.where = failure->where;
-  if (failure) fault.remedy = failure->remedy;
+  const Failure failure = explain(reason);
+  Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
   const auto* at_node = dynamic_cast<const NodeFailure*>(&reason);
   if (at_node == nullptr) return fault;
   fault.node = at_node->node;
@@ -164,7 +161,7 @@ void run_render_job(const RenderOptions& options, const char* backend) {
   } catch (const std::exception& reason) {
     tell(fault_of(reason, options, backend));
     if (trace && trace->begun()) {
-      trace->fail(reason.what(), dclock());
+      trace->fail(reason_of(reason), dclock());
       write_trace(options.trace, {options.film, backend}, *trace);
     }
     throw;
