@@ -77,13 +77,6 @@ std::optional<Space> writable_space(const std::string& folder) {
   return space(folder);
 }
 
-// As Open MPI looks for it.
-std::string temporary_folder(const Environment& environment) {
-  for (const char* name : {"TMPDIR", "TEMP", "TMP"})
-    if (const auto value = environment.value(name)) return *value;
-  return "/tmp";
-}
-
 std::uint32_t number(const std::optional<std::string>& text, std::uint32_t otherwise) {
   std::uint32_t value = otherwise;
   if (text) std::from_chars(text->data(), text->data() + text->size(), value);

@@ -10,6 +10,7 @@
 #include "host/launch/command.h"
 #include "host/launch/display.h"
 #include "host/launch/environment.h"
+#include "host/launch/session_folders.h"
 #include "host/sinks/frame_folder.h"
 #include "topology/machine.h"
 
@@ -43,7 +44,9 @@ class Run {
     remains_.program = command.words.front();
     const Clock::time_point deadline = started_ + patience;
     bool told = false;
-    Child child(command);
+    Command started = command;
+    const SessionFolders folders(started);
+    Child child(started);
     remains_.ending = child.wait({[this](const std::string& line) { take_output(line); },
                                   [this](const std::string& line) { take_error(line); },
                                   [&] {
