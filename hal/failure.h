@@ -20,7 +20,8 @@ class Failure : public std::runtime_error {
   std::string remedy;
 };
 
-// What to tell of any failure; running out of memory says of itself neither what nor what to do.
+// What to tell of any failure: what the libraries throw says of itself neither what nor what to do.
+Failure explain(const std::exception& reason);
 std::string reason_of(const std::exception& failure);
 
 // Throws std::logic_error naming the caller's file and line unless `holds`.

@@ -88,13 +88,6 @@ std::uint64_t open_files_limit() {
   return getrlimit(RLIMIT_NOFILE, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
 }
 
-// As Open MPI looks for it.
-std::string temporary_folder(const Environment& environment) {
-  for (const char* name : {"TMPDIR", "TEMP", "TMP"})
-    if (const auto value = environment.value(name)) return *value;
-  return "/tmp";
-}
-
 std::uint32_t number(const std::optional<std::string>& text, std::uint32_t otherwise) {
   std::uint32_t value = otherwise;
   if (text) std::from_chars(text->data(), text->data() + text->size(), value);

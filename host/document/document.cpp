@@ -1,6 +1,7 @@
 #include "host/document/document.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -38,19 +39,35 @@ struct Reader {
   bool operator!=(const Reader& other) const { return at != other.at; }
 };
 
-// The parser's message without its own name and position, which where() tells better.
-std::string short_message(std::string message) {
-  for (const std::string_view lead : {"] ", ": ", "syntax error while parsing "})
-    if (const auto at = message.find(lead); at != std::string::npos && at < 80)
-      message.erase(0, at + lead.size());
-  if (message.size() > 160) message = message.substr(0, 160) + " ...";
-  return message;
-}
+// What is not JSON, by words of the parser's message, which are not for people. The first that fits counts.
+struct Mistake {
+  std::string_view words;
+  const char* problem;
+  const char* remedy;
+};
 
-std::string remedy_for(const std::string& token, const std::string& message) {
-  if (token.find('/') != std::string::npos) return "JSON has no comments: take them out";
-  if (message.find("end of input") != std::string::npos) return "the file may be cut short";
-  return "write plain JSON: keys and texts in double quotes, no trailing commas, no NaN";
+constexpr const char* kCutShort = "the file may be cut short";
+constexpr const char* kEscapes = "after a backslash write one of \" \\ / b f n r t, or u and four hexadecimal digits";
+constexpr std::array kMistakes = {
+    Mistake{"expected end of input", "it goes on after its end", "take out what follows the last bracket"},
+    Mistake{"end of input", "it ends before all lists and objects are closed", kCutShort},
+    Mistake{"missing closing quote", "it ends within a text", kCutShort},
+    Mistake{"UTF-8", "a text is not UTF-8", "save the file as UTF-8"},
+    Mistake{"control character", "a text holds the end of a line, or another control character",
+          "end each text in the line where it begins"},
+    Mistake{"surrogate", "a text holds half a character", kEscapes},
+    Mistake{"backslash", "a text holds a wrong escape", kEscapes},
+    Mistake{"'\\u'", "a text holds a wrong escape", kEscapes},
+    Mistake{"number overflow", "a number is too large", "write one below 1.8e308"},
+    Mistake{"invalid number", "a number is not complete", "write numbers like -1, 0.5 or 2e-3"},
+};
+
+// The problem and the remedy.
+std::pair<std::string, const char*> complaint(const std::string& token, std::string_view message) {
+  for (const Mistake& mistake : kMistakes)
+    if (message.find(mistake.words) != message.npos) return {std::string("is not JSON: ") + mistake.problem, mistake.remedy};
+  if (token.find('/') != token.npos) return {"is not JSON", "JSON has no comments: take them out"};
+  return {"is not JSON", "write plain JSON: keys and texts in double quotes, no trailing commas, no NaN"};
 }
 
 }  // namespace
@@ -90,7 +107,8 @@ class Builder {
     return close(), true;
   }
   bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) {
-    fail("is not JSON: " + short_message(error.what()), remedy_for(token, error.what()));
+    const auto [problem, remedy] = complaint(token, error.what());
+    fail(problem, remedy);
   }
 
  private:

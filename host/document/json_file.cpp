@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "hal/failure.h"
 #include "host/document/file.h"
 #include "host/document/whole_file.h"
 
@@ -74,10 +75,12 @@ Json read_json(const std::filesystem::path& path) {
   return Json::parse(text);
 }
 
-std::string laid_out(const Json& json) {
+std::string laid_out(const Json& json) try {
   std::string text;
   lay_out(json, 0, 0, text);
   return text + "\n";
+} catch (const Json::type_error&) {
+  throw Failure("a name that was given is not UTF-8", "", "type it in a terminal that writes UTF-8");
 }
 
 void write_json(const std::filesystem::path& path, const Json& json,

@@ -101,6 +101,7 @@ class Farm {
   FarmReport& report_;
   Tracing& tracing_;
 
+  bool each_frame_;
   std::vector<Unit> units_;
   std::size_t next_unit_ = 0;
   std::vector<Work> work_;
@@ -120,6 +121,7 @@ Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sin
       listener_(listener),
       report_(report),
       tracing_(tracing),
+      each_frame_(options.each_frame),
       units_(make_units(film, options.frames, options.coherence)),
       frames_left_(options.frames.size()),
       start_(dclock()) {
@@ -192,7 +194,7 @@ void Farm::receive_strip() {
   StripMessage strip(std::move(bytes));
   const node::Strip header = strip.header();
   span.set_value(header.frame);
-  if (header.last == 1) report_.strips.push_back(header);
+  if (each_frame_ && header.last == 1) report_.strips.push_back(header);
   assembly_of(header).receive(std::move(strip));
   // A frame's credit is held until the sinks have it; that of its earlier strips is not.
   const node::Credit credit{1};
@@ -239,7 +241,7 @@ bool Farm::compose_one() {
 
 void Farm::submit(const Assembly::Pasted& frame, std::uint32_t interval, double given) {
   const FinishedFrame finished{frame.number, interval, frame.kind, dclock() - start_, given};
-  report_.frames.push_back(finished);
+  if (each_frame_) report_.frames.push_back(finished);
   with_sinks_[frame.number] = {finished, frame.nodes};
   sinks_.submit(frame.whole);
   --frames_left_;

@@ -33,6 +33,7 @@ struct FarmOptions {
   std::uint32_t cubes = 0;            // that work at a time; 0: as many as pay
   std::vector<std::uint32_t> frames;  // ascending, within the film, at least one
   std::uint64_t memory = 0;           // bytes for a frame on a node; 0: as the node with the least offers
+  bool each_frame = false;            // report what is known of each frame, which grows with the film
   Trace* trace = nullptr;             // to be filled; none: nothing is recorded
 };
 
@@ -56,7 +57,8 @@ struct FarmListener {
 
 struct FarmReport {
   std::vector<node::Hello> nodes;
-  std::vector<node::Strip> strips;  // the last of each node for each frame, with all its counts, as they came
+  // Where each frame's were asked for: the last strip of each node, with all its counts, as they came.
+  std::vector<node::Strip> strips;
   std::vector<FinishedFrame> frames;
   std::uint64_t film_bytes = 0;
   double load_seconds = 0;    // from the last node's Hello until all have the film

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fstream>
 #include <span>
@@ -24,6 +25,8 @@ namespace mars::host {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kLoopback = "mars-loopback.so";
 
 bool plain(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) ||
@@ -86,11 +89,34 @@ std::vector<std::string> settings_in_use() {
   return names;
 }
 
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+// Those that a person did not set.
+void add_settings(Command& command, const Variables& settings, const Surroundings& surroundings) {
+  for (const auto& setting : settings)
+    if (!surroundings.environment.value(setting.first)) command.environment.push_back(setting);
+}
+
 // Open MPI notices a host that is gone, without a word, by its silence: left alone after eight minutes.
-void add_keepalive(Command& command) {
-  command.environment.insert(command.environment.end(), {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
-                                                         {"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
-                                                         {"OMPI_MCA_oob_tcp_keepalive_probes", "3"}});
+const Variables kKeepalive = {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
+                              {"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
+                              {"OMPI_MCA_oob_tcp_keepalive_probes", "3"}};
+
+// What makes mpirun look for other machines, beside a hostfile of ours and Slurm.
+constexpr std::array kOtherMachines = {"PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS", "LSB_DJOB_HOSTFILE", "LSB_MCPU_HOSTS",
+                                       "OMPI_MCA_orte_default_hostfile", "HYDRA_HOST_FILE"};
+
+bool on_this_machine_alone(const RenderOptions& options, const Surroundings& surroundings) {
+  return options.hostfile.empty() && surroundings.tasks == 0 &&
+         std::none_of(kOtherMachines.begin(), kOtherMachines.end(),
+                      [&](const char* name) { return surroundings.environment.value(name).has_value(); });
+}
+
+// Nobody outside of this machine can connect to the job. The loader separates names by blanks and colons.
+void add_loopback(Command& command, const Programs& programs, const Surroundings& surroundings) {
+  if (!programs.loopback || programs.loopback->string().find_first_of(" :") != std::string::npos) return;
+  const auto others = surroundings.environment.value("LD_PRELOAD");
+  command.environment.emplace_back("LD_PRELOAD", programs.loopback->string() + (others ? ":" + *others : ""));
 }
 
 void add_arguments(Command& command, Program program, const RenderOptions& options) {
@@ -120,6 +146,15 @@ std::optional<fs::path> find_mpirun(Mpi mpi, const std::string& path) {
   return mpi == Mpi::mpich ? find_first(kMpich, path) : find_first(kOpenMpi, path);
 }
 
+std::optional<fs::path> find_loopback(const fs::path& self) {
+  const fs::path beside = self.parent_path();
+  const fs::path libexec = beside.parent_path() / "libexec";
+  std::error_code ignored;
+  for (const fs::path& folder : {beside, libexec / "mars", libexec / "mars-nx"})
+    if (fs::is_regular_file(folder / kLoopback, ignored)) return folder / kLoopback;
+  return std::nullopt;
+}
+
 std::string shell_text(const Command& command) {
   std::string text;
   for (const auto& [name, value] : command.environment) text += name + "=" + quoted(value) + " ";
@@ -129,8 +164,8 @@ std::string shell_text(const Command& command) {
 }
 
 Programs find_programs(const fs::path& self, const std::string& path) {
-  return {find_mpirun(our_mpi(), path), find_ours("mars-host", self, path),
-          find_ours("mars-node", self, path), find_ours("mars-threads", self, path)};
+  return {find_mpirun(our_mpi(), path), find_ours("mars-host", self, path), find_ours("mars-node", self, path),
+          find_ours("mars-threads", self, path), our_mpi(), find_loopback(self)};
 }
 
 Surroundings look_around(const std::string& path) {
@@ -143,7 +178,8 @@ Surroundings look_around(const std::string& path) {
           geteuid() == 0,
           !may_copy(),
           !remote_shell,
-          settings_in_use()};
+          settings_in_use(),
+          own_environment()};
 }
 
 std::uint32_t task_count(const std::string& tasks_per_node) {
@@ -231,8 +267,12 @@ Backend choose_backend(Backend asked, const Programs& programs) {
 namespace {
 
 // Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
-Command mpich_start(const RenderOptions& options, const Programs& programs) {
+Command mpich_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
   Command command{{}, {programs.mpirun->string(), "-bind-to", "none"}};
+  if (on_this_machine_alone(options, surroundings)) {
+    add_settings(command, {{"UCX_TLS", "sm,self"}}, surroundings);
+    add_loopback(command, programs, surroundings);
+  }
   if (options.hostfile.empty()) return command;
   std::string hosts;
   for (const Slots& slots : read_hostfile(options.hostfile))
@@ -243,25 +283,27 @@ Command mpich_start(const RenderOptions& options, const Programs& programs) {
 
 Command open_mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
   Command command;
+  const auto add = [&](const Variables& settings) { add_settings(command, settings, surroundings); };
   // As root Open MPI wants to be told twice; as the only user of a container there is nobody else to be.
   if (surroundings.root) {
     command.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
   }
-  if (surroundings.copies_forbidden) {
-    command.environment.emplace_back("OMPI_MCA_btl_vader_single_copy_mechanism", "none");
-  }
+  if (surroundings.copies_forbidden) add({{"OMPI_MCA_btl_vader_single_copy_mechanism", "none"}});
   // It looks for one even where all ranks are on this machine, and gives up without.
-  if (surroundings.no_remote_shell) command.environment.emplace_back("OMPI_MCA_plm", "^rsh");
-  const bool several = !options.hostfile.empty() || surroundings.tasks != 0;
-  if (several) {
-    add_keepalive(command);
-  } else {
+  if (surroundings.no_remote_shell) add({{"OMPI_MCA_plm", "^rsh"}});
+  if (on_this_machine_alone(options, surroundings)) {
     // Its other ways of keeping start-up data warn where several jobs or users share a machine. Over several
     // machines this one hangs when it starts two programs from outside of the allocation.
-    command.environment.emplace_back("PMIX_MCA_gds", "hash");
+    add({{"PMIX_MCA_gds", "hash"}});
+    // Ranks open no sockets; and no machines that an administrator named by default.
+    add({{"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self,vader"}, {"OMPI_MCA_orte_default_hostfile", "none"}});
+    add_loopback(command, programs, surroundings);
+    command.session_folders = true;
+  } else {
+    add(kKeepalive);
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
-  if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", options.hostfile});
+  if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", word_of_file(options.hostfile)});
   const std::uint32_t room = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
   // A hostfile tells its own slots; what is more than these goes round over its hosts.
   if (!options.hostfile.empty() || options.nodes + 1 > room) command.words.emplace_back("--oversubscribe");
@@ -273,7 +315,8 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
 }  // namespace
 
 Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
-  return programs.mpi == Mpi::mpich ? mpich_start(options, programs) : open_mpi_start(options, programs, surroundings);
+  return programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
+                                      : open_mpi_start(options, programs, surroundings);
 }
 
 Command mpi_command(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/launch/environment.h"
 #include "host/options/render_options.h"
 
 namespace mars::host {
@@ -16,6 +17,7 @@ namespace mars::host {
 struct Command {
   std::vector<std::pair<std::string, std::string>> environment;
   std::vector<std::string> words;  // the first is the program
+  bool session_folders = false;    // it starts Open MPI on this machine alone: SessionFolders
 
   bool operator==(const Command&) const = default;
 };
@@ -44,10 +46,14 @@ struct Programs {
   std::optional<std::filesystem::path> node;
   std::optional<std::filesystem::path> threads;
   Mpi mpi = our_mpi();
+  std::optional<std::filesystem::path> loopback;  // loopback.cpp, for mpirun to load
 };
 
 // The first mpirun in `path`; a folder that has those of several MPIs tells them apart by their names.
 std::optional<std::filesystem::path> find_mpirun(Mpi mpi, const std::string& path);
+
+// Beside `self`, or in ../libexec/mars or ../libexec/mars-nx from there.
+std::optional<std::filesystem::path> find_loopback(const std::filesystem::path& self);
 
 // Looks for our own beside `self`, then in ../libexec from there, then in `path`.
 Programs find_programs(const std::filesystem::path& self, const std::string& path);
@@ -61,6 +67,7 @@ struct Surroundings {
   bool copies_forbidden = false;      // processes may not read each other's memory, as in some containers
   bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
   std::vector<std::string> settings;  // MARS_* variables that are set, for nodes on other machines
+  Environment environment{{}};        // what it sets of MPI's settings counts
 };
 
 // `path` as for find_programs.

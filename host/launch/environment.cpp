@@ -33,4 +33,10 @@ Environment own_environment() {
   return Environment(std::move(lines));
 }
 
+std::string temporary_folder(const Environment& environment) {
+  for (const char* name : {"TMPDIR", "TEMP", "TMP"})
+    if (const auto value = environment.value(name)) return *value;
+  return "/tmp";
+}
+
 }  // namespace mars::host

@@ -23,4 +23,7 @@ class Environment {
 
 Environment own_environment();
 
+// Where temporary files go, as Open MPI looks for it.
+std::string temporary_folder(const Environment& environment);
+
 }  // namespace mars::host

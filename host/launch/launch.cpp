@@ -12,6 +12,7 @@
 #include "host/launch/command.h"
 #include "host/launch/display.h"
 #include "host/launch/environment.h"
+#include "host/launch/session_folders.h"
 #include "host/sinks/frame_folder.h"
 #include "topology/machine.h"
 
@@ -73,7 +74,9 @@ class Run {
               const std::function<void()>& tick) {
     remains_.program = command.words.front();
     bool overdue = false;
-    Child child(command);
+    Command started = command;
+    const SessionFolders folders(started);
+    Child child(started);
     remains_.ending = child.wait({[this](const std::string& line) { take_output(line); },
                                   [this](const std::string& line) { take_error(line); },
                                   [&] {

@@ -82,8 +82,7 @@ requires std::is_enum_v<Enumeration> std::string text_of(Enumeration value) {
   return kWords<Enumeration>[static_cast<std::size_t>(value)];
 }
 
-// A name that begins with a dash would be taken for an option.
-std::string text_of(const std::string& name) { return name.starts_with('-') ? "./" + name : name; }
+std::string text_of(const std::string& name) { return word_of_file(name); }
 
 std::string text_of(const FrameSet& frames) { return frames.text(); }
 
@@ -225,6 +224,8 @@ void check_together(const RenderOptions& options) {
 }
 
 }  // namespace
+
+std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
 
 PictureSize read_picture_size(const std::string& text) {
   const std::size_t cross = std::min(text.find('x'), text.size());

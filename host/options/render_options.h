@@ -67,6 +67,10 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program);
 std::optional<int> read_render_options(Program program, const char* name, const char* purpose,
                                        RenderOptions& options, int argc, const char* const* argv);
 
+// A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes
+// a colon for the end of a program's arguments.
+std::string word_of_file(const std::string& name);
+
 // The arguments that make `program` read these options again, those it takes; defaults are left out.
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options);
 

@@ -17,6 +17,7 @@
 #include "hal/settings.h"
 #include "host/launch/command.h"
 #include "host/launch/environment.h"
+#include "host/launch/session_folders.h"
 #include "host/options/command_line.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
@@ -147,9 +148,13 @@ int run_mpi(RunOptions& options, const NxPrograms& programs) {
   if (programs.node.empty())
     throw Failure("MPI starts the nodes with the host, and no program is named for them", "",
                   "name it: mars-nx run --over mpi ./host ./node");
+  if (std::find(options.arguments.begin(), options.arguments.end(), ":") != options.arguments.end())
+    throw Failure("mpirun takes : for the end of a program's arguments, not for one of them", "",
+                  "leave it out, or use --over processes");
   Environment environment = own_environment();
   const std::string path = path_of(environment);
   Programs starters;
+  starters.loopback = find_loopback(fs::read_symlink("/proc/self/exe"));
   starters.mpirun = find_mpirun(starters.mpi, path);
   if (!starters.mpirun)
     throw Failure("mpirun was not found", "",
@@ -172,6 +177,8 @@ int run_mpi(RunOptions& options, const NxPrograms& programs) {
     command.words.emplace_back(":");
   }
   add(start.nodes, programs.node);
+  const SessionFolders folders(command);
+  folders.leave_to_another();
   for (const auto& [name, value] : command.environment) environment.set(name, value);
   std::vector<char*> words;
   for (std::string& word : command.words) words.push_back(word.data());

@@ -121,6 +121,7 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
   farm.mapping = options.mapping;
   farm.coherence = !options.no_coherence;
   farm.cubes = options.cubes;
+  farm.each_frame = !options.report.empty();
   farm.frames = options.frames.of_film(settings.frames);
   farm.trace = trace;
 
@@ -144,11 +145,8 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
 // Why the run ends; of a node's failure also the command that shows it again, with one frame where it is
 // known.
 Fault fault_of(const std::exception& reason, RenderOptions options, const char* backend) {
-  Fault fault;
-  const auto* failure = dynamic_cast<const Failure*>(&reason);
-  fault.problem = failure ? failure->problem : reason_of(reason);
-  if (failure) fault.where = failure->where;
-  if (failure) fault.remedy = failure->remedy;
+  const Failure failure = explain(reason);
+  Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
   const auto* at_node = dynamic_cast<const NodeFailure*>(&reason);
   if (at_node == nullptr) return fault;
   fault.node = at_node->node;
@@ -171,7 +169,7 @@ void run_render_job(const RenderOptions& options, const char* backend) {
   } catch (const std::exception& reason) {
     tell(fault_of(reason, options, backend));
     if (trace && trace->begun()) {
-      trace->fail(reason.what(), dclock());
+      trace->fail(reason_of(reason), dclock());
       write_trace(options.trace, {options.film, backend}, *trace);
     }
     throw;

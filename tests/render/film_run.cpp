@@ -51,6 +51,7 @@ FilmBlock::FilmBlock(const node::FilmData& film) {
 FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
   const node::FilmSettings settings = node::FilmView(film, "test film").settings();
   host::FarmOptions farm = options.farm;
+  farm.each_frame = true;
   if (farm.frames.empty()) {
     farm.frames.resize(settings.frames);
     std::iota(farm.frames.begin(), farm.frames.end(), 0u);

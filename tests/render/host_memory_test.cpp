@@ -1,9 +1,11 @@
 // The host's pictures are bounded: the sinks' frames, and one saved background a cube where intervals have
-// inbetweens. Counts the host thread's blocks of a picture's size.
+// inbetweens. Counts the host thread's blocks of a picture's size. And a longer film needs no more memory.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <new>
 #include <numeric>
@@ -23,10 +25,12 @@ std::array<void*, 1000> pictures;  // the host's own, of which some are freed
 std::size_t made = 0;
 std::size_t live = 0;
 std::size_t most = 0;
+std::atomic<std::int64_t> allocated{0};  // bytes that all threads have
 
 void* counted(std::size_t size) {
   void* block = std::malloc(size);
   if (block == nullptr) throw std::bad_alloc();
+  allocated += static_cast<std::int64_t>(malloc_usable_size(block));
   if (is_host && size == kPicture) {
     pictures.at(made++) = block;
     most = std::max(most, ++live);
@@ -38,6 +42,7 @@ void release(void* block) {
   void** end = pictures.data() + made;
   void** found = is_host && block != nullptr ? std::find(pictures.data(), end, block) : end;
   if (found != end) *found = nullptr, --live;
+  allocated -= static_cast<std::int64_t>(malloc_usable_size(block));
   std::free(block);
 }
 
@@ -88,6 +93,30 @@ TEST(HostMemory, NoneWhereNoIntervalHasInbetweens) {
   const node::FilmData film = crowd(kWidth, kHeight, 20, 3);
   EXPECT_LE(most_pictures(film, false, 4), kFrames);
   EXPECT_LE(most_pictures(crowd(kWidth, kHeight, 20, 1), true, 4), kFrames);
+}
+
+TEST(HostMemory, DoesNotGrowWithTheFramesDone) {
+  constexpr std::size_t kWarm = 500, kAll = 4000;
+  const FilmBlock block(crowd(16, 16, kAll, 3));
+  std::size_t done = 0;
+  std::int64_t warm = 0;
+  std::int64_t grown = 0;
+  host::FarmListener listener;
+  listener.finished = [&](const host::FinishedFrame&) {
+    if (++done == kWarm) warm = allocated;
+    if (done == kAll) grown = allocated - warm;
+  };
+  host::FarmOptions options;
+  options.frames.resize(kAll);
+  std::iota(options.frames.begin(), options.frames.end(), 0u);
+  const auto host = [&] {
+    host::NothingSink sink;
+    host::SinkPool pool(sink, {16, 16, 16, kFrames, 1});
+    host::render_film(block.bytes(), options, pool, listener);
+  };
+  hal::run_threads(1, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
+  EXPECT_EQ(done, kAll);
+  EXPECT_LT(grown, static_cast<std::int64_t>(kAll - kWarm)) << "bytes: not one a frame";
 }
 
 }  // namespace

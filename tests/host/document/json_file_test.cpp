@@ -50,6 +50,12 @@ TEST(JsonFile, WhatIsRefusedLeavesTheFileAsItWas) {
   EXPECT_EQ(content(path), "{\"a\": 1}\n");
 }
 
+TEST(JsonFile, OnlyUtf8IsWritten) {
+  const TemporaryFolder folder;
+  const auto write = [&] { write_json(folder.path() / "a.json", {{"joint\xff", 1}}, [](const Element&) {}); };
+  EXPECT_TRUE(holds(failure_of(write), "a name that was given is not UTF-8"));
+}
+
 TEST(JsonFile, ABrokenFileIsToldWithItsLine) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.json";

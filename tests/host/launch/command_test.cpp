@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/host/document/failure_of.h"
@@ -13,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Programs all_programs() {
-  return {"/usr/bin/mpirun", "/opt/mars-host", "/opt/mars-node", "/opt/mars-threads", Mpi::open_mpi};
+  return {"/usr/bin/mpirun", "/opt/mars-host", "/opt/mars-node", "/opt/mars-threads", Mpi::open_mpi,
+          "/opt/mars-loopback.so"};
 }
 
 RenderOptions film(std::uint32_t nodes) {
@@ -29,9 +31,11 @@ std::string line(std::uint32_t nodes, const Surroundings& surroundings) {
 }
 
 // A machine without a batch system.
-Surroundings alone(std::uint32_t cores) { return {cores, 2 * cores, 0, false, false, false, {}}; }
+Surroundings alone(std::uint32_t cores, std::vector<std::string> environment = {}) {
+  return {cores, 2 * cores, 0, false, false, false, {}, Environment(std::move(environment))};
+}
 
-Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}}; }
+Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}, Environment({})}; }
 
 fs::path write_hostfile(const TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "hosts") << text;
@@ -47,7 +51,8 @@ void make_program(const fs::path& file) {
 TEST(Command, OneHostAndItsNodes) {
   EXPECT_EQ(
       line(3, alone(8)),
-      "PMIX_MCA_gds=hash /usr/bin/mpirun --bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 3 "
+      "PMIX_MCA_gds=hash OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_orte_default_hostfile=none "
+      "LD_PRELOAD=/opt/mars-loopback.so /usr/bin/mpirun --bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 3 "
       "/opt/mars-node");
 }
 
@@ -64,6 +69,37 @@ TEST(Command, ABatchJobHasItsOwnRoom) {
   EXPECT_FALSE(holds(line(3, alone(8)), "keepalive"));
 }
 
+TEST(Command, OnlyOnThisMachineDoesItKeepToTheLoopbackInterface) {
+  const std::string held = "LD_PRELOAD=/opt/mars-loopback.so";
+  EXPECT_TRUE(mpi_command(film(3), all_programs(), alone(8)).session_folders);
+  for (const Surroundings& several : {batch_job(8), alone(8, {"PBS_NODEFILE=/var/nodes"})}) {
+    EXPECT_FALSE(holds(line(3, several), held));
+    EXPECT_FALSE(holds(line(3, several), "OMPI_MCA_btl="));
+    EXPECT_FALSE(mpi_command(film(3), all_programs(), several).session_folders);
+  }
+  EXPECT_TRUE(holds(line(3, alone(8, {"LD_PRELOAD=a.so"})), held + ":a.so "));
+  Programs programs = all_programs();
+  programs.loopback = "/a folder/mars-loopback.so";
+  EXPECT_FALSE(holds(shell_text(mpi_command(film(3), programs, alone(8))), "LD_PRELOAD"));
+}
+
+TEST(Command, WhatAPersonSetOfMpiCounts) {
+  const std::string text = line(3, alone(8, {"OMPI_MCA_btl=tcp,self", "PMIX_MCA_gds=ds21"}));
+  EXPECT_FALSE(holds(text, "OMPI_MCA_btl="));
+  EXPECT_FALSE(holds(text, "PMIX_MCA_gds="));
+  EXPECT_TRUE(holds(text, "OMPI_MCA_pml=ob1"));
+}
+
+TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
+  RenderOptions options = film(3);
+  options.film = options.folder = options.report = options.hostfile = ":";
+  options.trace = "-t";
+  const Command command = mpi_command(options, all_programs(), alone(8));
+  EXPECT_EQ(std::count(command.words.begin(), command.words.end(), ":"), 1) << shell_text(command);
+  EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./:"), 4) << shell_text(command);
+  EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./-t"), 1) << shell_text(command);
+}
+
 TEST(Command, AHostfileIsPassedOn) {
   RenderOptions options = film(7);
   options.hostfile = "my hosts";
@@ -77,9 +113,9 @@ TEST(Command, MpichHasWordsOfItsOwn) {
   Programs programs = all_programs();
   programs.mpi = Mpi::mpich;
   RenderOptions options = film(7);
-  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}};
+  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}, Environment({})};
   EXPECT_EQ(shell_text(mpi_command(options, programs, surroundings)),
-            "/usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 7 /opt/mars-node");
+            "UCX_TLS=sm,self LD_PRELOAD=/opt/mars-loopback.so /usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 7 /opt/mars-node");
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn4\n").string();
   EXPECT_TRUE(holds(shell_text(mpi_command(options, programs, surroundings)), "-bind-to none -hosts n1:2,n4:1 -n 1"));
 }
@@ -107,6 +143,8 @@ TEST(Command, HostfilesAreRead) {
                     "hosts:1: is no host's name: it is too long"));
   EXPECT_EQ(read_hostfile(write_hostfile(folder, "n1 " + long_name + " slots=2 #" + long_name)).at(0).count, 2u);
   EXPECT_TRUE(holds(failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
+  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, std::string(100'000, 'x'))); }),
+                    "line of 100000 bytes"));
 }
 
 TEST(Command, NodesFillWhatThereIs) {
@@ -124,7 +162,7 @@ TEST(Command, NodesFillWhatThereIs) {
 }
 
 TEST(Command, MindsRootContainersAndSettings) {
-  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}});
+  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}, Environment({})});
   EXPECT_TRUE(holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_plm=^rsh"));

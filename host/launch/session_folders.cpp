@@ -1,0 +1,117 @@
+#include "host/launch/session_folders.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "host/launch/environment.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kRandom = 6;  // letters at the name's end
+constexpr int kTries = 3;           // at a new folder that another start takes for an ended job's
+constexpr const char* kSharedMemory = "/dev/shm";
+
+// Locks may not reach from machine to machine, so each minds its own. The name is short: paths of sockets have little
+// room.
+std::string name_start() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return "mars." + std::string(host.data()).substr(0, 32) + ".";
+}
+
+// Ours alone, not through a link. The lock of a job that lives is not to be had.
+bool lock_own(int folder) {
+  struct stat found {};
+  return fstat(folder, &found) == 0 && found.st_uid == geteuid() && flock(folder, LOCK_EX | LOCK_NB) == 0 &&
+         fstat(folder, &found) == 0 && found.st_nlink > 0;
+}
+
+int open_folder(const fs::path& path, int more) { return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | more); }
+
+void remove_if_ended(const fs::path& path) {
+  const int folder = open_folder(path, O_CLOEXEC);
+  if (folder < 0) return;
+  std::error_code ignored;  // the next start tries again
+  if (lock_own(folder)) fs::remove_all(path, ignored);
+  close(folder);
+}
+
+void remove_ended_in(const fs::path& base) {
+  const std::string start = name_start();
+  std::error_code error;
+  for (fs::directory_iterator entry(base, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(start) && name.size() == start.size() + kRandom) remove_if_ended(entry->path());
+  }
+}
+
+}  // namespace
+
+SessionFolders::SessionFolders(Command& command) {
+  const Environment environment = own_environment();
+  const fs::path temporary = fs::absolute(temporary_folder(environment));
+  for (const fs::path& base : {temporary, fs::path(kSharedMemory)}) remove_ended_in(base);
+  if (!command.session_folders) return;
+  const auto name_in = [&](const char* setting) {
+    if (!environment.value(setting)) command.environment.emplace_back(setting, folders_.back().path.string());
+  };
+  if (make_in(temporary)) name_in("OMPI_MCA_orte_tmpdir_base");
+  if (!make_in(kSharedMemory)) return;
+  for (const char* setting : {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"})
+    name_in(setting);
+}
+
+SessionFolders::~SessionFolders() {
+  std::error_code ignored;  // the next start tries again
+  for (const Folder& folder : folders_) {
+    fs::remove_all(folder.path, ignored);
+    close(folder.lock);
+  }
+}
+
+bool SessionFolders::make_in(const fs::path& base) {
+  for (int tries = 0; tries < kTries; ++tries) {
+    std::string path = (base / name_start()).string() + std::string(kRandom, 'X');
+    if (mkdtemp(path.data()) == nullptr) return false;
+    const int lock = open_folder(path, 0);
+    if (lock >= 0 && lock_own(lock)) {
+      folders_.push_back({path, lock});
+      return true;
+    }
+    if (lock >= 0) close(lock);
+    rmdir(path.c_str());
+  }
+  return false;
+}
+
+// It is nobody's child and has nothing open, so that nobody waits for it.
+void SessionFolders::leave_to_another() const {
+  if (folders_.empty()) return;
+  const pid_t child = fork();
+  if (child > 0) waitpid(child, nullptr, 0);
+  if (child != 0) return;
+  if (fork() != 0) _exit(0);
+  setsid();
+  close_range(0, ~0U, 0);
+  if (chdir("/") != 0) _exit(1);
+  for (const Folder& folder : folders_) {
+    const int ended = open_folder(folder.path, 0);
+    if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
+    std::error_code ignored;
+    fs::remove_all(folder.path, ignored);
+  }
+  _exit(0);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,132 @@
+"""An MPI job of this machine alone: nobody outside can connect to it, and what it left when it was killed goes with
+the next start."""
+
+import ipaddress
+import os
+import pathlib
+import re
+import signal
+import socket
+import unittest
+
+from harness import (ENVIRONMENT, MPICH, PROGRAMS, ProgramTest, family, living, main, needs_mpi, spinning_teapot,
+                     wait_until)
+
+SHARED = pathlib.Path("/dev/shm")
+NAMED = f"mars.{socket.gethostname()[:32]}."
+
+
+def listeners(processes):
+    """The addresses on which these processes listen."""
+    sockets = set()
+    for process in processes:
+        try:
+            for descriptor in os.scandir(f"/proc/{process}/fd"):
+                sockets.update(re.findall(r"socket:\[(\d+)\]", os.readlink(descriptor.path)))
+        except OSError:
+            continue  # it has ended, or closed this one
+    found = []
+    for table in ["tcp", "tcp6"]:
+        for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+            _, local, _, state, *_, inode = line.split()[:10]
+            if state == "0A" and inode in sockets:
+                words = bytes.fromhex(local.split(":")[0])
+                found.append(ipaddress.ip_address(b"".join(words[i:i + 4][::-1] for i in range(0, len(words), 4))))
+    return found
+
+
+class LocalJobs(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir()
+        self.before = set(SHARED.iterdir())
+        self.film = self.write("film.json", spinning_teapot(2, [16, 9]))
+        self.environment = dict(ENVIRONMENT, TMPDIR=str(self.temporary))
+
+    def start(self, *words):
+        film = self.write("long.json", spinning_teapot(20000, [160, 90]))
+        return self.start_mars("render", film, "-o", "out", "--nodes", 2, *words, env=self.environment)
+
+    def folders(self):
+        """Those of jobs since the test began."""
+        return [path for base in [self.temporary, SHARED] for path in base.glob(NAMED + "??????")
+                if path not in self.before]
+
+    def render_a_frame(self):
+        self.succeed("mars", "render", self.film, "--sink", "none", "--frames", "0", "--nodes", 1,
+                     env=self.environment)
+
+    @needs_mpi
+    def test_listens_on_the_loopback_interface_only(self):
+        process = self.start()
+        found = listeners(family(process.pid))
+        self.assertNotEqual(found, [], "mpirun listens, or the test does not see it")
+        self.assertEqual([str(address) for address in found if not address.is_loopback], [])
+
+    def test_threads_do_not_listen(self):
+        process = self.start("--backend", "threads")
+        self.assertEqual(listeners(family(process.pid)), [])
+
+    @needs_mpi
+    @unittest.skipIf(MPICH, "MPICH leaves nothing")
+    def test_what_a_killed_job_left_is_removed(self):
+        process = self.start()
+        everyone = family(process.pid)
+        for each in [process.pid, *everyone]:
+            os.kill(each, signal.SIGKILL)
+        wait_until(lambda: not living(everyone), 10, "they live on")
+        left = self.folders()
+        self.assertEqual(len(left), 2)
+        self.assertTrue(all(any(path.iterdir()) for path in left), left)
+        self.render_a_frame()
+        self.assertEqual(self.folders(), [])
+        self.assertEqual(list(self.temporary.iterdir()), [])
+
+    @needs_mpi
+    @unittest.skipIf(MPICH, "MPICH leaves nothing")
+    def test_what_others_have_stays(self):
+        victim = self.write("victim", "precious")
+        process = self.start()
+        living_job = self.folders()
+        self.assertEqual(len(living_job), 2)
+        planted = self.temporary / (NAMED + "abcdef")
+        planted.symlink_to(self.folder)
+        (self.temporary / (NAMED + "ghijkl")).write_text("a file")
+        (self.temporary / (NAMED + "longer-than-ours")).mkdir()
+        others = set(self.temporary.iterdir())
+        if os.geteuid() == 0:
+            foreign = self.temporary / (NAMED + "mnopqr")
+            foreign.mkdir()
+            os.chown(foreign, 65534, 65534)
+            others.add(foreign)
+        self.render_a_frame()
+        self.assertTrue(others <= set(self.temporary.iterdir()))
+        self.assertTrue(victim.exists())
+        self.assertTrue(all(path.exists() for path in living_job))
+        self.assertIsNone(process.poll())
+
+    @needs_mpi
+    def test_mars_nx_leaves_nothing(self):
+        program = self.folder / "sleeper"
+        program.write_text("#!/bin/sh\nexit 0\n")
+        program.chmod(0o755)
+        self.succeed("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, env=self.environment)
+        wait_until(lambda: not self.folders(), 10, self.folders())
+        done = self.run_program("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, "--", ":")
+        self.assertClear(done.stderr, "mpirun takes : for the end of a program's arguments")
+
+    def test_a_film_of_any_name(self):
+        film = self.film.read_text()
+        for name in [":", "-q", "a b", "line\nbreak"]:
+            self.write(name, film)
+            with self.subTest(name=name):
+                self.succeed("mars", "render", "-o", f"{name} out", "--report", f"./{name}.report", "--frames", "0",
+                             "--nodes", 1, "--", name)
+                self.succeed("mars", "verify", "--", f"{name} out")
+        (self.folder / ":").unlink()
+        self.succeed("mars", "render", self.film, "-o", ":", "--frames", "0", "--nodes", 1)
+        self.succeed("mars", "verify", ":")
+
+
+main()
