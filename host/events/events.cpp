@@ -14,6 +14,8 @@ json kind_json(const Progress::Kind& kind) {
 
 Progress::Kind read_kind(const json& from) { return {from.at("done"), from.at("of"), from.at("seconds")}; }
 
+json to_json(const Warning& warning) { return {{"event", "warning"}, {"text", warning.text}}; }
+
 json to_json(const Booted& booted) {
   json nodes = json::array();
   for (const Booted::Node& node : booted.nodes) {
@@ -82,6 +84,7 @@ Done read_done(const json& from) { return {from.at("frames"), from.at("seconds")
 
 std::optional<Event> read_known(const json& from) {
   const std::string name = from.at("event");
+  if (name == "warning") return Warning{from.at("text")};
   if (name == "booted") return read_booted(from);
   if (name == "progress") return read_progress(from);
   if (name == "frame") return read_frame(from);

@@ -1,6 +1,6 @@
 // What the host tells while it renders: one JSON object a line on its standard output, read by `mars render`
-// and by whoever supervises or watches. Its key "event" says which it is: booted, progress, frame, fault or
-// done; readers pass over what they do not know. Seconds count from the first command to the nodes.
+// and by whoever supervises or watches. Its key "event" says which it is: warning, booted, progress, frame,
+// fault or done; readers pass over what they do not know. Seconds count from the first command to the nodes.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,13 @@
 #include "host/events/progress.h"
 
 namespace mars::host {
+
+// Something of the film that a person would want to mend; it is rendered nevertheless.
+struct Warning {
+  std::string text;
+
+  bool operator==(const Warning&) const = default;
+};
 
 // All nodes are there.
 struct Booted {
@@ -64,7 +71,7 @@ struct Done {
   bool operator==(const Done&) const = default;
 };
 
-using Event = std::variant<Booted, Progress, FrameTaken, Fault, Done>;
+using Event = std::variant<Warning, Booted, Progress, FrameTaken, Fault, Done>;
 
 // One line, with its end.
 std::string line_of(const Event& event);

@@ -64,6 +64,7 @@ class Run {
   void take_output(const std::string& line) {
     const std::optional<Event> event = read_event(line);
     if (!event) return take_error(line);  // the words of an mpirun
+    if (const auto* warning = std::get_if<Warning>(&*event)) std::cerr << "mars: warning: " << warning->text << '\n';
     if (const auto* booted = std::get_if<Booted>(&*event)) {
       display_.tell(booted_text(*booted));
       remains_.booted = *booted;

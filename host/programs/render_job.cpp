@@ -107,7 +107,7 @@ std::unique_ptr<Trace> begin_trace(const RenderOptions& options) {
 }
 
 void render(const RenderOptions& options, const char* backend, Trace* trace) {
-  const CompiledFilm film = load_film_of(options);
+  const CompiledFilm film = load_film_of(options, [](const std::string& line) { tell(Warning{line}); });
   const node::FilmSettings& settings = film.view().settings();
   FarmOptions farm;
   farm.mapping = options.mapping;

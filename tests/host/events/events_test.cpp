@@ -12,6 +12,7 @@ std::vector<Event> one_of_each() {
   progress.inbetweens = {7, 20, 0.125};
   progress.interval = 2;
   return {
+      Warning{"film.json: actor 'anna', joint \"knee\""},
       Booted{"mpi", 2, {{0, "ada", 2, "core 0", "avx2"}, {1, "bob", 1, "", "sse2"}}},
       progress,
       FrameTaken{12, 2, FrameKind::inbetween},
