@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "host/animator/limits_left.h"
+#include "host/animator/things.h"
 #include "host/document/fields.h"
 
 namespace mars::host {
@@ -13,15 +14,6 @@ namespace {
 constexpr std::size_t kMostWarnings = 10;  // of joints
 
 std::string rounded_text(double number) { return shown(std::round(number * 100) / 100); }
-
-// As a word of the shell.
-std::string quoted(const std::string& name) {
-  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos)
-    return name;
-  std::string text = "'";
-  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 // "actor 'anna', joint 'knee': turns 95 degrees about y between keys, outside its limits 0 to 90, in frame 12"
 std::string words_of(const Film& film, const WorstExcess& worst) {
@@ -43,7 +35,7 @@ std::string words_of(const Film& film, const WorstExcess& worst) {
 std::string remedy_of(const Film& film, const WorstExcess& worst, const std::string& program) {
   const Actor& actor = film.actors[worst.actor];
   const Joint& joint = film.models[actor.model].joints[worst.joint];
-  return " (mend it with: " + program + "key " + quoted(actor.name) + " " + quoted(joint.name) + " --frame " +
+  return " (mend it with: " + program + "key " + shell_word(actor.name) + " " + shell_word(joint.name) + " --frame " +
          std::to_string(worst.frame) + " --clamp)";
 }
 
@@ -122,7 +114,7 @@ Findings check_film(const Film& film) {
 
 std::vector<std::string> warnings_of(const Film& film) {
   std::vector<std::string> lines;
-  const std::string animate = "mars animate " + quoted(film.source) + " ";
+  const std::string animate = "mars animate " + shell_word(film.source) + " ";
   const std::vector<WorstExcess> worst = worst_excesses(film);
   for (const WorstExcess& each : worst) {
     if (lines.size() == kMostWarnings) {
