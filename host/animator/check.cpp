@@ -4,95 +4,47 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/animator/angles.h"
+#include "host/animator/limits_left.h"
+#include "host/animator/things.h"
 #include "host/document/fields.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kNoticed = 0.001;  // degrees outside the limits: less is nothing
-constexpr double kSeen = 0.5;       // worth a line
-constexpr std::uint64_t kQuickly = 2'000'000;  // poses looked at in about a second
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-std::uint32_t last_frame(const Film& film, const Channel<glm::dvec3>& poses) {
-  return std::min(film.frames - 1, poses.back().frame);
-}
-
-// Only these can leave their limits: a hinge's angle goes straight from key to key.
-bool may_leave(const Joint& joint, const Channel<glm::dvec3>& poses) {
-  return joint.freedoms() > 1 && poses.size() > 1;
-}
-
-double angle_between(const glm::dmat3& a, const glm::dmat3& b) { return turn_between(a, b).angle / kDegree; }
-
-// The worst of one pose; `angle` counts as `outside` degrees too far.
-struct Outside {
-  int axis = 0;
-  double angle = 0, outside = 0;
-};
-
-Outside outside_of(const Joint& joint, const glm::dvec3& pose, const glm::dmat3& turn) {
-  const double missed = angle_between(orientation(joint, pose), turn);
-  if (missed > kNoticed) return {3, missed, missed};
-  const glm::dvec3 excess = excess_of(joint, pose);
-  int axis = 0;
-  for (int other = 1; other < 3; ++other)
-    if (excess[other] > excess[axis]) axis = other;
-  return {axis, pose[axis], excess[axis]};
-}
-
-void look_at_joint(const Film& film, std::size_t actor, std::size_t number, std::vector<LimitsLeft>& left) {
-  const Joint& joint = film.models[film.actors[actor].model].joints[number];
-  const Channel<glm::dvec3>& poses = film.actors[actor].motion.pose[number];
-  JointMotion motion(joint, poses);
-  LimitsLeft all{actor, number, 0, 0, 0, 0, 0, 0, 0};
-  for (std::uint32_t frame = poses.front().frame; frame <= last_frame(film, poses); ++frame) {
-    const Stretch stretch = stretch_at(poses, frame);
-    if (poses[stretch.from].value == poses[stretch.to].value) continue;
-    const Outside now = outside_of(joint, motion.pose_at(frame), motion.at(frame));
-    if (now.outside <= kNoticed) continue;
-    if (all.frames++ == 0) all.first = frame;
-    all.last = frame;
-    if (now.outside <= all.outside) continue;
-    all.worst = frame;
-    all.axis = now.axis;
-    all.angle = now.angle;
-    all.outside = now.outside;
-  }
-  if (all.frames > 0) left.push_back(all);
-}
+constexpr std::size_t kMostWarnings = 10;  // of joints
 
 std::string rounded_text(double number) { return shown(std::round(number * 100) / 100); }
 
-// As a word of the shell.
-std::string quoted(const std::string& name) {
-  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos)
-    return name;
-  std::string text = "'";
-  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+// "actor 'anna', joint 'knee': turns 95 degrees about y between keys, outside its limits 0 to 90, in frame 12"
+std::string words_of(const Film& film, const WorstExcess& worst) {
+  const Actor& actor = film.actors[worst.actor];
+  const Joint& joint = film.models[actor.model].joints[worst.joint];
+  std::string text = "actor '" + actor.name + "', joint '" + joint.name + "': ";
+  if (worst.axis == 3) {
+    text += "its skewed axes do not reach where it turns between keys, by " + rounded_text(worst.angle) + " degrees";
+  } else {
+    const Limits& limits = joint.limits[worst.axis];
+    text += "turns " + rounded_text(worst.angle) + " degrees about " + "xyz"[worst.axis] + " between keys, ";
+    text += limits.free() ? "outside its limits " + shown(limits.lower) + " to " + shown(limits.upper)
+                          : "where it is locked at " + shown(limits.lower);
+  }
+  return text + ", in frame " + std::to_string(worst.frame);
+}
+
+// What to type, after `program`.
+std::string remedy_of(const Film& film, const WorstExcess& worst, const std::string& program) {
+  const Actor& actor = film.actors[worst.actor];
+  const Joint& joint = film.models[actor.model].joints[worst.joint];
+  return " (mend it with: " + program + "key " + shell_word(actor.name) + " " + shell_word(joint.name) + " --frame " +
+         std::to_string(worst.frame) + " --clamp)";
 }
 
 std::string line_of(const Film& film, const LimitsLeft& left) {
-  const Actor& actor = film.actors[left.actor];
-  const Joint& joint = film.models[actor.model].joints[left.joint];
-  std::string text = "actor '" + actor.name + "', joint '" + joint.name + "': ";
-  if (left.axis == 3) {
-    text += "its skewed axes do not reach where it turns between keys, by " + rounded_text(left.angle) + " degrees";
-  } else {
-    const Limits& limits = joint.limits[left.axis];
-    text += "turns " + rounded_text(left.angle) + " degrees about " + "xyz"[left.axis] + " between keys, ";
-    text += limits.free() ? "outside its limits " + shown(limits.lower) + " to " + shown(limits.upper)
-                          : "where it has no freedom and stays at " + shown(limits.lower);
-  }
-  const std::string worst = std::to_string(left.worst);
-  text += ", in frame " + worst;
+  std::string text = words_of(film, left.worst);
   if (left.frames > 1)
     text += ", the worst of " + std::to_string(left.frames) + " from " + std::to_string(left.first) + " to " +
             std::to_string(left.last);
-  return text + " (mend it with: key " + quoted(actor.name) + " " + quoted(joint.name) + " --frame " + worst +
-         " --clamp)";
+  return text + remedy_of(film, left.worst, "");
 }
 
 template <typename Value>
@@ -136,22 +88,12 @@ void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& 
 
 }  // namespace
 
-std::vector<LimitsLeft> limits_left(const Film& film) {
-  std::vector<LimitsLeft> left;
-  for (std::size_t actor = 0; actor < film.actors.size(); ++actor) {
-    const auto& joints = film.models[film.actors[actor].model].joints;
-    for (std::size_t joint = 0; joint < joints.size(); ++joint)
-      if (may_leave(joints[joint], film.actors[actor].motion.pose[joint])) look_at_joint(film, actor, joint, left);
-  }
-  return left;
-}
-
 Findings check_film(const Film& film) {
   Findings findings;
   std::vector<std::string>& lines = findings.lines;
   std::size_t small = 0;
   for (const LimitsLeft& left : limits_left(film))
-    left.outside > kSeen ? lines.push_back(line_of(film, left)) : void(++small);
+    left.worst.outside > kExcessSeen ? lines.push_back(line_of(film, left)) : void(++small);
   for (const Actor& actor : film.actors) {
     const std::string name = "actor '" + actor.name + "': ";
     // A key just behind the end is where a film that is played round and round begins again.
@@ -166,24 +108,25 @@ Findings check_film(const Film& film) {
   if (small > 0)
     lines.push_back(std::to_string(small) + (lines.empty() ? "" : " more") +
                     (small == 1 ? " joint is outside its" : " joints are outside their") +
-                    " limits between keys by less than " + shown(kSeen) + " degrees");
+                    " limits between keys by less than " + shown(kExcessSeen) + " degrees");
   return findings;
 }
 
-std::string limits_remark(const Film& film) {
-  std::uint64_t poses = 0;
-  for (const Actor& actor : film.actors)
-    for (std::size_t joint = 0; joint < actor.motion.pose.size(); ++joint)
-      if (may_leave(film.models[actor.model].joints[joint], actor.motion.pose[joint]))
-        poses += last_frame(film, actor.motion.pose[joint]);
-  if (poses > kQuickly) return "";
-  const std::vector<LimitsLeft> left = limits_left(film);
-  const auto joints =
-      std::count_if(left.begin(), left.end(), [](const LimitsLeft& each) { return each.outside > kSeen; });
-  if (joints == 0) return "";
-  return film.source + ": " + std::to_string(joints) +
-         (joints == 1 ? " joint leaves its limits" : " joints leave their limits") +
-         " between keys (mars animate " + quoted(film.source) + " check tells more)";
+std::vector<std::string> warnings_of(const Film& film) {
+  std::vector<std::string> lines;
+  const std::string animate = "mars animate " + shell_word(film.source) + " ";
+  const std::vector<WorstExcess> worst = worst_excesses(film);
+  for (const WorstExcess& each : worst) {
+    if (lines.size() == kMostWarnings) {
+      const std::size_t more = worst.size() - kMostWarnings;
+      lines.push_back(film.source + ": " + std::to_string(more) +
+                      (more == 1 ? " more joint leaves its limits" : " more joints leave their limits") +
+                      " between keys (" + animate + "check lists all)");
+      break;
+    }
+    lines.push_back(film.source + ": " + words_of(film, each) + remedy_of(film, each, animate));
+  }
+  return lines;
 }
 
 }  // namespace mars::host

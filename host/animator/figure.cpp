@@ -20,6 +20,14 @@ Joint whole_figure() {
 
 const Joint kFree = whole_figure();
 
+// "turns about x and z only"
+std::string freedoms_text(const Joint& joint) {
+  std::string axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (joint.limits[axis].free()) axes += (axes.empty() ? "" : " and ") + std::string(1, "xyz"[axis]);
+  return axes.empty() ? "does not turn" : "turns about " + axes + " only";
+}
+
 }  // namespace
 
 const Joint& free_joint() { return kFree; }
@@ -39,6 +47,9 @@ std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& po
   for (int axis = 0; axis < 3; ++axis) {
     const Limits& limits = joint.limits[axis];
     if (pose[axis] >= limits.lower && pose[axis] <= limits.upper) continue;
+    if (!limits.free())
+      return freedoms_text(joint) + "; its " + "xyz"[axis] + " axis is locked at " + shown(limits.lower) + ", not " +
+             shown(pose[axis]);
     return "turns " + shown(pose[axis]) + " degrees about " + "xyz"[axis] + ", outside its limits " +
            shown(limits.lower) + " to " + shown(limits.upper);
   }

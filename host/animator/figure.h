@@ -20,7 +20,8 @@ namespace mars::host {
 // How a whole figure turns, by its "turn".
 const Joint& free_joint();
 
-// "turns 170 degrees about y, outside its limits 0 to 150", if the pose breaks a limit.
+// "turns 170 degrees about y, outside its limits 0 to 150", or "turns about y only; its x axis is locked at 0, not 20",
+// if the pose breaks a limit.
 std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose);
 
 // What an animator set for one figure.

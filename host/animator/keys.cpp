@@ -7,6 +7,7 @@
 #include "hal/failure.h"
 #include "host/animator/edit.h"
 #include "host/animator/pose.h"
+#include "host/animator/side_effects.h"
 #include "host/animator/written.h"
 #include "host/document/fields.h"
 #include "node/film.h"
@@ -68,7 +69,7 @@ Remarks change_tracks(Json& film, const Film& meaning, const Choice& choice, con
                   standing.empty() ? "it has no keys at all: make some with pose or key"
                                    : "its keys stand at " + listed_frames(standing));
   Remarks remarks = left_out(meaning, choice);
-  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i].thing, changed[i]));
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
   return remarks;
 }
 
@@ -143,11 +144,16 @@ void split_way(Track& track, std::uint32_t frame, Json value) {
 
 }  // namespace
 
-Remarks put(const Thing& thing, const Tracks& tracks) {
+Remarks put(const Chosen& chosen, const Tracks& tracks) {
+  const Thing& thing = chosen.thing;
+  const Tracks before = tracks_of(*thing.json);
   std::string gave_way;
   for (const std::string& part : put_tracks(*thing.json, tracks)) gave_way += (gave_way.empty() ? "" : ", ") + part;
-  if (gave_way.empty()) return {};
-  return {thing.name + ": a key has one ease; that of what else is keyed there rules " + gave_way};
+  Remarks remarks;
+  if (!gave_way.empty())
+    remarks.push_back(thing.name + ": a key has one ease; that of what else is keyed there rules " + gave_way);
+  append(remarks, side_effects(chosen, before, tracks_of(*thing.json)));
+  return remarks;
 }
 
 Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
@@ -166,7 +172,7 @@ Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::ui
     if (ease) set_ease(tracks, frame, *ease);
   }
   Remarks remarks = left_out(meaning, choice);
-  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i].thing, changed[i]));
+  for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
   return remarks;
 }
 

@@ -26,8 +26,9 @@ struct FrameRange {
 // What may be outside the limits of joints: refused, or turned to the nearest that they allow.
 enum class Beyond { refused, clamped };
 
-// Makes the tracks the thing's keys; remarks whose ease gave way.
-Remarks put(const Thing& thing, const Tracks& tracks);
+// Makes the tracks the keys of a thing of which some parts were to change; remarks whose ease gave way, and what
+// side_effects() finds.
+Remarks put(const Chosen& chosen, const Tracks& tracks);
 
 // Keys of the chosen parts as they are at the frame. Without an ease the film moves as before: the ease of the
 // way there is split. No keys for joints without freedom, nor where all is chosen for camera, lights and materials

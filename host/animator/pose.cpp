@@ -92,7 +92,7 @@ glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm
 
 Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
-  const Chosen chosen = std::move(choose(film, meaning, {false, name, {}}).front());
+  Chosen chosen = std::move(choose(film, meaning, {false, name, {}}).front());
   const Thing& thing = chosen.thing;
   Tracks tracks = tracks_of(*thing.json);
   std::set<std::string> touched;
@@ -113,7 +113,8 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
     touched.insert(part.name);
   }
   if (ease) set_ease(tracks, frame, *ease);
-  return put(thing, tracks);
+  chosen.parts.assign(touched.begin(), touched.end());
+  return put(chosen, tracks);
 }
 
 }  // namespace mars::host

@@ -50,7 +50,6 @@ enum KeySet {
   kMatrices
 };
 
-constexpr Range kColors{0, 1};
 constexpr Range kShares{0, 10};
 constexpr Range kExponents{0, 10000};
 constexpr Range kIntensities{0, 1000};
@@ -60,7 +59,6 @@ const glm::dvec3 kDefaultLight{-0.4, -0.7, 0.8};
 
 // Readers of one value, as settle() and add_key() want them.
 glm::dvec3 place_of(const Element& element) { return read_vector(element); }
-glm::dvec3 color_of(const Element& element) { return read_vector(element, kColors); }
 glm::dvec3 angles_of(const Element& element) { return read_vector(element, kDegrees); }
 double share_of(const Element& element) { return read_number(element, kShares); }
 double exponent_of(const Element& element) { return read_number(element, kExponents); }
@@ -120,7 +118,7 @@ LightMotion read_light(const Element& element) {
     read_keys(*keys, kKeys[kLightKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
       add_key(direction, key, "direction", frame, ease, direction_of);
       add_key(place, key, "place", frame, ease, place_of);
-      add_key(light.color, key, "color", frame, ease, color_of);
+      add_key(light.color, key, "color", frame, ease, read_color);
       add_key(light.intensity, key, "intensity", frame, ease, intensity_of);
     });
   light.directional = !direction.empty() || fields.find("direction");
@@ -131,7 +129,7 @@ LightMotion read_light(const Element& element) {
   settle(direction, fields, "direction", {}, direction_of);
   settle(place, fields, "place", {}, place_of);
   light.vector = point ? place : direction;
-  settle(light.color, fields, "color", {1, 1, 1}, color_of);
+  settle(light.color, fields, "color", {1, 1, 1}, read_color);
   settle(light.intensity, fields, "intensity", 1.0, intensity_of);
   return light;
 }
@@ -154,13 +152,13 @@ MaterialMotion read_film_material(const Element& element) {
   material.name = checked_name(element, element.key());
   if (const auto keys = fields.find("keys"))
     read_keys(*keys, kKeys[kMaterialKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
-      add_key(material.color, key, "color", frame, ease, color_of);
+      add_key(material.color, key, "color", frame, ease, read_color);
       add_key(material.ambient, key, "ambient", frame, ease, share_of);
       add_key(material.diffuse, key, "diffuse", frame, ease, share_of);
       add_key(material.specular, key, "specular", frame, ease, share_of);
       add_key(material.exponent, key, "exponent", frame, ease, exponent_of);
     });
-  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, color_of);
+  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, read_color);
   settle(material.ambient, fields, "ambient", 0.10, share_of);
   settle(material.diffuse, fields, "diffuse", 0.65, share_of);
   settle(material.specular, fields, "specular", 0.45, share_of);
@@ -336,7 +334,7 @@ Model read_film_model(const Element& element, const Film& film, const std::files
 void read_settings(const Fields& fields, Film& film) {
   film.frames = read_count(fields.required("frames"), 1, kMostFrames);
   film.rate = fields.number("rate", film.rate, {0.001, 1000});
-  film.background = fields.vector("background", film.background, kColors);
+  film.background = fields.color("background", film.background);
   if (const auto size = fields.find("size")) read_size(*size, film);
   if (const auto dice = fields.find("dice")) film.dice = read_dice(*dice);
   constexpr std::string_view cuttings[] = {"auto", "keyframes"};

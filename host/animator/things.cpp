@@ -16,7 +16,7 @@ namespace {
 
 template <typename Value>
 KeyedPart plain(const char* name, const Channel<Value>& channel) {
-  return {name, nullptr, [&channel](std::uint32_t frame) {
+  return {name, nullptr, nullptr, [&channel](std::uint32_t frame) {
             const Stretch stretch = stretch_at(channel, frame);
             if (stretch.from == stretch.to) return written(channel[stretch.from].value);
             return written(rounded(value_at(channel, frame)));
@@ -24,13 +24,14 @@ KeyedPart plain(const char* name, const Channel<Value>& channel) {
 }
 
 KeyedPart direction(const Channel<glm::dvec3>& channel) {
-  return {"direction", nullptr,
+  return {"direction", nullptr, nullptr,
           [&channel](std::uint32_t frame) { return written(rounded(direction_at(channel, frame))); }};
 }
 
 KeyedPart turning(const std::string& name, const Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
   const auto motion = std::make_shared<JointMotion>(joint, poses);
-  return {name, limited ? &joint : nullptr, [motion, &poses](std::uint32_t frame) {
+  const Joint* turns = joint.freedoms() > 1 ? &joint : nullptr;
+  return {name, limited ? &joint : nullptr, turns, [motion, &poses](std::uint32_t frame) {
             const glm::dvec3 pose = motion->pose_at(frame);
             if (poses.empty()) return written(pose);
             const Stretch stretch = stretch_at(poses, frame);
@@ -122,6 +123,14 @@ const KeyedPart& Thing::part(const std::string& wanted) const {
   const auto found = std::find_if(parts.begin(), parts.end(), [&](const KeyedPart& p) { return p.name == wanted; });
   check(found != parts.end(), "a thing has the part it was asked for");
   return *found;
+}
+
+std::string shell_word(const std::string& name) {
+  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") == std::string::npos)
+    return name;
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
 }
 
 std::string part_named(const Thing& thing, const std::string& name) {

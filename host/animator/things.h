@@ -16,6 +16,7 @@ namespace mars::host {
 struct KeyedPart {
   std::string name;
   const Joint* joint;                                // whose limits bound it; null: no joint
+  const Joint* turns;                                // by the smallest turn from key to key; null: straight on
   std::function<Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
 };
 
@@ -44,6 +45,9 @@ struct Chosen {
 // `film` is what `meaning` was read from; both must outlive what is chosen. Throws where a name is unknown or an
 // actor is moved by matrices; those are left out where all is chosen.
 std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice);
+
+// A name as a person types it in a command.
+std::string shell_word(const std::string& name);
 
 // The part's own name of what a person calls it: "elbow" is "/elbow".
 std::string part_named(const Thing& thing, const std::string& name);

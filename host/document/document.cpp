@@ -221,6 +221,11 @@ std::uint32_t Element::line() const { return document_->nodes_[index_].line; }
 
 std::string_view Element::key() const { return &document_->texts_[document_->nodes_[index_].key]; }
 
+std::optional<Element> Element::parent() const {
+  if (index_ == 0) return std::nullopt;
+  return Element(document_, document_->nodes_[index_].parent);
+}
+
 std::string Element::path() const {
   if (index_ == 0) return "";
   const Element parent(document_, document_->nodes_[index_].parent);

@@ -37,6 +37,7 @@ class Element {
   std::string where() const;     // "film.json:12: actors[3].place"
   std::string_view key() const;  // its key in the object that holds it, "" in a list
   const Document& document() const { return *document_; }
+  std::optional<Element> parent() const;  // none of the whole document
 
   // Children of a list or object, in the file's order; none in anything else.
   Iterator begin() const;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "host/document/forms.h"
+
 namespace mars::host {
 namespace {
 
@@ -40,6 +42,11 @@ std::string in_quotes(std::string_view name) {
   return text += name.size() > 80 ? "...'" : "'";
 }
 
+std::string form_or(const Element& element, const std::string& otherwise) {
+  const std::string form = form_of(element);
+  return form.empty() ? otherwise : form;
+}
+
 }  // namespace
 
 std::string shown(double number) {
@@ -71,14 +78,14 @@ std::string did_you_mean(std::string_view wanted, std::span<const std::string_vi
 void require_kind(const Element& element, Kind kind) {
   if (element.kind() != kind)
     element.refuse(std::string("is ") + name_of(element.kind()) + ", not " + name_of(kind),
-                   std::string("write ") + name_of(kind));
+                   "write " + form_or(element, name_of(kind)));
 }
 
 void require_size(const Element& element, std::size_t size) {
   require_kind(element, Kind::list);
   if (element.size() != size)
     element.refuse("has " + std::to_string(element.size()) + " items",
-                   "write " + std::to_string(size) + " of them");
+                   "write " + form_or(element, std::to_string(size) + " of them"));
 }
 
 double read_number(const Element& element, Range range) {
@@ -102,6 +109,21 @@ glm::dvec3 read_vector(const Element& element, Range range) {
   int axis = 0;
   for (const Element item : element) vector[axis++] = read_number(item, range);
   return vector;
+}
+
+glm::dvec3 read_color(const Element& element) {
+  require_size(element, 3);
+  glm::dvec3 color;
+  int part = 0;
+  for (const Element item : element) color[part++] = read_number(item);
+  const auto ranges_over = [&](double most) {
+    return std::min({color.x, color.y, color.z}) >= 0 && std::max({color.x, color.y, color.z}) <= most;
+  };
+  if (ranges_over(1)) return color;
+  if (!ranges_over(255)) return read_vector(element, {0, 1});  // refuses the number that is wrong
+  const auto share = [](double part) { return shown(std::round(part / 255 * 1000) / 1000); };
+  element.refuse("has " + shown(std::max({color.x, color.y, color.z})) + ", above 1, where colours go from 0 to 1",
+                 "divide by 255: [" + share(color.x) + ", " + share(color.y) + ", " + share(color.z) + "]");
 }
 
 std::string read_text(const Element& element) {
@@ -143,6 +165,11 @@ std::uint32_t Fields::count(std::string_view key, std::uint32_t otherwise, std::
                             std::uint32_t highest) const {
   const auto found = find(key);
   return found ? read_count(*found, lowest, highest) : otherwise;
+}
+
+glm::dvec3 Fields::color(std::string_view key, const glm::dvec3& otherwise) const {
+  const auto found = find(key);
+  return found ? read_color(*found) : otherwise;
 }
 
 glm::dvec3 Fields::vector(std::string_view key, const glm::dvec3& otherwise, Range range) const {

@@ -29,6 +29,7 @@ struct Keys {
 double read_number(const Element& element, Range range = {});
 std::uint32_t read_count(const Element& element, std::uint32_t lowest, std::uint32_t highest);
 glm::dvec3 read_vector(const Element& element, Range range = {});
+glm::dvec3 read_color(const Element& element);  // each part 0 to 1
 std::string read_text(const Element& element);  // not empty
 
 // The index of the text among `choices`.
@@ -61,6 +62,7 @@ class Fields {
   std::uint32_t count(std::string_view key, std::uint32_t otherwise, std::uint32_t lowest,
                       std::uint32_t highest) const;
   glm::dvec3 vector(std::string_view key, const glm::dvec3& otherwise, Range range = {}) const;
+  glm::dvec3 color(std::string_view key, const glm::dvec3& otherwise) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   std::size_t choice(std::string_view key, std::size_t otherwise,
                      std::span<const std::string_view> choices) const;

@@ -18,6 +18,8 @@ json to_json(const Loading& loading) { return {{"event", "loading"}, {"film", lo
 
 json to_json(const Loaded& loaded) { return {{"event", "loaded"}, {"seconds", loaded.seconds}}; }
 
+json to_json(const Warning& warning) { return {{"event", "warning"}, {"text", warning.text}}; }
+
 json to_json(const Booted& booted) {
   json nodes = json::array();
   for (const Booted::Node& node : booted.nodes) {
@@ -88,6 +90,7 @@ std::optional<Event> read_known(const json& from) {
   const std::string name = from.at("event");
   if (name == "loading") return Loading{from.at("film")};
   if (name == "loaded") return Loaded{from.at("seconds")};
+  if (name == "warning") return Warning{from.at("text")};
   if (name == "booted") return read_booted(from);
   if (name == "progress") return read_progress(from);
   if (name == "frame") return read_frame(from);

@@ -1,5 +1,5 @@
 // What the host tells while it renders: one JSON object a line on its standard output, read by `mars render`
-// and by whoever supervises or watches. Its key "event" says which it is: loading, loaded, booted, progress, frame,
+// and by whoever supervises or watches. Its key "event" says which it is: loading, warning, loaded, booted, progress, frame,
 // fault or done; readers pass over what they do not know. Seconds count from the first command to the nodes.
 #pragma once
 
@@ -26,6 +26,13 @@ struct Loaded {
   double seconds = 0;  // since Loading
 
   bool operator==(const Loaded&) const = default;
+};
+
+// Something of the film that a person would want to mend; it is rendered nevertheless.
+struct Warning {
+  std::string text;
+
+  bool operator==(const Warning&) const = default;
 };
 
 // All nodes are there.
@@ -78,7 +85,7 @@ struct Done {
   bool operator==(const Done&) const = default;
 };
 
-using Event = std::variant<Loading, Loaded, Booted, Progress, FrameTaken, Fault, Done>;
+using Event = std::variant<Loading, Warning, Loaded, Booted, Progress, FrameTaken, Fault, Done>;
 
 // One line, with its end.
 std::string line_of(const Event& event);

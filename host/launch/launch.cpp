@@ -101,6 +101,7 @@ class Run {
     if (!event) return take_error(line);  // the words of an mpirun
     if (const auto* loading = std::get_if<Loading>(&*event)) begin_loading(*loading);
     if (const auto* loaded = std::get_if<Loaded>(&*event)) end_loading(*loaded);
+    if (const auto* warning = std::get_if<Warning>(&*event)) std::cerr << "mars: warning: " << warning->text << '\n';
     if (const auto* booted = std::get_if<Booted>(&*event)) {
       display_.tell(booted_text(*booted));
       remains_.booted = *booted;

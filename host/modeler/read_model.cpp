@@ -242,7 +242,7 @@ class ModelReader {
       limits[axis].lower = read_number(*bound, kDegrees);
       limits[axis].upper = read_number(*++bound, kDegrees);
       if (limits[axis].lower > limits[axis].upper)
-        range->refuse("has its lower limit above its upper", "write [lower, upper] in degrees");
+        range->refuse("has its lower limit above its upper", "write the lower first, degrees: \"" + std::string(kLimitsNames[axis]) + "\": [-30, 30]");
     }
     return limits;
   }
@@ -354,7 +354,7 @@ std::string read_name(const Element& element) { return checked_name(element, rea
 
 node::Material read_material(const Fields& fields) {
   constexpr Range share{0, 10};
-  const glm::dvec3 color = fields.vector("color", {0.8, 0.8, 0.8}, {0, 1});
+  const glm::dvec3 color = fields.color("color", {0.8, 0.8, 0.8});
   node::Material material = kDefaultMaterial;
   for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
   material.ambient = static_cast<float>(fields.number("ambient", 0.10, share));

@@ -1,6 +1,8 @@
 #include "host/programs/film_of.h"
 
+#include "host/animator/check.h"
 #include "host/animator/read_film.h"
+#include "host/film/film_file.h"
 
 namespace mars::host {
 namespace {
@@ -15,14 +17,28 @@ constexpr const char* kTrial = R"({
              {"name": "box", "model": "box", "keys": [{"frame": 0}, {"frame": 3, "turn": [0, 0, 90]}]}]
 })";
 
+constexpr const char* kNoActors = ": has no actors: every frame shows the background alone (give the film actors)";
+
+CompiledFilm load_with_warnings(const std::string& path, const CompileOptions& compiling, const Warn& warn) {
+  if (is_compiled_film(path)) {
+    CompiledFilm film = load_film(path, compiling);
+    if (film.actors == 0) warn(path + kNoActors);
+    return film;
+  }
+  const Film film = read_film(path);
+  if (film.actors.empty()) warn(path + kNoActors);
+  for (const std::string& line : warnings_of(film)) warn(line);
+  return compile(film, compiling);
+}
+
 }  // namespace
 
-CompiledFilm load_film_of(const RenderOptions& options) {
+CompiledFilm load_film_of(const RenderOptions& options, const Warn& warn) {
   CompileOptions compiling;
   if (options.intervals == Intervals::keyframes) compiling.cutting = Cutting::keyframes;
   if (options.size) compiling.size = {options.size->width, options.size->height};
   if (options.film == kTrialFilm) return compile(read_film(Document(kTrial, kTrialFilm).root(), {}), compiling);
-  return load_film(options.film, compiling);
+  return load_with_warnings(options.film, compiling, warn);
 }
 
 }  // namespace mars::host

@@ -1,11 +1,19 @@
 // The film that a person's options name, compiled as they say.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "host/film/compile.h"
 #include "host/options/render_options.h"
 
 namespace mars::host {
 
-CompiledFilm load_film_of(const RenderOptions& options);
+// Takes one line about what a person would want to mend.
+using Warn = std::function<void(const std::string& line)>;
+
+// `warn` is called before the film's motion is computed, as that may take long; of a .mars file, which has no keys,
+// it learns only whether anybody acts.
+CompiledFilm load_film_of(const RenderOptions& options, const Warn& warn);
 
 }  // namespace mars::host

@@ -7,8 +7,6 @@
 
 #include "hal/failure.h"
 #include "hal/settings.h"
-#include "host/animator/check.h"
-#include "host/animator/read_film.h"
 #include "host/doctor/doctor.h"
 #include "host/document/whole_file.h"
 #include "host/film/compile.h"
@@ -78,12 +76,13 @@ int verify(const std::string& folder) {
   return 0;
 }
 
-// Of a film file also whether joints leave their limits between keys; a .mars file has no keys.
 std::string info_of(const std::string& path) {
-  if (is_compiled_film(path)) return describe(load_film(path));
-  const Film film = read_film(path);
-  const std::string remark = limits_remark(film);
-  return describe(compile(film)) + (remark.empty() ? "" : "remark      " + remark + "\n");
+  RenderOptions options;
+  options.film = path;
+  std::string warnings;
+  const CompiledFilm film =
+      load_film_of(options, [&](const std::string& line) { warnings += "warning     " + line + "\n"; });
+  return describe(film) + warnings;
 }
 
 void add_render(CLI::App& app, RenderOptions& options) {
@@ -101,7 +100,7 @@ void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
       ->type_name("FILE");
   command->callback([&] {
     refuse_same_file(options.film, names.to);
-    save_film(load_film_of(options), names.to);
+    save_film(load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }), names.to);
   });
 }
 

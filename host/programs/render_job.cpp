@@ -109,7 +109,7 @@ std::unique_ptr<Trace> begin_trace(const RenderOptions& options) {
 CompiledFilm load_film_with_events(const RenderOptions& options) {
   tell(Loading{options.film});
   const double started = dclock();
-  CompiledFilm film = load_film_of(options);
+  CompiledFilm film = load_film_of(options, [](const std::string& line) { tell(Warning{line}); });
   tell(Loaded{dclock() - started});
   return film;
 }

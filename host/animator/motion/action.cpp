@@ -152,6 +152,14 @@ std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
          did_you_mean(found->second.at(0), choices, "one of " + all));
 }
 
+std::uint32_t Scene::last_after(double frames) const {
+  const double last = at + std::ceil(frames);
+  if (last < node::kMostFrames) return static_cast<std::uint32_t>(last);
+  throw Failure("would end at frame " + shown(last), wishes.where(),
+                "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) +
+                    " frames");
+}
+
 std::span<const Action> actions() { return kActions; }
 
 const Action* find_action(std::string_view name) {
@@ -172,9 +180,6 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
                   "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : last_key(actor.motion), wishes};
   const Motion motion = action.perform(scene);
-  if (motion.last >= node::kMostFrames)
-    throw Failure("would end at frame " + std::to_string(motion.last), "actor '" + name + "', " + std::string(action.name),
-                  "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) + " frames");
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const ActorKey driven = all_of(motion.keys);
   clear_keys(json, name, scene.at + 1, driven.place ? node::kMostFrames : motion.last, driven);

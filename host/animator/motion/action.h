@@ -60,13 +60,15 @@ struct Scene {
 
   const Model& model() const { return film.models[actor.model]; }
   double frames(double seconds) const { return seconds * film.rate; }
+  // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.
+  std::uint32_t last_after(double frames) const;
 };
 
 // What comes of it. Keys of what it drives make way: up to the last frame, and all later ones if the figure's
 // place is driven.
 struct Motion {
   std::vector<ActorKey> keys;
-  std::uint32_t last = 0;  // frame
+  std::uint32_t last = 0;  // frame, as Scene::last_after() allows
   std::string told;        // more for the person who asked: "the seat is ..."; "" if nothing
 };
 

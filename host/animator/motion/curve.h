@@ -1,6 +1,7 @@
 // Smooth curves through points: Hermite's cubics.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -23,8 +24,9 @@ inline double curve_through(std::span<const CurvePoint> points, double first_slo
     if (i + 1 == points.size()) return last_slope;
     return (points[i + 1][1] - points[i - 1][1]) / (points[i + 1][0] - points[i - 1][0]);
   };
-  std::size_t i = 0;
-  while (i + 2 < points.size() && x > points[i + 1][0]) ++i;
+  const auto ends_before = [](const CurvePoint& point, double at) { return point[0] < at; };
+  const auto end = std::lower_bound(points.begin() + 1, points.end() - 1, x, ends_before);
+  const auto i = static_cast<std::size_t>(end - points.begin()) - 1;
   return hermite(points[i], points[i + 1], slope(i), slope(i + 1), x);
 }
 

@@ -50,6 +50,8 @@ class Walker {
       const Foot& foot = start_.feet[index_of(side)];
       prints_[index_of(side)] = {{foot.ankle.x, foot.ankle.y}, foot.heading};
     }
+    for (const Step& step : gait.steps) steps_[index_of(step.side)].push_back(&step);
+    for (const Waypoint& point : gait.way) headings_.push_back({point.time, point.heading});
   }
 
   Stance at(double time) const {
@@ -171,17 +173,15 @@ class Walker {
   }
 
   Foot foot_at(Side side, double time) const {
-    Footprint print = prints_[index_of(side)], from = print;
-    const Step* before = nullptr;
-    for (const Step& step : gait_.steps) {
-      if (step.side != side) continue;
-      if (time <= step.off) return standing(side, print, before, from, &step, time);
-      if (time < step.land) return swinging(side, print, step, time);
-      from = print;
-      print = step.to;
-      before = &step;
-    }
-    return standing(side, print, before, from, nullptr, time);
+    const auto& steps = steps_[index_of(side)];
+    const auto down = [](double at, const Step* step) { return at < step->land; };
+    const auto next = std::upper_bound(steps.begin(), steps.end(), time, down);
+    const auto landed = next - steps.begin();
+    const Footprint& start = prints_[index_of(side)];
+    const Footprint& print = landed > 0 ? next[-1]->to : start;
+    if (next != steps.end() && time > (*next)->off) return swinging(side, print, **next, time);
+    const Footprint& from = landed > 1 ? next[-2]->to : start;
+    return standing(side, print, landed > 0 ? next[-1] : nullptr, from, next == steps.end() ? nullptr : *next, time);
   }
 
   // ---- The rest of the body
@@ -226,12 +226,11 @@ class Walker {
   // Legs without knees are lifted by the hips: degrees of roll that raise the side that swings.
   double waddle(double time) const {
     if (!body_.stiff() || !rolls_ || body_.planar()) return 0;
-    for (const Step& step : gait_.steps) {
-      if (time <= step.off || time >= step.land) continue;
-      const double u = (time - step.off) / (step.land - step.off);
-      return sign_of(step.side) * glm::degrees(std::asin(roll(step.side))) * std::sin(M_PI * u);
-    }
-    return 0;
+    const auto down = [](double at, const Step& step) { return at < step.land; };
+    const auto step = std::upper_bound(gait_.steps.begin(), gait_.steps.end(), time, down);
+    if (step == gait_.steps.end() || time <= step->off) return 0;
+    const double u = (time - step->off) / (step->land - step->off);
+    return sign_of(step->side) * glm::degrees(std::asin(roll(step->side))) * std::sin(M_PI * u);
   }
 
   double roll(Side side) const {  // its sine
@@ -247,15 +246,13 @@ class Walker {
   }
 
   void move_along(double time, Stance& stance) const {
-    std::size_t i = 0;
-    while (i + 2 < gait_.way.size() && time > gait_.way[i + 1].time) ++i;
-    const Waypoint &a = gait_.way[i], &b = gait_.way[i + 1];
+    const auto passed = [](const Waypoint& point, double at) { return point.time < at; };
+    const auto next = std::lower_bound(gait_.way.begin() + 1, gait_.way.end() - 1, time, passed);
+    const Waypoint &a = next[-1], &b = *next;
     for (int axis = 0; axis < 2; ++axis)
       stance.pelvis[axis] =
           hermite({a.time, a.place[axis]}, {b.time, b.place[axis]}, a.velocity[axis], b.velocity[axis], time);
-    std::vector<CurvePoint> headings;
-    for (const Waypoint& point : gait_.way) headings.push_back({point.time, point.heading});
-    stance.heading = curve_through(headings, 0, 0, time);
+    stance.heading = curve_through(headings_, 0, 0, time);
   }
 
   void add_trunk(Stance& stance, double p, double swing, double lean) const {
@@ -291,6 +288,8 @@ class Walker {
   Stance start_;
   double floor_;
   std::array<Footprint, 2> prints_;
+  std::array<std::vector<const Step*>, 2> steps_;  // of each foot
+  std::vector<CurvePoint> headings_;
 };
 
 // The lowest curve over all values that changes no faster than a moving mean over `reach` values to each

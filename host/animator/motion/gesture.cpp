@@ -34,7 +34,7 @@ class Gesture {
   }
 
   Motion motion() const {
-    const std::uint32_t last = moments_.back().frame;
+    const std::uint32_t last = moments_.back().frame, end = scene_.last_after(last);
     std::vector<ActorKey> keys(last + 1);
     for (std::uint32_t frame = 0; frame <= last; ++frame) {
       keys[frame].frame = scene_.at + frame;
@@ -42,7 +42,7 @@ class Gesture {
     }
     for (const std::size_t joint : joints_) add(scene_.model().joints[joint], numbers_of(joint, last), keys);
     std::erase_if(keys, [](const ActorKey& key) { return key.pose.empty(); });
-    return {keys, scene_.at + last, ""};
+    return {keys, end, ""};
   }
 
  private:

@@ -21,7 +21,7 @@ constexpr double kLow = 1e-3;             // of the first height: bounces that n
 constexpr double kLongest = 600;          // seconds
 
 std::uint32_t frames_of(const Scene& scene, double seconds) {
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(scene.frames(seconds) - 1e-9), 1.0, 1e6));
+  return scene.last_after(std::max(std::ceil(scene.frames(seconds) - 1e-9), 1.0)) - scene.at;
 }
 
 using Places = std::function<glm::dvec3(double seconds)>;

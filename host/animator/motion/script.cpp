@@ -153,8 +153,11 @@ class Player {
     }
     if (wishes.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
     if (begun_.insert(kCamera).second) clear_camera_after(at);
-    const std::uint32_t end =
-        verb == "cut" ? at : at + std::uint32_t(std::max(1L, std::lround(seconds * rate_)));
+    const double last = verb == "cut" ? at : at + std::max(1.0, std::round(seconds * rate_));
+    if (last >= node::kMostFrames)
+      line.refuse("moves the camera until frame " + shown(last),
+                  "a film has at most " + std::to_string(node::kMostFrames) + " frames: move it faster or earlier");
+    const auto end = static_cast<std::uint32_t>(last);
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)

@@ -63,6 +63,7 @@ class Chair {
     if (body_.stiff()) needed(body_, Limb::knee, Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
     for (Foot& foot : from_.feet) foot.askew = kAskew;
+    scene.last_after(frames_);
   }
 
   bool upright() const { return from_.pelvis.z - floor_ >= kUpright * body_.height; }

@@ -24,6 +24,7 @@ constexpr double kToeOut = 6;          // degrees
 constexpr double kTurnAtOnce = 50;     // degrees between two feet
 constexpr double kLeastAtOnce = 6;     // where the joints' limits want less
 constexpr int kBowTries = 4;           // each with twice as many steps
+constexpr std::uint32_t kMostSteps = 10000;
 constexpr double kUpright = 0.8;       // of its height: what is lower sits
 constexpr double kNothing = 0.2;       // degrees
 constexpr double kOnTheWay = 25;       // degrees that the first step can turn
@@ -169,7 +170,19 @@ class Going {
   const Body& body() const { return body_; }
   double period() const { return period_; }
 
+  // Refuses what cannot be walked whatever the joints allow, before a posture is sought.
+  void require_possible(const Gait& gait, const char* remedy) const {
+    scene_.last_after(double(postures_.size() - 1) + gait.end());
+    const double reach = 2 * body_.leg_length();
+    for (std::size_t i = 1; i < gait.steps.size(); ++i)
+      if (const double step = glm::distance(gait.steps[i].to.place, gait.steps[i - 1].to.place); step > reach)
+        throw Failure("would take a step of " + shown(step) + ", where two legs of " + shown(body_.leg_length()) +
+                          " reach " + shown(reach) + " at most",
+                      scene_.wishes.where(), remedy);
+  }
+
   void go(const Gait& gait, const char* remedy) {
+    require_possible(gait, remedy);
     const Posture start = postures_.back();
     std::vector<Posture> more =
         postures_of(body_, start, gait, scene_.at + std::uint32_t(postures_.size()) - 1, command_, remedy);
@@ -179,6 +192,7 @@ class Going {
 
   // By steps that turn less, where limits want it.
   void turn(double by) {
+    require_possible(turn_gait(body_, now(), by, kTurnAtOnce, period_), kTurnRemedy);
     for (double at_once = kTurnAtOnce;; at_once /= 2) try {
         return go(turn_gait(body_, now(), by, at_once, period_), kTurnRemedy);
       } catch (const Failure&) {
@@ -209,6 +223,16 @@ Style style_of(const Wishes& wishes) {
           wishes.number("knee-lift", 1, {0, 3}), wishes.number("lean", 0, {-30, 45})};
 }
 
+// As many steps as the way takes, if it is so long.
+std::uint32_t steps_for(const Wishes& wishes, double way, double step) {
+  const double steps = std::max(1.0, std::round(way / step));
+  if (steps > kMostSteps)
+    wishes.refuse(wishes.has("to") ? "to" : "distance",
+                  "is " + shown(way) + " away, which takes " + shown(steps) + " steps of " + shown(step),
+                  "a walk has at most " + std::to_string(kMostSteps) + ": go to a nearer place");
+  return static_cast<std::uint32_t>(steps);
+}
+
 void refuse_both(const Wishes& wishes, std::string_view one, std::string_view other) {
   if (wishes.has(one) && wishes.has(other))
     wishes.refuse(one, "stands beside " + std::string(other), "give one of them");
@@ -234,22 +258,21 @@ Motion walk(const Scene& scene) {
   }
   const double ordinary =
       wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, kFarthest});
-  const auto few = static_cast<std::uint32_t>(far ? std::clamp(std::round(*far / ordinary), 1.0, 1e4) : 4);
-  std::uint32_t steps = wishes.count("steps", few, 10000);
+  std::uint32_t steps =
+      far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : wishes.count("steps", 4, kMostSteps);
   constexpr std::string_view sides[] = {"left", "right"};
   const Side first =
       kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
   Path path{stand_of(going.now()), far ? *far : steps * ordinary, wishes.number("turn", 0, {-3600, 3600})};
   if (const auto to = wishes.vector("to")) path.start.heading = path.start.heading + bearing(path.start, *to);
-  const auto go = [&] {
-    going.go(walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first,
-                       style_of(wishes)),
-             wishes.has("turn") ? kBowRemedy : kWalkRemedy);
+  const char* const remedy = wishes.has("turn") ? kBowRemedy : kWalkRemedy;
+  const auto gait = [&] {
+    return walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first, style_of(wishes));
   };
   // A bow is walked in shorter steps, where limits want it and nobody has said how many.
   const bool may_shorten = wishes.has("turn") && !wishes.has("steps") && !wishes.has("step-length");
   for (int tries = may_shorten ? kBowTries : 1;; --tries, steps *= 2) try {
-      go();
+      going.go(gait(), remedy);
       return going.motion();
     } catch (const Failure&) {
       if (tries == 1) throw;

@@ -14,6 +14,7 @@ std::vector<Event> one_of_each() {
   return {
       Loading{"film.json"},
       Loaded{23.5},
+      Warning{"film.json: actor 'anna', joint \"knee\""},
       Booted{"mpi", 2, {{0, "ada", 2, "core 0", "avx2"}, {1, "bob", 1, "", "sse2"}}},
       progress,
       FrameTaken{12, 2, FrameKind::inbetween},

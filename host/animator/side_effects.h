@@ -1,0 +1,17 @@
+// What a change of keys does besides what a person asked for: turns that go another way than their numbers say, and
+// eases that change how other parts move.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/animator/things.h"
+#include "host/animator/tracks.h"
+
+namespace mars::host {
+
+// Lines about `chosen`, whose keys were `before` and are `after`; of what was so before, nothing. The thing's
+// parts still have the values from before.
+std::vector<std::string> side_effects(const Chosen& chosen, const Tracks& before, const Tracks& after);
+
+}  // namespace mars::host

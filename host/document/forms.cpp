@@ -1,0 +1,104 @@
+#include "host/document/forms.h"
+
+#include <algorithm>
+
+namespace mars::host {
+namespace {
+
+// The more particular before the more general.
+constexpr Form kForms[] = {
+    {"pose.*", "[0, 90, 0]"},
+    {"segments.*", "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"},
+    {"materials.*", R"({"color": [0.8, 0.4, 0.2]})"},
+    {"models.*", R"("robot.json")"},
+    {"joints.*", "[1, 1, 1.2]"},
+    {"branches.*", "[1, 1, 1.2]"},
+    {"proportions.joints", R"({"thigh": [1, 1, 1.2]})"},
+    {"proportions.branches", R"({"leg-*": 1.1})"},
+    {"u.ends", R"("clamped")"},
+    {"v.ends", R"("clamped")"},
+    {"limits.x", "[-30, 30]"},
+    {"limits.y", "[-30, 30]"},
+    {"limits.z", "[-30, 30]"},
+
+    {"frames", "48"},
+    {"rate", "24"},
+    {"size", "[960, 540]"},
+    {"background", "[0.1, 0.2, 0.3]"},
+    {"intervals", R"("auto")"},
+    {"camera", R"({"eye": [0, -9, 2], "at": [0, 0, 1]})"},
+    {"lights", R"([{"direction": [-0.4, -0.7, 0.8]}])"},
+    {"materials", R"({"oak": {"color": [0.7, 0.5, 0.3]}})"},
+    {"models", R"({"robot": "robot.json"})"},
+    {"actors", R"([{"name": "anna", "model": "robot"}])"},
+    {"keys", R"([{"frame": 0}, {"frame": 24}])"},
+    {"frame", "24"},
+    {"ease", "[0.4, 0, 0.6, 1]"},
+    {"eye", "[0, -9, 2]"},
+    {"at", "[0, 0, 1]"},
+    {"up", "[0, 0, 1]"},
+    {"fov", "40"},
+    {"near", "0.1"},
+    {"far", "10000"},
+    {"direction", "[-0.4, -0.7, 0.8]"},
+    {"place", "[1, 0, 0.5]"},
+    {"turn", "[0, 0, 90]"},
+    {"pose", R"({"elbow": [0, 90, 0]})"},
+    {"color", "[0.8, 0.4, 0.2]"},
+    {"intensity", "1"},
+    {"ambient", "0.1"},
+    {"diffuse", "0.65"},
+    {"specular", "0.45"},
+    {"exponent", "32"},
+    {"sides", "2"},
+    {"name", R"("anna")"},
+    {"model", R"("robot")"},
+    {"material", R"("oak")"},
+    {"matrices", R"([{"frame": 0, "segments": {"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}}])"},
+    {"segments", R"({"hand": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})"},
+
+    {"joints", R"([{"name": "foot"}, {"name": "knee", "parent": "foot"}])"},
+    {"parent", R"("foot")"},
+    {"x_axis", "[1, 0, 0]"},
+    {"y_axis", "[0, 1, 0]"},
+    {"limits", R"({"x": [-30, 30]})"},
+    {"segment", R"({"shape": "box"})"},
+    {"shape", R"("box")"},
+    {"sbb", "[[0, 0, 0], [1, 1, 1]]"},
+    {"from", R"("human.json")"},
+    {"proportions", R"({"scale": 1.1})"},
+    {"scale", "[1, 1, 1.2]"},
+    {"height", "1.8"},
+    {"ground", "true"},
+};
+
+// The nearest key of the element or of what it lies in, from the path's end.
+struct Named {
+  std::string_view key, above;
+};
+
+bool fits(std::string_view form, const Named& named) {
+  const std::size_t dot = form.find('.');
+  if (dot == std::string_view::npos) return form == named.key;
+  return form.substr(0, dot) == named.above && (form.substr(dot + 1) == "*" || form.substr(dot + 1) == named.key);
+}
+
+}  // namespace
+
+std::span<const Form> forms() { return kForms; }
+
+std::string form_of(const Element& element) {
+  const auto keyed = [](std::optional<Element> at) {
+    while (at && at->key().empty()) at = at->parent();
+    return at;
+  };
+  const auto own = keyed(element);
+  if (!own) return "";
+  const auto above = keyed(own->parent());
+  const Named named{own->key(), above ? above->key() : ""};
+  const auto form = std::ranges::find_if(kForms, [&](const Form& each) { return fits(each.key, named); });
+  if (form == std::end(kForms)) return "";
+  return "\"" + std::string(named.key) + "\": " + std::string(form->value);
+}
+
+}  // namespace mars::host

@@ -1,0 +1,23 @@
+// How the values of film and model files are written, for messages about those that are not. docs/schema says what
+// is allowed; a test holds the two together.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "host/document/document.h"
+
+namespace mars::host {
+
+struct Form {
+  std::string_view key;  // "place"; "limits.x" where the key means something else elsewhere; "pose.*" of any name
+  std::string_view value;
+};
+
+std::span<const Form> forms();
+
+// "\"limits\": {\"x\": [-30, 30]}", of the key whose value the element is or lies in; "" where none is known.
+std::string form_of(const Element& element);
+
+}  // namespace mars::host
