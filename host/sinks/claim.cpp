@@ -51,9 +51,11 @@ std::string time_text(std::int64_t when) {
   return text.data();
 }
 
-std::string who_text(const Claim& claim) {
-  return " (host " + claim.process.host + ", process " + std::to_string(claim.process.number) + ", since " +
-         time_text(claim.since) + ")";
+// "another run, process 4711 on host n1, renders frames 0-99 of film.json into this folder since 12:01:33"
+std::string told(const Claim& claim, const std::string& film) {
+  return "another run, process " + std::to_string(claim.process.number) + " on host " + claim.process.host +
+         ", renders " + frames_text(claim.manifest.frames) + " of " + film + " into this folder since " +
+         time_text(claim.since);
 }
 
 }  // namespace
@@ -118,16 +120,14 @@ void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& f
     throw Failure("another run renders into this folder, and its claim cannot be read", file_of(run, kClaimEnding)->string(),
                   "give another folder with -o, or wait");
   const Manifest& theirs = rival->manifest;
-  const std::string begin = "another run renders " + frames_text(theirs.frames) + " of ";
   if (theirs.checksum != wanted.checksum) {
-    const std::string film = theirs.film == wanted.film ? "another version or size of " + theirs.film : theirs.film;
-    throw Failure(begin + film + " into this folder" + who_text(*rival), folder.string(),
-                  "give another folder with -o, or wait");
+    const std::string film = (theirs.film == wanted.film ? "another version or size of " : "") + theirs.film;
+    throw Failure(told(*rival, film), folder.string(), "give another folder with -o, or wait");
   }
   std::vector<std::uint32_t> both;
   std::ranges::set_intersection(theirs.frames, wanted.frames, std::back_inserter(both));
   if (both.empty()) return;
-  throw Failure(begin + theirs.film + " into this folder" + who_text(*rival), folder.string(),
+  throw Failure(told(*rival, theirs.film), folder.string(),
                 "give other frames with --frames, another folder with -o, or wait");
 }
 

@@ -21,8 +21,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPause = 2ms;
-// Longer than the turn of a run on a lost machine counts.
-constexpr auto kPatience = 90s;
 constexpr double kLongestSilence = 60;  // seconds
 
 // When a file was last changed, in seconds by the clock of the machine that keeps it. Opening it makes NFS ask that
@@ -40,8 +38,10 @@ bool touch(const fs::path& file) { return utimensat(AT_FDCWD, file.c_str(), null
 
 }  // namespace
 
-FolderTurn::FolderTurn(const RunsFolder& runs)
-    : runs_(runs), file_(runs.add_own_file(kWaitsEnding, to_json(runs.self()).dump())), deadline_(Clock::now() + kPatience) {
+FolderTurn::FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience)
+    : runs_(runs),
+      file_(runs.add_own_file(kWaitsEnding, to_json(runs.self()).dump())),
+      deadline_(Clock::now() + patience) {
   try {
     wait();
   } catch (...) {
@@ -57,15 +57,7 @@ FolderTurn::~FolderTurn() {
 
 void FolderTurn::wait() {
   while (!take()) {
-    if (Clock::now() > deadline_) {
-      std::string who;
-      for (const RunFiles& rival : rivals()) {
-        const ProcessName process = process_of(rival);
-        who = "process " + std::to_string(process.number) + " on host " + process.host;
-      }
-      throw Failure("another run has long held up what all must wait for: " + who, file_.parent_path().string(),
-                    "see why it does not go on, or end it");
-    }
+    if (Clock::now() > deadline_) fail_late();
     std::this_thread::sleep_for(kPause);
   }
 }
@@ -104,6 +96,16 @@ void FolderTurn::rename_to(std::string_view ending) {
 
 void FolderTurn::confirm() const {
   if (!touch(file_)) fail_lost();
+}
+
+void FolderTurn::fail_late() const {
+  std::string who = "another run";
+  for (const RunFiles& rival : rivals()) {
+    const ProcessName process = process_of(rival);
+    who += ", process " + std::to_string(process.number) + " on host " + process.host + ",";
+  }
+  throw Failure(who + " begins or ends in this folder, and does not go on", file_.parent_path().string(),
+                "continue that process, or end it");
 }
 
 void FolderTurn::fail_lost() const {

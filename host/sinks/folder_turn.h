@@ -20,9 +20,12 @@ namespace mars::host {
 
 class FolderTurn {
  public:
-  // Waits for it. `runs` must outlive the turn. Throws Failure where it does not come: another run that has it does not
-  // go on, or the folder cannot be written.
-  explicit FolderTurn(const RunsFolder& runs);
+  // Longer than the turn of a run on a lost machine counts.
+  static constexpr std::chrono::milliseconds kPatience{90000};
+
+  // Waits for it. `runs` must outlive the turn. Throws Failure where it does not come in time, as another run that has it
+  // does not go on, or where the folder cannot be written.
+  explicit FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience = kPatience);
   ~FolderTurn();
   FolderTurn(const FolderTurn&) = delete;
   FolderTurn& operator=(const FolderTurn&) = delete;
@@ -44,6 +47,7 @@ class FolderTurn {
   bool take();
   std::vector<RunFiles> rivals() const;
   void rename_to(std::string_view ending);
+  [[noreturn]] void fail_late() const;
   [[noreturn]] void fail_lost() const;
 
   const RunsFolder& runs_;

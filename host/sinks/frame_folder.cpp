@@ -133,8 +133,8 @@ FrameFolder::~FrameFolder() {
 void FrameFolder::finish() {
   if (finished_) return;
   finished_ = true;
-  lease_->check();
   const FolderTurn turn(runs_);
+  lease_->confirm();
   for (const RunFiles& run : runs_.runs())
     if (run.run == runs_.own_name()) settle(run, path_, runs_, turn);
   lease_.reset();

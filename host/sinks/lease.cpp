@@ -50,8 +50,15 @@ void Lease::renew() {
 }
 
 void Lease::check() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!gone_ && clock_() - renewed_ < kTrusted) return;
+  }
+  confirm();
+}
+
+void Lease::confirm() {
   const std::lock_guard lock(mutex_);
-  if (!gone_ && clock_() - renewed_ < kTrusted) return;
   renew();
   if (gone_)
     throw Failure("this run's claim to the folder is gone: another run has taken this one for ended, or somebody removed it",

@@ -23,7 +23,10 @@ class Lease {
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
 
-  // Throws Failure where the file is gone, or could not be renewed for half the time after which others give it up.
+  // Renews it. Throws Failure where the file is gone, or could not be renewed for half the time after which others give
+  // it up.
+  void confirm();
+  // Likewise, but looks only where the last renewal is as long ago as that.
   void check();
 
  private:
