@@ -22,7 +22,9 @@ class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, const std::filesystem::path& file, int flags, const char* act,
              mode_t mode = 0666)
-      : path_(path), act_(act), number_(open(file.c_str(), flags | O_CLOEXEC, mode)) {
+      : Descriptor(path, open(file.c_str(), flags | O_CLOEXEC, mode), act) {}
+  // What open(2) has just given.
+  Descriptor(const std::filesystem::path& path, int number, const char* act) : path_(path), act_(act), number_(number) {
     if (number_ < 0) fail_file(act, path, errno);
   }
   ~Descriptor() {
@@ -186,10 +188,13 @@ void replace_file(const std::filesystem::path& path, const std::filesystem::path
   file.rename_to_target();
 }
 
-void create_file(const std::filesystem::path& path, std::string_view text) {
-  Descriptor file(path, path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, "write");
+bool create_file(const std::filesystem::path& path, std::string_view text) {
+  const int opened = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (opened < 0 && errno == ENOENT) return false;
+  Descriptor file(path, opened, "write");
   file.write_all(std::as_bytes(std::span(text.data(), text.size())));
   file.close_checked();
+  return true;
 }
 
 void check_can_write(const std::filesystem::path& path) { part_of(path); }

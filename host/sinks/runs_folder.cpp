@@ -54,15 +54,9 @@ void RunsFolder::make() const {
 
 fs::path RunsFolder::add_own_file(std::string_view ending, std::string_view text) const {
   const fs::path file = own_file(ending);
-  while (true) {
-    make();
-    try {
-      create_file(file, text);
-      return file;
-    } catch (const Failure&) {
-      if (exists()) throw;  // else another run has just removed it, empty
-    }
-  }
+  do make();  // again where another run removes it, empty, before our file is there
+  while (!create_file(file, text));
+  return file;
 }
 
 void RunsFolder::remove_own_files() const {
