@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <optional>
+#include <random>
 #include <string>
 
 #include "hal/failure.h"
@@ -20,7 +22,9 @@ class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, const std::filesystem::path& file, int flags, const char* act,
              mode_t mode = 0666)
-      : path_(path), act_(act), number_(open(file.c_str(), flags | O_CLOEXEC, mode)) {
+      : Descriptor(path, open(file.c_str(), flags | O_CLOEXEC, mode), act) {}
+  // What open(2) has just given.
+  Descriptor(const std::filesystem::path& path, int number, const char* act) : path_(path), act_(act), number_(number) {
     if (number_ < 0) fail_file(act, path, errno);
   }
   ~Descriptor() {
@@ -51,6 +55,15 @@ class Descriptor {
     }
     bytes.resize(used);
     return bytes;
+  }
+
+  // What a machine that loses its power then finds under the file's name is whole. Some file systems have no such call.
+  void sync() {
+    while (fsync(number_) != 0) {
+      if (errno == EINTR) continue;
+      if (errno == EINVAL || errno == ENOTSUP) return;
+      fail_file(act_, path_, errno);
+    }
   }
 
   // Network file systems may tell only here that the disk is full.
@@ -86,44 +99,71 @@ const char* remedy_for(int error) {
   }
 }
 
-// Removes the temporary file unless it was renamed. A file that it replaces is found through links and keeps its
-// permissions; what is no file is not replaced.
+// A new file under a temporary name, which becomes the file `path` when it is renamed; removed unless it was. The file
+// that it replaces leaves it its permissions; what is no file is not replaced.
 class Part {
  public:
-  explicit Part(const std::filesystem::path& path) : target_(path), replaced_(path) {
-    std::error_code none;
-    if (std::filesystem::is_symlink(path, none) && std::filesystem::exists(path, none))
-      replaced_ = std::filesystem::canonical(path);
-    path_ = replaced_;
-    path_ += kPartSuffix;
-    struct stat old{};
-    if (stat(replaced_.c_str(), &old) != 0) return;
-    if (S_ISDIR(old.st_mode)) fail_file("write", target_, EISDIR);
-    if (!S_ISREG(old.st_mode)) throw Failure("cannot write: is not a regular file", target_.string(), remedy_for(EEXIST));
-    mode_ = old.st_mode & 0777;
-  }
+  // `path` is what failures name, `replaced` what is replaced.
+  Part(const std::filesystem::path& path, std::filesystem::path replaced, std::filesystem::path part)
+      : target_(path),
+        replaced_(std::move(replaced)),
+        path_(std::move(part)),
+        mode_(mode_of_replaced()),
+        file_(target_, path_, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, "write",
+              mode_.value_or(0666) | S_IRUSR | S_IWUSR) {}
   ~Part() {
     if (!renamed_) unlink(path_.c_str());
   }
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  Descriptor create() const {
-    return {target_, path_, O_WRONLY | O_CREAT | O_TRUNC, "write", mode_.value_or(0666) | S_IRUSR | S_IWUSR};
-  }
+  void write(std::string_view text) { file_.write_all(std::as_bytes(std::span(text.data(), text.size()))); }
 
   void rename_to_target() {
+    file_.sync();
+    file_.close_checked();
     if (mode_) chmod(path_.c_str(), *mode_);
     if (rename(path_.c_str(), replaced_.c_str()) != 0) fail_file("write", target_, errno);
     renamed_ = true;
   }
 
  private:
+  std::optional<mode_t> mode_of_replaced() const {
+    struct stat old{};
+    if (lstat(replaced_.c_str(), &old) != 0 || S_ISLNK(old.st_mode)) return std::nullopt;
+    if (S_ISDIR(old.st_mode)) fail_file("write", target_, EISDIR);
+    if (!S_ISREG(old.st_mode))
+      throw Failure("cannot write: is not a regular file", target_.string(), remedy_for(EEXIST));
+    return old.st_mode & 0777;
+  }
+
   const std::filesystem::path& target_;
   std::filesystem::path replaced_, path_;
   std::optional<mode_t> mode_;
+  Descriptor file_;
   bool renamed_ = false;
 };
+
+// The file that a person means by `path`: found through links, unless these lead nowhere.
+std::filesystem::path file_meant_by(const std::filesystem::path& path) {
+  std::error_code none;
+  const bool leads = std::filesystem::is_symlink(path, none) && std::filesystem::exists(path, none);
+  return leads ? std::filesystem::canonical(path) : path;
+}
+
+// A name beside `path` that no other process uses, and nobody can foresee.
+std::filesystem::path part_beside(const std::filesystem::path& path) {
+  constexpr std::size_t kLongestName = 200;  // bytes, of the 255 that a name may have
+  std::string name = ".";
+  name += path.filename().string().substr(0, kLongestName);
+  return path.parent_path() / (name + "." + unique_word()).append(kPartSuffix);
+}
+
+Part part_of(const std::filesystem::path& path) {
+  std::filesystem::path meant = file_meant_by(path);
+  std::filesystem::path part = part_beside(meant);
+  return Part(path, std::move(meant), std::move(part));
+}
 
 }  // namespace
 
@@ -136,16 +176,35 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
 }
 
 void write_whole_file(const std::filesystem::path& path, const std::function<void(const Write&)>& produce) {
-  Part part(path);
-  Descriptor file = part.create();
-  produce([&file](std::string_view piece) { file.write_all(std::as_bytes(std::span(piece.data(), piece.size()))); });
-  file.close_checked();
+  Part part = part_of(path);
+  produce([&part](std::string_view piece) { part.write(piece); });
   part.rename_to_target();
 }
 
-void check_can_write(const std::filesystem::path& path) {
-  const Part part(path);
-  part.create();
+void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
+                  std::span<const std::byte> bytes) {
+  Part file(path, path, part);
+  file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  file.rename_to_target();
+}
+
+bool create_file(const std::filesystem::path& path, std::string_view text) {
+  const int opened = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (opened < 0 && errno == ENOENT) return false;
+  Descriptor file(path, opened, "write");
+  file.write_all(std::as_bytes(std::span(text.data(), text.size())));
+  file.close_checked();
+  return true;
+}
+
+void check_can_write(const std::filesystem::path& path) { part_of(path); }
+
+std::string unique_word() {
+  std::random_device random;  // the system's own
+  std::string word(17, ' ');
+  std::snprintf(word.data(), word.size(), "%08x%08x", random(), random());
+  word.pop_back();
+  return word;
 }
 
 void refuse_same_file(const std::filesystem::path& from, const std::filesystem::path& to) {

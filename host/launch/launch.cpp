@@ -167,7 +167,7 @@ void launch_render(RenderOptions options, const std::filesystem::path& self, con
       });
   display.settle();
   if (!run.well()) {
-    if (!options.folder.empty()) remove_parts(options.folder);
+    if (!options.folder.empty()) clear_ended_runs(options.folder);
     throw diagnose(run.remains(), options, advice);
   }
   display.tell(done_text(run.done()));

@@ -45,6 +45,15 @@ FrameSet::FrameSet(const std::string& text) {
   }
 }
 
+FrameSet::FrameSet(std::span<const std::uint32_t> frames) {
+  for (const std::uint32_t frame : frames) {
+    if (!stretches_.empty() && std::uint64_t{*stretches_.back().last} + 1 == frame)
+      stretches_.back().last = frame;
+    else
+      stretches_.push_back({frame, frame});
+  }
+}
+
 std::string FrameSet::text() const {
   std::string text;
   for (const Stretch& stretch : stretches_) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,12 @@ class FrameSet {
   FrameSet() : stretches_{{0, std::nullopt}} {}
   // Throws Failure saying which part of `text` is wrong.
   explicit FrameSet(const std::string& text);
+  // These frames, which ascend.
+  explicit FrameSet(std::span<const std::uint32_t> frames);
 
+  // As it may be written on a command line; "" for no frame.
   std::string text() const;
+  const std::vector<Stretch>& stretches() const { return stretches_; }
   // The frames of a film of `film_frames`, ascending, each once. Throws Failure where the film is too short.
   std::vector<std::uint32_t> of_film(std::uint32_t film_frames) const;
 

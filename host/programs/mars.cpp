@@ -15,6 +15,7 @@
 #include "host/launch/bench.h"
 #include "host/launch/launch.h"
 #include "host/options/command_line.h"
+#include "host/options/frame_set.h"
 #include "host/programs/animate_command.h"
 #include "host/programs/film_of.h"
 #include "host/programs/import_command.h"
@@ -40,7 +41,7 @@ Commands:
   mars info FILM                   what a film holds
   mars preview FILM                play a film or a model in the terminal, before it is rendered
   mars play DIR                    play rendered frames in the terminal
-  mars verify DIR                  are all frames there, and whole?
+  mars verify DIR                  are all frames there, and as they were rendered?
   mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars plot FILM -o FILE.png       joint angles over time, as a picture
   mars import FILE -o MODEL.json   a model from a mesh or patch file
@@ -63,8 +64,14 @@ struct Names {
 
 std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
-int verify(const std::string& folder) {
-  const Verdict verdict = verify_folder(folder);
+// Asked for what is missing, its answer is no failure, whatever it is: nothing at all where nothing is missing.
+void print_missing(const Verdict& verdict) {
+  std::vector<std::uint32_t> frames;
+  for (const Verdict::Trouble& trouble : verdict.troubles) frames.push_back(trouble.frame);
+  if (!frames.empty()) std::cout << FrameSet(frames).text() << '\n';
+}
+
+int print_verdict(const Verdict& verdict) {
   for (const Verdict::Trouble& trouble : verdict.troubles) {
     std::cout << "frame " << trouble.frame << ": " << trouble.reason << '\n';
   }
@@ -72,7 +79,9 @@ int verify(const std::string& folder) {
     std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong\n";
     return kFailed;
   }
-  std::cout << verdict.expected << " frames, all there and whole\npixels " << verdict.hash << '\n';
+  std::cout << verdict.expected << " frames, all there and whole\n";
+  if (!verdict.compared) std::cout << "frames.json has no pixel hashes: pixels were not compared with those rendered\n";
+  std::cout << "pixels " << verdict.hash << '\n';
   return 0;
 }
 
@@ -110,12 +119,21 @@ void add_info(CLI::App& app, Names& names) {
   command->callback([&] { std::cout << info_of(names.from); });
 }
 
-void add_verify(CLI::App& app, Names& names, int& code) {
+void add_verify(CLI::App& app, Names& names, bool& missing, int& code) {
   CLI::App* command =
       app.add_subcommand("verify", "Look all frames of a folder over; print one hash of their pixels");
   command->add_option("DIR", names.from, "The folder given to mars render with -o. Example: build/demo")
       ->required();
-  command->callback([&] { code = verify(names.from); });
+  command->add_flag("--missing", missing,
+                    "Print only which frames are missing or wrong, as --frames takes them; nothing where none is. "
+                    "Example: mars render FILM -o DIR --frames \"$(mars verify DIR --missing)\"");
+  command->callback([&] {
+    const Verdict verdict = verify_folder(names.from);
+    if (missing)
+      print_missing(verdict);
+    else
+      code = print_verdict(verdict);
+  });
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
@@ -171,7 +189,8 @@ int run(int argc, char** argv) {
   add_render(app, options);
   add_compile(app, options, names);
   add_info(app, names);
-  add_verify(app, names, code);
+  bool missing = false;
+  add_verify(app, names, missing, code);
   add_import(app);
   add_preview(app);
   add_play(app);

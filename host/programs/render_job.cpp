@@ -33,11 +33,15 @@ class Destination {
     }
     const node::FilmSettings& settings = film.view().settings();
     folder_.emplace(options.folder, Manifest{options.film, checksum_of(film.block()), settings.width,
-                                             settings.height, settings.rate, settings.frames, frames});
+                                             settings.height, settings.rate, settings.frames, frames, {}});
     sink_ = std::make_unique<PngSink>(*folder_);
   }
 
   Sink& sink() { return *sink_; }
+  // Once it has taken all frames.
+  void finish() {
+    if (folder_) folder_->finish();
+  }
 
  private:
   std::optional<FrameFolder> folder_;
@@ -131,6 +135,7 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
   SinkPool pool(destination.sink(), pool_shape(settings, options.block));
   Teller teller(backend, film.view().intervals().size());
   const FarmReport report = render_film(film.block(), farm, pool, teller.listener());
+  destination.finish();
   if (!options.report.empty()) {
     const ReportHead head{options.film,   checksum_of(film.block()),
                           backend,        arguments_for(Program::host, options),

@@ -1,16 +1,17 @@
 #include "host/sinks/frame_folder.h"
 
-#include <algorithm>
+#include <fcntl.h>
+#include <time.h>
+#include <unistd.h>
+
 #include <cerrno>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <system_error>
 
 #include "hal/failure.h"
-#include "host/sinks/png_file.h"
 #include "host/document/whole_file.h"
-#include "node/film.h"
+#include "host/sinks/claim.h"
+#include "host/sinks/png_file.h"
 
 namespace mars::host {
 
@@ -28,114 +29,7 @@ void create_folder(const fs::path& path) {
   if (!fs::is_directory(path)) fail_file("create the folder", path, ENOTDIR);
 }
 
-// Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
-json stretches_of(const std::vector<std::uint32_t>& frames) {
-  json stretches = json::array();
-  for (const std::uint32_t frame : frames) {
-    if (!stretches.empty() && stretches.back()[1].get<std::uint64_t>() + 1 == frame) {
-      stretches.back()[1] = frame;
-    } else {
-      stretches.push_back({frame, frame});
-    }
-  }
-  return stretches;
-}
-
-// A whole number below `end`; JSON's own conversions would bend any other into one.
-std::uint32_t whole_number(const json& from, std::uint32_t end) {
-  if (!from.is_number_unsigned() || from.get<std::uint64_t>() >= end) {
-    throw std::out_of_range(from.dump() + " is not a whole number below " + std::to_string(end));
-  }
-  return from.get<std::uint32_t>();
-}
-
-std::vector<std::uint32_t> frames_of(const json& stretches, std::uint32_t film_frames) {
-  std::vector<std::uint32_t> frames;
-  for (const json& stretch : stretches) {
-    const std::uint32_t last = whole_number(stretch.at(1), film_frames);
-    for (std::uint32_t frame = whole_number(stretch.at(0), film_frames); frame <= last; ++frame) {
-      frames.push_back(frame);
-    }
-  }
-  return frames;
-}
-
-json to_json(const Manifest& manifest) {
-  return {{"film", manifest.film},
-          {"checksum", manifest.checksum},
-          {"width", manifest.width},
-          {"height", manifest.height},
-          {"rate", manifest.rate},
-          {"film_frames", manifest.film_frames},
-          {"frames", stretches_of(manifest.frames)}};
-}
-
-Manifest from_json(const json& from) {
-  Manifest manifest;
-  from.at("film").get_to(manifest.film);
-  from.at("checksum").get_to(manifest.checksum);
-  manifest.width = whole_number(from.at("width"), node::kMaxSide + 1);
-  manifest.height = whole_number(from.at("height"), node::kMaxSide + 1);
-  from.at("rate").get_to(manifest.rate);
-  manifest.film_frames = whole_number(from.at("film_frames"), node::kMostFrames);
-  manifest.frames = frames_of(from.at("frames"), manifest.film_frames);
-  return manifest;
-}
-
-}  // namespace
-
-namespace {
-
-// The folder's manifest, if it has a sound one and that is of this very film.
-std::optional<Manifest> manifest_of_same_film(const fs::path& folder, const Manifest& manifest) {
-  if (!fs::exists(folder / kManifestName)) return std::nullopt;
-  try {
-    Manifest old = read_manifest(folder);
-    if (old.checksum == manifest.checksum) return old;
-  } catch (const Failure&) {
-  }
-  return std::nullopt;
-}
-
-std::vector<std::uint32_t> together(const std::vector<std::uint32_t>& some, const std::vector<std::uint32_t>& others) {
-  std::vector<std::uint32_t> frames;
-  std::ranges::set_union(some, others, std::back_inserter(frames));
-  return frames;
-}
-
-}  // namespace
-
-FrameFolder::FrameFolder(fs::path path, const Manifest& manifest)
-    : path_(std::move(path)), film_frames_(manifest.film_frames) {
-  create_folder(path_);
-  remove_parts(path_);
-  Manifest all = manifest;
-  if (const auto before = manifest_of_same_film(path_, manifest))
-    all.frames = together(before->frames, manifest.frames);
-  else  // another film's frames under the names to come would pass as this one's if the run were interrupted
-    for (const std::uint32_t frame : manifest.frames) fs::remove(file_of(frame));
-  write_whole_file(path_ / kManifestName, to_json(all).dump(2, ' ', false, json::error_handler_t::replace) + "\n");
-}
-
-fs::path FrameFolder::file_of(std::uint32_t frame) const {
-  return path_ / frame_file_name(frame, film_frames_);
-}
-
-std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames) {
-  const std::size_t digits = std::max<std::size_t>(4, std::to_string(film_frames - 1).size());
-  const std::string number = std::to_string(frame);
-  return "frame-" + std::string(digits - std::min(digits, number.size()), '0') + number + ".png";
-}
-
-void remove_parts(const fs::path& folder) {
-  std::error_code ignored;  // what cannot be listed or removed will be told by the next write
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("frame") && name.ends_with(kPartSuffix)) fs::remove(entry.path(), ignored);
-  }
-}
-
-Manifest read_manifest(const fs::path& folder) {
+Manifest read_frames_json(const fs::path& folder) {
   const fs::path path = folder / kManifestName;
   if (!fs::exists(path)) {
     throw Failure("no folder of frames: it has no frames.json", folder.string(),
@@ -144,15 +38,142 @@ Manifest read_manifest(const fs::path& folder) {
   const std::vector<std::byte> bytes = read_whole_file(path);
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   try {
-    return from_json(json::parse(text, text + bytes.size()));
+    return manifest_of(json::parse(text, text + bytes.size()));
   } catch (const std::exception& error) {
     throw Failure(std::string("not a manifest of frames: ") + error.what(), path.string(),
                   "render into the folder again");
   }
 }
 
+// The folder's manifest, if it has a sound one and that is of this very film.
+std::optional<Manifest> manifest_of_same_film(const fs::path& folder, const std::string& checksum) {
+  try {
+    Manifest old = read_frames_json(folder);
+    if (old.checksum == checksum) return old;
+  } catch (const Failure&) {
+  }
+  return std::nullopt;
+}
+
+void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
+  const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
+}
+
+// Adds what a run that has ended, or this one at its end, has rendered to the manifest, unless that is of another film by now, and removes the run's
+// files: its claim last, so that whatever is left of them is known to be its.
+void settle(const RunFiles& run, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
+  std::error_code ignored;  // what stays is found by the next run
+  for (const fs::path& file : run.files)
+    if (file.extension() == kPartSuffix) fs::remove(file, ignored);
+  if (const std::optional<Manifest> rendered = rendered_by(run)) {
+    const bool missing = !fs::exists(folder / kManifestName);
+    std::optional<Manifest> all = missing ? rendered : manifest_of_same_film(folder, rendered->checksum);
+    turn.confirm();
+    if (all) add_frames(*all, *rendered);
+    if (all) write_manifest(*all, folder, runs);
+  }
+  for (const bool claims : {false, true})
+    for (const fs::path& file : run.files)
+      if ((file.extension() == kClaimEnding) == claims && file != turn.file()) fs::remove(file, ignored);
+}
+
+void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
+  for (const RunFiles& run : runs.runs())
+    if (run.run != runs.own_name() && turn.has_ended(run)) settle(run, folder, runs, turn);
+}
+
+// Names that were made in the folder are on the disk too; not every file system can do that.
+void sync_folder(const fs::path& folder) {
+  const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;
+  fsync(opened);
+  close(opened);
+}
+
+}  // namespace
+
+FrameFolder::FrameFolder(fs::path path, const Manifest& manifest, const ProcessName& self)
+    : path_(std::move(path)), film_frames_(manifest.film_frames), runs_(path_, self) {
+  create_folder(path_);
+  const FolderTurn turn(runs_);
+  try {
+    claim(turn, manifest);
+  } catch (...) {
+    runs_.remove_own_files();
+    throw;
+  }
+}
+
+void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
+  for (const RunFiles& run : runs_.runs())
+    if (has_claim(run) && !turn.has_ended(run)) refuse_rival(run, manifest, path_);
+  settle_ended_runs(path_, runs_, turn);
+  std::optional<Manifest> all = manifest_of_same_film(path_, manifest.checksum);
+  if (!all) {  // another film's frames under the names to come would pass as this one's if the run were interrupted
+    for (const std::uint32_t frame : manifest.frames) fs::remove(file_of(frame));
+    all = manifest;
+  }
+  add_frames(*all, manifest);
+  turn.confirm();
+  const std::string text = text_of(Claim{runs_.self(), time(nullptr), manifest});
+  replace_file(runs_.own_file(kClaimEnding), runs_.own_file(".claim.part"), std::as_bytes(std::span(text)));
+  lease_.emplace(runs_.own_file(kClaimEnding));
+  hashes_.emplace(runs_.own_file(kHashesEnding));
+  write_manifest(*all, path_, runs_);
+}
+
+FrameFolder::~FrameFolder() {
+  try {
+    finish();
+  } catch (const std::exception&) {
+  }
+}
+
+void FrameFolder::finish() {
+  if (finished_) return;
+  finished_ = true;
+  const FolderTurn turn(runs_);
+  lease_->confirm();
+  for (const RunFiles& run : runs_.runs())
+    if (run.run == runs_.own_name()) settle(run, path_, runs_, turn);
+  lease_.reset();
+  sync_folder(path_);
+}
+
+fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_file_name(frame, film_frames_); }
+
+// The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a hash
+// would say nothing.
+void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png) {
+  lease_->check();
+  hashes_->add(frame, pixel_hash);
+  const std::string part = "." + frame_file_name(frame, film_frames_) + std::string(kPartSuffix);
+  replace_file(file_of(frame), runs_.own_file(part), png);
+}
+
+void clear_ended_runs(const fs::path& folder) {
+  const RunsFolder runs(folder, this_process());
+  if (!runs.exists()) return;
+  try {
+    settle_ended_runs(folder, runs, FolderTurn(runs));
+  } catch (const std::exception&) {
+  }
+}
+
+Manifest read_manifest(const fs::path& folder) {
+  // The runs first: what one has rendered is in frames.json before it is gone from there.
+  std::vector<Manifest> unfinished;
+  for (const RunFiles& run : RunsFolder(folder, this_process()).runs())
+    if (std::optional<Manifest> rendered = rendered_by(run)) unfinished.push_back(std::move(*rendered));
+  Manifest manifest = read_frames_json(folder);
+  for (const Manifest& rendered : unfinished)
+    if (rendered.checksum == manifest.checksum) add_frames(manifest, rendered);
+  return manifest;
+}
+
 void PngSink::take(const Frame& frame) {
-  write_whole_file(folder_.file_of(frame.number), encode_png(frame.width, frame.height, frame.pixels));
+  folder_.put(frame.number, pixel_hash(frame.pixels), encode_png(frame.width, frame.height, frame.pixels));
 }
 
 }  // namespace mars::host

@@ -1,60 +1,72 @@
-// The folder a film is rendered into: frame-0000.png and so on, and frames.json, the manifest that says
-// which frames of which film belong there. The manifest is written first, so that a folder without it, or
-// with fewer frames than it names, is known to be unfinished.
+// The folder a film is rendered into: frame-0000.png and so on, and frames.json, the manifest that says which frames of
+// which film belong there, and the hash of each one's pixels. The manifest is written first, so that a folder without it,
+// or with fewer frames than it names, is known to be unfinished. From its first file to its last a run has a claim there
+// (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs (runs_folder.h).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
+#include "host/sinks/claim.h"
+#include "host/sinks/lease.h"
+#include "host/sinks/manifest.h"
+#include "host/sinks/process_name.h"
+#include "host/sinks/runs_folder.h"
 #include "host/sinks/sink.h"
+#include "host/sinks/folder_turn.h"
 
 namespace mars::host {
 
-struct Manifest {
-  std::string film;      // its file's name, as the person gave it
-  std::string checksum;  // of the compiled film: 32 hexadecimal digits (checksum.h)
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  double rate = 0;                    // frames a second
-  std::uint32_t film_frames = 0;      // of the whole film
-  std::vector<std::uint32_t> frames;  // asked for, by one run or several, ascending
-
-  bool operator==(const Manifest&) const = default;
-};
-
 class FrameFolder {
  public:
-  // Creates the folder where it is missing, clears away what a killed run left, and writes the manifest; where
-  // there is one of the same compiled film, its frames belong there too.
-  FrameFolder(std::filesystem::path path, const Manifest& manifest);
+  // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what else
+  // they left, claims the frames, and writes the manifest; where there is one of the same compiled film, its frames
+  // belong there too. Throws Failure, and has changed nothing of others', where another run's claim is in the way.
+  FrameFolder(std::filesystem::path path, const Manifest& manifest, const ProcessName& self = this_process());
+  // As finish(); what then cannot be written, the next run or clear_ended_runs finds.
+  ~FrameFolder();
+  FrameFolder(const FrameFolder&) = delete;
+  FrameFolder& operator=(const FrameFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file_of(std::uint32_t frame) const;
 
+  // Writes a frame's file; from several threads at once. Throws Failure where it cannot, or the claim is lost.
+  void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png);
+
+  // Writes the frames' hashes to the manifest and gives up the claim.
+  void finish();
+
  private:
+  void claim(const FolderTurn& turn, const Manifest& manifest);
+
   std::filesystem::path path_;
   std::uint32_t film_frames_;
+  RunsFolder runs_;
+  std::optional<Lease> lease_;
+  std::optional<HashLog> hashes_;
+  bool finished_ = false;
 };
 
-// Names sort as frames do: as many digits as the film's last frame needs, at least four.
-std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames);
+// Does for runs that have ended without it, killed, what the next run would do: their frames' hashes go to the manifest,
+// and what else they left is removed. Leaves alone what cannot be written.
+void clear_ended_runs(const std::filesystem::path& folder);
 
-// Removes files that were being written when their process was killed.
-void remove_parts(const std::filesystem::path& folder);
-
+// With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.
 Manifest read_manifest(const std::filesystem::path& folder);
 
 // Writes every frame as a PNG file of the folder.
 class PngSink : public Sink {
  public:
   // `folder` must outlive the sink.
-  explicit PngSink(const FrameFolder& folder) : folder_(folder) {}
+  explicit PngSink(FrameFolder& folder) : folder_(folder) {}
   void take(const Frame& frame) override;
 
  private:
-  const FrameFolder& folder_;
+  FrameFolder& folder_;
 };
 
 }  // namespace mars::host

@@ -1,5 +1,6 @@
 #include "host/sinks/verify.h"
 
+#include <optional>
 #include <span>
 
 #include "hal/failure.h"
@@ -17,8 +18,9 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// "" where the frame is as it should be.
-std::string trouble_with(const fs::path& file, const Manifest& manifest, Checksum& pixels) {
+// "" where the frame is as it should be. `expected`: the hash of its pixels; none where nobody recorded any.
+std::string trouble_with(const fs::path& file, const Manifest& manifest, const std::optional<std::string>& expected,
+                         Checksum& pixels) {
   if (!fs::exists(file)) return "missing";
   try {
     const Image image = read_png(file);
@@ -26,6 +28,8 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, Checksu
       return size_text(image.width, image.height) + " pixels instead of " +
              size_text(manifest.width, manifest.height);
     }
+    if (expected && expected->empty()) return "nothing is recorded of its pixels: its run did not come so far";
+    if (expected && pixel_hash(image.pixels) != *expected) return "other pixels than were rendered";
     pixels.add(std::as_bytes(std::span(image.pixels)));
     return "";
   } catch (const Failure& failure) {
@@ -38,10 +42,13 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, Checksu
 Verdict verify_folder(const fs::path& folder) {
   const Manifest manifest = read_manifest(folder);
   Verdict verdict;
+  verdict.compared = !manifest.pixel_hashes.empty();
   Checksum pixels;
-  for (const std::uint32_t frame : manifest.frames) {
+  for (std::size_t i = 0; i < manifest.frames.size(); ++i) {
+    const std::uint32_t frame = manifest.frames[i];
     const fs::path file = folder / frame_file_name(frame, manifest.film_frames);
-    const std::string reason = trouble_with(file, manifest, pixels);
+    const auto expected = verdict.compared ? std::optional(manifest.pixel_hashes[i]) : std::nullopt;
+    const std::string reason = trouble_with(file, manifest, expected, pixels);
     if (!reason.empty()) verdict.troubles.push_back({frame, reason});
   }
   verdict.expected = static_cast<std::uint32_t>(manifest.frames.size());

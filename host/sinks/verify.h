@@ -1,5 +1,5 @@
-// Looks a folder of frames over: is every frame the manifest names there, whole and of the right size? The
-// hash over all pixels tells two renderings of one film apart, or the same.
+// Looks a folder of frames over: is every frame the manifest names there, whole, of the right size, and with the pixels
+// that were rendered? The hash over all pixels tells two renderings of one film apart, or the same.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ struct Verdict {
   };
 
   std::uint32_t expected = 0;     // frames
-  std::vector<Trouble> troubles;  // frames that are missing, torn or of another size
+  std::vector<Trouble> troubles;  // frames that are missing or wrong, ascending
+  bool compared = true;           // with the hashes of what was rendered; no: the manifest has none
   std::string hash;               // XXH3's 128 bits over the pixels of all frames in order; "" with troubles
 };
 

@@ -55,6 +55,50 @@ TEST(WholeFile, LinksAndPermissionsStay) {
   EXPECT_EQ(folder.entries(), 2u);
 }
 
+// Whoever can foresee a temporary name can put a link there.
+TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "precious", "old");
+  std::filesystem::create_symlink("precious", folder / "file.part");
+  write_whole_file(folder / "file", "new");
+  EXPECT_EQ(text_of(folder / "file"), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "file"));
+  EXPECT_EQ(text_of(folder / "precious"), "old");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "file.part")) << "it is none of ours";
+  EXPECT_TRUE(holds(failure_of([&] { replace_file(folder / "other", folder / "file.part", {}); }), "File exists"));
+  EXPECT_TRUE(holds(failure_of([&] { create_file(folder / "file.part", "new"); }), "File exists"));
+  EXPECT_EQ(text_of(folder / "precious"), "old");
+  EXPECT_EQ(folder.entries(), 3u);
+}
+
+TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "file", [&](const Write& write) {
+    write("outer");
+    write_whole_file(folder / "file", std::string(1 << 16, 'x'));
+  });
+  EXPECT_EQ(text_of(folder / "file"), "outer");
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(WholeFile, NamesMayBeAsLongAsTheSystemLetsThemBe) {
+  const TemporaryFolder folder;
+  const std::string longest(255, 'n');
+  write_whole_file(folder / longest, "text");
+  EXPECT_EQ(text_of(folder / longest), "text");
+}
+
+TEST(WholeFile, InAFolderOfOursALinkIsReplaced) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "precious", "old");
+  std::filesystem::create_symlink("precious", folder / "file");
+  replace_file(folder / "file", folder / "file.part", std::as_bytes(std::span("new", 3)));
+  EXPECT_EQ(text_of(folder / "file"), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "file"));
+  EXPECT_EQ(text_of(folder / "precious"), "old");
+  EXPECT_EQ(folder.entries(), 2u);
+}
+
 TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
   const TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe";

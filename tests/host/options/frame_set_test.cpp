@@ -43,5 +43,13 @@ TEST(FrameSet, TextReadsAgain) {
   EXPECT_EQ(FrameSet().text(), "0-");
 }
 
+TEST(FrameSet, TextOfFramesReadsAgain) {
+  for (const auto& [frames, text] : {std::pair{Frames{}, ""}, {Frames{7}, "7"}, {Frames{0, 1, 2, 5, 8, 9}, "0-2,5,8-9"}}) {
+    EXPECT_EQ(FrameSet(frames).text(), text);
+    EXPECT_TRUE(frames.empty() || FrameSet(text).of_film(10) == frames) << text;
+  }
+  EXPECT_EQ(FrameSet(Frames{4294967294, 4294967295}).text(), "4294967294-4294967295");
+}
+
 }  // namespace
 }  // namespace mars::host

@@ -2,22 +2,38 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <barrier>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "host/document/whole_file.h"
 #include "host/sinks/png_file.h"
 #include "host/sinks/verify.h"
-#include "host/document/whole_file.h"
 #include "tests/host/document/failure_of.h"
 #include "tests/host/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {
 
-Manifest small_manifest() { return {"a film.json", std::string(32, 'a'), 6, 4, 24, 12, {0, 1, 2, 5, 11}}; }
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
-// A folder with all its frames, each of one colour.
-void fill(const FrameFolder& folder, const Manifest& manifest, std::uint32_t color) {
+Manifest small_manifest() { return {"a film.json", std::string(32, 'a'), 6, 4, 24, 12, {0, 1, 2, 5, 11}, {}}; }
+
+Manifest of_frames(std::vector<std::uint32_t> frames) {
+  Manifest manifest = small_manifest();
+  manifest.frames = std::move(frames);
+  return manifest;
+}
+
+// Each frame of one colour.
+void put_frames(FrameFolder& folder, const Manifest& manifest, std::uint32_t color) {
   PngSink sink(folder);
   Frame frame(manifest.width, manifest.height, 16);
   for (const std::uint32_t number : manifest.frames) {
@@ -25,6 +41,33 @@ void fill(const FrameFolder& folder, const Manifest& manifest, std::uint32_t col
     std::fill(frame.pixels.begin(), frame.pixels.end(), color + number);
     sink.take(frame);
   }
+}
+
+// A folder with all its frames.
+void fill(const fs::path& path, const Manifest& manifest, std::uint32_t color) {
+  FrameFolder folder(path, manifest);
+  put_frames(folder, manifest, color);
+  folder.finish();
+}
+
+// A run of `manifest` that is killed when it has written the frames of `written`, and a part of another.
+void run_and_kill(const fs::path& path, const Manifest& manifest, const std::vector<std::uint32_t>& written,
+                  const ProcessName& as = {}) {
+  const pid_t child = fork();
+  if (child == 0) {
+    FrameFolder folder(path, manifest, as.number == 0 ? this_process() : as);
+    put_frames(folder, of_frames(written), 7);
+    for (const fs::directory_entry& entry : fs::directory_iterator(path / ".runs"))
+      if (entry.path().extension() == ".claim") create_file(fs::path(entry.path()).replace_extension(".frame.part"), "x");
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+std::string failure_to_claim(const fs::path& path, const Manifest& manifest) {
+  return failure_of([&] { FrameFolder(path, manifest); });
 }
 
 TEST(FrameFolder, NamesSortAsFramesDo) {
@@ -36,9 +79,10 @@ TEST(FrameFolder, NamesSortAsFramesDo) {
 
 TEST(FrameFolder, IsMadeWithItsManifest) {
   const TemporaryFolder folder;
-  const Manifest manifest = small_manifest();
+  Manifest manifest = small_manifest();
   const FrameFolder frames(folder / "a/b", manifest);
-  EXPECT_EQ(read_manifest(folder / "a/b"), manifest);
+  manifest.pixel_hashes.resize(5);
+  EXPECT_EQ(read_manifest(folder / "a/b"), manifest) << "no hash is known yet";
   EXPECT_EQ(frames.file_of(3), folder / "a/b/frame-0003.png");
 }
 
@@ -50,35 +94,178 @@ TEST(FrameFolder, ManifestsKeepNamesThatAreNoText) {
   EXPECT_EQ(read_manifest(folder.path()).frames, manifest.frames);
 }
 
-TEST(FrameFolder, ClearsAwayWhatAKilledRunLeft) {
+TEST(FrameFolder, AtItsEndOnlyFramesAndManifestAreThere) {
   const TemporaryFolder folder;
-  write_whole_file(folder / "frame-0001.png.part", "x");
-  write_whole_file(folder / "a person's own.part", "x");
-  const FrameFolder frames(folder.path(), small_manifest());
-  EXPECT_FALSE(std::filesystem::exists(folder / "frame-0001.png.part"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "a person's own.part"));
+  fill(folder.path(), small_manifest(), 7);
+  EXPECT_EQ(folder.entries(), 6u);
+  EXPECT_EQ(read_manifest(folder.path()).pixel_hashes[1], pixel_hash(std::vector<std::uint32_t>(24, 8)));
+}
+
+TEST(FrameFolder, ARunThatFailsRecordsWhatItHasRendered) {
+  const TemporaryFolder folder;
+  {
+    FrameFolder frames(folder.path(), small_manifest());
+    put_frames(frames, of_frames({1, 2}), 7);
+  }
+  EXPECT_EQ(folder.entries(), 3u);
+  EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 3u);
+}
+
+TEST(FrameFolder, WhatAKilledRunHasRenderedIsKnownBeforeAndAfterItIsClearedAway) {
+  const TemporaryFolder folder;
+  run_and_kill(folder.path(), small_manifest(), {1, 2});
+  EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 3u);
+  EXPECT_TRUE(fs::exists(folder / ".runs"));
+  clear_ended_runs(folder.path());
+  EXPECT_EQ(folder.entries(), 3u);
+  EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 3u);
+  run_and_kill(folder.path(), small_manifest(), {5});
+  fill(folder.path(), of_frames({0, 11}), 7);
+  EXPECT_EQ(folder.entries(), 6u) << "the next run does the same";
+  EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
+}
+
+TEST(FrameFolder, ClearingMakesNoFolder) {
+  const TemporaryFolder folder;
+  clear_ended_runs(folder.path());
+  clear_ended_runs(folder / "none");
+  EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
+  const TemporaryFolder folder;
+  FrameFolder frames(folder.path(), of_frames({1}));
+  const fs::path of_another = folder / ".runs/vm-1-another.frame-0003.png.part";
+  create_file(of_another, "nobody says any more whose it is");
+  fs::last_write_time(of_another, fs::last_write_time(of_another) - 65s);
+  fs::path part;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
+    if (entry.path().extension() == ".claim") part = fs::path(entry.path()).replace_extension(".frame-0001.png.part");
+  create_file(part, "half a frame");
+  fill(folder.path(), of_frames({2}), 7);
+  clear_ended_runs(folder.path());
+  EXPECT_TRUE(fs::exists(part));
+  EXPECT_FALSE(fs::exists(of_another));
+  fs::remove(part);
+  put_frames(frames, of_frames({1}), 7);
+  frames.finish();
+  EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
+}
+
+TEST(FrameFolder, RunsThatWouldBeMixedAreRefusedAndChangeNothing) {
+  const TemporaryFolder folder;
+  FrameFolder frames(folder.path(), of_frames({1, 2}));
+  put_frames(frames, of_frames({1}), 7);
+  const std::vector<std::byte> manifest = read_whole_file(folder / "frames.json");
+  EXPECT_TRUE(holds(failure_to_claim(folder.path(), of_frames({2, 3})), "renders frames 1-2 of a film.json into"));
+  Manifest other = of_frames({1, 3});
+  other.checksum = std::string(32, 'b');
+  other.film = "other.json";
+  EXPECT_TRUE(holds(failure_to_claim(folder.path(), other), "renders frames 1-2 of a film.json into"));
+  EXPECT_EQ(read_whole_file(folder / "frames.json"), manifest);
+  EXPECT_TRUE(fs::exists(frames.file_of(1)));
+  EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), "");
+  put_frames(frames, of_frames({2}), 7);
+  frames.finish();
+  EXPECT_EQ(failure_to_claim(folder.path(), other), "") << "once it has ended";
+}
+
+TEST(FrameFolder, OfARunOnAnotherMachineTheClaimCountsForAMinute) {
+  const TemporaryFolder folder;
+  ProcessName elsewhere = this_process();
+  elsewhere.boot = "another";
+  run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
+  const auto age = [&](std::chrono::seconds by) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
+      fs::last_write_time(entry.path(), entry.last_write_time() - by);
+  };
+  age(50s);
+  EXPECT_TRUE(holds(failure_to_claim(folder.path(), of_frames({2})), "another run"));
+  clear_ended_runs(folder.path());
+  EXPECT_TRUE(fs::exists(folder / ".runs"));
+  age(15s);
+  EXPECT_EQ(failure_to_claim(folder.path(), of_frames({2})), "");
+}
+
+// A run that was stopped so long that another machine took its claim away does not write over that one's frames.
+TEST(FrameFolder, WhoHasLostItsClaimWritesNoMore) {
+  const TemporaryFolder folder;
+  FrameFolder frames(folder.path(), of_frames({1, 2}));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs")) fs::remove(entry.path());
+  EXPECT_TRUE(holds(failure_of([&] { frames.finish(); }), "claim to the folder is gone"));
+}
+
+TEST(FrameFolder, OfRunsThatStartAtOnceOneGetsAFrameTwoWant) {
+  constexpr int kRuns = 12;
+  for (int round = 0; round < 5; ++round) {
+    const TemporaryFolder folder;
+    std::barrier start(kRuns), tried(kRuns);
+    std::atomic<int> won = 0, refused = 0;
+    std::vector<std::jthread> runs;
+    for (int i = 0; i < kRuns; ++i)
+      runs.emplace_back([&] {
+        std::unique_ptr<FrameFolder> frames;
+        start.arrive_and_wait();
+        const std::string failure =
+            failure_of([&] { frames = std::make_unique<FrameFolder>(folder.path(), small_manifest()); });
+        refused += holds(failure, "another run, process");
+        tried.arrive_and_wait();
+        if (!frames) return;
+        ++won;
+        put_frames(*frames, small_manifest(), 7);
+        frames->finish();
+      });
+    runs.clear();
+    EXPECT_EQ(won, 1);
+    EXPECT_EQ(refused, kRuns - 1);
+    EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
+    EXPECT_EQ(folder.entries(), 6u);
+  }
+}
+
+TEST(FrameFolder, OfRunsOfOtherFramesNothingIsLost) {
+  constexpr std::uint32_t kRuns = 12;
+  const TemporaryFolder folder;
+  std::vector<std::jthread> runs;
+  for (std::uint32_t frame = 0; frame < kRuns; ++frame)
+    runs.emplace_back([&, frame] { fill(folder.path(), of_frames({frame}), 7); });
+  runs.clear();
+  EXPECT_EQ(read_manifest(folder.path()).frames.size(), kRuns);
+  EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
+  EXPECT_EQ(folder.entries(), kRuns + 1);
+}
+
+TEST(FrameFolder, NothingIsWrittenThroughLinks) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "precious", "old");
+  fs::create_directory(folder / "out");
+  for (const char* name : {"frame-0001.png", "frame-0001.png.part", "frames.json", "frames.json.part"})
+    fs::create_symlink("../precious", folder / "out" / name);
+  fill(folder / "out", small_manifest(), 7);
+  EXPECT_EQ(fs::file_size(folder / "precious"), 3u);
+  EXPECT_TRUE(verify_folder(folder / "out").troubles.empty());
 }
 
 TEST(FrameFolder, AnotherFilmsFramesDoNotPassAsThisOnes) {
   const TemporaryFolder folder;
   Manifest manifest = small_manifest();
-  fill(FrameFolder(folder / "f", manifest), manifest, 7);
-  const FrameFolder again(folder / "f", manifest);
-  EXPECT_TRUE(std::filesystem::exists(again.file_of(5))) << "the same film's frames stay";
+  fill(folder / "f", manifest, 7);
+  {
+    const FrameFolder again(folder / "f", manifest);
+    EXPECT_TRUE(fs::exists(again.file_of(5))) << "the same film's frames stay";
+  }
   manifest.checksum = std::string(32, 'b');
   manifest.frames = {1, 5};
   const FrameFolder other(folder / "f", manifest);
-  EXPECT_FALSE(std::filesystem::exists(other.file_of(5)));
-  EXPECT_TRUE(std::filesystem::exists(other.file_of(2))) << "what was not asked for is left alone";
+  EXPECT_FALSE(fs::exists(other.file_of(5)));
+  EXPECT_TRUE(fs::exists(other.file_of(2))) << "what was not asked for is left alone";
 }
 
 TEST(FrameFolder, FramesOfTheSameFilmAreAdded) {
   const TemporaryFolder folder;
-  Manifest manifest = small_manifest();
-  manifest.frames = {1, 2, 5};
-  fill(FrameFolder(folder / "f", manifest), manifest, 7);
-  manifest.frames = {2, 3};
-  fill(FrameFolder(folder / "f", manifest), manifest, 7);
+  Manifest manifest = of_frames({1, 2, 5});
+  fill(folder / "f", manifest, 7);
+  fill(folder / "f", of_frames({2, 3}), 7);
   EXPECT_EQ(read_manifest(folder / "f").frames, (std::vector<std::uint32_t>{1, 2, 3, 5}));
   EXPECT_TRUE(verify_folder(folder / "f").troubles.empty());
   manifest.checksum = std::string(32, 'b');
@@ -106,7 +293,8 @@ TEST(FrameFolder, WrongManifestsAreTold) {
   }
   const std::string head =
       R"({"film":"x","checksum":"x","width":1,"height":1,"rate":24,"film_frames":4,"frames":)";
-  for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]"}) {
+  for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]",
+                             R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])"}) {
     write_whole_file(folder / "frames.json", head + frames + "}");
     EXPECT_TRUE(holds(failure_of([&] { read_manifest(folder.path()); }), "not a manifest")) << frames;
   }
@@ -117,8 +305,7 @@ TEST(Verify, OneHashForEqualFrames) {
   const Manifest manifest = small_manifest();
   std::vector<std::string> hashes;
   for (const auto& [name, color] : {std::pair{"a", 0x102030u}, {"b", 0x102030u}, {"c", 0x102031u}}) {
-    const FrameFolder frames(folder / name, manifest);
-    fill(frames, manifest, color);
+    fill(folder / name, manifest, color);
     const Verdict verdict = verify_folder(folder / name);
     EXPECT_EQ(verdict.expected, 5u);
     EXPECT_TRUE(verdict.troubles.empty());
@@ -132,19 +319,43 @@ TEST(Verify, OneHashForEqualFrames) {
 TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {
   const TemporaryFolder folder;
   const Manifest manifest = small_manifest();
-  const FrameFolder frames(folder.path(), manifest);
-  fill(frames, manifest, 0);
-  std::filesystem::remove(frames.file_of(1));
-  std::filesystem::resize_file(frames.file_of(2), 40);
-  write_whole_file(frames.file_of(5), encode_png(2, 3, std::vector<std::uint32_t>(6)));
+  fill(folder.path(), manifest, 0);
+  fs::remove(folder / "frame-0001.png");
+  fs::resize_file(folder / "frame-0002.png", 40);
+  write_whole_file(folder / "frame-0005.png", encode_png(2, 3, std::vector<std::uint32_t>(6)));
+  fs::copy_file(folder / "frame-0000.png", folder / "frame-0011.png", fs::copy_options::overwrite_existing);
   const Verdict verdict = verify_folder(folder.path());
-  ASSERT_EQ(verdict.troubles.size(), 3u);
+  ASSERT_EQ(verdict.troubles.size(), 4u);
   EXPECT_EQ(verdict.troubles[0].frame, 1u);
   EXPECT_EQ(verdict.troubles[0].reason, "missing");
   EXPECT_EQ(verdict.troubles[1].frame, 2u);
   EXPECT_TRUE(holds(verdict.troubles[1].reason, "not a whole PNG"));
   EXPECT_EQ(verdict.troubles[2].reason, "2x3 pixels instead of 6x4");
+  EXPECT_EQ(verdict.troubles[3].reason, "other pixels than were rendered");
   EXPECT_EQ(verdict.hash, "");
+}
+
+TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
+  const TemporaryFolder folder;
+  { const FrameFolder unfinished(folder.path(), of_frames({1})); }
+  write_whole_file(folder / "frame-0001.png", encode_png(6, 4, std::vector<std::uint32_t>(24)));
+  const Verdict verdict = verify_folder(folder.path());
+  ASSERT_EQ(verdict.troubles.size(), 1u);
+  EXPECT_TRUE(holds(verdict.troubles[0].reason, "nothing is recorded of its pixels"));
+}
+
+TEST(Verify, ManifestsWithoutHashesAreReadToo) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  const std::string hash = verify_folder(folder.path()).hash;
+  write_whole_file(folder / "frames.json",
+                   R"({"film":"a film.json","checksum":")" + std::string(32, 'a') +
+                       R"(","width":6,"height":4,"rate":24,"film_frames":12,"frames":[[0,2],[5,5],[11,11]]})");
+  const Verdict verdict = verify_folder(folder.path());
+  EXPECT_FALSE(verdict.compared);
+  EXPECT_EQ(verdict.hash, hash);
+  fill(folder.path(), of_frames({1, 3}), 7);
+  EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 4u) << "once there are hashes, frames without one are unknown";
 }
 
 }  // namespace

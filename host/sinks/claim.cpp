@@ -1,0 +1,134 @@
+#include "host/sinks/claim.h"
+
+#include <fcntl.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "hal/failure.h"
+#include "host/document/whole_file.h"
+#include "host/options/frame_set.h"
+
+namespace mars::host {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kHashDigits = 32;
+
+std::optional<fs::path> file_of(const RunFiles& run, std::string_view ending) {
+  const auto found = std::ranges::find_if(run.files, [&](const fs::path& file) { return file.extension() == ending; });
+  return found == run.files.end() ? std::nullopt : std::optional(*found);
+}
+
+// As it can be read at a glance: of a long list only where it begins and ends.
+std::string frames_text(const std::vector<std::uint32_t>& frames) {
+  constexpr std::size_t kLongestList = 40;
+  const std::string list = FrameSet(frames).text();
+  if (frames.size() == 1) return "frame " + list;
+  if (list.size() <= kLongestList) return "frames " + list;
+  return std::to_string(frames.size()) + " frames from " + std::to_string(frames.front()) + " to " +
+         std::to_string(frames.back());
+}
+
+// With the day unless it is today's.
+std::string time_text(std::int64_t when) {
+  const time_t then = when, now = time(nullptr);
+  tm day{}, today{};
+  localtime_r(&then, &day);
+  localtime_r(&now, &today);
+  const bool same_day = day.tm_year == today.tm_year && day.tm_yday == today.tm_yday;
+  std::array<char, 40> text{};
+  strftime(text.data(), text.size(), same_day ? "%H:%M:%S" : "%Y-%m-%d %H:%M:%S", &day);
+  return text.data();
+}
+
+// "another run, process 4711 on host n1, renders frames 0-99 of film.json into this folder since 12:01:33"
+std::string told(const Claim& claim, const std::string& film) {
+  return "another run, process " + std::to_string(claim.process.number) + " on host " + claim.process.host +
+         ", renders " + frames_text(claim.manifest.frames) + " of " + film + " into this folder since " +
+         time_text(claim.since);
+}
+
+}  // namespace
+
+std::string text_of(const Claim& claim) {
+  json text = to_json(claim.process);
+  text["since"] = claim.since;
+  text["manifest"] = to_json(claim.manifest);
+  return text.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+bool has_claim(const RunFiles& run) { return file_of(run, kClaimEnding).has_value(); }
+
+std::optional<Claim> claim_of(const RunFiles& run) {
+  const std::optional<fs::path> file = file_of(run, kClaimEnding);
+  if (!file) return std::nullopt;
+  try {
+    const std::vector<std::byte> bytes = read_whole_file(*file);
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    const json from = json::parse(text, text + bytes.size());
+    return Claim{process_name_of(from), from.at("since").get<std::int64_t>(), manifest_of(from.at("manifest"))};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<Manifest> rendered_by(const RunFiles& run) {
+  std::optional<Claim> claim = claim_of(run);
+  if (!claim) return std::nullopt;
+  Manifest& manifest = claim->manifest;
+  manifest.pixel_hashes.assign(manifest.frames.size(), "");
+  const std::optional<fs::path> file = file_of(run, kHashesEnding);
+  std::ifstream lines(file.value_or(fs::path()));
+  std::uint32_t frame = 0;
+  for (std::string hash; lines >> frame >> hash;) {
+    const auto place = std::ranges::lower_bound(manifest.frames, frame);
+    const bool whole = hash.size() == kHashDigits;  // the last line may have been cut off
+    if (whole && place != manifest.frames.end() && *place == frame)
+      manifest.pixel_hashes[static_cast<std::size_t>(place - manifest.frames.begin())] = hash;
+  }
+  return manifest;
+}
+
+HashLog::HashLog(fs::path file)
+    : file_(std::move(file)),
+      number_(open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+  if (number_ < 0) fail_file("write", file_, errno);
+}
+
+HashLog::~HashLog() { close(number_); }
+
+void HashLog::add(std::uint32_t frame, const std::string& hash) {
+  const std::string line = std::to_string(frame) + " " + hash + "\n";
+  const std::lock_guard lock(mutex_);
+  const ssize_t written = write(number_, line.data(), line.size());
+  if (written != static_cast<ssize_t>(line.size())) fail_file("write", file_, written < 0 ? errno : ENOSPC);
+}
+
+void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& folder) {
+  const std::optional<Claim> rival = claim_of(run);
+  if (!rival)
+    throw Failure("another run renders into this folder, and its claim cannot be read", file_of(run, kClaimEnding)->string(),
+                  "give another folder with -o, or wait");
+  const Manifest& theirs = rival->manifest;
+  if (theirs.checksum != wanted.checksum) {
+    const std::string film = (theirs.film == wanted.film ? "another version or size of " : "") + theirs.film;
+    throw Failure(told(*rival, film), folder.string(), "give another folder with -o, or wait");
+  }
+  std::vector<std::uint32_t> both;
+  std::ranges::set_intersection(theirs.frames, wanted.frames, std::back_inserter(both));
+  if (both.empty()) return;
+  throw Failure(told(*rival, theirs.film), folder.string(),
+                "give other frames with --frames, another folder with -o, or wait");
+}
+
+}  // namespace mars::host

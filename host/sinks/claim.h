@@ -1,0 +1,54 @@
+// A run's claim to a folder of frames: which frames of which film it renders, from its start to its end. Runs of the same
+// compiled film share a folder while no frame is claimed twice; whatever else would mix two runs' frames is refused.
+// What is claimed, and what has been rendered of it, outlives a run that is killed: the next one adds it to frames.json.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "host/sinks/manifest.h"
+#include "host/sinks/process_name.h"
+#include "host/sinks/runs_folder.h"
+
+namespace mars::host {
+
+struct Claim {
+  ProcessName process;
+  std::int64_t since = 0;  // seconds since 1970, by the process's own clock
+  Manifest manifest;       // without hashes
+};
+
+std::string text_of(const Claim& claim);
+
+bool has_claim(const RunFiles& run);
+// None where the run has none (any more), or it cannot be read.
+std::optional<Claim> claim_of(const RunFiles& run);
+
+// What a run has rendered so far: its claim's manifest with the hashes of the frames it has written.
+std::optional<Manifest> rendered_by(const RunFiles& run);
+
+// A run's .hashes, as it grows.
+class HashLog {
+ public:
+  // A new file. Throws Failure where it cannot be made.
+  explicit HashLog(std::filesystem::path file);
+  ~HashLog();
+  HashLog(const HashLog&) = delete;
+  HashLog& operator=(const HashLog&) = delete;
+
+  // From several threads at once.
+  void add(std::uint32_t frame, const std::string& hash);
+
+ private:
+  const std::filesystem::path file_;
+  const int number_;
+  std::mutex mutex_;  // one line at a time
+};
+
+// Throws Failure, which names the run and what it renders, where its claim and `wanted` would be mixed.
+void refuse_rival(const RunFiles& run, const Manifest& wanted, const std::filesystem::path& folder);
+
+}  // namespace mars::host

@@ -1,0 +1,126 @@
+#include "host/sinks/folder_turn.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kPause = 2ms;
+constexpr double kLongestSilence = 60;  // seconds
+
+// When a file was last changed, in seconds by the clock of the machine that keeps it. Opening it makes NFS ask that
+// machine, and not answer from what it remembers.
+std::optional<double> time_of(const fs::path& file) {
+  struct stat status{};
+  const int opened = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  const int failed = opened < 0 ? lstat(file.c_str(), &status) : fstat(opened, &status);
+  if (opened >= 0) close(opened);
+  if (failed != 0) return std::nullopt;
+  return static_cast<double>(status.st_mtim.tv_sec) + static_cast<double>(status.st_mtim.tv_nsec) * 1e-9;
+}
+
+bool touch(const fs::path& file) { return utimensat(AT_FDCWD, file.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) == 0; }
+
+}  // namespace
+
+FolderTurn::FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience)
+    : runs_(runs),
+      file_(runs.add_own_file(kWaitsEnding, to_json(runs.self()).dump())),
+      deadline_(Clock::now() + patience) {
+  try {
+    wait();
+  } catch (...) {
+    unlink(file_.c_str());
+    throw;
+  }
+}
+
+FolderTurn::~FolderTurn() {
+  unlink(file_.c_str());
+  runs_.remove_if_empty();
+}
+
+void FolderTurn::wait() {
+  while (!take()) {
+    if (Clock::now() > deadline_) fail_late();
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+bool FolderTurn::take() {
+  const auto gives_way = [this](const std::vector<RunFiles>& others) {
+    return !others.empty() && others.front().run < runs_.own_name();
+  };
+  if (gives_way(rivals())) return false;
+  rename_to(kTurnEnding);
+  std::vector<RunFiles> others = rivals();
+  while (!others.empty() && !gives_way(others) && Clock::now() <= deadline_) {
+    std::this_thread::sleep_for(kPause);
+    others = rivals();
+  }
+  if (others.empty()) return true;
+  rename_to(kWaitsEnding);
+  return false;
+}
+
+// Other runs that ask for the turn or have it, by name.
+std::vector<RunFiles> FolderTurn::rivals() const {
+  std::vector<RunFiles> all = runs_.runs();
+  std::erase_if(all, [this](const RunFiles& run) {
+    const bool asks = std::ranges::any_of(run.files, [](const fs::path& f) { return f.extension() == kTurnEnding; });
+    return run.run == runs_.own_name() || !asks || has_ended(run);
+  });
+  return all;
+}
+
+void FolderTurn::rename_to(std::string_view ending) {
+  fs::path renamed = runs_.own_file(ending);
+  if (rename(file_.c_str(), renamed.c_str()) != 0) fail_lost();
+  file_ = std::move(renamed);
+}
+
+void FolderTurn::confirm() const {
+  if (!touch(file_)) fail_lost();
+}
+
+void FolderTurn::fail_late() const {
+  std::string who = "another run";
+  for (const RunFiles& rival : rivals()) {
+    const ProcessName process = process_of(rival);
+    who += ", process " + std::to_string(process.number) + " on host " + process.host + ",";
+  }
+  throw Failure(who + " begins or ends in this folder, and does not go on", file_.parent_path().string(),
+                "continue that process, or end it");
+}
+
+void FolderTurn::fail_lost() const {
+  throw Failure("this run was held up, and another has taken it for ended", file_.parent_path().string(),
+                "start it again");
+}
+
+bool FolderTurn::has_ended(const RunFiles& run) const {
+  const Running running = is_running(process_of(run), runs_.self());
+  if (running != Running::unknown) return running == Running::no;
+  touch(file_);
+  const std::optional<double> now = time_of(file_);
+  double last = 0;
+  for (const fs::path& file : run.files) last = std::max(last, time_of(file).value_or(0));
+  return now && *now - last > kLongestSilence;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,58 @@
+// One run at a time decides what becomes of a folder of frames: which claims there are, and what frames.json says. This
+// is its turn. It needs no locks of the file system, which not all that several machines share have, but only that who
+// has made or renamed a file sees it, and those made before, in every later listing of the folder:
+//   1. A run that wants the turn has a file NAME.waits. Once it sees no NAME.turn that is less than its own, it renames
+//      its file to NAME.turn, and lists the folder.
+//   2. If it sees another's .turn that is less than its own, it takes its own back (to .waits) and begins again.
+//   3. If those that it sees are all greater, it waits until they are gone. If it sees none, it is its turn.
+// Of two runs, the one that made its .turn later has listed the other's: the greater one gives way, the lesser one
+// waits. So both never have the turn, and the least of those that wait gets it. A .turn whose run has ended does not
+// count. Names are never used twice, so nobody can remove another's .turn in place of the one that was seen.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <vector>
+
+#include "host/sinks/runs_folder.h"
+
+namespace mars::host {
+
+class FolderTurn {
+ public:
+  // Longer than the turn of a run on a lost machine counts.
+  static constexpr std::chrono::milliseconds kPatience{90000};
+
+  // Waits for it. `runs` must outlive the turn. Throws Failure where it does not come in time, as another run that has it
+  // does not go on, or where the folder cannot be written.
+  explicit FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience = kPatience);
+  ~FolderTurn();
+  FolderTurn(const FolderTurn&) = delete;
+  FolderTurn& operator=(const FolderTurn&) = delete;
+
+  // The file that stands for it.
+  const std::filesystem::path& file() const { return file_; }
+
+  // Throws Failure where others have taken this run for ended, which was held up.
+  void confirm() const;
+
+  // Whether a run has ended: its process is gone; or, where that cannot be seen from here, none of its files was made or
+  // renewed in the last minute, by the clock of the machine that keeps the files.
+  bool has_ended(const RunFiles& run) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void wait();
+  bool take();
+  std::vector<RunFiles> rivals() const;
+  void rename_to(std::string_view ending);
+  [[noreturn]] void fail_late() const;
+  [[noreturn]] void fail_lost() const;
+
+  const RunsFolder& runs_;
+  std::filesystem::path file_;
+  Clock::time_point deadline_;
+};
+
+}  // namespace mars::host

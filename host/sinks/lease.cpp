@@ -1,0 +1,70 @@
+#include "host/sinks/lease.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include <cerrno>
+#include <chrono>
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+namespace {
+
+constexpr std::chrono::seconds kRenewal{10};
+constexpr double kTrusted = 30;  // seconds; others wait for 60 (folder_turn.h)
+
+}  // namespace
+
+double seconds_since_boot() {
+  timespec time{};
+  clock_gettime(CLOCK_BOOTTIME, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+Lease::Lease(std::filesystem::path file, Clock clock)
+    : file_(std::move(file)), clock_(std::move(clock)), renewed_(clock_()), thread_([this] { renew_until_stopped(); }) {}
+
+Lease::~Lease() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  stopping_.notify_one();
+  thread_.join();
+}
+
+void Lease::renew_until_stopped() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_.wait_for(lock, kRenewal, [this] { return stop_; })) renew();
+}
+
+void Lease::renew() {
+  const double begun = clock_();
+  if (utimensat(AT_FDCWD, file_.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) == 0)
+    renewed_ = begun;
+  else if (errno == ENOENT || errno == ENOTDIR)
+    gone_ = true;
+}
+
+void Lease::check() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!gone_ && clock_() - renewed_ < kTrusted) return;
+  }
+  confirm();
+}
+
+void Lease::confirm() {
+  const std::lock_guard lock(mutex_);
+  renew();
+  if (gone_)
+    throw Failure("this run's claim to the folder is gone: another run has taken this one for ended, or somebody removed it",
+                  file_.string(), "see that it is the only one, and render the frames that mars verify --missing names");
+  if (clock_() - renewed_ >= kTrusted)
+    throw Failure("this run's claim to the folder cannot be renewed", file_.string(), "see whether the disk can be written");
+}
+
+}  // namespace mars::host

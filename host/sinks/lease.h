@@ -1,0 +1,46 @@
+// Keeps a file's time young while this process runs, so that others, who see no more of it, know that it does. Whoever
+// was stopped for so long that others may have given it up learns that before it goes on.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace mars::host {
+
+// Seconds that pass also while the machine sleeps.
+double seconds_since_boot();
+
+class Lease {
+ public:
+  using Clock = std::function<double()>;
+
+  // Renews `file`, which is there, every 10 seconds, by a thread of its own.
+  explicit Lease(std::filesystem::path file, Clock clock = seconds_since_boot);
+  ~Lease();
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+
+  // Renews it. Throws Failure where the file is gone, or could not be renewed for half the time after which others give
+  // it up.
+  void confirm();
+  // Likewise, but looks only where the last renewal is as long ago as that.
+  void check();
+
+ private:
+  void renew();
+  void renew_until_stopped();
+
+  const std::filesystem::path file_;
+  const Clock clock_;
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable stopping_;
+  double renewed_;
+  bool gone_ = false;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,40 @@
+// What a folder of frames says of itself, in its file frames.json: which frames of which film belong there, and the hash of
+// each one's pixels (docs/rendering.md).
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace mars::host {
+
+struct Manifest {
+  std::string film;      // its file's name, as the person gave it
+  std::string checksum;  // of the compiled film: 32 hexadecimal digits (checksum.h)
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  double rate = 0;                    // frames a second
+  std::uint32_t film_frames = 0;      // of the whole film
+  std::vector<std::uint32_t> frames;  // asked for, by one run or several, ascending
+  // Of each of `frames`, "" where it is not known to have been rendered; none at all: nobody has recorded any.
+  std::vector<std::string> pixel_hashes;
+
+  bool operator==(const Manifest&) const = default;
+};
+
+// Of one frame's pixels, in the form that Frame and Image give them.
+std::string pixel_hash(const std::vector<std::uint32_t>& pixels);
+
+// Adds the frames of another manifest of the same film, with the hashes it has. Frames of a manifest without hashes have
+// unknown ones from then on.
+void add_frames(Manifest& manifest, const Manifest& more);
+
+nlohmann::json to_json(const Manifest& manifest);
+// Throws std::exception where it is none.
+Manifest manifest_of(const nlohmann::json& from);
+
+// Names sort as frames do: as many digits as the film's last frame needs, at least four.
+std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames);
+
+}  // namespace mars::host

@@ -1,0 +1,33 @@
+// Which process of which machine wrote something, so that another can tell whether it still runs. A number that a later
+// process has got is told by the time it started. Machines and containers of one name are told apart: only a process
+// that was started since the same boot and is counted in the same list of processes can be looked up.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace mars::host {
+
+struct ProcessName {
+  std::string host;       // for people
+  std::string boot;       // the boot's own id; "" where the system has none
+  std::string processes;  // the list of processes that counts it, as the kernel names it ("pid:[4026531836]")
+  std::int64_t number = 0;
+  std::uint64_t start = 0;  // clock ticks since the boot
+
+  bool operator==(const ProcessName&) const = default;
+};
+
+ProcessName this_process();
+
+nlohmann::json to_json(const ProcessName& process);
+// Throws std::exception where it is none.
+ProcessName process_name_of(const nlohmann::json& from);
+
+enum class Running { yes, no, unknown };  // unknown: it cannot be seen from here
+
+// As far as the process `seen_from` can tell. One that has ended and waits for its parent does not run.
+Running is_running(const ProcessName& process, const ProcessName& seen_from);
+
+}  // namespace mars::host

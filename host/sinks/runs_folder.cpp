@@ -1,0 +1,101 @@
+#include "host/sinks/runs_folder.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "hal/failure.h"
+#include "host/document/whole_file.h"
+
+namespace mars::host {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRunsName = ".runs";
+
+// Letters, digits and dashes only: a run's name ends at the first dot.
+std::string run_name(const ProcessName& self) {
+  std::string host = self.host;
+  std::ranges::replace_if(host, [](unsigned char c) { return !std::isalnum(c); }, '-');
+  return host + "-" + std::to_string(self.number) + "-" + unique_word();
+}
+
+}  // namespace
+
+RunsFolder::RunsFolder(const fs::path& frames, ProcessName self)
+    : frames_(frames), path_(frames / kRunsName), self_(std::move(self)), name_(run_name(self_)) {}
+
+fs::path RunsFolder::own_file(std::string_view ending) const { return path_ / std::string(name_).append(ending); }
+
+bool RunsFolder::exists() const {
+  std::error_code none;
+  return fs::symlink_status(path_, none).type() == fs::file_type::directory;
+}
+
+void RunsFolder::make() const {
+  if (mkdir(path_.c_str(), 0777) == 0) {
+    struct stat frames{};
+    if (stat(frames_.c_str(), &frames) == 0) chmod(path_.c_str(), frames.st_mode & 07777);
+    return;
+  }
+  if (errno != EEXIST) fail_file("create the folder", path_, errno);
+  std::error_code none;
+  const fs::file_type type = fs::symlink_status(path_, none).type();
+  if (type != fs::file_type::directory && type != fs::file_type::not_found)
+    throw Failure("is not a folder, and runs keep their claims in one of this name", path_.string(), "remove it");
+}
+
+fs::path RunsFolder::add_own_file(std::string_view ending, std::string_view text) const {
+  const fs::path file = own_file(ending);
+  do make();  // again where another run removes it, empty, before our file is there
+  while (!create_file(file, text));
+  return file;
+}
+
+void RunsFolder::remove_own_files() const {
+  std::error_code ignored;  // what stays, the next run removes
+  for (const RunFiles& run : runs())
+    if (run.run == name_)
+      for (const fs::path& file : run.files) fs::remove(file, ignored);
+}
+
+std::vector<RunFiles> RunsFolder::runs() const {
+  std::map<std::string, RunFiles> found;
+  if (!exists()) return {};
+  std::error_code ignored;  // what cannot be listed cannot be written either
+  for (fs::directory_iterator entry(path_, ignored), end; entry != end; entry.increment(ignored)) {
+    const std::string file = entry->path().filename().string();
+    RunFiles& run = found[file.substr(0, file.find('.'))];
+    run.files.push_back(entry->path());
+  }
+  std::vector<RunFiles> runs;
+  for (auto& [name, run] : found) runs.push_back({name, std::move(run.files)});
+  return runs;
+}
+
+void RunsFolder::remove_if_empty() const {
+  std::error_code ignored;
+  if (exists()) fs::remove(path_, ignored);
+}
+
+ProcessName process_of(const RunFiles& run) {
+  for (const fs::path& file : run.files) {
+    if (file.extension() == kPartSuffix || file.extension() == kHashesEnding) continue;
+    try {
+      const std::vector<std::byte> bytes = read_whole_file(file);
+      const auto* text = reinterpret_cast<const char*>(bytes.data());
+      return process_name_of(nlohmann::json::parse(text, text + bytes.size()));
+    } catch (const std::exception&) {  // it is gone meanwhile, or not whole yet
+    }
+  }
+  return {};
+}
+
+}  // namespace mars::host

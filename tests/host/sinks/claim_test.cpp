@@ -1,0 +1,94 @@
+#include "host/sinks/claim.h"
+
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include "host/document/whole_file.h"
+#include "tests/host/document/failure_of.h"
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+Manifest film(const char* name, char checksum, std::vector<std::uint32_t> frames) {
+  return {name, std::string(32, checksum), 6, 4, 24, 400, std::move(frames), {}};
+}
+
+// A run that claims `manifest`, by its files.
+class ClaimOf {
+ public:
+  explicit ClaimOf(const Manifest& manifest, std::int64_t since = time(nullptr)) {
+    ProcessName process = this_process();
+    process.host = "n1";
+    process.number = 4711;
+    write_whole_file(folder_ / "n1.claim", text_of(Claim{process, since, manifest}));
+  }
+  RunFiles run() const { return {"n1", {folder_ / "n1.claim", folder_ / "n1.hashes"}}; }
+  std::filesystem::path hashes() const { return folder_ / "n1.hashes"; }
+  std::string refuses(const Manifest& wanted) const {
+    return failure_of([&] { refuse_rival(run(), wanted, "out"); });
+  }
+
+ private:
+  const TemporaryFolder folder_;
+};
+
+TEST(Claim, ReadsAgain) {
+  const Manifest manifest = film("a.json", 'a', {0, 1, 2, 9});
+  const ClaimOf claim(manifest, 12345);
+  const std::optional<Claim> read = claim_of(claim.run());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->manifest, manifest);
+  EXPECT_EQ(read->process.number, 4711);
+  EXPECT_EQ(read->since, 12345);
+  EXPECT_FALSE(claim_of({"x", {}}));
+}
+
+TEST(Claim, OnlyOtherFramesOfTheSameFilmAreLetIn) {
+  const ClaimOf claim(film("a.json", 'a', {0, 1, 2, 9}));
+  EXPECT_EQ(claim.refuses(film("a.json", 'a', {3, 4, 8})), "");
+  const std::string overlap = claim.refuses(film("copy.json", 'a', {4, 9}));
+  EXPECT_TRUE(overlap.starts_with("out: another run, process 4711 on host n1, renders frames 0-2,9 of a.json into this "
+                                  "folder since "))
+      << overlap;
+  EXPECT_TRUE(overlap.ends_with("(give other frames with --frames, another folder with -o, or wait)")) << overlap;
+  const std::string other = claim.refuses(film("b.json", 'b', {3}));
+  EXPECT_TRUE(holds(other, "renders frames 0-2,9 of a.json into this folder")) << other;
+  EXPECT_TRUE(holds(other, "(give another folder with -o, or wait)")) << other;
+  EXPECT_TRUE(holds(claim.refuses(film("a.json", 'b', {3})), "of another version or size of a.json into"));
+}
+
+TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {
+  std::vector<std::uint32_t> odd;
+  for (std::uint32_t frame = 1; frame < 400; frame += 2) odd.push_back(frame);
+  const ClaimOf claim(film("a.json", 'a', odd), 12345);
+  const std::string told = claim.refuses(film("a.json", 'a', {1}));
+  EXPECT_TRUE(holds(told, "renders 200 frames from 1 to 399 of a.json into this folder since 19")) << told;
+  EXPECT_TRUE(holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})), "renders frame 3 of a.json"));
+}
+
+TEST(Claim, OneThatCannotBeReadIsRefusedToo) {
+  const ClaimOf claim(film("a.json", 'a', {1}));
+  write_whole_file(claim.run().files.front(), "nonsense");
+  EXPECT_TRUE(holds(claim.refuses(film("a.json", 'a', {3})), "n1.claim: another run renders into this folder"));
+}
+
+TEST(Claim, WhatWasRenderedIsKnownUpToWhereTheRunWasKilled) {
+  const ClaimOf claim(film("a.json", 'a', {0, 1, 2, 9}));
+  EXPECT_EQ(rendered_by(claim.run())->pixel_hashes, std::vector<std::string>(4)) << "no frame yet";
+  const std::string hash(32, '7');
+  {
+    HashLog log(claim.hashes());
+    log.add(9, hash);
+    log.add(1, hash);
+    log.add(5, hash);  // not claimed
+  }
+  EXPECT_NE(failure_of([&] { HashLog(claim.hashes()); }), "") << "it is one run's own";
+  const std::vector<std::byte> whole = read_whole_file(claim.hashes());
+  std::string text(reinterpret_cast<const char*>(whole.data()), whole.size());
+  write_whole_file(claim.hashes(), text + "2 777");
+  EXPECT_EQ(rendered_by(claim.run())->pixel_hashes, (std::vector<std::string>{"", hash, "", hash}));
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,50 @@
+#include "host/sinks/lease.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "host/document/whole_file.h"
+#include "tests/host/document/failure_of.h"
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+class LeaseOfAFile : public testing::Test {
+ protected:
+  LeaseOfAFile() {
+    create_file(file_, "");
+    fs::last_write_time(file_, fs::file_time_type::clock::now() - 1h);
+  }
+  bool is_young() const { return fs::file_time_type::clock::now() - fs::last_write_time(file_) < 30min; }
+
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "file";
+  std::atomic<double> now_ = 1000;
+  Lease lease_{file_, [this] { return now_.load(); }};
+};
+
+TEST_F(LeaseOfAFile, IsRenewedByItsHolderWhereTheThreadDidNot) {
+  lease_.check();
+  EXPECT_FALSE(is_young()) << "it is new, there is no need";
+  now_ = 1031;
+  lease_.check();
+  EXPECT_TRUE(is_young());
+}
+
+TEST_F(LeaseOfAFile, WhoWasStoppedForLongLearnsThatItIsGone) {
+  fs::remove(file_);
+  EXPECT_EQ(failure_of([&] { lease_.check(); }), "") << "others wait longer before they take it away";
+  EXPECT_TRUE(holds(failure_of([&] { Lease(file_).confirm(); }), "file: this run's claim to the folder is gone"));
+  now_ = 1031;
+  EXPECT_TRUE(holds(failure_of([&] { lease_.check(); }), "file: this run's claim to the folder is gone"));
+  create_file(file_, "");
+  EXPECT_NE(failure_of([&] { lease_.check(); }), "") << "another's under its name is not its own";
+}
+
+}  // namespace
+}  // namespace mars::host
