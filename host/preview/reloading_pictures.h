@@ -1,5 +1,5 @@
 // A film's pictures, which follow its files: when these change, the film is loaded again and seen as before. While they
-// make no film, the last one goes on, and what is wrong is told.
+// make no film, the last one goes on, and trouble() says why.
 #pragma once
 
 #include <functional>

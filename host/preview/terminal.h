@@ -67,8 +67,8 @@ class Terminal {
   int signals_ = -1;  // a signalfd
   int output_ = -1;   // standard output's terminal, never waited for by the system
   bool entered_ = false;
-  bool stop_ = false, continued_ = false, resized_ = false;  // what signals told, until it is obeyed
-  int ended_by_ = 0;
+  bool stop_ = false, continued_ = false, resized_ = false;  // what signals ask for, until it is obeyed
+  int ended_by_ = 0;  // as in TerminalEvents; nothing is played any more
   std::string unread_;  // of a key that is not complete
 };
 

@@ -138,7 +138,10 @@ void play_folder(const Wishes& wishes) {
 void add_preview(CLI::App& app) {
   const auto wishes = std::make_shared<Wishes>();
   CLI::App* command = app.add_subcommand("preview", "Play a film or a model in the terminal before it is rendered");
-  command->add_option("FILM", wishes->source, "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")->required();
+  command
+      ->add_option("FILM", wishes->source,
+                   "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")
+      ->required();
   add_choice(*command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
              [wishes](std::size_t number) {
                wishes->look.as = number < 4 ? std::optional(static_cast<As>(number)) : std::nullopt;

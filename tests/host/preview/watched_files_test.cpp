@@ -79,7 +79,10 @@ TEST(WatchedFiles, AreChangedByEveryKindOfSave) {
 // Of a film: the film, its models, and what these are derived from.
 TEST(WatchedFiles, OfAFilmAreThoseItIsReadFrom) {
   const TemporaryFolder folder;
-  const auto written = [&](const char* name, const char* json) { return write_whole_file(folder / name, json), folder / name; };
+  const auto written = [&](const char* name, const char* json) {
+    write_whole_file(folder / name, json);
+    return folder / name;
+  };
   const fs::path film = written("film.json", R"({"frames": 2, "camera": {"eye": [0, -3, 1]},
     "models": {"a": "a.json", "b": "sub/b.json"}, "actors": [{"name": "a", "model": "a"}]})");
   const fs::path a = written("a.json", R"({"from": "c.json", "proportions": {"scale": [1, 1, 2]}})");
