@@ -81,7 +81,8 @@ FileKind kind_of_name(const std::filesystem::path& path) {
 }
 
 void check_first_bytes(const std::filesystem::path& path, FileKind kind) {
-  if (!std::filesystem::is_regular_file(path)) return;  // a pipe would wait; its reader refuses it
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return;  // a pipe would wait; its reader refuses it
   std::array<char, 4> first{};
   std::ifstream(path, std::ios::binary).read(first.data(), first.size());
   const std::string_view begins(first.data(), first.size());

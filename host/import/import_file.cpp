@@ -121,7 +121,8 @@ void check_joint(const std::string& joint) {
 
 void check_target(const ImportOptions& options) {
   refuse_same_file(options.from, options.to);
-  if (!options.force && std::filesystem::exists(options.to))
+  std::error_code none;
+  if (!options.force && std::filesystem::exists(options.to, none))
     throw Failure("is there already", options.to.string(), "choose another name, or replace it with --force");
   check_can_write(options.to);
 }

@@ -52,7 +52,8 @@ Promised promised_by_obj(const std::filesystem::path& path, std::string_view tex
     if (word != "mtllib") continue;
     line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
     const std::string name(line.substr(0, line.find_last_not_of(kSpace) + 1));
-    if (!std::filesystem::exists(path.parent_path() / name))
+    std::error_code none;
+    if (!std::filesystem::exists(path.parent_path() / name, none))
       promised.not_read.push_back("colours of " + printable(name) + " (no such file beside the mesh)");
   }
   if (surfaces > 0)

@@ -368,6 +368,8 @@ TEST_F(ImportTest, WhatIsNotReadIsListed) {
 }
 
 TEST_F(ImportTest, ColoursOfAFileThatIsMissingAreTold) {
+  import(write("box.obj", "mtllib " + std::string(300, 'x') + "\n" + obj_box()));
+  EXPECT_TRUE(holds(told_, "no such file beside the mesh")) << "a name that is too long for any file";
   import(write("box.obj", "mtllib lost.mtl\n" + obj_box() + "l 1 2\n"));
   EXPECT_EQ(not_read(), (std::vector<std::string>{"1 line", "colours of lost.mtl (no such file beside the mesh)"}));
 }
