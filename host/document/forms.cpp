@@ -72,7 +72,7 @@ constexpr Form kForms[] = {
     {"ground", "true"},
 };
 
-// The nearest key of the element or of what it lies in, from the path's end.
+// A key, and that of the object it stands in: "" where that is an item of a list.
 struct Named {
   std::string_view key, above;
 };
@@ -88,14 +88,10 @@ bool fits(std::string_view form, const Named& named) {
 std::span<const Form> forms() { return kForms; }
 
 std::string form_of(const Element& element) {
-  const auto keyed = [](std::optional<Element> at) {
-    while (at && at->key().empty()) at = at->parent();
-    return at;
-  };
-  const auto own = keyed(element);
-  if (!own) return "";
-  const auto above = keyed(own->parent());
-  const Named named{own->key(), above ? above->key() : ""};
+  std::optional<Element> keyed = element;
+  while (keyed && keyed->key().empty()) keyed = keyed->parent();
+  if (!keyed) return "";
+  const Named named{keyed->key(), keyed->parent()->key()};
   const auto form = std::ranges::find_if(kForms, [&](const Form& each) { return fits(each.key, named); });
   if (form == std::end(kForms)) return "";
   return "\"" + std::string(named.key) + "\": " + std::string(form->value);

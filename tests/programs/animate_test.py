@@ -129,12 +129,39 @@ class Animate(ProgramTest):
         self.assertEqual(ended.returncode, 1)
         self.assertRegex(ended.stdout, r"actor 'robot', joint 'shoulder': turns \S+ degrees about y between keys, "
                                        r"outside its limits -81 to 81, in frame 12")
-        self.assertIn("remark      film.json: 1 joint leaves its limits", self.succeed("mars", "info", "film.json"))
+        line = "film.json: actor 'robot', joint 'shoulder': turns "
+        typed = "mars animate film.json key robot shoulder --frame 12 --clamp"
+        self.assertRegex(self.succeed("mars", "info", "film.json"), f"\nwarning     {line}.* in frame 12 .*{typed}")
+        compiled = self.mars("compile", "film.json", "-o", "film.mars")
+        self.assertEqual((compiled.returncode, compiled.stdout), (0, ""))
+        self.assertRegex(compiled.stderr, f"^mars: warning: {line}.* in frame 12 .*{typed}\\)\n$")
+        rendered = self.mars("render", "film.json", "-o", "frames", "--backend", "threads", "--nodes", 1, "--frames", 0,
+                             "--size", "32x18", "--quiet")
+        self.assertEqual((rendered.returncode, rendered.stdout, rendered.stderr), (0, "", compiled.stderr))
         mend = re.search(r"mend it with: (.*)\)", ended.stdout)[1]
         worst = self.degrees_outside(ended.stdout)
         self.changed(*mend.split())
         after = self.animate("check").stdout
         self.assertLess(self.degrees_outside(after) if "turns" in after else 0, worst / 2)
+
+    def test_a_film_in_which_nobody_acts_is_warned_of(self):
+        self.write("film.json", film(actors=[]))
+        compiled = self.mars("compile", "film.json", "-o", "film.mars")
+        told = "film.json: has no actors: every frame shows the background alone (give the film actors)\n"
+        self.assertEqual((compiled.returncode, compiled.stderr), (0, f"mars: warning: {told}"))
+        self.assertTrue(self.succeed("mars", "info", "film.json").endswith(f"\nwarning     {told}"))
+        rendered = self.mars("render", "film.mars", "-o", "frames", "--backend", "threads", "--nodes", 1, "--frames", 0,
+                             "--size", "32x18")
+        self.assertEqual((rendered.returncode, rendered.stderr),
+                         (0, f"mars: warning: {told.replace('json', 'mars')}"))
+
+    def test_what_a_pose_does_besides_is_told(self):
+        ended = self.animate("pose", "robot", "turn.z=270", "--frame", 20)
+        self.assertEqual((ended.returncode, ended.stdout), (0, ""))
+        self.assertIn("mars: actor 'robot': turn goes 90 degrees back from frame 0 to 20", ended.stderr)
+        self.changed(*re.search(r"also (pose .*)\)", ended.stderr)[1].split())
+        ended = self.animate("key", "robot", "elbow", "--frame", 10, "--ease", "both")
+        self.assertIn("the ease at frame 10 also changes how these move on from there: turn (", ended.stderr)
 
     def degrees_outside(self, told):
         return float(re.search(r"turns (\S+) degrees", told)[1]) - 81

@@ -155,7 +155,7 @@ std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
 std::uint32_t Scene::last_after(double frames) const {
   const double last = at + std::ceil(frames);
   if (last < node::kMostFrames) return static_cast<std::uint32_t>(last);
-  throw Failure("would end at frame " + shown(last), wishes.where(),
+  throw Failure("would end at frame " + shown(last), who(),
                 "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) +
                     " frames");
 }
@@ -178,7 +178,7 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
   if (!actor.matrices.empty())
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
-  const Scene scene{film, actor, at ? *at : last_key(actor.motion), wishes};
+  const Scene scene{film, actor, at ? *at : last_key(actor.motion), wishes, action.name};
   const Motion motion = action.perform(scene);
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const ActorKey driven = all_of(motion.keys);

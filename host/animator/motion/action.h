@@ -57,7 +57,9 @@ struct Scene {
   const Actor& actor;
   std::uint32_t at;
   const Wishes& wishes;
+  std::string_view action;  // its name
 
+  std::string who() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
   const Model& model() const { return film.models[actor.model]; }
   double frames(double seconds) const { return seconds * film.rate; }
   // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.

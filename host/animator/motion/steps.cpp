@@ -178,7 +178,7 @@ class Going {
       if (const double step = glm::distance(gait.steps[i].to.place, gait.steps[i - 1].to.place); step > reach)
         throw Failure("would take a step of " + shown(step) + ", where two legs of " + shown(body_.leg_length()) +
                           " reach " + shown(reach) + " at most",
-                      scene_.wishes.where(), remedy);
+                      scene_.who(), remedy);
   }
 
   void go(const Gait& gait, const char* remedy) {

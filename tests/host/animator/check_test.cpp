@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "host/animator/angles.h"
+#include "host/animator/limits_left.h"
 #include "host/animator/read_film.h"
 #include "tests/host/document/failure_of.h"
 
@@ -29,27 +32,31 @@ TEST(LimitsLeft, TheWorstIsWhereGeometrySaysItIs) {
   const Film film = film_of(R"("limits": {"x": [-180, 180], "y": [-81, 81], "z": [-180, 180]})", kSideways);
   const auto left = limits_left(film);
   ASSERT_EQ(left.size(), 1u);
-  EXPECT_EQ(left[0].axis, 1);
-  EXPECT_EQ(left[0].worst, 20u);
+  EXPECT_EQ(left[0].worst.axis, 1);
+  EXPECT_EQ(left[0].worst.frame, 20u);
   const Joint& joint = film.models[0].joints[0];
   const Turn turn = turn_between(orientation(joint, {0, 80, 0}), orientation(joint, {90, 80, -90}));
   const glm::dmat3 half = rotation(turn.axis, turn.angle / 2) * orientation(joint, {0, 80, 0});
-  EXPECT_NEAR(left[0].angle, std::asin(half[2][0]) * 180 / std::acos(-1.0), 1e-9) << "z's part along x is sin y";
-  EXPECT_GT(left[0].angle, 81);
+  EXPECT_NEAR(left[0].worst.angle, std::asin(half[2][0]) * 180 / std::acos(-1.0), 1e-9) << "z's part along x is sin y";
+  EXPECT_GT(left[0].worst.angle, 81);
   const std::string line = check_film(film).lines[0];
   EXPECT_TRUE(holds(line, "actor 'a b', joint 'j': turns ")) << line;
   EXPECT_TRUE(holds(line, "about y between keys, outside its limits -81 to 81, in frame 20, the worst of")) << line;
   EXPECT_TRUE(holds(line, "key 'a b' j --frame 20 --clamp")) << line;
-  EXPECT_TRUE(holds(limits_remark(film), "f.json: 1 joint leaves its limits between keys"));
+  const auto warnings = warnings_of(film);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].starts_with("f.json: actor 'a b', joint 'j': turns ")) << warnings[0];
+  EXPECT_TRUE(holds(warnings[0], "outside its limits -81 to 81, in frame 20 (")) << warnings[0];
+  EXPECT_TRUE(holds(warnings[0], "mars animate f.json key 'a b' j --frame 20 --clamp")) << warnings[0];
 }
 
 TEST(LimitsLeft, NoneWhereTheyAreWideEnough) {
   EXPECT_TRUE(
       limits_left(film_of(R"("limits": {"x": [-180, 180], "y": [-90, 90], "z": [-180, 180]})", kSideways)).empty());
-  EXPECT_EQ(limits_remark(film_of(
-                R"("limits": {"x": [0, 0], "y": [-81, 81], "z": [0, 0]})",
-                R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 40, "pose": {"j": [0, -80, 0]}}])")),
-            "");
+  EXPECT_TRUE(warnings_of(film_of(R"("limits": {"x": [0, 0], "y": [-81, 81], "z": [0, 0]})",
+                                  R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}},
+                                              {"frame": 40, "pose": {"j": [0, -80, 0]}}])"))
+                  .empty());
 }
 
 TEST(LimitsLeft, ALockedAxisOfAJointWithTwoFreedomsTurnsOnTheWay) {
@@ -58,16 +65,16 @@ TEST(LimitsLeft, ALockedAxisOfAJointWithTwoFreedomsTurnsOnTheWay) {
               R"("keys": [{"frame": 0, "pose": {"j": [60, 0, 0]}}, {"frame": 20, "pose": {"j": [0, 60, 0]}}])");
   const auto left = limits_left(film);
   ASSERT_EQ(left.size(), 1u);
-  EXPECT_EQ(left[0].axis, 2);
+  EXPECT_EQ(left[0].worst.axis, 2);
   EXPECT_EQ(left[0].first, 1u);
   EXPECT_EQ(left[0].last, 19u);
   EXPECT_EQ(left[0].frames, 19u);
   // The frames' angles, found without the inverse: the only z that undoes the rest of the turn.
   const Joint& joint = film.models[0].joints[0];
   JointMotion motion(joint, film.actors[0].motion.pose[0]);
-  const glm::dvec3 pose = motion.pose_at(left[0].worst);
-  EXPECT_NEAR(pose.z, left[0].angle, 1e-12);
-  EXPECT_LT(turn_between(orientation(joint, pose), motion.at(left[0].worst)).angle, 1e-9);
+  const glm::dvec3 pose = motion.pose_at(left[0].worst.frame);
+  EXPECT_NEAR(pose.z, left[0].worst.angle, 1e-12);
+  EXPECT_LT(turn_between(orientation(joint, pose), motion.at(left[0].worst.frame)).angle, 1e-9);
 }
 
 // y stands 45 degrees from x, so z never comes nearer to x than 45 degrees. The keys turn it there and as far
@@ -82,9 +89,9 @@ TEST(LimitsLeft, SkewedAxesThatDoNotReachAreTold) {
   film.actors[0].motion.pose[0][1].value = pose_of(joint, rotation(axis, 2 * to_x) * first, {180, 85, 0});
   const auto left = limits_left(film);
   ASSERT_EQ(left.size(), 1u);
-  EXPECT_EQ(left[0].axis, 3);
-  EXPECT_EQ(left[0].worst, 20u);
-  EXPECT_NEAR(left[0].angle, 45, 0.1);
+  EXPECT_EQ(left[0].worst.axis, 3);
+  EXPECT_EQ(left[0].worst.frame, 20u);
+  EXPECT_NEAR(left[0].worst.angle, 45, 0.1);
   EXPECT_TRUE(holds(check_film(film).lines[0], "its skewed axes do not reach"));
 }
 
@@ -93,7 +100,53 @@ TEST(LimitsLeft, AKeyThereMendsIt) {
       film_of(R"("limits": {"x": [-180, 180], "y": [-81, 81], "z": [-180, 180]})",
               R"("keys": [{"frame": 0, "pose": {"j": [0, 80, 0]}}, {"frame": 20, "pose": {"j": [45, 81, 0]}},
                                         {"frame": 40, "pose": {"j": [90, 80, 0]}}])");
-  for (const LimitsLeft& left : limits_left(film)) EXPECT_LT(left.angle, 81.5);
+  for (const LimitsLeft& left : limits_left(film)) EXPECT_LT(left.worst.angle, 81.5);
+}
+
+// Every frame looked at is the twin of the search.
+TEST(LimitsLeft, TheWorstIsFoundWithoutLookingAtEveryFrame) {
+  std::mt19937 random(7);
+  const auto number = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  const char* const limits[] = {R"("limits": {"x": [-90, 90], "y": [-80, 80], "z": [-90, 90]})",
+                                R"("limits": {"x": [-60, 120], "y": [0, 170], "z": [-200, 200]})",
+                                R"("limits": {"x": [-90, 90], "y": [-90, 90], "z": [20, 20]})",
+                                R"("y_axis": [0.3, 1, 0], "limits": {"x": [-90, 90], "y": [-80, 80], "z": [-90, 90]})"};
+  const Ease eases[] = {kLinear, kBoth, swinging(0.2, 0.3)};
+  int outside = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    Film film = film_of(limits[trial % 4], R"("keys": [{"frame": 0, "pose": {"j": [0, 10, 20]}}])");
+    film.frames = 1 + std::uint32_t(number(10, 90));  // some end between keys
+    const Joint& joint = film.models[0].joints[0];
+    Channel<glm::dvec3>& poses = film.actors[0].motion.pose[0];
+    poses.clear();
+    for (std::uint32_t frame = 0; frame < 80; frame += 1 + std::uint32_t(number(0, 40))) {
+      glm::dvec3 pose;
+      for (int axis = 0; axis < 3; ++axis) pose[axis] = number(joint.limits[axis].lower, joint.limits[axis].upper);
+      poses.push_back({frame, pose, eases[trial % 3]});
+    }
+    const auto all = limits_left(film);
+    const auto worst = worst_excesses(film);
+    const double excess = all.empty() ? 0 : all[0].worst.outside;
+    outside += excess > kExcessSeen;
+    ASSERT_EQ(worst.size(), excess > kExcessSeen ? 1u : 0u) << trial << ": " << excess;
+    for (const WorstExcess& each : worst) EXPECT_NEAR(each.outside, excess, 0.01) << trial;
+  }
+  EXPECT_GT(outside, 100);
+  EXPECT_LT(outside, 390);
+}
+
+TEST(Warnings, OfALongFilmTakeNoTime) {
+  Film film = film_of(R"("limits": {"x": [-90, 90], "y": [-81, 81], "z": [-90, 90]})", kSideways);
+  film.frames = 1'000'000;
+  film.actors[0].motion.pose[0][1].frame = 999'999;
+  film.actors.resize(400, film.actors[0]);
+  // Frame by frame it would be 400 million poses, minutes.
+  const auto start = std::chrono::steady_clock::now();
+  const auto lines = warnings_of(film);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  ASSERT_EQ(lines.size(), 11u);
+  EXPECT_EQ(lines[10],
+            "f.json: 390 more joints leave their limits between keys (mars animate f.json check lists all)");
 }
 
 TEST(Check, TellsKeysBehindTheEndAndThoseThatDoNothing) {
@@ -114,7 +167,7 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
   EXPECT_FALSE(findings.trouble);
   ASSERT_EQ(findings.lines.size(), 1u);
   EXPECT_TRUE(holds(findings.lines[0], "1 joint is outside its limits between keys by less than")) << findings.lines[0];
-  EXPECT_EQ(limits_remark(film), "");
+  EXPECT_TRUE(warnings_of(film).empty());
 }
 
 TEST(Check, TellsJumps) {

@@ -59,7 +59,7 @@ TEST(Limits, BoundExactlyTheThreeNumbers) {
   EXPECT_FALSE(broken_limit(joint, {0, 150, -180}));
   EXPECT_EQ(*broken_limit(joint, {0, 150.5, 0}),
             "turns 150.5 degrees about y, outside its limits -10 to 150");
-  EXPECT_TRUE(holds(*broken_limit(joint, {1e-9, 0, 0}), "about x"));
+  EXPECT_TRUE(holds(*broken_limit(joint, {1e-9, 0, 0}), "its x axis is locked at 0, not 1e-09"));
 }
 
 TEST(SegmentFrame, SkewAxesShearTheSegmentButNoChild) {

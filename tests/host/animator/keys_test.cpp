@@ -285,5 +285,80 @@ TEST(KeysTable, ShowsWhatIsFree) {
             "no keys: camera\n");
 }
 
+Remarks posed(Scene& scene, const std::string& wish, std::uint32_t frame, std::optional<Ease> ease = {}) {
+  const std::vector<std::string> wishes = {wish};
+  return scene([&](Json& j, const Film& f) { return pose(j, f, "it", wishes, frame, ease, Beyond::refused); });
+}
+
+TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
+  Scene scene("");
+  const Remarks back = posed(scene, "turn.z=270", 20);
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_EQ(back[0],
+            "actor 'it': turn goes 90 degrees back from frame 0 to 20, not 270 degrees about z: from key to key it takes "
+            "the smallest turn (to go round, also pose it turn.z=135 --frame 10)");
+  EXPECT_TRUE(posed(scene, "turn.z=135", 10).empty());
+  EXPECT_TRUE(posed(scene, "turn.z=280", 24).empty());
+  // Without the key between it goes back again.
+  const Remarks deleted =
+      scene([&](Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"/turn", "turn"}}, {10, 10}); });
+  ASSERT_EQ(deleted.size(), 1u);
+  EXPECT_TRUE(holds(deleted[0], "goes 90 degrees back from frame 0 to 20")) << deleted[0];
+  // What was so before is not told again.
+  EXPECT_TRUE(scene([&](Json& j, const Film& f) {
+                return make_keys(j, f, {false, "it", {"turn"}}, 8, {}, Beyond::refused);
+              }).empty());
+  EXPECT_TRUE(
+      scene([&](Json& j, const Film& f) { return shift(j, f, {false, "it", {"turn"}}, 8, 4); }).empty());
+}
+
+struct Turned {
+  const char* wish;
+  const char* told;
+};
+
+class OtherWay : public testing::TestWithParam<Turned> {};
+
+TEST_P(OtherWay, IsTold) {
+  Scene scene("");
+  const Remarks remarks = posed(scene, GetParam().wish, 20);
+  if (std::string(GetParam().told).empty()) {
+    EXPECT_TRUE(remarks.empty()) << remarks[0];
+  } else {
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_TRUE(holds(remarks[0], GetParam().told)) << remarks[0];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, OtherWay,
+    testing::Values(Turned{"turn.z=180", ""}, Turned{"turn.z=-180", "goes 180 degrees back"}, Turned{"turn.x=179", ""},
+                    Turned{"turn.z=450", "goes 90 degrees on from frame 0 to 20, not 450 degrees about z"},
+                    Turned{"turn.y=360", "does not turn from frame 0 to 20, not 360 degrees about y"},
+                    Turned{"turn.y=360", "pose it turn.y=120 --frame 7, pose it turn.y=240 --frame 13)"},
+                    Turned{"turn=10,20,400", "turn makes the smallest turn, of"}, Turned{"turn=100,80,-170", ""},
+                    Turned{"elbow.y=150", ""}, Turned{"shoulder=90,-90,90", ""}));
+
+TEST(SideEffects, AHingeGoesRoundByItself) {
+  Scene scene("");
+  scene.json["models"]["arm"]["joints"][1]["limits"]["y"] = {-1000, 1000};
+  scene.read();
+  EXPECT_TRUE(posed(scene, "elbow.y=900", 20).empty());
+}
+
+TEST(SideEffects, ANewKeysEaseTellsWhomElseItChanges) {
+  Scene scene(kMoving);
+  const Remarks remarks = posed(scene, "elbow.y=60", 24, kBoth);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0],
+            "actor 'it': the ease at frame 24 also changes how these move on from there: shoulder, place, turn (a key has "
+            "one ease for all that it holds; to time them apart, put keys at other frames)");
+  EXPECT_TRUE(posed(scene, "elbow.y=50", 24, kBoth).empty()) << "it has that ease";
+  EXPECT_TRUE(posed(scene, "elbow.y=50", 30, kOut).empty()) << "nothing else is keyed there";
+  EXPECT_TRUE(posed(scene, "elbow.y=50", 48, kOut).empty()) << "nothing follows";
+  EXPECT_TRUE(scene([&](Json& j, const Film& f) { return ease_keys(j, f, kIt, {0, 48}, kOut); }).empty())
+      << "all were meant";
+}
+
 }  // namespace
 }  // namespace mars::host

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "host/document/file.h"
+#include "host/document/forms.h"
 #include "host/document/json_file.h"
 #include "host/film/compile.h"
 #include "host/animator/read_film.h"
@@ -59,6 +60,96 @@ TEST(Schema, NamesTheLibrarysShapesAndTheirOptions) {
     EXPECT_EQ(number.find("minimum")->number(), option.range.lowest) << option.key;
     EXPECT_EQ(number.find("maximum")->number(), option.range.highest) << option.key;
   }
+}
+
+// Whether a value is as a schema says; of JSON Schema what ours use for values of keys.
+class Schemas {
+ public:
+  bool takes(Json schema, const Json& value) const {
+    schema = resolved(schema);
+    if (schema.contains("anyOf"))
+      return std::ranges::any_of(schema["anyOf"], [&](const Json& each) { return takes(each, value); });
+    if (schema.contains("const")) return value == schema["const"];
+    if (schema.contains("enum")) return std::ranges::count(schema["enum"], value) > 0;
+    const std::string type = schema.value("type", "");
+    if (type == "number" || type == "integer")
+      return value.is_number() && value >= schema.value("minimum", value) && value <= schema.value("maximum", value);
+    if (type == "array")
+      return value.is_array() && value.size() >= schema.value("minItems", std::size_t{0}) &&
+             value.size() <= schema.value("maxItems", value.size()) &&
+             std::ranges::all_of(value, [&](const Json& each) { return takes(schema["items"], each); });
+    if (type == "string") return value.is_string();
+    if (type == "boolean") return value.is_boolean();
+    return type == "object" && value.is_object() && takes_object(schema, value);
+  }
+
+  // Of a key wherever it may stand; of "above.key" or "above.*" where it stands in that one.
+  std::vector<Json> of(const std::string& name) const {
+    std::vector<Json> found;
+    const std::size_t dot = name.find('.');
+    for (const Json& object : objects()) {
+      if (!object.contains("properties")) continue;
+      const auto property = object["properties"].find(name.substr(0, dot));
+      if (property == object["properties"].end()) continue;
+      const Json schema = resolved(*property);
+      if (dot == std::string::npos) found.push_back(schema);
+      if (dot == std::string::npos || schema.value("type", "") != "object") continue;
+      const std::string key = name.substr(dot + 1);
+      if (key == "*" && schema.contains("additionalProperties") && schema["additionalProperties"].is_object())
+        found.push_back(schema["additionalProperties"]);
+      if (key != "*" && schema.contains("properties") && schema["properties"].contains(key))
+        found.push_back(schema["properties"][key]);
+    }
+    return found;
+  }
+
+ private:
+  static Json read(const char* name) { return read_json(fs::path(MARS_SOURCE_DIR) / "docs/schema" / name); }
+
+  std::vector<Json> objects() const {
+    std::vector<Json> all = {film_, model_};
+    for (const Json* schema : {&film_, &model_})
+      for (const auto& definition : (*schema)["$defs"].items()) all.push_back(definition.value());
+    return all;
+  }
+
+  Json resolved(const Json& schema) const {
+    if (!schema.contains("$ref")) return schema;
+    const std::string name = schema["$ref"];
+    if (name == "model.schema.json") return model_;
+    const std::string definition = name.substr(name.rfind('/') + 1);
+    return resolved((film_["$defs"].contains(definition) ? film_ : model_)["$defs"][definition]);
+  }
+
+  bool takes_object(const Json& schema, const Json& value) const {
+    for (const Json& needed : schema.value("required", Json::array()))
+      if (!value.contains(needed.get<std::string>())) return false;
+    const Json properties = schema.value("properties", Json::object()), others = schema.value("additionalProperties", Json());
+    return std::ranges::all_of(value.items(), [&](const auto& item) {
+      if (properties.contains(item.key())) return takes(properties[item.key()], item.value());
+      return others.is_object() && takes(others, item.value());
+    });
+  }
+
+  const Json film_ = read("film.schema.json"), model_ = read("model.schema.json");
+};
+
+TEST(Schema, TakesTheFormsThatMessagesShow) {
+  const Schemas schemas;
+  for (const Form& form : forms()) {
+    const auto found = schemas.of(std::string(form.key));
+    const Json value = Json::parse(form.value);
+    EXPECT_TRUE(std::ranges::any_of(found, [&](const Json& schema) { return schemas.takes(schema, value); }))
+        << form.key << ": " << form.value;
+  }
+}
+
+TEST(Schema, EveryKeyOfAFilmHasAForm) {
+  for (const Keys& keys : film_keys())
+    for (const std::string_view key : keys.names) {
+      if (key == "dice") continue;  // has messages of its own
+      EXPECT_TRUE(std::ranges::any_of(forms(), [&](const Form& form) { return form.key == key; })) << key;
+    }
 }
 
 std::vector<fs::path> json_files(const char* folder) {

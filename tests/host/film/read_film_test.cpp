@@ -73,7 +73,13 @@ INSTANTIATE_TEST_SUITE_P(
                "no joint of the model 'arm'"},
         Broken{R"({"name": "x", "model": "arm", "pose": {"b": [0, 401, 0]}})",
                "actors[0].pose.b: joint 'b' turns 401 degrees about y, outside its limits -10 to 400"},
-        Broken{R"({"name": "x", "model": "arm", "pose": {"b": 5}})", "is a number, not a list"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"b": 5}})", "is a number, not a list (write \"b\": [0, 90, 0])"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"b": [5, 10, 0]}})",
+               "joint 'b' turns about y only; its x axis is locked at 0, not 5"},
+        Broken{R"({"name": "x", "model": "arm", "place": 3})", "is a number, not a list (write \"place\": [1, 0, 0.5])"},
+        Broken{R"({"name": "x", "model": "arm", "place": [1, 2]})", "has 2 items (write \"place\": [1, 0, 0.5])"},
+        Broken{R"({"name": "x", "model": "arm", "keys": {"frame": 3}})",
+               "is an object, not a list (write \"keys\": [{\"frame\": 0}, {\"frame\": 24}])"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"pose": {}}]})", "has no 'frame'"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 5}, {"frame": 5}]})", "ascending"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": -1}]})", "from 0"},
@@ -139,6 +145,38 @@ TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
     const std::string outcome = outcome_of(json);
     EXPECT_TRUE(outcome == "film" || holds(outcome, "f.json") || holds(outcome, "/nowhere")) << outcome;
   }
+}
+
+TEST(ReadFilm, LimitsOfTheWrongFormShowTheRightOne) {
+  const auto told = [](const std::string& limits) {
+    return failure_of([&] {
+      film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {"m": {"joints": [
+                 {"name": "j", "limits": )" + limits + "}]}}}");
+    });
+  };
+  EXPECT_TRUE(holds(told("[-30, 30]"), R"(joints[0].limits: is a list, not an object (write "limits": {"x": [-30, 30]}))"));
+  EXPECT_TRUE(holds(told(R"({"y": 30})"), R"(limits.y: is a number, not a list (write "y": [-30, 30]))"));
+  EXPECT_TRUE(holds(told(R"({"x": [1, 2, 3]})"), R"(has 3 items (write "x": [-30, 30]))"));
+  EXPECT_TRUE(holds(told(R"({"x": ["a", 3]})"), R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
+  EXPECT_TRUE(holds(told(R"({"x": [30, -30]})"), R"("x": [-30, 30])"));
+}
+
+TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
+  const auto told = [](const std::string& color) {
+    return failure_of([&] {
+      film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {}, "background": )" + color + "}");
+    });
+  };
+  EXPECT_EQ(told("[255, 128, 51]"),
+            "f.json:1: background: has 255, above 1, where colours go from 0 to 1 (divide by 255: [1, 0.502, 0.2])");
+  EXPECT_EQ(told("[256, 0, 0]"), "f.json:1: background[0]: is 256 (write a number from 0 to 1)");
+  EXPECT_EQ(told("[200, -1, 0]"), "f.json:1: background[0]: is 200 (write a number from 0 to 1)");
+  EXPECT_TRUE(holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
+  EXPECT_EQ(told("[0, 1, 0.5]"), "");
+  EXPECT_TRUE(holds(failure_of([] {
+                      film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 2]}])"));
+                    }),
+                    "lights[0].color: has 2, above 1"));
 }
 
 }  // namespace

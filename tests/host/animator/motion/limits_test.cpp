@@ -1,6 +1,7 @@
 // What actions make of a figure: within its limits, from where it was, told clearly where it cannot be done.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -91,6 +92,34 @@ TEST(Actions, AskedAgainReplaceWhatTheyHadMade) {
   act(twice, "walk steps 3 lean 10 pace 1.9", 5);
   act(twice, "walk steps 3", 5);
   EXPECT_TRUE(twice == once);
+}
+
+TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
+  struct Impossible {
+    const char *words, *told;
+    double rate = 24;
+    std::uint32_t at = 0;
+  };
+  const auto start = std::chrono::steady_clock::now();
+  for (const auto& [words, told, rate, at] : {
+           Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 10000)"},
+           Impossible{"walk distance 1e6", "'distance' is 1000000 away, which takes"},
+           Impossible{"walk to 1e6 1e6", "a walk has at most 10000: go to a nearer place"},
+           Impossible{"walk steps 4 distance 1e6", "would take a step of 250000, where two legs of"},
+           Impossible{"walk step-length 100", "take shorter steps"},
+           Impossible{"walk steps 10000 pace 0.1", "would end at frame 24004440", 240},
+           Impossible{"turn by 3600 pace 0.1", "a film has at most 1000000 frames", 1000},
+           Impossible{"nod times 1000 seconds 60", "nod: would end at frame 1440000 (begin earlier, or make it shorter"},
+           Impossible{"wave times 1000 seconds 60", "would end at frame 1440024"},
+           Impossible{"spin seconds 600", "would end at frame 1500000", 1000, 900'000},
+           Impossible{"throw seconds 600", "would end at frame 1500000", 1000, 900'000},
+       }) {
+    Json film = film_with(human());
+    film["rate"] = rate;
+    const std::string failure = failure_of([&] { act(film, words, at); });
+    EXPECT_TRUE(holds(failure, told)) << words << ": " << failure;
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 TEST(Walk, SwingsArmsAgainstLegsAndBendsKneesForward) {

@@ -52,6 +52,11 @@ at runtime   cut)");
   EXPECT_EQ(film.at("actors")[1].at("keys").back().at("turn")[2], 90);
 }
 
+TEST(Script, ACameraMovesNoLongerThanAFilmLasts) {
+  EXPECT_TRUE(holds(failure("at 10 camera move eye 1 2 3 seconds 1e6"),
+                    "a.script:1: this line moves the camera until frame 24000010 (a film has at most 1000000 frames"));
+}
+
 TEST(Script, CutAloneEndsTheFilmWhenTheLineBeforeEnds) {
   EXPECT_EQ(played("at 10 green spin seconds 1\ncut").at("frames"), 34);
 }
