@@ -1,157 +1,13 @@
 #include "host/import/mesh_file.h"
 
-#include <assimp/material.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
-#include <algorithm>
-#include <assimp/Importer.hpp>
-#include <cctype>
-#include <cmath>
-#include <exception>
 #include <limits>
 
-#include "hal/failure.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/ply_file.h"
-#include "host/import/promised.h"
-#include "host/import/unread_parts.h"
+#include "host/import/scene_file.h"
 
 namespace mars::host {
 namespace {
-
-constexpr std::size_t kMostNodes = 1'000'000;
-
-using Vector = aiVector3t<double>;
-using Matrix = aiMatrix4x4t<double>;
-
-glm::dvec3 dvec3_of(const Vector& vector) { return {vector.x, vector.y, vector.z}; }
-
-void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
-  list.insert(list.end(), more.begin(), more.end());
-}
-
-// Through Assimp.
-class SceneReader {
- public:
-  SceneReader(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes)
-      : path_(path),
-        kind_(kind),
-        is_gltf_(kind == FileKind::gltf || kind == FileKind::glb),
-        promised_(promised_by(path, kind)),
-        scene_(load()),
-        builder_(path.string(), wishes, has_normals()) {}
-
-  MeshFile read() {
-    check_faces();
-    visit(*scene_.mRootNode, Matrix());
-    MeshFile file = builder_.finish(is_gltf_ ? 0 : kDefaultCrease);
-    for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
-    file.vertices = promised_.vertices.value_or(file.vertices);
-    append(file.not_read, unread_parts(scene_, is_gltf_));
-    append(file.not_read, promised_.not_read);
-    return file;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
-    throw Failure(problem, path_.string(), remedy);
-  }
-
-  // No steps of Assimp's own but its check of indices: joining, splitting and smoothing are ours.
-  const aiScene& load() {
-    const aiScene* scene = importer_.ReadFile(path_.string(), aiProcess_ValidateDataStructure);
-    if (scene && scene->mRootNode) return *scene;
-    rethrow_memory();
-    std::string why = importer_.GetErrorString();
-    if (why.size() > 160) why = why.substr(0, 160) + " ...";
-    std::replace_if(
-        why.begin(), why.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
-    fail("is no sound mesh file: " + why, "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
-  }
-
-  void rethrow_memory() const {
-    if (!importer_.GetException()) return;
-    try {
-      std::rethrow_exception(importer_.GetException());
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception&) {  // load() says which
-    }
-  }
-
-  // STL's are its facets'.
-  bool has_normals() const {
-    bool all = kind_ != FileKind::stl;
-    for (unsigned i = 0; i < scene_.mNumMeshes; ++i) all &= scene_.mMeshes[i]->HasNormals();
-    return all;
-  }
-
-  void check_faces() const {
-    std::size_t faces = 0;
-    for (unsigned i = 0; i < scene_.mNumMeshes; ++i)
-      for (unsigned f = 0; f < scene_.mMeshes[i]->mNumFaces; ++f)
-        faces += scene_.mMeshes[i]->mFaces[f].mNumIndices >= 3;
-    if (promised_.faces.value_or(0) > faces)
-      fail("promises " + std::to_string(*promised_.faces) + " faces, " + std::to_string(faces) +
-               (faces == 1 ? " was read" : " were read"),
-           "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
-  }
-
-  void visit(const aiNode& node, const Matrix& above) {
-    if (++visited_ > kMostNodes) fail("has more than a million nodes", "join its objects before exporting it");
-    const auto matrix = above * static_cast<Matrix>(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], matrix);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], matrix);
-  }
-
-  void add(const aiMesh& mesh, const Matrix& matrix) {
-    const bool mirrored = matrix.Determinant() < 0;
-    auto across = aiMatrix3x3t<double>(matrix);  // normals go by the inverse's transpose
-    if (across.Determinant() != 0) across.Inverse().Transpose();
-    const std::size_t part = builder_.part_of(color_of(mesh));
-    std::vector<std::uint32_t> face;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      if (mesh.mFaces[f].mNumIndices < 3) continue;  // a point, a line
-      face.clear();
-      for (unsigned c = 0; c < mesh.mFaces[f].mNumIndices; ++c) {
-        const unsigned index = mesh.mFaces[f].mIndices[c];
-        const Vector normal = mesh.HasNormals() ? across * static_cast<Vector>(mesh.mNormals[index]) : Vector();
-        face.push_back(
-            builder_.vertex(part, dvec3_of(matrix * static_cast<Vector>(mesh.mVertices[index])), dvec3_of(normal)));
-      }
-      if (mirrored) std::reverse(face.begin(), face.end());
-      builder_.add_face(part, face);
-    }
-  }
-
-  // OBJ's colour is as shown, glTF's is light.
-  MeshBuilder::Color color_of(const aiMesh& mesh) const {
-    if (kind_ == FileKind::stl) return {};
-    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
-    aiColor4D given;
-    if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME)) return {};
-    if (material.Get(AI_MATKEY_BASE_COLOR, given) != AI_SUCCESS &&
-        material.Get(AI_MATKEY_COLOR_DIFFUSE, given) != AI_SUCCESS)
-      return {};
-    std::array<double, 3> color{given.r, given.g, given.b};
-    for (double& c : color) {
-      c = c >= 0 ? std::min(c, 1.0) : 0;
-      if (is_gltf_) c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-      c = std::round(c * 1000) / 1000;
-    }
-    return color;
-  }
-
-  std::filesystem::path path_;
-  FileKind kind_;
-  bool is_gltf_;
-  Promised promised_;
-  Assimp::Importer importer_;
-  const aiScene& scene_;
-  MeshBuilder builder_;
-  std::size_t visited_ = 0;
-};
 
 MeshFile read_ply(const std::filesystem::path& path, const MeshWishes& wishes) {
   const PlyFile ply = read_ply_file(path);
@@ -171,14 +27,14 @@ MeshFile read_ply(const std::filesystem::path& path, const MeshWishes& wishes) {
   }
   MeshFile file = builder.finish(kDefaultCrease);
   file.vertices = ply.places.size();
-  append(file.not_read, ply.not_read);
+  file.not_read.insert(file.not_read.end(), ply.not_read.begin(), ply.not_read.end());
   return file;
 }
 
 }  // namespace
 
 MeshFile read_mesh_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes) {
-  return kind == FileKind::ply ? read_ply(path, wishes) : SceneReader(path, kind, wishes).read();
+  return kind == FileKind::ply ? read_ply(path, wishes) : read_scene_file(path, kind, wishes);
 }
 
 }  // namespace mars::host

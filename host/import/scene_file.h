@@ -1,0 +1,14 @@
+// Mesh files that Assimp reads: OBJ, STL, glTF, GLB. A MARS that was built without Assimp (no_scene_file.cpp) refuses
+// them.
+#pragma once
+
+#include <filesystem>
+
+#include "host/import/mesh_file.h"
+
+namespace mars::host {
+
+// As read_mesh_file().
+MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes);
+
+}  // namespace mars::host
