@@ -1,7 +1,7 @@
-// Files that appear whole or not at all, also where the machine loses its power: written under a temporary name, brought
-// to the disk, then renamed. The temporary file is always a new one: nothing that has its name, a link or a file that
-// another process writes, is ever written to. Whatever goes wrong is one Failure with the system's reason, and the
-// temporary file is gone.
+// Files that appear whole or not at all, also where the machine loses its power: written under a temporary name,
+// brought to the disk, then renamed. The temporary file is always a new one: nothing that has its name, a link or a
+// file that another process writes, is ever written to. Whatever goes wrong is one Failure with the system's reason,
+// and the temporary file is gone.
 #pragma once
 
 #include <cstddef>

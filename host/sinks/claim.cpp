@@ -117,8 +117,8 @@ void HashLog::add(std::uint32_t frame, const std::string& hash) {
 void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& folder) {
   const std::optional<Claim> rival = claim_of(run);
   if (!rival)
-    throw Failure("another run renders into this folder, and its claim cannot be read", file_of(run, kClaimEnding)->string(),
-                  "give another folder with -o, or wait");
+    throw Failure("another run renders into this folder, and its claim cannot be read",
+                  file_of(run, kClaimEnding)->string(), "give another folder with -o, or wait");
   const Manifest& theirs = rival->manifest;
   if (theirs.checksum != wanted.checksum) {
     const std::string film = (theirs.film == wanted.film ? "another version or size of " : "") + theirs.film;

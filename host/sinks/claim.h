@@ -1,6 +1,7 @@
-// A run's claim to a folder of frames: which frames of which film it renders, from its start to its end. Runs of the same
-// compiled film share a folder while no frame is claimed twice; whatever else would mix two runs' frames is refused.
-// What is claimed, and what has been rendered of it, outlives a run that is killed: the next one adds it to frames.json.
+// A run's claim to a folder of frames: which frames of which film it renders, from its start to its end. Runs of the
+// same compiled film share a folder while no frame is claimed twice; whatever else would mix two runs' frames is
+// refused. What is claimed, and what has been rendered of it, outlives a run that is killed: the next one adds it to
+// frames.json.
 #pragma once
 
 #include <cstdint>

@@ -23,8 +23,8 @@ class FolderTurn {
   // Longer than the turn of a run on a lost machine counts.
   static constexpr std::chrono::milliseconds kPatience{90000};
 
-  // Waits for it. `runs` must outlive the turn. Throws Failure where it does not come in time, as another run that has it
-  // does not go on, or where the folder cannot be written.
+  // Waits for it. `runs` must outlive the turn. Throws Failure where it does not come in time, as another run that has
+  // it does not go on, or where the folder cannot be written.
   explicit FolderTurn(const RunsFolder& runs, std::chrono::milliseconds patience = kPatience);
   ~FolderTurn();
   FolderTurn(const FolderTurn&) = delete;
@@ -36,8 +36,8 @@ class FolderTurn {
   // Throws Failure where others have taken this run for ended, which was held up.
   void confirm() const;
 
-  // Whether a run has ended: its process is gone; or, where that cannot be seen from here, none of its files was made or
-  // renewed in the last minute, by the clock of the machine that keeps the files.
+  // Whether a run has ended: its process is gone; or, where that cannot be seen from here, none of its files was made
+  // or renewed in the last minute, by the clock of the machine that keeps the files.
   bool has_ended(const RunFiles& run) const;
 
  private:

@@ -60,8 +60,8 @@ void write_manifest(const Manifest& manifest, const fs::path& folder, const Runs
   replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
 }
 
-// Adds what a run that has ended, or this one at its end, has rendered to the manifest, unless that is of another film by now, and removes the run's
-// files: its claim last, so that whatever is left of them is known to be its.
+// Adds what a run has rendered to the manifest, unless that is of another film by now, and removes the run's files: its
+// claim last, so that whatever is left of them is known to be its. The run has ended, or is this one at its end.
 void settle(const RunFiles& run, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
   std::error_code ignored;  // what stays is found by the next run
   for (const fs::path& file : run.files)
@@ -109,13 +109,13 @@ void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
   for (const RunFiles& run : runs_.runs())
     if (has_claim(run) && !turn.has_ended(run)) refuse_rival(run, manifest, path_);
   settle_ended_runs(path_, runs_, turn);
+  turn.confirm();
   std::optional<Manifest> all = manifest_of_same_film(path_, manifest.checksum);
   if (!all) {  // another film's frames under the names to come would pass as this one's if the run were interrupted
     for (const std::uint32_t frame : manifest.frames) fs::remove(file_of(frame));
     all = manifest;
   }
   add_frames(*all, manifest);
-  turn.confirm();
   const std::string text = text_of(Claim{runs_.self(), time(nullptr), manifest});
   replace_file(runs_.own_file(kClaimEnding), runs_.own_file(".claim.part"), std::as_bytes(std::span(text)));
   lease_.emplace(runs_.own_file(kClaimEnding));
@@ -135,6 +135,7 @@ void FrameFolder::finish() {
   finished_ = true;
   const FolderTurn turn(runs_);
   lease_->confirm();
+  hashes_.reset();
   for (const RunFiles& run : runs_.runs())
     if (run.run == runs_.own_name()) settle(run, path_, runs_, turn);
   lease_.reset();
@@ -143,8 +144,8 @@ void FrameFolder::finish() {
 
 fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_file_name(frame, film_frames_); }
 
-// The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a hash
-// would say nothing.
+// The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a
+// hash would say nothing.
 void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png) {
   lease_->check();
   hashes_->add(frame, pixel_hash);

@@ -1,7 +1,7 @@
 // The folder a film is rendered into: frame-0000.png and so on, and frames.json, the manifest that says which frames of
-// which film belong there, and the hash of each one's pixels. The manifest is written first, so that a folder without it,
-// or with fewer frames than it names, is known to be unfinished. From its first file to its last a run has a claim there
-// (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs (runs_folder.h).
+// which film belong there, and the hash of each one's pixels. The manifest is written first, so that a folder without
+// it, or with fewer frames than it names, is known to be unfinished. From its first file to its last a run has a claim
+// there (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs (runs_folder.h).
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,21 @@
 #include <string>
 
 #include "host/sinks/claim.h"
+#include "host/sinks/folder_turn.h"
 #include "host/sinks/lease.h"
 #include "host/sinks/manifest.h"
 #include "host/sinks/process_name.h"
 #include "host/sinks/runs_folder.h"
 #include "host/sinks/sink.h"
-#include "host/sinks/folder_turn.h"
 
 namespace mars::host {
 
 class FrameFolder {
  public:
-  // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what else
-  // they left, claims the frames, and writes the manifest; where there is one of the same compiled film, its frames
-  // belong there too. Throws Failure, and has changed nothing of others', where another run's claim is in the way.
+  // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what
+  // else they left, claims the frames, and writes the manifest; where there is one of the same compiled film, its
+  // frames belong there too. Throws Failure, and has changed nothing of others', where another run's claim is in the
+  // way.
   FrameFolder(std::filesystem::path path, const Manifest& manifest, const ProcessName& self = this_process());
   // As finish(); what then cannot be written, the next run or clear_ended_runs finds.
   ~FrameFolder();
@@ -51,8 +52,8 @@ class FrameFolder {
   bool finished_ = false;
 };
 
-// Does for runs that have ended without it, killed, what the next run would do: their frames' hashes go to the manifest,
-// and what else they left is removed. Leaves alone what cannot be written.
+// Does for runs that have ended without it, killed, what the next run would do: their frames' hashes go to the
+// manifest, and what else they left is removed. Leaves alone what cannot be written.
 void clear_ended_runs(const std::filesystem::path& folder);
 
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.

@@ -25,7 +25,10 @@ double seconds_since_boot() {
 }
 
 Lease::Lease(std::filesystem::path file, Clock clock)
-    : file_(std::move(file)), clock_(std::move(clock)), renewed_(clock_()), thread_([this] { renew_until_stopped(); }) {}
+    : file_(std::move(file)),
+      clock_(std::move(clock)),
+      renewed_(clock_()),
+      thread_([this] { renew_until_stopped(); }) {}
 
 Lease::~Lease() {
   {
@@ -61,10 +64,11 @@ void Lease::confirm() {
   const std::lock_guard lock(mutex_);
   renew();
   if (gone_)
-    throw Failure("this run's claim to the folder is gone: another run has taken this one for ended, or somebody removed it",
-                  file_.string(), "see that it is the only one, and render the frames that mars verify --missing names");
+    throw Failure("this run's claim to the folder is gone: another run took this one for ended, or somebody removed it",
+                  file_.string(), "see that no other run writes there, and render what mars verify --missing prints");
   if (clock_() - renewed_ >= kTrusted)
-    throw Failure("this run's claim to the folder cannot be renewed", file_.string(), "see whether the disk can be written");
+    throw Failure("this run's claim to the folder cannot be renewed", file_.string(),
+                  "see whether its disk can still be written");
 }
 
 }  // namespace mars::host

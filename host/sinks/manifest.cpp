@@ -68,7 +68,8 @@ void add_frames(Manifest& manifest, const Manifest& more) {
     return at < from.pixel_hashes.size() ? from.pixel_hashes[at] : std::string();
   };
   for (std::size_t a = 0, b = 0; a < manifest.frames.size() || b < more.frames.size();) {
-    const bool in_more = b < more.frames.size() && (a == manifest.frames.size() || more.frames[b] <= manifest.frames[a]);
+    const bool in_more =
+        b < more.frames.size() && (a == manifest.frames.size() || more.frames[b] <= manifest.frames[a]);
     const bool in_old = a < manifest.frames.size() && (!in_more || manifest.frames[a] == more.frames[b]);
     frames.push_back(in_more ? more.frames[b] : manifest.frames[a]);
     std::string hash = in_more ? hash_of(more, b) : "";

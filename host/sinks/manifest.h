@@ -1,5 +1,5 @@
-// What a folder of frames says of itself, in its file frames.json: which frames of which film belong there, and the hash of
-// each one's pixels (docs/rendering.md).
+// What a folder of frames says of itself, in its file frames.json: which frames of which film belong there, and the
+// hash of each one's pixels (docs/rendering.md).
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ struct Manifest {
 // Of one frame's pixels, in the form that Frame and Image give them.
 std::string pixel_hash(const std::vector<std::uint32_t>& pixels);
 
-// Adds the frames of another manifest of the same film, with the hashes it has. Frames of a manifest without hashes have
-// unknown ones from then on.
+// Adds the frames of another manifest of the same film, with the hashes it has. Frames of a manifest without hashes
+// have unknown ones from then on.
 void add_frames(Manifest& manifest, const Manifest& more);
 
 nlohmann::json to_json(const Manifest& manifest);

@@ -28,7 +28,8 @@ struct RunFiles {
 
 class RunsFolder {
  public:
-  // Of the folder of frames `frames`, as the process `self` sees it, which becomes a run of a new name. Makes nothing yet.
+  // Of the folder of frames `frames`, as the process `self` sees it, which becomes a run of a new name. Makes nothing
+  // yet.
   RunsFolder(const std::filesystem::path& frames, ProcessName self);
 
   const ProcessName& self() const { return self_; }

@@ -1,11 +1,11 @@
-"""Several runs in one folder: those that fit together share it, others are refused, and what a killed one rendered counts."""
+"""Several runs in one folder: where they fit together they share it; what a killed one has rendered counts."""
 
 import os
 import shutil
 import signal
 import subprocess
 
-from harness import BACKENDS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot, wait_until
+from harness import ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot, wait_until
 
 LONG = 30000  # frames: more than are rendered while a test looks on
 SMALL = ["--nodes", 1, "--backend", "threads", "--quiet"]
@@ -18,9 +18,9 @@ class Folders(ProgramTest):
         self.film = self.write("film.json", spinning_teapot(LONG, [160, 90]))
         self.other = self.write("other.json", spinning_teapot(LONG, [120, 90]))
 
-    def start(self, frames, backend="threads"):
+    def start(self, frames):
         shutil.rmtree(self.out, ignore_errors=True)
-        return self.start_mars("render", self.film, "-o", "out", "--nodes", 1, "--backend", backend, "--frames", frames)
+        return self.start_mars("render", self.film, "-o", "out", *SMALL, "--frames", frames)
 
     def render(self, film, frames, *more):
         return self.mars("render", film, "-o", "out", *SMALL, "--frames", frames, *more)
@@ -94,19 +94,18 @@ class Folders(ProgramTest):
         self.assertOnlyFrames()
 
     def test_after_a_kill_only_what_is_missing_is_rendered(self):
-        for backend in BACKENDS:
-            self.kill(self.start("0-400", backend))
-            missing = self.missing()
-            self.assertRegex(missing, r"^[\d,-]*400$")
-            there = {path.name: path.stat().st_mtime_ns for path in self.out.glob("*.png")}
-            first = int(missing.split("-")[0].split(",")[0])
-            self.assertGreater(first, 0)
-            self.succeed("mars", "render", self.film, "-o", "out", *SMALL, "--frames", missing)
-            self.assertIn("401 frames, all there", self.succeed("mars", "verify", "out"))
-            for number in range(first):
-                name = f"frame-{number:05}.png"
-                self.assertEqual((self.out / name).stat().st_mtime_ns, there[name], "it was there already")
-            self.assertOnlyFrames()
+        self.kill(self.start("0-400"))
+        missing = self.missing()
+        self.assertRegex(missing, r"^[\d,-]*400$")
+        there = {path.name: path.stat().st_mtime_ns for path in self.out.glob("*.png")}
+        first = int(missing.split("-")[0].split(",")[0])
+        self.assertGreater(first, 0)
+        self.succeed("mars", "render", self.film, "-o", "out", *SMALL, "--frames", missing)
+        self.assertIn("401 frames, all there", self.succeed("mars", "verify", "out"))
+        for number in range(first):
+            name = f"frame-{number:05}.png"
+            self.assertEqual((self.out / name).stat().st_mtime_ns, there[name], "it was there already")
+        self.assertOnlyFrames()
 
     def test_missing_is_what_frames_takes(self):
         self.assertEqual(self.render(self.film, "0-9").returncode, 0)

@@ -44,7 +44,8 @@ TEST(FrameSet, TextReadsAgain) {
 }
 
 TEST(FrameSet, TextOfFramesReadsAgain) {
-  for (const auto& [frames, text] : {std::pair{Frames{}, ""}, {Frames{7}, "7"}, {Frames{0, 1, 2, 5, 8, 9}, "0-2,5,8-9"}}) {
+  for (const auto& [frames, text] :
+       {std::pair{Frames{}, ""}, {Frames{7}, "7"}, {Frames{0, 1, 2, 5, 8, 9}, "0-2,5,8-9"}}) {
     EXPECT_EQ(FrameSet(frames).text(), text);
     EXPECT_TRUE(frames.empty() || FrameSet(text).of_film(10) == frames) << text;
   }

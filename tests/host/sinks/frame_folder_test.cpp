@@ -58,7 +58,8 @@ void run_and_kill(const fs::path& path, const Manifest& manifest, const std::vec
     FrameFolder folder(path, manifest, as.number == 0 ? this_process() : as);
     put_frames(folder, of_frames(written), 7);
     for (const fs::directory_entry& entry : fs::directory_iterator(path / ".runs"))
-      if (entry.path().extension() == ".claim") create_file(fs::path(entry.path()).replace_extension(".frame.part"), "x");
+      if (entry.path().extension() == ".claim")
+        create_file(fs::path(entry.path()).replace_extension(".frame.part"), "x");
     kill(getpid(), SIGKILL);
   }
   int status = 0;
@@ -355,7 +356,7 @@ TEST(Verify, ManifestsWithoutHashesAreReadToo) {
   EXPECT_FALSE(verdict.compared);
   EXPECT_EQ(verdict.hash, hash);
   fill(folder.path(), of_frames({1, 3}), 7);
-  EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 4u) << "once there are hashes, frames without one are unknown";
+  EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 4u) << "where some have a hash, all must";
 }
 
 }  // namespace
