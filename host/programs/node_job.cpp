@@ -27,12 +27,12 @@ void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
 
 }  // namespace
 
-void run_node_job() {
+void run_node_job(std::uint32_t threads) {
   const hal::Settings settings = hal::read_settings();
   const hal::Neighbourhood here = hal::neighbourhood();
   const topology::Machine machine = topology::Machine::here();
   const std::uint64_t memory = settings.memory.value_or(
-      topology::memory_share(machine.memory(), topology::memory_limit(), here.count));
+      topology::memory_share(machine.memory(), topology::memory_limit(), here.count, static_cast<int>(threads)));
   bind(machine, here);
   const topology::Binding binding = topology::Machine::binding();
   node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd});
