@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/memory_limits.h"
 
 namespace mars::hal {
 
@@ -12,8 +12,8 @@ PrivateMemory::PrivateMemory(std::size_t bytes) {
   if (bytes == 0) return;
   void* block = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (block == MAP_FAILED)
-    throw Failure("the machine does not give a node " + std::to_string(bytes >> 20) + " MiB", "memory",
-                  "start fewer nodes a machine, render a smaller picture, or set MARS_MEMORY to fewer MiB");
+    throw within_limits("the machine does not give a node " + std::to_string(bytes >> 20) + " MiB", "memory",
+                        "start fewer nodes a machine, render a smaller picture, or set MARS_MEMORY to fewer MiB");
   block_ = {static_cast<std::byte*>(block), Release{bytes}};
 }
 

@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +14,8 @@
 
 namespace mars::topology {
 namespace {
+
+constexpr std::size_t kRoomToLoad = std::size_t{16} << 20;  // bytes; a machine of 256 processors takes some 2 MiB
 
 using Bitmap = std::unique_ptr<hwloc_bitmap_s, decltype(&hwloc_bitmap_free)>;
 
@@ -109,7 +113,11 @@ Machine::Machine(Machine&&) noexcept = default;
 Machine& Machine::operator=(Machine&&) noexcept = default;
 Machine::~Machine() = default;
 
+// hwloc does not survive an allocation that fails.
 Machine Machine::load_here() {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  ::operator delete(::operator new(kRoomToLoad));
   Machine machine(start_topology());
   if (hwloc_topology_load(machine.topology_.get()) != 0) fail("hwloc cannot read this machine");
   return machine;

@@ -1,6 +1,7 @@
 #include "topology/memory_limit.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -12,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kLeastShare = std::uint64_t{1} << 20;  // with less a node says itself what it lacks
 constexpr std::uint64_t kMostShare = std::uint64_t{4} << 30;
 constexpr std::uint64_t kUnknownMemory = std::uint64_t{1} << 30;
 constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;  // version 1 writes "none" as a number near 2^63
@@ -60,16 +62,25 @@ std::uint64_t own_limit(int resource) {
   return limit.rlim_cur == RLIM_INFINITY ? 0 : limit.rlim_cur;
 }
 
+// Of this process, by the first number of its statm, in pages; 0 where it cannot be read.
+std::uint64_t address_space(const fs::path& root) {
+  std::uint64_t pages = 0;
+  std::ifstream(root / "proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 MemoryLimit memory_limit(const fs::path& root) {
-  return {group_limit(root), lesser(own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA))};
+  return {group_limit(root), lesser(own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA)), address_space(root)};
 }
 
-std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes) {
+std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
-  const std::uint64_t part = lesser(known, limit.together) / static_cast<std::uint64_t>(processes);
-  return std::min(kMostShare, lesser(part, limit.each) / 2);
+  const std::uint64_t share = lesser(known, limit.together) / static_cast<std::uint64_t>(processes);
+  if (limit.each == 0) return std::min(kMostShare, share / 2);
+  const std::uint64_t left = limit.each - std::min(limit.each, limit.used);
+  return std::min({kMostShare, share / 2, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / 2)});
 }
 
 }  // namespace mars::topology

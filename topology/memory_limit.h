@@ -12,6 +12,7 @@ namespace mars::topology {
 struct MemoryLimit {
   std::uint64_t together = 0;  // all processes of the control group at once
   std::uint64_t each = 0;      // this process: ulimit -v or -d
+  std::uint64_t used = 0;      // of that, so far
 
   bool operator==(const MemoryLimit&) const = default;
 };
@@ -20,7 +21,8 @@ struct MemoryLimit {
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 
 // The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame when
-// nobody says how many: half of its equal share, at most 4 GiB.
-std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes);
+// nobody says how many: half of its equal share, at most 4 GiB. Where the node is one of several threads that share
+// this process's limit, `threads` says of how many.
+std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads = 1);
 
 }  // namespace mars::topology

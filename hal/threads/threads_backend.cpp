@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/memory_limits.h"
 
 namespace mars::hal {
 namespace {
@@ -16,8 +16,8 @@ std::shared_ptr<std::byte> new_block(std::size_t bytes) try {
   auto* block = static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)));
   return {block, [](std::byte* old) { ::operator delete(old, std::align_val_t(kAlignment)); }};
 } catch (const std::bad_alloc&) {
-  throw Failure("there is no memory for " + std::to_string(bytes) + " bytes that the nodes share", "",
-                "use a machine with more memory, or a smaller film");
+  throw within_limits("there is no memory for " + std::to_string(bytes) + " bytes that the nodes share", "",
+                      "use a machine with more memory, or a smaller film");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "host/launch/environment.h"
 #include "host/launch/text_reader.h"
 #include "topology/machine.h"
+#include "topology/memory_limit.h"
 
 namespace mars::host {
 
@@ -179,6 +180,7 @@ Surroundings look_around(const std::string& path) {
           !may_copy(),
           !remote_shell,
           settings_in_use(),
+          topology::memory_limit().each,
           own_environment()};
 }
 
@@ -266,6 +268,9 @@ Backend choose_backend(Backend asked, const Programs& programs) {
 
 namespace {
 
+// Open MPI's processes need some 200 MB of addresses before they begin to run; with less they end in many ways, or hang.
+constexpr std::uint64_t kLeastForMpi = std::uint64_t{400} << 20;
+
 // Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
 Command mpich_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
   Command command{{}, {programs.mpirun->string(), "-bind-to", "none"}};
@@ -315,6 +320,10 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
 }  // namespace
 
 Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+  if (surroundings.memory_limit != 0 && surroundings.memory_limit < kLeastForMpi)
+    throw Failure("the limit of " + std::to_string(surroundings.memory_limit >> 10) +
+                      " kB of memory a process is too small for MPI",
+                  "ulimit -v", "raise it to " + std::to_string(kLeastForMpi >> 10) + " or more: ulimit -v unlimited");
   return programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
                                       : open_mpi_start(options, programs, surroundings);
 }

@@ -67,6 +67,7 @@ struct Surroundings {
   bool copies_forbidden = false;      // processes may not read each other's memory, as in some containers
   bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
   std::vector<std::string> settings;  // MARS_* variables that are set, for nodes on other machines
+  std::uint64_t memory_limit = 0;     // bytes that a process may have: ulimit -v or -d; 0: no limit
   Environment environment{{}};        // what it sets of MPI's settings counts
 };
 
@@ -91,7 +92,8 @@ std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& su
 // Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
 Backend choose_backend(Backend asked, const Programs& programs);
 
-// mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'.
+// mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'. Throws Failure
+// where the memory limit is too small for any MPI.
 Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
 
 // mpirun with one host and options.nodes nodes; one process of as many threads. `options.nodes` is settled.

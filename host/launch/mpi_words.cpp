@@ -37,6 +37,8 @@ constexpr std::array kTable = {
              "set TMPDIR to a folder on a local disk that you may write, on every machine"},
     MpiWords{"Too many open files", "mpirun or a node may not open as many files as it must", "ulimit -n 1024"},
     MpiWords{"No space left on device", "a disk is full", "empty it, or set TMPDIR to a folder that has room"},
+    MpiWords{"listener thread failed to start", "Open MPI finds no address 127.0.0.1 on this machine",
+             "ip link set lo up gives it, or use --backend threads"},
     MpiWords{"plm_rsh_agent", "there is neither ssh nor rsh to reach the other machines with",
              "install ssh (Debian: openssh-client), or start inside a Slurm job"},
     MpiWords{"could not access or execute an executable", "a machine does not have MARS's programs",

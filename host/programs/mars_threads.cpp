@@ -19,8 +19,9 @@ int main(int argc, char** argv) {
   }
   try {
     if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
+    host::check_memory_limit(options.nodes);
     hal::run_threads(static_cast<int>(options.nodes), [&] { host::run_render_job(options, "threads"); },
-                     host::run_node_job);
+                     [&] { host::run_node_job(options.nodes); });
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << reason_of(failure) << '\n';

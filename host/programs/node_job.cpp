@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <string>
 
+#include "hal/failure.h"
 #include "hal/settings.h"
 #include "hal/shared_memory.h"
 #include "node/firmware.h"
@@ -27,12 +29,23 @@ void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
 
 }  // namespace
 
-void run_node_job() {
+void check_memory_limit(std::uint32_t nodes) {
+  constexpr std::uint64_t kEach = std::uint64_t{64} << 20;  // addresses that the C library sets aside for a thread
+  constexpr std::uint32_t kMost = 16;                       // and then lets them share
+  const std::uint64_t limit = topology::memory_limit().each;
+  const std::uint64_t least = kEach * std::min(nodes + 1, kMost);
+  if (limit == 0 || limit >= least) return;
+  throw Failure("the limit of " + std::to_string(limit >> 10) + " kB of memory is too small for " +
+                    std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"),
+                "ulimit -v", "raise it to " + std::to_string(least >> 10) + " or more, or use fewer nodes");
+}
+
+void run_node_job(std::uint32_t threads) {
   const hal::Settings settings = hal::read_settings();
   const hal::Neighbourhood here = hal::neighbourhood();
   const topology::Machine machine = topology::Machine::here();
   const std::uint64_t memory = settings.memory.value_or(
-      topology::memory_share(machine.memory(), topology::memory_limit(), here.count));
+      topology::memory_share(machine.memory(), topology::memory_limit(), here.count, static_cast<int>(threads)));
   bind(machine, here);
   const topology::Binding binding = topology::Machine::binding();
   node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd});

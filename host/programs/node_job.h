@@ -2,11 +2,18 @@
 // itself where it has processors of its own, and runs it.
 #pragma once
 
+#include <cstdint>
+
 namespace mars::host {
 
 // Left to the host's sinks on a machine that has more cores than nodes.
 inline constexpr int kCoresForHost = 1;
 
-void run_node_job();
+// Throws Failure where this process's memory limit is too small for so many nodes as threads: the libraries below would
+// end it without a word.
+void check_memory_limit(std::uint32_t nodes);
+
+// `threads`: of the nodes, how many are threads of this process.
+void run_node_job(std::uint32_t threads = 1);
 
 }  // namespace mars::host

@@ -68,7 +68,7 @@ void SurfaceFrames::render(const CompiledFilm& film, const std::vector<std::uint
           SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2, pixel_of(settings.background)});
           render_film(film.block(), farm, pool, {});
         },
-        run_node_job);
+        [=] { run_node_job(processors); });
     first = end;
   }
 }

@@ -11,7 +11,17 @@ namespace mars::host {
 SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) {
   check(shape.frames >= 1 && shape.threads >= 1, "a sink pool has a frame and a thread");
   make_frame();  // the first does not wait for fresh memory
-  for (std::uint32_t i = 0; i < shape.threads; ++i) threads_.emplace_back([this, i] { work(i); });
+  start_threads();
+}
+
+// Where the machine gives fewer, these do the work.
+void SinkPool::start_threads() {
+  threads_.reserve(shape_.threads);
+  try {
+    for (std::uint32_t i = 0; i < shape_.threads; ++i) threads_.emplace_back([this, i] { work(i); });
+  } catch (const std::exception&) {
+    if (threads_.empty()) throw;
+  }
 }
 
 SinkPool::~SinkPool() {

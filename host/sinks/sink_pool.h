@@ -59,6 +59,7 @@ class SinkPool {
 
  private:
   void make_frame();
+  void start_threads();
   Frame* take_free(std::uint64_t background, std::size_t left);
   void work(std::uint32_t thread);
   void take(std::unique_lock<std::mutex>& lock, std::uint32_t thread);

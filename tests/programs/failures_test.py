@@ -69,6 +69,40 @@ class Films(ProgramTest):
         film["camara"] = film.pop("camera")
         self.fail_with_film(self.write("misspelt.json", film), "camera")
 
+    def test_damaged(self):
+        """Every kind of damage, told in words of our own."""
+        film = (EXAMPLES / "teapot.json").read_bytes()
+        self.succeed("mars", "compile", TEAPOT, "-o", "whole.mars")
+        whole = (self.folder / "whole.mars").read_bytes()
+        garbled = lambda data: bytes(b ^ 0x55 if i % 97 == 0 else b for i, b in enumerate(data))
+        damaged = {
+            "cut.json": (film[:len(film) // 2], ""), "garbled.json": (garbled(film), "is not JSON"),
+            "deep.json": (b"[" * 100000, "64 deep"), "deep-object.json": (b'{"a":' * 100000, "64 deep"),
+            "large.json": (b'{"frames": 1e999}', "a number is too large"),
+            "long.json": (b'{"frames": ' + b"9" * 100000 + b"}", "a number is too large"),
+            "latin.json": (film.replace(b'"', b'"\xff', 1), "a text is not UTF-8"),
+            "line.json": (b'{"a\n": 1}', "the end of a line"), "escape.json": (b'{"a\\x": 1}', "a wrong escape"),
+            "half.json": (b'{"a\\ud800": 1}', "half a character"), "more.json": (film + b"}", "goes on after its end"),
+            "digit.json": (b'{"frames": 1.}', "a number is not complete"), "text.json": (b'{"fra', "ends within a text"),
+            "twice.json": (b'{"frames": 1, "frames": 2}', "stands twice"), "null.json": (b"null", ""),
+            "huge.json": (b'{"frames": 123456789012345678901234567890}', ""),
+            "garbled.mars": (garbled(whole), ""), "cut.mars": (whole[:len(whole) // 2], "")}
+        for name, (data, says) in damaged.items():
+            (self.folder / name).write_bytes(data)
+            with self.subTest(name=name):
+                self.fail_clearly(1, "info", name, says=says)
+                self.fail_clearly(1, "compile", name, "-o", "film.mars", says=says)
+                self.fail_clearly(1, "render", name, "--sink", "none", "--backend", "threads", says=says)
+                self.fail_clearly(1, "animate", name, "list")
+                self.fail_clearly(1, "model", "show", name)
+
+    def test_names_that_are_no_text(self):
+        self.succeed("mars", "model", "new", "dog.json", "--shape", "ellipsoid", "--sbb", *"-1 -1 -1 1 1 1".split())
+        before = (self.folder / "dog.json").read_bytes()
+        self.fail_clearly(1, "model", "add", "dog.json", os.fsdecode(b"leg\xff"), "--parent", "body",
+                          says="a name that was given is not UTF-8")
+        self.assertEqual((self.folder / "dog.json").read_bytes(), before)
+
     def test_binary(self):
         path = self.folder / "noise.json"
         path.write_bytes(bytes(range(256)) * 9)
@@ -87,6 +121,32 @@ class Films(ProgramTest):
         cut = self.write("cut.bpt", "1\n3 3\n0 0 0\n")
         self.fail_clearly(1, "import", cut, "-o", "model.json", says="cut.bpt")
         self.assertFalse((self.folder / "model.json").exists())
+
+
+class Memory(ProgramTest):
+    """Limits of a process's addresses (ulimit -v), from hardly any to nearly enough."""
+
+    def within(self, kilobytes, *words):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (kilobytes << 10, kilobytes << 10))
+        done = self.run_program(*words, preexec_fn=limit)
+        if done.returncode != 0:
+            self.assertIn("ulimit -v", done.stderr, f"{kilobytes} kB: {words}")
+            self.assertClear(done.stderr, "")
+            self.assertEqual(done.returncode, 1)
+        return done.returncode == 0
+
+    def test_small_limits(self):
+        for backend in BACKENDS:
+            draw = ["mars", "render", TEAPOT, "--sink", "none", "--nodes", 3, "--frames", "0", "--backend", backend]
+            with self.subTest(backend=backend):
+                self.assertFalse(self.within(60000, *draw))
+                for kilobytes in range(80000, 500000, 60000):
+                    self.within(kilobytes, *draw)
+                self.assertTrue(self.within(1500000, *draw))
+
+    def test_without_a_backend(self):
+        self.assertFalse(self.within(50000, "mars", "info", TEAPOT))
+        self.assertTrue(self.within(400000, "mars", "info", TEAPOT))
 
 
 class Folders(ProgramTest):

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -74,9 +75,10 @@ TEST_F(MemoryLimitTest, TheProcessMayHaveALimitOfItsOwn) {
   rlimit less = before;
   less.rlim_cur = 7 * kGiB;
   ASSERT_EQ(setrlimit(RLIMIT_DATA, &less), 0);
+  write("proc/self/statm", "3 2 1");
   const MemoryLimit limit = memory_limit(root_);
   setrlimit(RLIMIT_DATA, &before);
-  EXPECT_EQ(limit, (MemoryLimit{0, 7 * kGiB}));
+  EXPECT_EQ(limit, (MemoryLimit{0, 7 * kGiB, 3 * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE))}));
 }
 
 TEST(MemoryShare, IsHalfOfAnEqualPartOfTheLeast) {
@@ -85,6 +87,9 @@ TEST(MemoryShare, IsHalfOfAnEqualPartOfTheLeast) {
   EXPECT_EQ(memory_share(16 * kGiB, {64 * kGiB, 0}, 4), 2 * kGiB);
   EXPECT_EQ(memory_share(16 * kGiB, {0, kGiB}, 4), kGiB / 2);
   EXPECT_EQ(memory_share(1024 * kGiB, {}, 1), 4 * kGiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {0, 8 * kGiB}, 4, 4), kGiB) << "threads share the process's limit";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, 3 * kGiB, 2 * kGiB}, 4), kGiB / 2) << "less what is in use";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, kGiB, 2 * kGiB}, 4), kMiB);
   EXPECT_EQ(memory_share(0, {}, 1), kGiB / 2);
   EXPECT_EQ(memory_share(0, {256 * kMiB, 0}, 1), 128 * kMiB);
 }

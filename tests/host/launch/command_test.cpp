@@ -32,10 +32,10 @@ std::string line(std::uint32_t nodes, const Surroundings& surroundings) {
 
 // A machine without a batch system.
 Surroundings alone(std::uint32_t cores, std::vector<std::string> environment = {}) {
-  return {cores, 2 * cores, 0, false, false, false, {}, Environment(std::move(environment))};
+  return {cores, 2 * cores, 0, false, false, false, {}, 0, Environment(std::move(environment))};
 }
 
-Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}, Environment({})}; }
+Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}, 0, Environment({})}; }
 
 fs::path write_hostfile(const TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "hosts") << text;
@@ -100,6 +100,14 @@ TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./-t"), 1) << shell_text(command);
 }
 
+TEST(Command, NoMpiWithinASmallMemoryLimit) {
+  Surroundings surroundings = alone(8);
+  surroundings.memory_limit = std::uint64_t{200} << 20;
+  EXPECT_TRUE(holds(failure_of([&] { line(3, surroundings); }), "ulimit -v: the limit of 204800 kB"));
+  surroundings.memory_limit = std::uint64_t{1} << 30;
+  EXPECT_EQ(failure_of([&] { line(3, surroundings); }), "");
+}
+
 TEST(Command, AHostfileIsPassedOn) {
   RenderOptions options = film(7);
   options.hostfile = "my hosts";
@@ -113,7 +121,7 @@ TEST(Command, MpichHasWordsOfItsOwn) {
   Programs programs = all_programs();
   programs.mpi = Mpi::mpich;
   RenderOptions options = film(7);
-  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}, Environment({})};
+  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}, 0, Environment({})};
   EXPECT_EQ(shell_text(mpi_command(options, programs, surroundings)),
             "UCX_TLS=sm,self LD_PRELOAD=/opt/mars-loopback.so /usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 7 /opt/mars-node");
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn4\n").string();
@@ -162,7 +170,7 @@ TEST(Command, NodesFillWhatThereIs) {
 }
 
 TEST(Command, MindsRootContainersAndSettings) {
-  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}, Environment({})});
+  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}, 0, Environment({})});
   EXPECT_TRUE(holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
   EXPECT_TRUE(holds(text, "OMPI_MCA_plm=^rsh"));

@@ -27,6 +27,7 @@ TEST(MpiWords, AreUnderstoodWhereverTheirLinesBreak) {
                     "without a password"));
   EXPECT_TRUE(holds(meaning("[mpiexec@ada] match_arg: unrecognized argument oversubscribe\n"), "MPI that MARS was built with"));
   EXPECT_TRUE(holds(meaning("mars-node: error while loading shared libraries: libmpi.so.40: cannot open"), "module load"));
+  EXPECT_TRUE(holds(meaning("The PMIx server's listener thread failed to start. We cannot\ncontinue.\n"), "127.0.0.1"));
   EXPECT_EQ(meaning("something else went wrong\n"), "");
 }
 
