@@ -325,11 +325,12 @@ def cloth(color):
 
 
 def wave(first):
-    """Arms a little off the body; from frame `first` on, the left one is raised and waves."""
+    """Arms a little off the body; from frame `first` on, the left one is raised and waves: its elbow turns about z alone,
+    for between keys one that turns about two axes would leave the third."""
     still = {"left-upper-arm": [12, 0, 0], "right-upper-arm": [-12, 0, 0], "left-forearm": [0, -10, 0],
              "right-forearm": [0, -10, 0], "head": [0, 0, 0]}
-    up = still | {"left-upper-arm": [145, -10, 0], "left-forearm": [0, -35, 50], "head": [0, 0, 15]}
-    down = up | {"left-forearm": [0, -35, -50]}
+    up = still | {"left-upper-arm": [145, -10, 0], "left-forearm": [0, -10, 50], "head": [0, 0, 15]}
+    down = up | {"left-forearm": [0, -10, -50]}
     poses = [(0, still), (first, still), (first + 8, up), (first + 12, down), (first + 16, up), (first + 26, still)]
     return [{"frame": frame, "ease": "both", "pose": pose}
             for i, (frame, pose) in enumerate(poses) if i == 0 or frame > poses[i - 1][0]]

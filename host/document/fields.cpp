@@ -11,6 +11,8 @@
 namespace mars::host {
 namespace {
 
+constexpr double kLeastOf255 = 8;  // of a colour's brightest part
+
 // Levenshtein's distance, two neighbours exchanged counting once, of names cut at 64 bytes.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   a = a.substr(0, 64);
@@ -120,7 +122,8 @@ glm::dvec3 read_color(const Element& element) {
     return std::min({color.x, color.y, color.z}) >= 0 && std::max({color.x, color.y, color.z}) <= most;
   };
   if (ranges_over(1)) return color;
-  if (!ranges_over(255)) return read_vector(element, {0, 1});  // refuses the number that is wrong
+  // Refuses the number that is wrong; of 0 to 255 nobody means as little as these.
+  if (ranges_over(kLeastOf255) || !ranges_over(255)) return read_vector(element, {0, 1});
   const auto share = [](double part) { return shown(std::round(part / 255 * 1000) / 1000); };
   element.refuse("has " + shown(std::max({color.x, color.y, color.z})) + ", above 1, where colours go from 0 to 1",
                  "divide by 255: [" + share(color.x) + ", " + share(color.y) + ", " + share(color.z) + "]");

@@ -214,7 +214,7 @@ class Animate(ProgramTest):
         self.succeed("mars", "plot", "film.json", "-o", "a.svg")
 
     def test_examples_are_sound(self):
-        for name in ["robot-arm", "teapot", "demo"]:
+        for name in ["robot-arm", "teapot", "demo", "bodies"]:
             ended = self.mars("animate", EXAMPLES / f"{name}.json", "check")
             self.assertEqual(ended.returncode, 0, ended.stdout)
 

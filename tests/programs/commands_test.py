@@ -98,7 +98,7 @@ class Commands(ProgramTest):
         film = {"frames": 1, "size": [64, 64], "camera": {"eye": [0, -6, 2], "at": [0, 0, 1]},
                 "models": {"vase": "vase.json"}, "actors": [{"name": "vase", "model": "vase"}]}
         self.succeed("mars", "render", self.write("film.json", film), "-o", "out", "--backend", "threads")
-        film["actors"] = []
+        film["actors"][0]["place"] = [0, 99, -99]
         self.succeed("mars", "render", self.write("empty.json", film), "-o", "empty", "--backend", "threads")
         self.assertNotEqual(self.verified_hash("out"), self.verified_hash("empty"))
 

@@ -172,11 +172,12 @@ TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
   EXPECT_EQ(told("[256, 0, 0]"), "f.json:1: background[0]: is 256 (write a number from 0 to 1)");
   EXPECT_EQ(told("[200, -1, 0]"), "f.json:1: background[0]: is 200 (write a number from 0 to 1)");
   EXPECT_TRUE(holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
+  EXPECT_EQ(told("[0, 1.5, 0]"), "f.json:1: background[1]: is 1.5 (write a number from 0 to 1)");
   EXPECT_EQ(told("[0, 1, 0.5]"), "");
   EXPECT_TRUE(holds(failure_of([] {
-                      film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 2]}])"));
+                      film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 200]}])"));
                     }),
-                    "lights[0].color: has 2, above 1"));
+                    "lights[0].color: has 200, above 1"));
 }
 
 }  // namespace
