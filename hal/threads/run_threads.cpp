@@ -29,8 +29,9 @@ void start_nodes(ThreadsWorld& world, std::vector<std::jthread>& threads, const 
     threads.emplace_back([&, node] { run_rank(world, node, body, wrap); });
   }
 } catch (const std::system_error&) {
-  const Failure failure = no_more_threads("the machine gives threads to no more than " + std::to_string(threads.size()) +
-                                          " of " + std::to_string(world.nodes()) + " nodes");
+  const Failure failure =
+      no_more_threads("the machine gives threads to no more than " + std::to_string(threads.size()) + " of " +
+                      std::to_string(world.nodes()) + " nodes");
   world.stop(std::make_exception_ptr(failure));
 }
 

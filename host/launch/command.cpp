@@ -268,7 +268,7 @@ Backend choose_backend(Backend asked, const Programs& programs) {
 
 namespace {
 
-// Open MPI's processes need some 200 MB of addresses before they begin to run; with less they end in many ways, or hang.
+// Open MPI's processes need some 200 MB of addresses before they begin; with less they end in many ways, or hang.
 constexpr std::uint64_t kLeastForMpi = std::uint64_t{400} << 20;
 
 // Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
