@@ -49,7 +49,7 @@ struct Mistake {
 constexpr const char* kCutShort = "the file may be cut short";
 constexpr const char* kEscapes = "after a backslash write one of \" \\ / b f n r t, or u and four hexadecimal digits";
 constexpr std::array kMistakes = {
-    Mistake{"expected end of input", "it goes on after its end", "take out what follows the last bracket"},
+    Mistake{"; expected end of input", "it goes on after its end", "take out what follows the last bracket"},
     Mistake{"end of input", "it ends before all lists and objects are closed", kCutShort},
     Mistake{"missing closing quote", "it ends within a text", kCutShort},
     Mistake{"UTF-8", "a text is not UTF-8", "save the file as UTF-8"},
