@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <stdexcept>
 #include <string>
 
+#include "hal/failure.h"
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/process.h"
@@ -18,7 +18,7 @@ namespace {
 void wait_for_ever() { crecv(1, nullptr, 0); }
 
 void node_throws() {
-  if (mynode() == 1) throw std::runtime_error("a fault on purpose");
+  if (mynode() == 1) throw Failure("a fault on purpose", "", "");
   wait_for_ever();
 }
 
@@ -29,7 +29,7 @@ void node_throws_sharing_memory() {
 }
 
 void host_throws() {
-  if (mynode() == myhost()) throw std::runtime_error("a fault on purpose");
+  if (mynode() == myhost()) throw Failure("a fault on purpose", "", "");
   wait_for_ever();
 }
 

@@ -136,7 +136,7 @@ class Memory(ProgramTest):
         return done.returncode == 0
 
     def test_small_limits(self):
-        for backend in BACKENDS:
+        for backend in self.backends():
             draw = ["mars", "render", TEAPOT, "--sink", "none", "--nodes", 3, "--frames", "0", "--backend", backend]
             with self.subTest(backend=backend):
                 self.assertFalse(self.within(60000, *draw))

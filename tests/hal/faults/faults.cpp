@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
-#include <stdexcept>
 #include <thread>
 
+#include "hal/failure.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 
@@ -26,7 +26,7 @@ void fall(const std::string& way) {
   if (way == "exits") std::_Exit(3);
   if (way == "crashes") raise(SIGSEGV);
   if (way == "killed") kill(getpid(), SIGKILL);
-  throw std::runtime_error("a fault on purpose");
+  throw Failure("a fault on purpose", "", "");
 }
 
 void start(const std::string& way) {
