@@ -1,4 +1,4 @@
-// Which files were read, and how they stood then, so that one who shows what they say can tell when to read them again.
+// Which files were read, and their state at that time, so that a viewer can detect when to read them again.
 // Films name models, and models other models: only their readers know all the names.
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "host/import/promised.h"
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -167,6 +168,26 @@ Promised promised_by(const std::filesystem::path& path, FileKind kind) {
   return promised_by_gltf(path, bytes, kind);
 }
 
+namespace {
+
+// "my%20mesh.bin" is the file "my mesh.bin".
+std::string percent_decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned byte = 0;
+    const char* digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      text += static_cast<char>(byte);
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
 std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
   const Tree tree = Tree::parse(read_file(path, kLargestFile), nullptr, false);
   std::uintmax_t sum = 0;
@@ -175,7 +196,7 @@ std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
     if (!uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:")) continue;
     std::error_code error;
     const std::uintmax_t size =
-        std::filesystem::file_size(path.parent_path() / uri.get_ref<const std::string&>(), error);
+        std::filesystem::file_size(path.parent_path() / percent_decoded(uri.get_ref<const std::string&>()), error);
     if (!error) sum += size;
   }
   return sum;

@@ -8,7 +8,7 @@ struct aiScene;
 
 namespace mars::host {
 
-// "19 bones (...)", ... with what to do about it. Nodes are told where `has_tree`: where the file's own nodes move.
+// "19 bones (...)", ... with what to do about it. Lists nodes only if `has_tree`: where the file's own nodes move.
 std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree);
 
 }  // namespace mars::host

@@ -28,19 +28,37 @@ std::optional<std::chrono::duration<double>> FilmReloader::loading() const {
   return Clock::now() - *loading_since_;
 }
 
+bool FilmReloader::stop() {
+  const std::lock_guard lock(mutex_);
+  thread_.request_stop();
+  return loading_since_.has_value();
+}
+
 void FilmReloader::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    if (files_.changed_and_settled()) load();
+    try {
+      look(stop);
+    } catch (const std::exception& failure) {  // out of memory: the next look may have more
+      const std::lock_guard lock(mutex_);
+      loading_since_.reset();
+      trouble_ = reason_of(failure);
+    }
     std::unique_lock lock(mutex_);
     stopped_.wait_for(lock, stop, kBetweenLooks, [] { return false; });
   }
 }
 
-void FilmReloader::load() {
+void FilmReloader::look(const std::stop_token& stop) {
+  if (!files_.changed_and_settled()) return;
   {
     const std::lock_guard lock(mutex_);
+    if (stop.stop_requested()) return;
     loading_since_ = Clock::now();
   }
+  load();
+}
+
+void FilmReloader::load() {
   std::unique_ptr<Previewed> film;
   std::string trouble;
   RecordedReads reads;

@@ -1,5 +1,4 @@
-// Loads a film again, in a thread of its own, whenever its files change. Who shows it asks from time to time, and never
-// waits.
+// Loads a film again, in a thread of its own, whenever its files change. The player polls and never waits.
 #pragma once
 
 #include <chrono>
@@ -29,11 +28,14 @@ class FilmReloader {
   std::string trouble() const;
   // For how long a film has been loading; none: it is not.
   std::optional<std::chrono::duration<double>> loading() const;
+  // No load begins from now on. Whether one is still going on, for which the destructor would wait.
+  bool stop();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void run(const std::stop_token& stop);
+  void look(const std::stop_token& stop);
   void load();
 
   const std::filesystem::path film_;

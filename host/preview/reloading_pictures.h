@@ -28,8 +28,8 @@ class ReloadingPictures : public Pictures {
   std::string state() const override;
   std::string keys() const override { return pictures_.keys(); }
 
-  // Whether its end would wait for a film that is being loaded.
-  bool loading() const { return reloader_.loading().has_value(); }
+  // Follows the files no longer. Whether its end would wait for a film that is being loaded.
+  bool stop() { return reloader_.stop(); }
 
  private:
   std::unique_ptr<Previewed> film_;

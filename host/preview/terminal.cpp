@@ -125,8 +125,8 @@ void Terminal::leave() {
   set_modes(before_);
 }
 
-// Gives the terminal back, stops as anyone would, and goes on where it was. The system does not stop whom nobody could
-// continue.
+// Gives the terminal back, stops as anyone would, and goes on where it was. The kernel does not stop a process of
+// an orphaned group.
 void Terminal::suspend() {
   leave();
   sigset_t stop;

@@ -1,5 +1,5 @@
-// Whether files are others than those that were read. They are looked at again and again rather than by inotify, which
-// is not told what other machines write to a shared file system; a dozen of them cost some microseconds.
+// Whether files differ from those that were read. Polled: inotify does not report what other machines write to a shared
+// file system, and a look at a dozen files costs some microseconds.
 #pragma once
 
 #include "host/document/recorded_reads.h"

@@ -124,7 +124,7 @@ void preview(Wishes& wishes) {
     pictures.emplace(wishes.source, std::move(film), reads.stamps(), make_surface, wishes.look);
     return play(*pictures, terminal);
   });
-  if (pictures->loading()) std::quick_exit(0);  // nobody wants the film any more: its end is not waited for
+  if (pictures->stop()) std::quick_exit(0);  // nobody wants the film any more: its end is not waited for
 }
 
 void play_folder(const Wishes& wishes) {

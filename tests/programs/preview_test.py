@@ -1,26 +1,22 @@
-"""`mars preview` and `mars play`: as a person sees them in a terminal (a pseudo terminal that the test reads), and the
-pictures, sheets and videos they write."""
+"""`mars preview` and `mars play`: as a person sees them in a terminal, and the pictures, sheets and videos they
+write."""
 
 import fcntl
 import json
 import os
-import pty
 import re
-import resource
-import select
 import signal
 import struct
-import subprocess
 import termios
 import time
 import zlib
 
 import harness
 from harness import EXAMPLES, ENVIRONMENT, SECONDS, ProgramTest, intact, main, needs
+from screen import ENTER, LEAVE, Screen
 
 HUMAN = EXAMPLES / "models/human.json"
 ARM = EXAMPLES / "robot-arm.json"
-ENTER, LEAVE = b"\x1b[?1049h", b"\x1b[?1049l"
 needs_ffmpeg = needs("ffmpeg", "ffprobe")
 
 
@@ -43,66 +39,6 @@ def pixels_of(png):
         above = bytes(a + b & 255 for a, b in zip(row[1:], above)) if row[0] == 2 else row[1:]
         rows.append(above)
     return rows
-
-
-class Screen:
-    """mars in a terminal of its own, of 80 x 24 characters, whose answers to questions are `answers`. `shell`: words of
-    a program that starts it."""
-
-    def __init__(self, folder, *words, shell=(), answers=b"\x1b[?62;22c", **variables):
-        self.master, slave = pty.openpty()
-        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
-        self.slave = slave
-        self.before = termios.tcgetattr(slave)
-        environment = {**ENVIRONMENT, "TERM": "xterm-256color", "COLORTERM": "truecolor", **variables}
-        self.process = subprocess.Popen([*shell, str(harness.PROGRAMS / "mars"), *map(str, words)], stdin=slave,
-                                        stdout=slave, stderr=slave, env=environment, cwd=folder, start_new_session=True,
-                                        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
-        self.seen, self.answers = b"", answers
-
-    def read(self, seconds):
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0 and select.select([self.master], [], [], left)[0]:
-            more = os.read(self.master, 1 << 16)
-            self.seen += more
-            if b"\x1b[c" in more:
-                os.write(self.master, self.answers)
-            return True
-        return False
-
-    def wait_for(self, what, since=0):
-        """Until `what`, a pattern, was shown after `since`; gives the match."""
-        end = time.monotonic() + SECONDS
-        while not (found := re.compile(what, re.S).search(self.seen, since)):
-            assert time.monotonic() < end, f"never shown: {what} in {self.seen[-600:]}"
-            self.read(0.1)
-        return found
-
-    def press(self, keys, what):
-        since = len(self.seen)
-        os.write(self.master, keys)
-        return self.wait_for(what, since)
-
-    def end(self):
-        """What it ends with, once it is gone and all it said is read."""
-        end = time.monotonic() + SECONDS
-        while self.process.poll() is None and time.monotonic() < end:
-            self.read(0.05)
-        while self.read(0.1):
-            pass
-        return self.process.wait(timeout=1)
-
-    def given_back(self):
-        """Whether the terminal is as it was."""
-        return (termios.tcgetattr(self.slave) == self.before and self.seen.count(ENTER) == self.seen.count(LEAVE) > 0
-                and self.seen.rindex(LEAVE) > self.seen.rindex(ENTER) and self.seen.rindex(b"\x1b[?25h") > 0)
-
-    def close(self):
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
-        os.close(self.master)
-        os.close(self.slave)
 
 
 class InATerminal(ProgramTest):
@@ -273,133 +209,6 @@ class InATerminal(ProgramTest):
         screen.wait_for(rb"5/5  \d+ frames/s")
         os.write(screen.master, b"q")
         self.assertEqual(screen.end(), 0)
-
-
-class FollowsFiles(ProgramTest):
-    """What is played follows its files, however they are saved, and goes on while they are broken."""
-
-    def preview(self, path):
-        screen = Screen(self.folder, "preview", path)
-        self.addCleanup(screen.close)
-        screen.wait_for(b"prisms, camera")
-        return screen
-
-    def box(self, color, **more):
-        return {"materials": {"paint": {"color": color}},
-                "joints": [{"name": "a", "segment": {"shape": "box", "material": "paint"}}], **more}
-
-    def film(self, frames, model="box.json"):
-        return {"frames": frames, "size": [64, 36], "camera": {"eye": [0, -3, 1], "at": [0, 0, 0.5]},
-                "models": {"box": model}, "actors": [{"name": "a", "model": "box"}]}
-
-    def saved(self, screen, name, content, shown):
-        """Once what is shown since `content` was saved matches."""
-        since = len(screen.seen)
-        self.write(name, content)
-        return screen.wait_for(shown, since)
-
-    def shows_color(self, screen, high, since):
-        """Whether blocks were shown in which the channel `high` of three is much the strongest."""
-        blocks = re.findall(rb"[34]8;2;(\d+);(\d+);(\d+)m", screen.seen[since:])
-        return any(int(block[high]) > 2 * max(int(value) for i, value in enumerate(block) if i != high) + 60
-                   for block in blocks)
-
-    def wait_for_color(self, screen, high, since):
-        while not self.shows_color(screen, high, since):
-            self.assertTrue(screen.read(SECONDS))
-
-    def test_however_they_are_saved(self):
-        """Frame, pause and viewpoint stay, the frame within the new film."""
-        self.write("box.json", self.box([1, 1, 1]))
-        film = self.write("film.json", self.film(48))
-        screen = self.preview("film.json")
-        screen.press(b" ", b"paused")
-        screen.press(b"\x1b[F", b" 47/47 ")
-        screen.press(b"f", b"prisms, front")
-        self.saved(screen, "film.json", self.film(96), rb" 47/95  24 frames/s  paused  prisms, front")
-        since = len(screen.seen)
-        os.replace(self.write("film.tmp", {**self.film(24), "size": [36, 64]}), film)
-        screen.wait_for(rb"\x1b\[2J.* 23/23  24 frames/s  paused  prisms, front", since)
-        since = len(screen.seen)
-        film.unlink()
-        screen.wait_for(b"film.json: there is no such file", since)
-        self.saved(screen, "film.json", self.film(36), rb" 23/35 ")
-        for frames in range(40, 60):
-            self.write("film.json", self.film(frames) if frames % 2 else "{")
-            time.sleep(0.01)
-        screen.wait_for(rb" 23/58 ")
-
-    def test_goes_on_while_they_are_broken(self):
-        self.write("box.json", self.box([1, 1, 1]))
-        self.write("film.json", self.film(1000))
-        screen = self.preview("film.json")
-        broken = json.dumps(self.film(100), indent=1).replace('"size"', '"siez"')
-        self.saved(screen, "film.json", broken, rb"\x1b\[23;1H[^\n]*film\.json:3: siez")
-        first = int(screen.wait_for(rb" (\d+)/999 ", len(screen.seen)).group(1))
-        screen.wait_for(rb" %d/999 " % (first + 5))
-        screen.press(b"f", b"prisms, front")
-        since = len(screen.seen)
-        last = int(self.saved(screen, "film.json", self.film(900), rb" (\d+)/899 ").group(1))
-        self.assertGreater(last, first)
-        screen.wait_for(rb"\x1b\[23;1H\x1b\[0m\x1b\[0m\x1b\[K", since)
-
-    def test_ends_while_they_are_broken(self):
-        for keys, number, code in [(b"q", None, 0), (b"", signal.SIGTERM, -signal.SIGTERM)]:
-            self.write("box.json", self.box([1, 1, 1]))
-            screen = self.preview("box.json")
-            self.saved(screen, "box.json", "[", b"box.json:1")
-            os.write(screen.master, keys)
-            if number:
-                screen.process.send_signal(number)
-            self.assertEqual(screen.end(), code)
-            self.assertTrue(screen.given_back())
-
-    def test_the_models_of_a_film(self):
-        """Also those that a model is derived from, and those that are named later or are not there."""
-        self.write("paint.json", self.box([1, 0, 0]))
-        self.write("box.json", {"from": "paint.json", "proportions": {"scale": [1, 1, 1.2]}})
-        self.write("film.json", self.film(10))
-        screen = self.preview("film.json")
-        self.wait_for_color(screen, 0, 0)
-        since = len(screen.seen)
-        self.write("paint.json", self.box([0, 1, 0]))
-        self.wait_for_color(screen, 1, since)
-        self.saved(screen, "film.json", self.film(11, "other.json"),
-                   b"film.json:1: models.box: is 'other.json', which does not")
-        since = len(screen.seen)
-        self.saved(screen, "other.json", self.box([0, 0, 1]), rb" \d+/10 ")
-        self.wait_for_color(screen, 2, since)
-        since = len(screen.seen)
-        self.write("other.json", self.box([1, 0, 0]))
-        self.wait_for_color(screen, 0, since)
-
-    def test_keys_work_while_a_long_film_is_loaded(self):
-        """Which takes one processor seconds, and is not waited for in the end."""
-        processors = os.sched_getaffinity(0)
-        os.sched_setaffinity(0, [min(processors)])
-        self.addCleanup(os.sched_setaffinity, 0, processors)
-        joints = [{"name": f"j{n}", **({"parent": f"j{n - 1}"} if n else {}), "segment": {"shape": "box"}}
-                  for n in range(100)]
-        turns = [{"frame": frame, "pose": {f"j{n}": [turn] * 3 for n in range(100)}}
-                 for frame, turn in [(0, 0), (5000, 90)]]
-        actors = [{"name": f"a{n}", "model": "box", "keys": turns} for n in range(40)]
-        self.write("box.json", self.box([1, 1, 1]))
-        self.write("film.json", self.film(10))
-        before = self.processor_seconds()
-        screen = self.preview("film.json")
-        self.saved(screen, "film.json", {**self.film(5001, {"joints": joints}), "actors": actors},
-                   rb" \d/9  24 frames/s  prisms, camera  loading ...")
-        screen.press(b"f", rb" \d/9  24 frames/s  prisms, front  loading ...")
-        os.write(screen.master, b"q")
-        self.assertEqual(screen.end(), 0)
-        self.assertTrue(screen.given_back())
-        self.assertLess(self.processor_seconds() - before, 2)
-
-    @staticmethod
-    def processor_seconds():
-        """Of all processes that this one started and that have ended."""
-        used = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return used.ru_utime + used.ru_stime
 
 
 class Written(ProgramTest):

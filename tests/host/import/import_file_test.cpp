@@ -353,6 +353,8 @@ TEST_F(ImportTest, BuffersBesideAFileCountAsItsSize) {
   EXPECT_EQ(bytes_of_buffers(gltf), 0u);
   write("figure.bin", gltf_numbers());
   EXPECT_EQ(bytes_of_buffers(gltf), 256u);
+  write("a figure.bin", gltf_numbers());
+  EXPECT_EQ(bytes_of_buffers(write("spaced.gltf", R"({"buffers": [{"uri": "a%20figure.bin"}, {"uri": "%zz"}]})")), 256u);
 }
 
 TEST_F(ImportTest, WhatIsNotReadIsListed) {
