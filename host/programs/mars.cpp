@@ -23,6 +23,7 @@
 #include "host/programs/node_job.h"
 #include "host/programs/plot_command.h"
 #include "host/programs/preview_command.h"
+#include "host/programs/standard_streams.h"
 #include "host/sinks/verify.h"
 
 namespace mars::host {
@@ -215,6 +216,7 @@ int run(int argc, char** argv) {
 }  // namespace mars::host
 
 int main(int argc, char** argv) {
+  mars::host::open_standard_streams();
   try {
     return mars::host::run(argc, argv);
   } catch (const std::exception& failure) {

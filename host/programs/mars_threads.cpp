@@ -7,10 +7,12 @@
 #include "host/options/command_line.h"
 #include "host/programs/node_job.h"
 #include "host/programs/render_job.h"
+#include "host/programs/standard_streams.h"
 #include "topology/machine.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
+  host::open_standard_streams();
   constexpr const char* kPurpose = "Host and nodes in one process: mars-threads FILM -o DIR --nodes 4";
   host::RenderOptions options;
   if (const auto code =

@@ -5,7 +5,7 @@ import shutil
 import signal
 import time
 
-from harness import MPICH, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
+from harness import MPICH, PROGRAMS, ProgramTest, family, living, main, needs_mpi, spinning_teapot, wait_until
 
 SOON = 15  # seconds; two in practice
 
@@ -67,6 +67,17 @@ class Endings(ProgramTest):
                 self.start(backend)
                 self.process.kill()
                 wait_until(lambda: not living(self.family), SOON, "its processes live on")
+
+    def test_closed_streams(self):
+        """Files that are opened later do not get their numbers."""
+        self.write("film.json", spinning_teapot(2, [16, 9]))
+        for backend in self.backends():
+            for closed in [">&-", "<&- >&-", "<&- >&- 2>&-"]:
+                with self.subTest(backend=backend, closed=closed):
+                    line = f'"$0" render film.json -o out --nodes 2 --backend {backend} {closed}'
+                    self.succeed("bash", "-c", line, PROGRAMS / "mars")
+                    self.succeed("mars", "verify", "out")
+                    shutil.rmtree(self.folder / "out")
 
     @needs_mpi
     def test_frozen_node(self):
