@@ -14,8 +14,8 @@
 
 namespace mars::host {
 
-// The host reads and compiles the film, which takes long for a long one, and claims the frames in their folder, for which
-// it may wait for other runs. Nodes wait meanwhile.
+// The host reads and compiles the film, which takes long for a long one, and claims its frames in the folder, where it
+// may wait for other runs. Nodes wait meanwhile.
 struct Loading {
   std::string film;  // its file, as the person gave it
 

@@ -61,7 +61,7 @@ void FolderTurn::wait() {
   }
 }
 
-// Renews its file meanwhile: a rival on another machine does not see this process, and waits longer than a file counts.
+// Renews the file too: where this process cannot be seen, the file counts for a minute, and waiting may take longer.
 void FolderTurn::pause() {
   touch(file_);
   std::this_thread::sleep_for(pauses_.next());

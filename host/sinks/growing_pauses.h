@@ -1,5 +1,5 @@
-// How long to wait before looking again at what other machines keep: short at first, for most waits are; then longer, so
-// that many that wait are no load. A random part keeps those that began together apart.
+// How long to wait before looking again at what other machines keep: short at first, as most waits are; then longer, so
+// that many waiting processes are no load. A random part keeps processes that began together apart.
 #pragma once
 
 #include <chrono>

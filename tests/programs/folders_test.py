@@ -94,8 +94,8 @@ class Folders(ProgramTest):
         turn.write_text(json.dumps({"host": "n7", "boot": "another", "processes": "", "process": 1, "start": 1}))
         events = self.folder / "events.txt"
         with open(events, "w") as output:
-            run = subprocess.Popen([PROGRAMS / "mars-threads", self.film, "-o", "out", "--nodes", "1", "--frames", "0-1"],
-                                   stdout=output, env=ENVIRONMENT, cwd=self.folder)
+            words = [PROGRAMS / "mars-threads", self.film, "-o", "out", "--nodes", "1", "--frames", "0-1"]
+            run = subprocess.Popen(words, stdout=output, env=ENVIRONMENT, cwd=self.folder)
         self.addCleanup(self.end, run)
         wait_until(lambda: len(list(runs.iterdir())) == 2, SECONDS, "it does not ask for its turn")
         time.sleep(0.3)
