@@ -126,8 +126,10 @@ void add_verify(CLI::App& app, Names& names, bool& missing, int& code) {
       ->required();
   command->add_flag("--missing", missing,
                     "Print only which frames are missing or wrong, as --frames takes them; nothing where none is. "
-                    "Example: missing=$(mars verify DIR --missing); "
-                    "[ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"");
+                    "Example: --missing");
+  command->footer("To render what is missing:\n"
+                  "  missing=$(mars verify DIR --missing)\n"
+                  "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
   command->callback([&] {
     const Verdict verdict = verify_folder(names.from);
     if (missing)
