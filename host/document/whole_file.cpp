@@ -192,8 +192,13 @@ bool create_file(const std::filesystem::path& path, std::string_view text) {
   const int opened = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (opened < 0 && errno == ENOENT) return false;
   Descriptor file(path, opened, "write");
-  file.write_all(std::as_bytes(std::span(text.data(), text.size())));
-  file.close_checked();
+  try {
+    file.write_all(std::as_bytes(std::span(text.data(), text.size())));
+    file.close_checked();
+  } catch (const Failure&) {
+    unlink(path.c_str());
+    throw;
+  }
   return true;
 }
 

@@ -30,8 +30,8 @@ void write_whole_file(const std::filesystem::path& path, const std::function<voi
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,
                   std::span<const std::byte> bytes);
 
-// A new file, which readers may see before it is whole; false where its folder is not there. Throws Failure also where
-// there is something of that name.
+// A new file, which readers may see before it is whole; removed again where writing fails. False where its folder is
+// not there. Throws Failure also where there is something of that name.
 bool create_file(const std::filesystem::path& path, std::string_view text);
 
 // Throws as writing `path` would, as far as can be told before; leaves nothing behind.

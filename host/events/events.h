@@ -1,6 +1,6 @@
-// What the host tells while it renders: one JSON object a line on its standard output, read by `mars render`
-// and by whoever supervises or watches. Its key "event" says which it is: loading, warning, loaded, booted, progress, frame,
-// fault or done; readers pass over what they do not know. Seconds count from the first command to the nodes.
+// What the host reports while it renders: one JSON object a line on its standard output, read by `mars render` and by
+// programs that supervise a run. Its key "event" names the event: loading, warning, loaded, booted, progress, frame,
+// fault or done; readers pass over events they do not know. Seconds count from the first command to the nodes.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace mars::host {
 
-// The host reads and compiles the film: long for a long one. Nodes wait meanwhile.
+// The host reads and compiles the film, which takes long for a long one, and claims its frames in the folder, where it
+// may wait for other runs. Nodes wait meanwhile.
 struct Loading {
   std::string film;  // its file, as the person gave it
 
@@ -23,7 +24,7 @@ struct Loading {
 
 // That is done; now the host waits for its nodes.
 struct Loaded {
-  double seconds = 0;  // since Loading
+  double seconds = 0;  // of reading and compiling
 
   bool operator==(const Loaded&) const = default;
 };
@@ -40,7 +41,7 @@ struct Booted {
   struct Node {
     std::int32_t node = 0;
     std::string host;
-    std::int32_t rank = 0;  // its number for whoever started it (MPI's)
+    std::int32_t rank = 0;  // its number for what started it (MPI's)
     std::string binding;  // "" if free
     std::string simd;
 

@@ -167,8 +167,9 @@ void launch_render(RenderOptions options, const std::filesystem::path& self, con
       });
   display.settle();
   if (!run.well()) {
+    const Failure failure = diagnose(run.remains(), options, advice);
     if (!options.folder.empty()) clear_ended_runs(options.folder);
-    throw diagnose(run.remains(), options, advice);
+    throw failure;
   }
   display.tell(done_text(run.done()));
 }

@@ -65,7 +65,7 @@ struct Names {
 
 std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
-// Asked for what is missing, its answer is no failure, whatever it is: nothing at all where nothing is missing.
+// Exit code 0 in any case; prints nothing if no frame is missing.
 void print_missing(const Verdict& verdict) {
   std::vector<std::uint32_t> frames;
   for (const Verdict::Trouble& trouble : verdict.troubles) frames.push_back(trouble.frame);
@@ -127,7 +127,10 @@ void add_verify(CLI::App& app, Names& names, bool& missing, int& code) {
       ->required();
   command->add_flag("--missing", missing,
                     "Print only which frames are missing or wrong, as --frames takes them; nothing where none is. "
-                    "Example: mars render FILM -o DIR --frames \"$(mars verify DIR --missing)\"");
+                    "Example: --missing");
+  command->footer("To render what is missing:\n"
+                  "  missing=$(mars verify DIR --missing)\n"
+                  "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
   command->callback([&] {
     const Verdict verdict = verify_folder(names.from);
     if (missing)

@@ -21,7 +21,7 @@ std::string host_name() {
   return name;
 }
 
-// Binds the calling thread to its share of the machine, unless whoever started it has, or there is none.
+// Binds the calling thread to its share of the machine, unless its launcher has, or there is none.
 void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
   if (here.placed) return;
   if (const auto place = machine.place(here.index, here.count, kCoresForHost, here.machine)) machine.bind_thread(*place);

@@ -110,16 +110,11 @@ std::unique_ptr<Trace> begin_trace(const RenderOptions& options) {
   return std::make_unique<Trace>();
 }
 
-CompiledFilm load_film_with_events(const RenderOptions& options) {
+void render(const RenderOptions& options, const char* backend, Trace* trace) {
   tell(Loading{options.film});
   const double started = dclock();
-  CompiledFilm film = load_film_of(options, [](const std::string& line) { tell(Warning{line}); });
-  tell(Loaded{dclock() - started});
-  return film;
-}
-
-void render(const RenderOptions& options, const char* backend, Trace* trace) {
-  const CompiledFilm film = load_film_with_events(options);
+  const CompiledFilm film = load_film_of(options, [](const std::string& line) { tell(Warning{line}); });
+  const double load_seconds = dclock() - started;
   const node::FilmSettings& settings = film.view().settings();
   FarmOptions farm;
   farm.mapping = options.mapping;
@@ -132,6 +127,7 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
   // Better now than after the last frame.
   if (!options.report.empty()) check_can_write(options.report);
   Destination destination(options, film, farm.frames);
+  tell(Loaded{load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
   SinkPool pool(destination.sink(), pool_shape(settings, options.block));
   Teller teller(backend, film.view().intervals().size());
   const FarmReport report = render_film(film.block(), farm, pool, teller.listener());

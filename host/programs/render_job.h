@@ -5,8 +5,8 @@
 
 namespace mars::host {
 
-// Runs the calling HAL process as the host; tells events on standard output. `backend` is its name. A failure
-// is told as a fault event, and thrown for whoever ends the run.
+// Runs the calling HAL process as the host; reports events on standard output. `backend` is its name. A failure
+// is reported as a fault event, and thrown for the caller, which ends the run.
 void run_render_job(const RenderOptions& options, const char* backend);
 
 }  // namespace mars::host

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/failure.h"
+#include "host/document/json_file.h"
 #include "host/document/whole_file.h"
 #include "host/options/frame_set.h"
 
@@ -52,7 +53,7 @@ std::string time_text(std::int64_t when) {
 }
 
 // "another run, process 4711 on host n1, renders frames 0-99 of film.json into this folder since 12:01:33"
-std::string told(const Claim& claim, const std::string& film) {
+std::string description(const Claim& claim, const std::string& film) {
   return "another run, process " + std::to_string(claim.process.number) + " on host " + claim.process.host +
          ", renders " + frames_text(claim.manifest.frames) + " of " + film + " into this folder since " +
          time_text(claim.since);
@@ -73,9 +74,7 @@ std::optional<Claim> claim_of(const RunFiles& run) {
   const std::optional<fs::path> file = file_of(run, kClaimEnding);
   if (!file) return std::nullopt;
   try {
-    const std::vector<std::byte> bytes = read_whole_file(*file);
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const json from = json::parse(text, text + bytes.size());
+    const json from = read_json_file(*file);
     return Claim{process_name_of(from), from.at("since").get<std::int64_t>(), manifest_of(from.at("manifest"))};
   } catch (const std::exception&) {
     return std::nullopt;
@@ -91,10 +90,8 @@ std::optional<Manifest> rendered_by(const RunFiles& run) {
   std::ifstream lines(file.value_or(fs::path()));
   std::uint32_t frame = 0;
   for (std::string hash; lines >> frame >> hash;) {
-    const auto place = std::ranges::lower_bound(manifest.frames, frame);
     const bool whole = hash.size() == kHashDigits;  // the last line may have been cut off
-    if (whole && place != manifest.frames.end() && *place == frame)
-      manifest.pixel_hashes[static_cast<std::size_t>(place - manifest.frames.begin())] = hash;
+    if (whole) set_hash(manifest, frame, hash);
   }
   return manifest;
 }
@@ -122,12 +119,12 @@ void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& f
   const Manifest& theirs = rival->manifest;
   if (theirs.checksum != wanted.checksum) {
     const std::string film = (theirs.film == wanted.film ? "another version or size of " : "") + theirs.film;
-    throw Failure(told(*rival, film), folder.string(), "give another folder with -o, or wait");
+    throw Failure(description(*rival, film), folder.string(), "give another folder with -o, or wait");
   }
   std::vector<std::uint32_t> both;
   std::ranges::set_intersection(theirs.frames, wanted.frames, std::back_inserter(both));
   if (both.empty()) return;
-  throw Failure(told(*rival, theirs.film), folder.string(),
+  throw Failure(description(*rival, theirs.film), folder.string(),
                 "give other frames with --frames, another folder with -o, or wait");
 }
 

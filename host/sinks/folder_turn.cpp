@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "hal/failure.h"
+#include "host/document/whole_file.h"
 
 namespace mars::host {
 
@@ -18,9 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto kPause = 2ms;
 constexpr double kLongestSilence = 60;  // seconds
 
 // When a file was last changed, in seconds by the clock of the machine that keeps it. Opening it makes NFS ask that
@@ -58,8 +57,14 @@ FolderTurn::~FolderTurn() {
 void FolderTurn::wait() {
   while (!take()) {
     if (Clock::now() > deadline_) fail_late();
-    std::this_thread::sleep_for(kPause);
+    pause();
   }
+}
+
+// Renews the file too: where this process cannot be seen, the file counts for a minute, and waiting may take longer.
+void FolderTurn::pause() {
+  touch(file_);
+  std::this_thread::sleep_for(pauses_.next());
 }
 
 bool FolderTurn::take() {
@@ -70,7 +75,7 @@ bool FolderTurn::take() {
   rename_to(kTurnEnding);
   std::vector<RunFiles> others = rivals();
   while (!others.empty() && !gives_way(others) && Clock::now() <= deadline_) {
-    std::this_thread::sleep_for(kPause);
+    pause();
     others = rivals();
   }
   if (others.empty()) return true;
@@ -90,12 +95,12 @@ std::vector<RunFiles> FolderTurn::rivals() const {
 
 void FolderTurn::rename_to(std::string_view ending) {
   fs::path renamed = runs_.own_file(ending);
-  if (rename(file_.c_str(), renamed.c_str()) != 0) fail_lost();
+  if (rename(file_.c_str(), renamed.c_str()) != 0) fail("rename", errno);
   file_ = std::move(renamed);
 }
 
 void FolderTurn::confirm() const {
-  if (!touch(file_)) fail_lost();
+  if (!touch(file_)) fail("renew", errno);
 }
 
 void FolderTurn::fail_late() const {
@@ -108,7 +113,8 @@ void FolderTurn::fail_late() const {
                 "continue that process, or end it");
 }
 
-void FolderTurn::fail_lost() const {
+void FolderTurn::fail(const char* act, int error) const {
+  if (error != ENOENT) fail_file(act, file_, error);
   throw Failure("this run was held up, and another has taken it for ended", file_.parent_path().string(),
                 "start it again");
 }
@@ -120,7 +126,7 @@ bool FolderTurn::has_ended(const RunFiles& run) const {
   const std::optional<double> now = time_of(file_);
   double last = 0;
   for (const fs::path& file : run.files) last = std::max(last, time_of(file).value_or(0));
-  return now && *now - last > kLongestSilence;
+  return now && last > 0 && *now - last > kLongestSilence;  // 0: its files are renamed or gone meanwhile
 }
 
 }  // namespace mars::host

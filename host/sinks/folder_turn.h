@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "host/sinks/growing_pauses.h"
 #include "host/sinks/runs_folder.h"
 
 namespace mars::host {
@@ -33,7 +34,7 @@ class FolderTurn {
   // The file that stands for it.
   const std::filesystem::path& file() const { return file_; }
 
-  // Throws Failure where others have taken this run for ended, which was held up.
+  // Throws Failure where others have taken this run for ended, which was held up, or its file cannot be renewed.
   void confirm() const;
 
   // Whether a run has ended: its process is gone; or, where that cannot be seen from here, none of its files was made
@@ -44,15 +45,18 @@ class FolderTurn {
   using Clock = std::chrono::steady_clock;
 
   void wait();
+  void pause();
   bool take();
   std::vector<RunFiles> rivals() const;
   void rename_to(std::string_view ending);
   [[noreturn]] void fail_late() const;
-  [[noreturn]] void fail_lost() const;
+  // Its file could not be changed.
+  [[noreturn]] void fail(const char* act, int error) const;
 
   const RunsFolder& runs_;
   std::filesystem::path file_;
   Clock::time_point deadline_;
+  GrowingPauses pauses_;
 };
 
 }  // namespace mars::host

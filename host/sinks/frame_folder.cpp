@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "hal/failure.h"
+#include "host/document/json_file.h"
 #include "host/document/whole_file.h"
 #include "host/sinks/claim.h"
 #include "host/sinks/png_file.h"
@@ -21,6 +22,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kManifestName = "frames.json";
+constexpr std::chrono::seconds kShortPatience{2};  // of a run that fails: a person waits to learn why
 
 void create_folder(const fs::path& path) {
   std::error_code error;
@@ -35,10 +37,10 @@ Manifest read_frames_json(const fs::path& folder) {
     throw Failure("no folder of frames: it has no frames.json", folder.string(),
                   "name the folder that was given to mars render with -o");
   }
-  const std::vector<std::byte> bytes = read_whole_file(path);
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
   try {
-    return manifest_of(json::parse(text, text + bytes.size()));
+    return manifest_of(read_json_file(path));
+  } catch (const Failure&) {  // it cannot be read
+    throw;
   } catch (const std::exception& error) {
     throw Failure(std::string("not a manifest of frames: ") + error.what(), path.string(),
                   "render into the folder again");
@@ -60,27 +62,39 @@ void write_manifest(const Manifest& manifest, const fs::path& folder, const Runs
   replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
 }
 
-// Adds what a run has rendered to the manifest, unless that is of another film by now, and removes the run's files: its
-// claim last, so that whatever is left of them is known to be its. The run has ended, or is this one at its end.
-void settle(const RunFiles& run, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
+// False, and nothing is added, where the manifest is of another film.
+bool add_to_manifest(const Manifest& rendered, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
+  const bool missing = !fs::exists(folder / kManifestName);
+  std::optional<Manifest> all = missing ? rendered : manifest_of_same_film(folder, rendered.checksum);
+  turn.confirm();
+  if (!all) return false;
+  add_frames(*all, rendered);
+  write_manifest(*all, folder, runs);
+  return true;
+}
+
+// Also makes room on a full disk for the manifest.
+void remove_parts(const RunFiles& run) {
   std::error_code ignored;  // what stays is found by the next run
   for (const fs::path& file : run.files)
     if (file.extension() == kPartSuffix) fs::remove(file, ignored);
-  if (const std::optional<Manifest> rendered = rendered_by(run)) {
-    const bool missing = !fs::exists(folder / kManifestName);
-    std::optional<Manifest> all = missing ? rendered : manifest_of_same_film(folder, rendered->checksum);
-    turn.confirm();
-    if (all) add_frames(*all, *rendered);
-    if (all) write_manifest(*all, folder, runs);
-  }
+}
+
+// The claim last, so that whatever is left of a run is known to be its.
+void remove_files(const RunFiles& run, const FolderTurn& turn) {
+  std::error_code ignored;  // likewise
   for (const bool claims : {false, true})
     for (const fs::path& file : run.files)
       if ((file.extension() == kClaimEnding) == claims && file != turn.file()) fs::remove(file, ignored);
 }
 
 void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
-  for (const RunFiles& run : runs.runs())
-    if (run.run != runs.own_name() && turn.has_ended(run)) settle(run, folder, runs, turn);
+  for (const RunFiles& run : runs.runs()) {
+    if (run.run == runs.own_name() || !turn.has_ended(run)) continue;
+    remove_parts(run);
+    if (const std::optional<Manifest> rendered = rendered_by(run)) add_to_manifest(*rendered, folder, runs, turn);
+    remove_files(run, turn);
+  }
 }
 
 // Names that were made in the folder are on the disk too; not every file system can do that.
@@ -94,7 +108,8 @@ void sync_folder(const fs::path& folder) {
 }  // namespace
 
 FrameFolder::FrameFolder(fs::path path, const Manifest& manifest, const ProcessName& self)
-    : path_(std::move(path)), film_frames_(manifest.film_frames), runs_(path_, self) {
+    : path_(std::move(path)), rendered_(manifest), runs_(path_, self) {
+  rendered_.pixel_hashes.assign(rendered_.frames.size(), "");
   create_folder(path_);
   const FolderTurn turn(runs_);
   try {
@@ -125,39 +140,53 @@ void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
 
 FrameFolder::~FrameFolder() {
   try {
-    finish();
+    finish_within(kShortPatience);
   } catch (const std::exception&) {
   }
 }
 
-void FrameFolder::finish() {
+void FrameFolder::finish() { finish_within(FolderTurn::kPatience); }
+
+void FrameFolder::finish_within(std::chrono::milliseconds patience) {
   if (finished_) return;
   finished_ = true;
-  const FolderTurn turn(runs_);
+  const FolderTurn turn(runs_, patience);
   lease_->confirm();
   hashes_.reset();
+  if (!add_to_manifest(rendered_, path_, runs_, turn))
+    throw Failure("is no longer the manifest of the film that was rendered", (path_ / kManifestName).string(),
+                  "see that nothing else writes it, and render the film again");
   for (const RunFiles& run : runs_.runs())
-    if (run.run == runs_.own_name()) settle(run, path_, runs_, turn);
+    if (run.run == runs_.own_name()) remove_files(run, turn);
   lease_.reset();
   sync_folder(path_);
 }
 
-fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_file_name(frame, film_frames_); }
+fs::path FrameFolder::file_of(std::uint32_t frame) const {
+  return path_ / frame_file_name(frame, rendered_.film_frames);
+}
 
 // The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a
 // hash would say nothing.
 void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png) {
   lease_->check();
   hashes_->add(frame, pixel_hash);
-  const std::string part = "." + frame_file_name(frame, film_frames_) + std::string(kPartSuffix);
+  record(frame, pixel_hash);
+  const std::string part = "." + frame_file_name(frame, rendered_.film_frames) + std::string(kPartSuffix);
   replace_file(file_of(frame), runs_.own_file(part), png);
+}
+
+// In memory too: at its end a run depends on nothing that it would have to read again.
+void FrameFolder::record(std::uint32_t frame, const std::string& pixel_hash) {
+  const std::lock_guard lock(mutex_);
+  set_hash(rendered_, frame, pixel_hash);
 }
 
 void clear_ended_runs(const fs::path& folder) {
   const RunsFolder runs(folder, this_process());
   if (!runs.exists()) return;
   try {
-    settle_ended_runs(folder, runs, FolderTurn(runs));
+    settle_ended_runs(folder, runs, FolderTurn(runs, kShortPatience));
   } catch (const std::exception&) {
   }
 }

@@ -4,8 +4,10 @@
 // there (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs (runs_folder.h).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +29,7 @@ class FrameFolder {
   // frames belong there too. Throws Failure, and has changed nothing of others', where another run's claim is in the
   // way.
   FrameFolder(std::filesystem::path path, const Manifest& manifest, const ProcessName& self = this_process());
-  // As finish(); what then cannot be written, the next run or clear_ended_runs finds.
+  // As finish(), but waits less for its turn; what then is not written, the next run or clear_ended_runs finds.
   ~FrameFolder();
   FrameFolder(const FrameFolder&) = delete;
   FrameFolder& operator=(const FrameFolder&) = delete;
@@ -38,14 +40,18 @@ class FrameFolder {
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, or the claim is lost.
   void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png);
 
-  // Writes the frames' hashes to the manifest and gives up the claim.
+  // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
+  // its files in .runs.
   void finish();
 
  private:
   void claim(const FolderTurn& turn, const Manifest& manifest);
+  void finish_within(std::chrono::milliseconds patience);
+  void record(std::uint32_t frame, const std::string& pixel_hash);
 
   std::filesystem::path path_;
-  std::uint32_t film_frames_;
+  std::mutex mutex_;  // guards the hashes of rendered_
+  Manifest rendered_;
   RunsFolder runs_;
   std::optional<Lease> lease_;
   std::optional<HashLog> hashes_;
@@ -53,7 +59,7 @@ class FrameFolder {
 };
 
 // Does for runs that have ended without it, killed, what the next run would do: their frames' hashes go to the
-// manifest, and what else they left is removed. Leaves alone what cannot be written.
+// manifest, and what else they left is removed. Leaves alone what cannot be written, or not soon.
 void clear_ended_runs(const std::filesystem::path& folder);
 
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.

@@ -5,7 +5,6 @@
 #include <time.h>
 
 #include <cerrno>
-#include <chrono>
 
 #include "hal/failure.h"
 
@@ -13,7 +12,6 @@ namespace mars::host {
 
 namespace {
 
-constexpr std::chrono::seconds kRenewal{10};
 constexpr double kTrusted = 30;  // seconds; others wait for 60 (folder_turn.h)
 
 }  // namespace
@@ -24,9 +22,10 @@ double seconds_since_boot() {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
-Lease::Lease(std::filesystem::path file, Clock clock)
+Lease::Lease(std::filesystem::path file, Clock clock, std::chrono::milliseconds interval)
     : file_(std::move(file)),
       clock_(std::move(clock)),
+      interval_(interval),
       renewed_(clock_()),
       thread_([this] { renew_until_stopped(); }) {}
 
@@ -41,7 +40,7 @@ Lease::~Lease() {
 
 void Lease::renew_until_stopped() {
   std::unique_lock lock(mutex_);
-  while (!stopping_.wait_for(lock, kRenewal, [this] { return stop_; })) renew();
+  while (!stopping_.wait_for(lock, interval_, [this] { return stop_; })) renew();
 }
 
 void Lease::renew() {

@@ -1,7 +1,8 @@
-// Keeps a file's time young while this process runs, so that others, who see no more of it, know that it does. Whoever
-// was stopped for so long that others may have given it up learns that before it goes on.
+// Keeps a file's time young while this process runs, so that processes on other machines, which see no more of it, know
+// that it does. A process that was stopped for so long that others may have given it up learns that before it goes on.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <functional>
@@ -17,8 +18,9 @@ class Lease {
  public:
   using Clock = std::function<double()>;
 
-  // Renews `file`, which is there, every 10 seconds, by a thread of its own.
-  explicit Lease(std::filesystem::path file, Clock clock = seconds_since_boot);
+  // Renews `file`, which is there, once every `interval`, by a thread of its own.
+  explicit Lease(std::filesystem::path file, Clock clock = seconds_since_boot,
+                 std::chrono::milliseconds interval = std::chrono::seconds(10));
   ~Lease();
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
@@ -35,6 +37,7 @@ class Lease {
 
   const std::filesystem::path file_;
   const Clock clock_;
+  const std::chrono::milliseconds interval_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable stopping_;
   double renewed_;

@@ -82,6 +82,12 @@ void add_frames(Manifest& manifest, const Manifest& more) {
   manifest.pixel_hashes = std::move(hashes);
 }
 
+void set_hash(Manifest& manifest, std::uint32_t frame, const std::string& hash) {
+  const auto place = std::ranges::lower_bound(manifest.frames, frame);
+  if (place != manifest.frames.end() && *place == frame)
+    manifest.pixel_hashes[static_cast<std::size_t>(place - manifest.frames.begin())] = hash;
+}
+
 json to_json(const Manifest& manifest) {
   json text = {{"film", manifest.film},
                {"checksum", manifest.checksum},
@@ -101,7 +107,7 @@ Manifest manifest_of(const json& from) {
   manifest.width = whole_number(from.at("width"), node::kMaxSide + 1);
   manifest.height = whole_number(from.at("height"), node::kMaxSide + 1);
   from.at("rate").get_to(manifest.rate);
-  manifest.film_frames = whole_number(from.at("film_frames"), node::kMostFrames);
+  manifest.film_frames = whole_number(from.at("film_frames"), node::kMostFrames + 1);
   manifest.frames = frames_of(from.at("frames"), manifest.film_frames);
   if (from.contains("pixel_hashes"))
     manifest.pixel_hashes = hashes_of(from.at("pixel_hashes"), manifest.frames.size());

@@ -30,6 +30,9 @@ std::string pixel_hash(const std::vector<std::uint32_t>& pixels);
 // have unknown ones from then on.
 void add_frames(Manifest& manifest, const Manifest& more);
 
+// Where the frame is one of the manifest's, which has as many hashes as frames.
+void set_hash(Manifest& manifest, std::uint32_t frame, const std::string& hash);
+
 nlohmann::json to_json(const Manifest& manifest);
 // Throws std::exception where it is none.
 Manifest manifest_of(const nlohmann::json& from);

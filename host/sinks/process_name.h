@@ -1,5 +1,5 @@
-// Which process of which machine wrote something, so that another can tell whether it still runs. A number that a later
-// process has got is told by the time it started. Machines and containers of one name are told apart: only a process
+// Which process of which machine wrote something, so that another can see whether it still runs. The start time
+// distinguishes a later process with the same number. A host's name identifies no machine or container: only a process
 // that was started since the same boot and is counted in the same list of processes can be looked up.
 #pragma once
 

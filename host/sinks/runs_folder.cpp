@@ -6,10 +6,10 @@
 #include <cctype>
 #include <cerrno>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "hal/failure.h"
+#include "host/document/json_file.h"
 #include "host/document/whole_file.h"
 
 namespace mars::host {
@@ -89,9 +89,7 @@ ProcessName process_of(const RunFiles& run) {
   for (const fs::path& file : run.files) {
     if (file.extension() == kPartSuffix || file.extension() == kHashesEnding) continue;
     try {
-      const std::vector<std::byte> bytes = read_whole_file(file);
-      const auto* text = reinterpret_cast<const char*>(bytes.data());
-      return process_name_of(nlohmann::json::parse(text, text + bytes.size()));
+      return process_name_of(read_json_file(file));
     } catch (const std::exception&) {  // it is gone meanwhile, or not whole yet
     }
   }

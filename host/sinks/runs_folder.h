@@ -1,5 +1,5 @@
 // DIR/.runs: what the runs that write into a folder of frames let each other know, and what they are still writing. The
-// files of a run begin with its own name, which no other run ever has, so whoever finds a run ended may remove them:
+// files of a run begin with its own name, which no other run ever has, so one that finds a run ended may remove them:
 //   NAME.claim     which frames of which film it renders, and which process it is (claim.h); from its start to its end
 //   NAME.hashes    a line for each frame that it has written: number and pixel hash
 //   NAME.*.part    a file that is not whole yet

@@ -28,7 +28,7 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
       return size_text(image.width, image.height) + " pixels instead of " +
              size_text(manifest.width, manifest.height);
     }
-    if (expected && expected->empty()) return "nothing is recorded of its pixels: its run did not come so far";
+    if (expected && expected->empty()) return "its run ended before it recorded the pixels";
     if (expected && pixel_hash(image.pixels) != *expected) return "other pixels than were rendered";
     pixels.add(std::as_bytes(std::span(image.pixels)));
     return "";

@@ -1,9 +1,11 @@
 """Several runs in one folder: where they fit together they share it; what a killed one has rendered counts."""
 
+import json
 import os
 import shutil
 import signal
 import subprocess
+import time
 
 from harness import ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot, wait_until
 
@@ -83,6 +85,25 @@ class Folders(ProgramTest):
         for name, goes_on in enumerate(alive):
             if not goes_on:
                 self.assertIn(f"process {winner} on host", (self.folder / f"{name}.txt").read_text())
+
+    def test_waiting_for_another_run_is_part_of_loading(self):
+        """Only then are nodes waited for, and a person hears of those that do not answer."""
+        runs = self.out / ".runs"
+        runs.mkdir(parents=True)
+        turn = runs / "n7-1-0000000000000000.turn"
+        turn.write_text(json.dumps({"host": "n7", "boot": "another", "processes": "", "process": 1, "start": 1}))
+        events = self.folder / "events.txt"
+        with open(events, "w") as output:
+            words = [PROGRAMS / "mars-threads", self.film, "-o", "out", "--nodes", "1", "--frames", "0-1"]
+            run = subprocess.Popen(words, stdout=output, env=ENVIRONMENT, cwd=self.folder)
+        self.addCleanup(self.end, run)
+        wait_until(lambda: len(list(runs.iterdir())) == 2, SECONDS, "it does not ask for its turn")
+        time.sleep(0.3)
+        names = [json.loads(line)["event"] for line in events.read_text().splitlines()]
+        self.assertEqual((names[0], "loaded" in names), ("loading", False))
+        turn.unlink()
+        self.assertEqual(run.wait(timeout=SECONDS), 0)
+        self.assertIn('"event":"loaded"', events.read_text())
 
     def test_a_stopped_run_keeps_its_claim_and_a_killed_one_does_not(self):
         long = self.start("0-25000")

@@ -1,7 +1,9 @@
 #include "host/document/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "tests/host/document/failure_of.h"
@@ -107,6 +109,20 @@ TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
   std::filesystem::create_directory(folder / "folder");
   EXPECT_TRUE(holds(failure_of([&] { check_can_write(folder / "folder"); }), "Is a directory"));
+}
+
+TEST(WholeFile, ANewFileThatCannotBeWrittenIsRemoved) {
+  const TemporaryFolder folder;
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit two_bytes{2, before.rlim_max};
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &two_bytes);
+  const std::string failure = failure_of([&] { create_file(folder / "file", "text"); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, handler);
+  EXPECT_TRUE(holds(failure, "file: cannot write: File too large")) << failure;
+  EXPECT_EQ(folder.entries(), 0u);
 }
 
 // A disk of 64 KiB, where the system lets us have one.

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <thread>
 
 #include "host/document/whole_file.h"
@@ -72,6 +74,71 @@ TEST(FolderTurn, OfARunOnAnotherMachineItCountsForAMinute) {
   EXPECT_TRUE(holds(failure, "on host n7, begins or ends in this folder, and does not go on")) << failure;
   age(turn, 15s);
   EXPECT_EQ(failure_of([&] { FolderTurn(runs, 2s); }), "");
+}
+
+TEST(FolderTurn, ARunWhoseFileIsRenamedMeanwhileHasNotEnded) {
+  const TemporaryFolder folder;
+  const RunsFolder runs(folder.path(), this_process());
+  const FolderTurn turn(runs);
+  EXPECT_FALSE(turn.has_ended({"n7-1-x", {folder / ".runs/n7-1-x.waits"}})) << "it was listed, and now is .turn";
+}
+
+TEST(FolderTurn, ARunThatWaitsRenewsItsFile) {
+  const TemporaryFolder folder;
+  const RunsFolder first(folder.path(), this_process()), second(folder.path(), this_process());
+  std::optional<FolderTurn> turn(first);
+  const std::jthread waits([&] { const FolderTurn late(second, 30s); });
+  const auto age_of_its_file = [&] {
+    std::error_code missing;  // it is renamed between .waits and .turn
+    for (const std::string_view ending : {kWaitsEnding, kTurnEnding})
+      if (const auto time = fs::last_write_time(second.own_file(ending), missing); !missing)
+        return fs::file_time_type::clock::now() - time;
+    return fs::file_time_type::duration(1h);
+  };
+  const auto becomes_young = [&] {
+    for (int i = 0; i < 1000; ++i) {
+      if (age_of_its_file() < 30s) return true;
+      std::this_thread::sleep_for(5ms);
+    }
+    return false;
+  };
+  EXPECT_TRUE(becomes_young()) << "it is there";
+  std::error_code missing;
+  for (const std::string_view ending : {kWaitsEnding, kTurnEnding})
+    fs::last_write_time(second.own_file(ending), fs::file_time_type::clock::now() - 70s, missing);
+  EXPECT_TRUE(becomes_young());
+  turn.reset();
+}
+
+TEST(FolderTurn, WhatTheSystemRefusesIsNotTakenForALoss) {
+  const TemporaryFolder folder;
+  const RunsFolder blocked(folder.path(), this_process()), runs(folder.path(), this_process());
+  fs::create_directories(blocked.own_file(kTurnEnding));
+  const std::string failure = failure_of([&] { const FolderTurn turn(blocked); });
+  EXPECT_TRUE(holds(failure, "cannot rename: Is a directory")) << failure;
+  fs::remove(blocked.own_file(kTurnEnding));
+  const FolderTurn turn(runs);
+  fs::rename(folder / ".runs", folder / "away");
+  fs::create_symlink(".runs", folder / ".runs");
+  const std::string looped = failure_of([&] { turn.confirm(); });
+  EXPECT_TRUE(holds(looped, "cannot renew: Too many levels of symbolic links")) << looped;
+}
+
+TEST(FolderTurn, PausesGrowAndDiffer) {
+  GrowingPauses pauses;
+  std::set<std::chrono::microseconds> long_ones;
+  for (std::chrono::microseconds longest = 2ms; longest < 100ms; longest *= 2) {
+    const std::chrono::microseconds pause = pauses.next();
+    EXPECT_GE(pause, longest / 2);
+    EXPECT_LE(pause, longest);
+  }
+  for (int i = 0; i < 20; ++i) {
+    const std::chrono::microseconds pause = pauses.next();
+    EXPECT_GE(pause, 50ms);
+    EXPECT_LE(pause, 100ms);
+    long_ones.insert(pause);
+  }
+  EXPECT_GT(long_ones.size(), 10u);
 }
 
 TEST(FolderTurn, WhoHasLostItLearnsThat) {

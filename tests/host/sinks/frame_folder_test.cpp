@@ -10,11 +10,13 @@
 #include <barrier>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "host/document/whole_file.h"
 #include "host/sinks/png_file.h"
 #include "host/sinks/verify.h"
+#include "node/film.h"
 #include "tests/host/document/failure_of.h"
 #include "tests/host/sinks/temporary_folder.h"
 
@@ -102,6 +104,56 @@ TEST(FrameFolder, AtItsEndOnlyFramesAndManifestAreThere) {
   EXPECT_EQ(read_manifest(folder.path()).pixel_hashes[1], pixel_hash(std::vector<std::uint32_t>(24, 8)));
 }
 
+// The file `ending` of the only run in the folder.
+fs::path file_of_run(const fs::path& folder, const std::string& ending) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
+    if (entry.path().extension() == ending) return entry.path();
+  return {};
+}
+
+TEST(FrameFolder, WhatItHasRenderedDoesNotDependOnReadingItsClaimAgain) {
+  const TemporaryFolder folder;
+  FrameFolder frames(folder.path(), small_manifest());
+  put_frames(frames, small_manifest(), 7);
+  write_whole_file(file_of_run(folder.path(), ".claim"), "nonsense");
+  write_whole_file(file_of_run(folder.path(), ".hashes"), "");
+  frames.finish();
+  EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
+  EXPECT_EQ(folder.entries(), 6u);
+}
+
+TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
+  const TemporaryFolder folder;
+  FrameFolder frames(folder.path(), of_frames({1}));
+  put_frames(frames, of_frames({1}), 7);
+  write_whole_file(folder / "frames.json", "nonsense");
+  const std::string failure = failure_of([&] { frames.finish(); });
+  EXPECT_TRUE(holds(failure, "frames.json: is no longer the manifest of the film")) << failure;
+  EXPECT_TRUE(fs::exists(file_of_run(folder.path(), ".hashes")));
+}
+
+TEST(FrameFolder, ARunThatFailsDoesNotWaitForOneThatHangs) {
+  const TemporaryFolder folder;
+  auto frames = std::make_unique<FrameFolder>(folder.path(), small_manifest());
+  ProcessName elsewhere = this_process();
+  elsewhere.boot = "another";
+  const RunsFolder hangs(folder.path(), elsewhere);
+  hangs.add_own_file(kTurnEnding, to_json(elsewhere).dump());
+  const auto began = std::chrono::steady_clock::now();
+  std::jthread clears([&] { clear_ended_runs(folder.path()); });
+  frames.reset();
+  clears.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - began, 30s);
+}
+
+TEST(FrameFolder, TheLongestFilmsManifestIsRead) {
+  const TemporaryFolder folder;
+  Manifest manifest = of_frames({0, node::kMostFrames - 1});
+  manifest.film_frames = node::kMostFrames;
+  fill(folder.path(), manifest, 7);
+  EXPECT_EQ(read_manifest(folder.path()).frames, manifest.frames);
+}
+
 TEST(FrameFolder, ARunThatFailsRecordsWhatItHasRendered) {
   const TemporaryFolder folder;
   {
@@ -139,9 +191,7 @@ TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
   const fs::path of_another = folder / ".runs/vm-1-another.frame-0003.png.part";
   create_file(of_another, "nobody says any more whose it is");
   fs::last_write_time(of_another, fs::last_write_time(of_another) - 65s);
-  fs::path part;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs"))
-    if (entry.path().extension() == ".claim") part = fs::path(entry.path()).replace_extension(".frame-0001.png.part");
+  const fs::path part = file_of_run(folder.path(), ".claim").replace_extension(".frame-0001.png.part");
   create_file(part, "half a frame");
   fill(folder.path(), of_frames({2}), 7);
   clear_ended_runs(folder.path());
@@ -342,7 +392,7 @@ TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
   write_whole_file(folder / "frame-0001.png", encode_png(6, 4, std::vector<std::uint32_t>(24)));
   const Verdict verdict = verify_folder(folder.path());
   ASSERT_EQ(verdict.troubles.size(), 1u);
-  EXPECT_TRUE(holds(verdict.troubles[0].reason, "nothing is recorded of its pixels"));
+  EXPECT_TRUE(holds(verdict.troubles[0].reason, "its run ended before it recorded the pixels"));
 }
 
 TEST(Verify, ManifestsWithoutHashesAreReadToo) {

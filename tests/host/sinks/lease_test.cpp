@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <thread>
 
 #include "host/document/whole_file.h"
 #include "tests/host/document/failure_of.h"
@@ -27,6 +28,12 @@ class LeaseOfAFile : public testing::Test {
   std::atomic<double> now_ = 1000;
   Lease lease_{file_, [this] { return now_.load(); }};
 };
+
+TEST_F(LeaseOfAFile, IsRenewedByAThread) {
+  const Lease often(file_, seconds_since_boot, 10ms);
+  for (int i = 0; i < 1000 && !is_young(); ++i) std::this_thread::sleep_for(10ms);
+  EXPECT_TRUE(is_young());
+}
 
 TEST_F(LeaseOfAFile, IsRenewedByItsHolderWhereTheThreadDidNot) {
   lease_.check();
