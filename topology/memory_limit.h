@@ -8,11 +8,28 @@
 
 namespace mars::topology {
 
+// Bytes of one process, as ulimit counts them.
+struct ProcessMemory {
+  std::uint64_t addresses = 0;  // ulimit -v: also those that were only set aside
+  std::uint64_t data = 0;       // ulimit -d: memory that may be written
+
+  bool operator==(const ProcessMemory&) const = default;
+};
+
+// The limits of the calling process; 0: none. Takes no memory: for telling that there is none.
+ProcessMemory process_limit();
+
+// What the calling process has; sanitizers take terabytes of addresses. 0 where /proc cannot be read.
+ProcessMemory process_memory(const std::filesystem::path& root = "/");
+
 // Bytes; 0: no limit.
 struct MemoryLimit {
   std::uint64_t together = 0;  // all processes of the control group at once
-  std::uint64_t each = 0;      // this process: ulimit -v or -d
-  std::uint64_t used = 0;      // of that, so far
+  ProcessMemory each;
+  ProcessMemory used;  // of each, so far
+
+  // The least of all; 0: none.
+  std::uint64_t least() const;
 
   bool operator==(const MemoryLimit&) const = default;
 };
