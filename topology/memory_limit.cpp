@@ -82,13 +82,14 @@ std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
   std::uint64_t share =
       std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);
-  const auto keep_within = [&](std::uint64_t most, std::uint64_t used) {
+  const auto keep_within = [&](std::uint64_t most, std::uint64_t used, std::uint64_t part) {
     if (most == 0) return;
     const std::uint64_t left = most - std::min(most, used);
-    share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / 2));
+    share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / part));
   };
-  keep_within(limit.each.addresses, limit.used.addresses);
-  keep_within(limit.each.data, limit.used.data);
+  // What a thread uses beside its frame has its addresses from the start, but becomes data only later.
+  keep_within(limit.each.addresses, limit.used.addresses, 2);
+  keep_within(limit.each.data, limit.used.data, 4);
   return share;
 }
 
