@@ -1,9 +1,8 @@
 // How anything that is the user's or the world's fault is told: what went wrong, where, and what to do
-// about it. Caught once, at the top of each program and each thread (docs/errors.md). Our own bugs are
-// `check`s, which stay on in a release.
+// about it. Caught once, at the top of each program and each thread, which reports it by explain.h. Our own bugs are
+// `check`s, which stay on in a release. Depends on nothing: everything may use it.
 #pragma once
 
-#include <exception>
 #include <source_location>
 #include <stdexcept>
 #include <string>
@@ -20,11 +19,13 @@ class Failure : public std::runtime_error {
   std::string remedy;
 };
 
-// What to tell of any failure: what the libraries throw says of itself neither what nor what to do.
-Failure explain(const std::exception& reason);
-std::string reason_of(const std::exception& failure);
+// A `check` that failed.
+class BrokenRule : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
 
-// Throws std::logic_error naming the caller's file and line unless `holds`.
+// Throws BrokenRule naming the caller's file and line unless `holds`.
 void check(bool holds, const char* rule, std::source_location at = std::source_location::current());
 
 }  // namespace mars

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "hal/memory_limits.h"
+#include "hal/explain.h"
 
 namespace mars::hal {
 

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "hal/call_lock.h"
-#include "hal/failure.h"
+#include "hal/explain.h"
 #include "hal/nx/guard.h"
 
 namespace mars::hal {

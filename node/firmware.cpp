@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/failure.h"
+#include "hal/explain.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/shared_memory.h"

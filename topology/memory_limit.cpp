@@ -56,31 +56,41 @@ std::uint64_t group_limit(const fs::path& root) {
   return least;
 }
 
-std::uint64_t own_limit(int resource) {
+std::uint64_t own_limit(__rlimit_resource resource) {
   rlimit limit{};
-  if (getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) return 0;
+  if (getrlimit(resource, &limit) != 0) return 0;
   return limit.rlim_cur == RLIM_INFINITY ? 0 : limit.rlim_cur;
-}
-
-// Of this process, by the first number of its statm, in pages; 0 where it cannot be read.
-std::uint64_t address_space(const fs::path& root) {
-  std::uint64_t pages = 0;
-  std::ifstream(root / "proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace
 
-MemoryLimit memory_limit(const fs::path& root) {
-  return {group_limit(root), lesser(own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA)), address_space(root)};
+ProcessMemory process_limit() { return {own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA)}; }
+
+// The first and the sixth number of statm, in pages.
+ProcessMemory process_memory(const fs::path& root) {
+  std::uint64_t addresses = 0, resident, shared, text, libraries, data = 0;
+  std::ifstream(root / "proc/self/statm") >> addresses >> resident >> shared >> text >> libraries >> data;
+  const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return {addresses * page, data * page};
 }
+
+std::uint64_t MemoryLimit::least() const { return lesser(together, lesser(each.addresses, each.data)); }
+
+MemoryLimit memory_limit(const fs::path& root) { return {group_limit(root), process_limit(), process_memory(root)}; }
 
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
-  const std::uint64_t share = lesser(known, limit.together) / static_cast<std::uint64_t>(processes);
-  if (limit.each == 0) return std::min(kMostShare, share / 2);
-  const std::uint64_t left = limit.each - std::min(limit.each, limit.used);
-  return std::min({kMostShare, share / 2, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / 2)});
+  std::uint64_t share =
+      std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);
+  const auto keep_within = [&](std::uint64_t most, std::uint64_t used, std::uint64_t part) {
+    if (most == 0) return;
+    const std::uint64_t left = most - std::min(most, used);
+    share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / part));
+  };
+  // What a thread uses beside its frame has its addresses from the start, but becomes data only later.
+  keep_within(limit.each.addresses, limit.used.addresses, 2);
+  keep_within(limit.each.data, limit.used.data, 4);
+  return share;
 }
 
 }  // namespace mars::topology

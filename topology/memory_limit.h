@@ -8,11 +8,28 @@
 
 namespace mars::topology {
 
+// Bytes of one process, as ulimit counts them.
+struct ProcessMemory {
+  std::uint64_t addresses = 0;  // ulimit -v: also those that were only set aside
+  std::uint64_t data = 0;       // ulimit -d: memory that may be written
+
+  bool operator==(const ProcessMemory&) const = default;
+};
+
+// The limits of the calling process; 0: none. Takes no memory: for telling that there is none.
+ProcessMemory process_limit();
+
+// What the calling process has; sanitizers take terabytes of addresses. 0 where /proc cannot be read.
+ProcessMemory process_memory(const std::filesystem::path& root = "/");
+
 // Bytes; 0: no limit.
 struct MemoryLimit {
   std::uint64_t together = 0;  // all processes of the control group at once
-  std::uint64_t each = 0;      // this process: ulimit -v or -d
-  std::uint64_t used = 0;      // of that, so far
+  ProcessMemory each;
+  ProcessMemory used;  // of each, so far
+
+  // The least of all; 0: none.
+  std::uint64_t least() const;
 
   bool operator==(const MemoryLimit&) const = default;
 };
@@ -20,9 +37,9 @@ struct MemoryLimit {
 // Of the calling process. `root` is where proc/ and sys/ are.
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 
-// The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame when
-// nobody says how many: half of its equal share, at most 4 GiB. Where the node is one of several threads that share
-// this process's limit, `threads` says of how many.
+// The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame when nobody says how
+// many: half of its equal share, at most 4 GiB; of what a limit of data leaves, a quarter. Where the node is one of several
+// threads that share this process's limit, `threads` says of how many.
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads = 1);
 
 }  // namespace mars::topology

@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"

@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "hal/nx/guard.h"
 #include "hal/processes/processes_world.h"

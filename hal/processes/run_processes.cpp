@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "hal/failure.h"
+#include "hal/explain.h"
 #include "hal/process.h"
 #include "hal/processes/job.h"
 #include "hal/processes/processes_backend.h"

@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-#include "hal/memory_limits.h"
+#include "hal/explain.h"
 #include "hal/process.h"
 #include "hal/threads/threads_backend.h"
 

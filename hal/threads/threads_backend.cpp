@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "hal/memory_limits.h"
+#include "hal/explain.h"
 
 namespace mars::hal {
 namespace {

@@ -1,5 +1,5 @@
 // Joints that leave their limits between keys: those with several freedoms make the smallest turn from pose to pose,
-// which may. Counted in every frame for who wants to know all, or the worst frame alone, which costs little.
+// which may. Counted in every frame, or in the worst frame alone, which costs little.
 #pragma once
 
 #include <cstddef>

@@ -35,7 +35,7 @@ std::string version_of(Mpi mpi, const std::string& printed) {
     for (const char* each : words)
       if (!reader.find(each)) return "";
     reader.skip_space();
-    const std::string version = reader.word();
+    const std::string version = reader.word().value_or("");
     return !version.empty() && std::isdigit(static_cast<unsigned char>(version.front())) ? version : "";
   };
   if (mpi == Mpi::mpich) return behind({"HYDRA", "Version:"});
@@ -141,7 +141,9 @@ Finding check_memory(const Facts& facts) {
   std::string found = facts.memory != 0 ? bytes_text(facts.memory) : "of unknown size";
   if (facts.limit.together != 0 && (facts.memory == 0 || facts.limit.together < facts.memory))
     found += ", " + bytes_text(facts.limit.together) + " of it for this job (cgroup)";
-  if (facts.limit.each != 0) found += ", " + bytes_text(facts.limit.each) + " a process (ulimit -v or -d)";
+  const auto [addresses, data] = facts.limit.each;
+  if (addresses != 0) found += ", " + bytes_text(addresses) + " of addresses a process (ulimit -v)";
+  if (data != 0) found += ", " + bytes_text(data) + " a process (ulimit -d)";
   const std::uint64_t share = facts.memory_setting.value_or(
       topology::memory_share(facts.memory, facts.limit, static_cast<int>(facts.nodes)));
   found += "; for a node's frame " + bytes_text(share) + (facts.memory_setting ? " (MARS_MEMORY)" : "");

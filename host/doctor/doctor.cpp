@@ -116,7 +116,7 @@ Adviser adviser(const std::filesystem::path& self) {
       return short_text(check_machine(gather_facts(self, options.nodes, ask)));
     };
   };
-  return {question(Ask::nobody), question(Ask::programs)};
+  return {question(Ask::no_programs), question(Ask::programs)};
 }
 
 }  // namespace mars::host

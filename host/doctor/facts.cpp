@@ -120,7 +120,7 @@ Facts gather_facts(const fs::path& self, std::uint32_t nodes, Ask ask) {
   facts.host = host_name();
   facts.container = container(environment);
   facts.programs = find_programs(self, path);
-  facts.surroundings = look_around(path);
+  facts.surroundings = look_around(path, ask);
   if (facts.programs.mpirun && ask == Ask::programs)
     facts.mpirun_version = answer({facts.programs.mpirun->string(), "--version"});
   if (facts.programs.node && ask == Ask::programs) facts.lacking = lacking_libraries(*facts.programs.node);

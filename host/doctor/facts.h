@@ -1,5 +1,5 @@
 // What is known of the surroundings of a rendering on this machine, as plain values: found out once, and made
-// up in tests. What a start itself minds (programs, root, copies) is found by host/launch, as for mars render.
+// up in tests. What a start itself depends on (programs, root, copies) is found by host/launch, as for mars render.
 #pragma once
 
 #include <cstdint>
@@ -50,9 +50,6 @@ struct Facts {
   std::optional<SlurmJob> slurm;
   std::uint32_t nodes = 1;  // of a rendering on this machine
 };
-
-// Whether other programs are started to find facts; while a job is waited for none may be.
-enum class Ask { programs, nobody };
 
 // `self`: the running program's own file; `nodes`: 0 for one a processor. Throws Failure where a signal stops it.
 Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes, Ask ask);

@@ -92,11 +92,9 @@ std::vector<std::size_t> most_of_motion(const Actor& actor, const Model& model, 
 }
 
 std::uint64_t memory_here() {
-  std::uint64_t bytes = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
-  const topology::MemoryLimit limit = topology::memory_limit();
-  for (const std::uint64_t less : {limit.together, limit.each})
-    if (less > 0) bytes = std::min(bytes, less);
-  return bytes;
+  const std::uint64_t bytes = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+  const std::uint64_t limit = topology::memory_limit().least();
+  return limit == 0 ? bytes : std::min(bytes, limit);
 }
 
 std::string gigabytes(std::uint64_t bytes) {

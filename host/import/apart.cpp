@@ -11,12 +11,13 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <optional>
 #include <vector>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
+#include "topology/memory_limit.h"
 
 namespace mars::host {
 namespace {
@@ -48,13 +49,6 @@ Failure unpacked(const std::string& text) {
   return {parts[0], parts[1], parts[2]};
 }
 
-// Of address space, which sanitizers take terabytes of.
-std::uint64_t memory_now() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
 void limit(int resource, std::uint64_t most) {
   rlimit now{};
   getrlimit(static_cast<__rlimit_resource>(resource), &now);
@@ -68,7 +62,7 @@ void limit(int resource, std::uint64_t most) {
   if (getppid() != parent) _exit(kHasFailed);  // it ended before
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<std::uint64_t>(limits.processor_time.count()));
-  limit(RLIMIT_AS, memory_now() + limits.memory);
+  limit(RLIMIT_AS, topology::process_memory().addresses + limits.memory);
   int code = 0;
   std::string text;
   try {

@@ -1,12 +1,9 @@
 #include "host/launch/bench.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "hal/failure.h"
+#include "host/launch/exec.h"
 
 namespace mars::host {
 namespace {
@@ -42,12 +39,9 @@ void run_benchmark(const fs::path& program, const std::string& name, const std::
     for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
     throw Failure("there is no benchmark '" + name + "'", "", "those here: " + known);
   }
-  const std::string run = folder_of(program) / name / "run";
-  std::vector<char*> arguments{const_cast<char*>(run.c_str())};
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  execv(run.c_str(), arguments.data());
-  throw Failure(std::strerror(errno), run, "build it again: ./bootstrap bench");
+  Command command{{}, {folder_of(program) / name / "run"}};
+  command.words.insert(command.words.end(), words.begin(), words.end());
+  become(command, "build it again: ./bootstrap bench");
 }
 
 }  // namespace mars::host

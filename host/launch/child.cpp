@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/launch/environment.h"
+#include "host/launch/exec.h"
 
 namespace mars::host {
 
@@ -49,15 +49,8 @@ struct Pipe {
   int keep_reading_end() { return std::exchange(ends[0], -1); }
 };
 
-std::vector<char*> pointers(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 // In the new process, after fork: nothing but system calls.
-[[noreturn]] void become(char** words, char** environment, int output, int error, int told, pid_t parent) {
+[[noreturn]] void become(const ExecArguments& arguments, int output, int error, int reason_pipe, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(1);
@@ -65,10 +58,10 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing >= 0 && dup2(nothing, 0) >= 0 && dup2(output, 1) >= 0 && dup2(error, 2) >= 0) {
-    execve(words[0], words, environment);
+    execve(arguments.words()[0], arguments.words(), arguments.environment());
   }
   const int reason = errno;
-  [[maybe_unused]] const ssize_t written = write(told, &reason, sizeof reason);
+  [[maybe_unused]] const ssize_t written = write(reason_pipe, &reason, sizeof reason);
   _exit(127);
 }
 
@@ -107,26 +100,19 @@ Child::~Child() {
     if (descriptor >= 0) close(descriptor);
 }
 
-// The pipe `told` closes by itself when the program takes over, or brings the reason why it could not.
+// `reason_pipe` closes by itself when the program takes over, or brings the reason why it could not.
 void Child::start(const Command& command, int output, int error) {
-  std::vector<std::string> words = command.words;
-  Environment environment = own_environment();
-  for (const auto& [name, value] : command.environment) environment.set(name, value);
-  const std::vector<char*> word_pointers = pointers(words);
-  const std::vector<char*> environment_pointers = environment.pointers();
-  Pipe told;
+  const ExecArguments arguments(command);
+  Pipe reason_pipe;
   const pid_t parent = getpid();
   process_ = fork();
-  if (process_ == 0) {
-    become(const_cast<char**>(word_pointers.data()), const_cast<char**>(environment_pointers.data()), output,
-           error, told.ends[1], parent);
-  }
-  close(std::exchange(told.ends[1], -1));
+  if (process_ == 0) become(arguments, output, error, reason_pipe.ends[1], parent);
+  close(std::exchange(reason_pipe.ends[1], -1));
   int reason = process_ < 0 ? errno : 0;
-  if (process_ > 0 && read(told.ends[0], &reason, sizeof reason) == sizeof reason)
+  if (process_ > 0 && read(reason_pipe.ends[0], &reason, sizeof reason) == sizeof reason)
     waitpid(process_, nullptr, 0);
   if (reason == 0) return;
-  throw Failure(std::string("cannot be started: ") + std::strerror(reason), words.front(), "");
+  throw Failure(std::string("cannot be started: ") + std::strerror(reason), command.words.front(), "");
 }
 
 Ending Child::wait(const Listener& listener) {

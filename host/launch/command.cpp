@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <span>
 #include <string_view>
@@ -16,6 +15,7 @@
 
 #include "hal/failure.h"
 #include "hal/settings.h"
+#include "host/document/shell_word.h"
 #include "host/launch/environment.h"
 #include "host/launch/text_reader.h"
 #include "topology/machine.h"
@@ -28,20 +28,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kLoopback = "mars-loopback.so";
-
-bool plain(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) ||
-         std::string_view("_-+=./,:@%^").find(c) != std::string_view::npos;
-}
-
-std::string quoted(const std::string& word) {
-  bool all_plain = !word.empty();
-  for (const char c : word) all_plain = all_plain && plain(c);
-  if (all_plain) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 // In the first folder of `path` that has any of `names`, the first of these.
 std::optional<fs::path> find_first(std::span<const std::string_view> names, std::string_view path) {
@@ -158,8 +144,8 @@ std::optional<fs::path> find_loopback(const fs::path& self) {
 
 std::string shell_text(const Command& command) {
   std::string text;
-  for (const auto& [name, value] : command.environment) text += name + "=" + quoted(value) + " ";
-  for (const std::string& word : command.words) text += quoted(word) + " ";
+  for (const auto& [name, value] : command.environment) text += name + "=" + shell_word(value) + " ";
+  for (const std::string& word : command.words) text += shell_word(word) + " ";
   text.pop_back();
   return text;
 }
@@ -169,7 +155,7 @@ Programs find_programs(const fs::path& self, const std::string& path) {
           find_ours("mars-threads", self, path), our_mpi(), find_loopback(self)};
 }
 
-Surroundings look_around(const std::string& path) {
+Surroundings look_around(const std::string& path, Ask ask) {
   const bool remote_shell = find_program("ssh", path) || find_program("rsh", path);
   const topology::Machine machine = topology::Machine::here();
   const std::string tasks = own_environment().value("SLURM_TASKS_PER_NODE").value_or("");
@@ -177,10 +163,10 @@ Surroundings look_around(const std::string& path) {
           static_cast<std::uint32_t>(machine.processors()),
           task_count(tasks),
           geteuid() == 0,
-          !may_copy(),
+          ask == Ask::programs && !may_copy(),
           !remote_shell,
           settings_in_use(),
-          topology::memory_limit().each,
+          topology::process_limit().addresses,
           own_environment()};
 }
 
@@ -205,9 +191,9 @@ std::optional<Slots> read_slots(const std::string& line, const std::string& wher
   TextReader words(std::string_view(line).substr(0, line.find('#')));
   words.skip_space();
   if (words.at_end()) return std::nullopt;
-  Slots slots{words.word(), 1};
-  if (slots.host.size() == TextReader::kLongestWord)
-    throw Failure("is no host's name: it is too long", where, kHostfileForm);
+  const auto host = words.word();
+  if (!host) throw Failure("is no host's name: it is too long", where, kHostfileForm);
+  Slots slots{*host, 1};
   for (words.skip_space(); !words.at_end(); words.skip_space()) {
     if (!words.skip("slots")) {
       words.word();
@@ -320,9 +306,9 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
 }  // namespace
 
 Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
-  if (surroundings.memory_limit != 0 && surroundings.memory_limit < kLeastForMpi)
-    throw Failure("the limit of " + std::to_string(surroundings.memory_limit >> 10) +
-                      " kB of memory a process is too small for MPI",
+  if (surroundings.address_limit != 0 && surroundings.address_limit < kLeastForMpi)
+    throw Failure("the limit of " + std::to_string(surroundings.address_limit >> 10) +
+                      " kB of addresses a process is too small for MPI",
                   "ulimit -v", "raise it to " + std::to_string(kLeastForMpi >> 10) + " or more: ulimit -v unlimited");
   return programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
                                       : open_mpi_start(options, programs, surroundings);

@@ -67,12 +67,15 @@ struct Surroundings {
   bool copies_forbidden = false;      // processes may not read each other's memory, as in some containers
   bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
   std::vector<std::string> settings;  // MARS_* variables that are set, for nodes on other machines
-  std::uint64_t memory_limit = 0;     // bytes that a process may have: ulimit -v or -d; 0: no limit
+  std::uint64_t address_limit = 0;    // bytes of addresses that a process may have: ulimit -v; 0: no limit
   Environment environment{{}};        // what it sets of MPI's settings counts
 };
 
-// `path` as for find_programs.
-Surroundings look_around(const std::string& path);
+// Whether programs and processes are started to find facts: none may be while a job is waited for (Child).
+enum class Ask { programs, no_programs };
+
+// `path` as for find_programs. Whether copies are forbidden is found by a process: false without.
+Surroundings look_around(const std::string& path, Ask ask = Ask::programs);
 
 // The sum of Slurm's list of tasks a host, "2(x3),1"; 0 for what is none.
 std::uint32_t task_count(const std::string& tasks_per_node);

@@ -61,10 +61,10 @@ std::optional<Failure> lost_rank(const std::string& line, const std::optional<Bo
   for (TextReader words(line); words.find("process rank ");) {
     const auto rank = words.number();
     if (!rank || !words.skip(" with PID ") || !words.number() || !words.skip(" on node ")) continue;
-    const std::string machine = words.word();
-    if (!words.skip(" exited on signal ")) continue;
+    const auto machine = words.word();
+    if (!machine || !words.skip(" exited on signal ")) continue;
     const int signal = static_cast<int>(words.number().value_or(0));
-    return Failure(killed_by(who_is(static_cast<int>(*rank), booted), signal), "machine " + machine, remedy_for(signal));
+    return Failure(killed_by(who_is(static_cast<int>(*rank), booted), signal), "machine " + *machine, remedy_for(signal));
   }
   return std::nullopt;
 }
@@ -73,10 +73,10 @@ std::optional<Failure> lost_rank(const std::string& line, const std::optional<Bo
 std::optional<Failure> lost_process(const std::string& line) {
   TextReader words(line);
   if (!words.find(" RUNNING AT ")) return std::nullopt;
-  const std::string machine = words.word();
-  if (!words.find("EXIT STRING: ") || !words.find("(signal ")) return std::nullopt;
+  const auto machine = words.word();
+  if (!machine || !words.find("EXIT STRING: ") || !words.find("(signal ")) return std::nullopt;
   const int signal = static_cast<int>(words.number().value_or(0));
-  return Failure(killed_by("the host or a node", signal), "machine " + machine, remedy_for(signal));
+  return Failure(killed_by("the host or a node", signal), "machine " + *machine, remedy_for(signal));
 }
 
 // The machine's name, or the address itself where none is known.
@@ -110,7 +110,8 @@ std::optional<std::string> machine_lost(const std::string& line, const std::opti
     return daemon.word();
   if (!booted) return std::nullopt;
   TextReader connection(line);
-  if (connection.find("connect() to ")) return name_of(without_port(connection.word()));
+  if (connection.find("connect() to "))
+    if (const auto address = connection.word()) return name_of(without_port(*address));
   if (line.find("unable to reliably start one or more daemons") != std::string::npos) return machines_of(*booted);
   return std::nullopt;
 }

@@ -6,6 +6,13 @@
 
 namespace mars::host {
 
+std::vector<char*> pointers_to(std::vector<std::string>& lines) {
+  std::vector<char*> pointers;
+  for (std::string& line : lines) pointers.push_back(line.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 std::optional<std::string> Environment::value(std::string_view name) const {
   for (const std::string& line : lines_) {
     if (line.size() > name.size() && line[name.size()] == '=' && line.starts_with(name)) {
@@ -20,13 +27,6 @@ void Environment::set(const std::string& name, const std::string& value) {
   lines_.push_back(name + "=" + value);
 }
 
-std::vector<char*> Environment::pointers() {
-  std::vector<char*> pointers;
-  for (std::string& line : lines_) pointers.push_back(line.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 Environment own_environment() {
   std::vector<std::string> lines;
   for (char** line = environ; line != nullptr && *line != nullptr; ++line) lines.emplace_back(*line);
@@ -35,7 +35,7 @@ Environment own_environment() {
 
 std::string temporary_folder(const Environment& environment) {
   for (const char* name : {"TMPDIR", "TEMP", "TMP"})
-    if (const auto value = environment.value(name)) return *value;
+    if (const auto value = environment.value(name); value && !value->empty()) return *value;
   return "/tmp";
 }
 

@@ -8,14 +8,16 @@
 
 namespace mars::host {
 
+// For exec: valid as long as the lines and these unchanged.
+std::vector<char*> pointers_to(std::vector<std::string>& lines);
+
 class Environment {
  public:
   explicit Environment(std::vector<std::string> lines) : lines_(std::move(lines)) {}
 
   std::optional<std::string> value(std::string_view name) const;
   void set(const std::string& name, const std::string& value);
-  // For exec; valid as long as this and unchanged.
-  std::vector<char*> pointers();
+  std::vector<char*> pointers() { return pointers_to(lines_); }
 
  private:
   std::vector<std::string> lines_;
@@ -23,7 +25,7 @@ class Environment {
 
 Environment own_environment();
 
-// Where temporary files go, as Open MPI looks for it.
+// Where temporary files go, as Open MPI looks for it; a variable that is set but empty counts as not set.
 std::string temporary_folder(const Environment& environment);
 
 }  // namespace mars::host

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <iostream>
-#include <thread>
 
 #include "hal/settings.h"
 #include "host/events/events.h"
+#include "host/launch/background_text.h"
 #include "host/launch/child.h"
 #include "host/launch/command.h"
 #include "host/launch/display.h"
@@ -35,32 +34,6 @@ Command command_for(RenderOptions& options, const std::filesystem::path& self) {
   if (options.backend == Backend::threads) return threads_command(options, programs);
   return mpi_command(options, programs, surroundings);
 }
-
-// A text that is looked for on a thread of its own: what the thread looks at, a dead disk perhaps, may hold it up.
-class BackgroundText {
- public:
-  void begin(std::function<std::string()> find) {
-    std::packaged_task<std::string()> task([find = std::move(find)] {
-      try {
-        return find();
-      } catch (const std::exception& failure) {
-        return reason_of(failure);  // the run goes on
-      }
-    });
-    text_ = task.get_future();
-    std::thread(std::move(task)).detach();
-  }
-  // Once it is there; "" before and after.
-  std::string take() { return ready_within(std::chrono::seconds(0)) ? text_.get() : ""; }
-  // What is held up longer than this does nothing that could hurt the end of the process.
-  ~BackgroundText() { ready_within(std::chrono::seconds(1)); }
-
- private:
-  bool ready_within(std::chrono::seconds wait) {
-    return text_.valid() && text_.wait_for(wait) == std::future_status::ready;
-  }
-  std::future<std::string> text_;
-};
 
 // Follows one run from its events to its end.
 class Run {

@@ -22,8 +22,8 @@ constexpr std::size_t kRandom = 6;  // letters at the name's end
 constexpr int kTries = 3;           // at a new folder that another start takes for an ended job's
 constexpr const char* kSharedMemory = "/dev/shm";
 
-// Locks may not reach from machine to machine, so each minds its own. The name is short: paths of sockets have little
-// room.
+// Locks may not reach from machine to machine, so each machine handles its own folders. The name is short: paths of
+// sockets may not be long.
 std::string name_start() {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
@@ -59,40 +59,43 @@ void remove_ended_in(const fs::path& base) {
 }  // namespace
 
 SessionFolders::SessionFolders(Command& command) {
-  const Environment environment = own_environment();
-  const fs::path temporary = fs::absolute(temporary_folder(environment));
+  std::error_code unknown;  // where we are: then a relative name means nothing
+  const fs::path temporary = fs::absolute(temporary_folder(own_environment()), unknown);
   for (const fs::path& base : {temporary, fs::path(kSharedMemory)}) remove_ended_in(base);
   if (!command.session_folders) return;
-  const auto name_in = [&](const char* setting) {
-    if (!environment.value(setting)) command.environment.emplace_back(setting, folders_.back().path.string());
-  };
-  if (make_in(temporary)) name_in("OMPI_MCA_orte_tmpdir_base");
-  if (!make_in(kSharedMemory)) return;
-  for (const char* setting : {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"})
-    name_in(setting);
+  if (!unknown) add(temporary, {"OMPI_MCA_orte_tmpdir_base"}, command);
+  add(kSharedMemory, {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"}, command);
 }
 
-SessionFolders::~SessionFolders() {
+void SessionFolders::add(const fs::path& base, std::initializer_list<const char*> settings, Command& command) {
+  const Environment environment = own_environment();
+  std::vector<const char*> wanted;
+  for (const char* setting : settings)
+    if (!environment.value(setting)) wanted.push_back(setting);
+  if (wanted.empty()) return;
+  std::optional<Folder> folder = make_in(base);
+  if (!folder) return;
+  for (const char* setting : wanted) command.environment.emplace_back(setting, folder->path().string());
+  folders_.push_back(std::move(*folder));
+}
+
+SessionFolders::Folder::~Folder() {
+  if (lock_ < 0) return;
   std::error_code ignored;  // the next start tries again
-  for (const Folder& folder : folders_) {
-    fs::remove_all(folder.path, ignored);
-    close(folder.lock);
-  }
+  fs::remove_all(path_, ignored);
+  close(lock_);
 }
 
-bool SessionFolders::make_in(const fs::path& base) {
+std::optional<SessionFolders::Folder> SessionFolders::make_in(const fs::path& base) {
   for (int tries = 0; tries < kTries; ++tries) {
     std::string path = (base / name_start()).string() + std::string(kRandom, 'X');
-    if (mkdtemp(path.data()) == nullptr) return false;
+    if (mkdtemp(path.data()) == nullptr) return std::nullopt;
     const int lock = open_folder(path, 0);
-    if (lock >= 0 && lock_own(lock)) {
-      folders_.push_back({path, lock});
-      return true;
-    }
+    if (lock >= 0 && lock_own(lock)) return Folder(path, lock);
     if (lock >= 0) close(lock);
     rmdir(path.c_str());
   }
-  return false;
+  return std::nullopt;
 }
 
 // It is nobody's child and has nothing open, so that nobody waits for it.
@@ -103,13 +106,14 @@ void SessionFolders::leave_to_another() const {
   if (child != 0) return;
   if (fork() != 0) _exit(0);
   setsid();
-  close_range(0, ~0U, 0);
+  for (const Folder& folder : folders_) close(folder.lock());  // or it waits for itself
+  closefrom(0);
   if (chdir("/") != 0) _exit(1);
   for (const Folder& folder : folders_) {
-    const int ended = open_folder(folder.path, 0);
+    const int ended = open_folder(folder.path(), 0);
     if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
     std::error_code ignored;
-    fs::remove_all(folder.path, ignored);
+    fs::remove_all(folder.path(), ignored);
   }
   _exit(0);
 }

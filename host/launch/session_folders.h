@@ -6,6 +6,9 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/launch/command.h"
@@ -17,7 +20,7 @@ class SessionFolders {
   // First removes what this user's jobs left that have ended on this machine. Then, where `command` wants them, makes
   // the folders and names them in its environment; without those that cannot be made or that a person named.
   explicit SessionFolders(Command& command);
-  ~SessionFolders();  // removes them
+  ~SessionFolders() = default;  // removes them
   SessionFolders(const SessionFolders&) = delete;
   SessionFolders& operator=(const SessionFolders&) = delete;
 
@@ -25,12 +28,25 @@ class SessionFolders {
   void leave_to_another() const;
 
  private:
-  struct Folder {
-    std::filesystem::path path;
-    int lock;  // passed on to mpirun
+  // Locked by us, and removed at its end.
+  class Folder {
+   public:
+    Folder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
+    ~Folder();
+    Folder(Folder&& other) noexcept : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
+    Folder& operator=(Folder&&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    int lock() const { return lock_; }
+
+   private:
+    std::filesystem::path path_;
+    int lock_;  // passed on to mpirun; -1: moved away
   };
 
-  bool make_in(const std::filesystem::path& base);
+  static std::optional<Folder> make_in(const std::filesystem::path& base);
+  // A folder in `base` for those of the settings that no person has set.
+  void add(const std::filesystem::path& base, std::initializer_list<const char*> settings, Command& command);
 
   std::vector<Folder> folders_;
 };

@@ -1,6 +1,6 @@
 // The signals that ask us to stop (SIGINT, SIGTERM, SIGHUP) while a child runs. Each goes to the child's process group
 // as it comes: from the handler, so that it also arrives while we write to a terminal that nobody reads or wait for a
-// disk that does not answer. Who is still held up like that some seconds later is ended by an alarm.
+// disk that does not answer. If that still holds us up some seconds later, an alarm ends this process.
 #pragma once
 
 #include <signal.h>
@@ -15,7 +15,7 @@ class SignalRelay {
  public:
   // From the first signal to the end of this process, whatever it is doing then: longer than Child::wait takes.
   static constexpr std::chrono::seconds kLongest{15};
-  // The same from the second: who asks twice does not want to wait.
+  // The same from the second signal: a person who asks twice does not want to wait.
   static constexpr std::chrono::seconds kLongestOnceMore{6};
 
   // `group`: the process group that gets the signals. One relay at a time in a process. A SIGHUP that is ignored, as

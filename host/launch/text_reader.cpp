@@ -25,11 +25,11 @@ bool TextReader::skip(std::string_view words) {
 
 void TextReader::skip_space() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size())); }
 
-std::string TextReader::word() {
-  const std::size_t length = std::min(rest_.find_first_of(kSpace), rest_.size());
-  const std::string word(rest_.substr(0, std::min(length, kLongestWord)));
-  rest_.remove_prefix(length);
-  return word;
+std::optional<std::string> TextReader::word() {
+  const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpace));
+  rest_.remove_prefix(word.size());
+  if (word.size() > kLongestWord) return std::nullopt;
+  return std::string(word);
 }
 
 std::optional<std::uint32_t> TextReader::number() {

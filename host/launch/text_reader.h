@@ -18,8 +18,8 @@ class TextReader {
   // Goes behind `words` if they come next, else it stays.
   bool skip(std::string_view words);
   void skip_space();
-  // What comes before the next white space, at most kLongestWord bytes of it.
-  std::string word();
+  // What comes before the next white space; none for more than kLongestWord bytes, behind which it goes as well.
+  std::optional<std::string> word();
   // The decimal number that comes next; none, also for one beyond 32 bits: it stays.
   std::optional<std::uint32_t> number();
 

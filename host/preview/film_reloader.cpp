@@ -1,6 +1,6 @@
 #include "host/preview/film_reloader.h"
 
-#include "hal/failure.h"
+#include "hal/explain.h"
 
 namespace mars::host {
 namespace {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "hal/settings.h"
 #include "host/doctor/doctor.h"
@@ -12,6 +13,7 @@
 #include "host/film/compile.h"
 #include "host/film/describe.h"
 #include "host/film/film_file.h"
+#include "host/launch/background_text.h"
 #include "host/launch/bench.h"
 #include "host/launch/launch.h"
 #include "host/options/command_line.h"
@@ -219,11 +221,12 @@ int run(int argc, char** argv) {
 }  // namespace mars::host
 
 int main(int argc, char** argv) {
-  mars::host::open_standard_streams();
+  using namespace mars::host;
+  open_standard_streams();
   try {
-    return mars::host::run(argc, argv);
+    return exit_code(run(argc, argv));
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << mars::reason_of(failure) << '\n';
-    return mars::host::kFailed;
+    return exit_code(kFailed);
   }
 }

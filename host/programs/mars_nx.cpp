@@ -1,22 +1,20 @@
 // mars-nx: starts programs that are written for NX: one host and its nodes, or nodes alone.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "hal/processes/job.h"
 #include "hal/settings.h"
 #include "host/launch/command.h"
 #include "host/launch/environment.h"
+#include "host/launch/exec.h"
 #include "host/launch/session_folders.h"
 #include "host/options/command_line.h"
 #include "topology/machine.h"
@@ -104,15 +102,13 @@ NxPrograms programs_of(RunOptions& options) {
 }
 
 // In its own process; returns where it cannot.
-int become(const fs::path& file, const std::vector<std::string>& arguments, bool reads) {
-  std::vector<std::string> words = {file.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+int become_program(const fs::path& file, const std::vector<std::string>& arguments, bool reads) try {
   if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return kFailed;
-  execv(pointers[0], pointers.data());
-  std::cerr << "mars-nx: " << file.string() << ": cannot be run: " << std::strerror(errno) << '\n';
+  Command command{{}, {file.string()}};
+  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  become(command);
+} catch (const Failure& failure) {
+  std::cerr << "mars-nx: " << failure.what() << '\n';
   return kFailed;
 }
 
@@ -125,10 +121,8 @@ int run_processes(const RunOptions& options, const NxPrograms& programs, std::ui
   plan.become = [&](const hal::Place& place, const std::string& file) {
     const bool host = plan.host && place.index == options.nodes;
     hal::leave_place(place);
-    return become(host           ? programs.host
-                  : file.empty() ? programs.node
-                                 : fs::path(file),
-                  options.arguments, plan.host ? host : place.index == 0);
+    const fs::path& program = host ? programs.host : file.empty() ? programs.node : fs::path(file);
+    return become_program(program, options.arguments, plan.host ? host : place.index == 0);
   };
   plan.tell = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
   return hal::Job(plan).run();
@@ -136,23 +130,23 @@ int run_processes(const RunOptions& options, const NxPrograms& programs, std::ui
 
 // Half of what the machine has and this job may use.
 std::uint64_t message_memory(const topology::Machine& machine) {
-  const topology::MemoryLimit limit = topology::memory_limit();
-  std::uint64_t memory = machine.memory() == 0 ? std::uint64_t{1} << 32 : machine.memory();
-  for (const std::uint64_t bound : {limit.together, limit.each})
-    if (bound != 0) memory = std::min(memory, bound);
-  return memory / 2;
+  const std::uint64_t memory = machine.memory() == 0 ? std::uint64_t{1} << 32 : machine.memory();
+  const std::uint64_t limit = topology::memory_limit().least();
+  return (limit == 0 ? memory : std::min(memory, limit)) / 2;
 }
 
-// Becomes mpirun: its output, its end and the signals it is sent are its own.
-int run_mpi(RunOptions& options, const NxPrograms& programs) {
+void check_mpi_can_start(const RunOptions& options, const NxPrograms& programs) {
   if (programs.node.empty())
     throw Failure("MPI starts the nodes with the host, and no program is named for them", "",
                   "name it: mars-nx run --over mpi ./host ./node");
   if (std::find(options.arguments.begin(), options.arguments.end(), ":") != options.arguments.end())
     throw Failure("mpirun takes : for the end of a program's arguments, not for one of them", "",
                   "leave it out, or use --over processes");
-  Environment environment = own_environment();
-  const std::string path = path_of(environment);
+}
+
+// mpirun as it begins, and how many nodes it starts.
+Command mpi_start_of(const RunOptions& options, const NxPrograms& programs, std::uint32_t& nodes) {
+  const std::string path = path_of(own_environment());
   Programs starters;
   starters.loopback = find_loopback(fs::read_symlink("/proc/self/exe"));
   starters.mpirun = find_mpirun(starters.mpi, path);
@@ -163,11 +157,19 @@ int run_mpi(RunOptions& options, const NxPrograms& programs) {
   start.hostfile = options.hostfile;
   start.backend = Backend::mpi;
   Surroundings surroundings = look_around(path);
-  start.nodes =
+  start.nodes = nodes =
       options.nodes == 0 ? default_nodes(start, surroundings) : static_cast<std::uint32_t>(options.nodes);
   surroundings.settings.emplace_back(kHostSetting);
   Command command = mpi_start(start, starters, surroundings);
   command.environment.emplace_back(kHostSetting, programs.host.empty() ? "no" : "yes");
+  return command;
+}
+
+// Becomes mpirun: its output, its end and the signals it is sent are its own.
+[[noreturn]] void run_mpi(const RunOptions& options, const NxPrograms& programs) {
+  check_mpi_can_start(options, programs);
+  std::uint32_t nodes = 0;
+  Command command = mpi_start_of(options, programs, nodes);
   const auto add = [&](std::uint32_t count, const fs::path& program) {
     command.words.insert(command.words.end(), {"-n", std::to_string(count), program.string()});
     command.words.insert(command.words.end(), options.arguments.begin(), options.arguments.end());
@@ -176,15 +178,10 @@ int run_mpi(RunOptions& options, const NxPrograms& programs) {
     add(1, programs.host);
     command.words.emplace_back(":");
   }
-  add(start.nodes, programs.node);
+  add(nodes, programs.node);
   const SessionFolders folders(command);
   folders.leave_to_another();
-  for (const auto& [name, value] : command.environment) environment.set(name, value);
-  std::vector<char*> words;
-  for (std::string& word : command.words) words.push_back(word.data());
-  words.push_back(nullptr);
-  execve(words[0], words.data(), environment.pointers().data());
-  throw Failure(std::string("cannot be started: ") + std::strerror(errno), command.words[0], "");
+  become(command);
 }
 
 bool over_mpi(const RunOptions& options) {
@@ -209,7 +206,7 @@ void check_nodes(int nodes, const topology::Machine& machine) {
 int run(RunOptions& options) {
   const NxPrograms programs = programs_of(options);
   const hal::Settings settings = hal::read_settings();
-  if (over_mpi(options)) return run_mpi(options, programs);
+  if (over_mpi(options)) run_mpi(options, programs);
   const topology::Machine machine = topology::Machine::here();
   if (options.nodes == 0) options.nodes = machine.processors();
   check_nodes(options.nodes, machine);

@@ -2,7 +2,7 @@
 #include <exception>
 #include <iostream>
 
-#include "hal/failure.h"
+#include "hal/explain.h"
 #include "hal/threads/run_threads.h"
 #include "host/options/command_line.h"
 #include "host/programs/node_job.h"

@@ -32,10 +32,10 @@ void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
 void check_memory_limit(std::uint32_t nodes) {
   constexpr std::uint64_t kEach = std::uint64_t{64} << 20;  // addresses that the C library sets aside for a thread
   constexpr std::uint32_t kMost = 16;                       // and then lets them share
-  const std::uint64_t limit = topology::memory_limit().each;
+  const std::uint64_t limit = topology::process_limit().addresses;
   const std::uint64_t least = kEach * std::min(nodes + 1, kMost);
   if (limit == 0 || limit >= least) return;
-  throw Failure("the limit of " + std::to_string(limit >> 10) + " kB of memory is too small for " +
+  throw Failure("the limit of " + std::to_string(limit >> 10) + " kB of addresses is too small for " +
                     std::to_string(nodes) + (nodes == 1 ? " node" : " nodes"),
                 "ulimit -v", "raise it to " + std::to_string(least >> 10) + " or more, or use fewer nodes");
 }

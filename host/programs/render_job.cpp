@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "host/events/events.h"

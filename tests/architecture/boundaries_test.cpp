@@ -74,6 +74,10 @@ TEST(Boundaries, TopologyDependsOnNothing) {
   expect_includes("topology/", [](const std::string& i) { return begins(i, "topology/"); });
 }
 
+TEST(Boundaries, FailureDependsOnNothing) {
+  expect_includes("hal/failure.", [](const std::string& i) { return i == "hal/failure.h"; });
+}
+
 TEST(Boundaries, HalDependsOnTopologyAlone) {
   expect_includes("hal/", [](const std::string& i) { return begins(i, "hal/") || begins(i, "topology/"); });
 }

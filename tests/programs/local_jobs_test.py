@@ -53,6 +53,18 @@ class LocalJobs(ProgramTest):
         return [path for base in [self.temporary, SHARED] for path in base.glob(NAMED + "??????")
                 if path not in self.before]
 
+    def processes(self):
+        """Those with this test's environment, whoever is their parent."""
+        mine = f"TMPDIR={self.temporary}".encode()
+        found = []
+        for entry in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                if mine in pathlib.Path(f"/proc/{entry}/environ").read_bytes().split(b"\0"):
+                    found.append(entry)
+            except OSError:
+                continue  # it has ended, or is another user's
+        return found
+
     def render_a_frame(self):
         self.succeed("mars", "render", self.film, "--sink", "none", "--frames", "0", "--nodes", 1,
                      env=self.environment)
@@ -109,12 +121,21 @@ class LocalJobs(ProgramTest):
     @needs_mpi
     def test_mars_nx_leaves_nothing(self):
         program = self.folder / "sleeper"
-        program.write_text("#!/bin/sh\nexit 0\n")
+        program.write_text('#!/bin/sh\necho "$OMPI_MCA_orte_tmpdir_base"\n')
         program.chmod(0o755)
-        self.succeed("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, env=self.environment)
-        wait_until(lambda: not self.folders(), 10, self.folders())
+        named = self.succeed("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, env=self.environment).split()
+        if not MPICH:
+            self.assertEqual(len(named), 2)
+            self.assertRegex(named[0], f"^{re.escape(str(self.temporary / NAMED))}.{{6}}$")
+        wait_until(lambda: not self.folders(), 10, "its folders stay")
+        wait_until(lambda: not self.processes(), 10, "who removed them stays")
         done = self.run_program("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, "--", ":")
         self.assertClear(done.stderr, "mpirun takes : for the end of a program's arguments")
+
+    def test_an_empty_tmpdir_is_none(self):
+        for backend in self.backends():
+            self.succeed("mars", "render", self.film, "--sink", "none", "--frames", "0", "--nodes", 1,
+                         "--backend", backend, env=dict(ENVIRONMENT, TMPDIR=""))
 
     def test_a_film_of_any_name(self):
         film = self.film.read_text()

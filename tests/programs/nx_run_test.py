@@ -450,7 +450,7 @@ class Ends(NxRun):
         script = self.write("unreadable", "#!/nowhere/sh\n")
         script.chmod(0o755)
         done = self.run_nx("--nodes", 1, "./unreadable")
-        self.assertClear(done.stderr, "unreadable: cannot be run: No such file or directory")
+        self.assertClear(done.stderr, "unreadable: cannot be started: No such file or directory")
         self.assertEqual(done.returncode, 1)
         for words, says in [([], "PROGRAM is required"), (["--nodes", "0", "./node"], "--nodes: '0' is not a number from 1"),
                             (["-n", "4x", "./node"], "--nodes: '4x' is not a number from 1"),

@@ -69,29 +69,47 @@ TEST_F(MemoryLimitTest, OfAContainersPathOnTheMachineOnlyTheMountIsSeen) {
   EXPECT_EQ(together(), 256 * kMiB);
 }
 
-TEST_F(MemoryLimitTest, TheProcessMayHaveALimitOfItsOwn) {
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
-  rlimit less = before;
-  less.rlim_cur = 7 * kGiB;
-  ASSERT_EQ(setrlimit(RLIMIT_DATA, &less), 0);
-  write("proc/self/statm", "3 2 1");
+// While it lives, this process may have no more.
+class Limited {
+ public:
+  Limited(__rlimit_resource resource, rlim_t bytes) : resource_(resource) {
+    getrlimit(resource_, &before_);
+    rlimit less = before_;
+    less.rlim_cur = bytes;
+    EXPECT_EQ(setrlimit(resource_, &less), 0);
+  }
+  ~Limited() { setrlimit(resource_, &before_); }
+  Limited(const Limited&) = delete;
+  Limited& operator=(const Limited&) = delete;
+
+ private:
+  __rlimit_resource resource_;
+  rlimit before_{};
+};
+
+TEST_F(MemoryLimitTest, TheProcessMayHaveLimitsOfItsOwn) {
+  const rlim_t addresses = process_memory().addresses + 9 * kGiB;
+  const Limited most_addresses(RLIMIT_AS, addresses), most_data(RLIMIT_DATA, 7 * kGiB);
+  write("proc/self/statm", "9 5 4 1 0 3 0");
   const MemoryLimit limit = memory_limit(root_);
-  setrlimit(RLIMIT_DATA, &before);
-  EXPECT_EQ(limit, (MemoryLimit{0, 7 * kGiB, 3 * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE))}));
+  const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  EXPECT_EQ(limit, (MemoryLimit{0, {addresses, 7 * kGiB}, {9 * page, 3 * page}}));
+  EXPECT_EQ(limit.least(), 7 * kGiB);
 }
 
 TEST(MemoryShare, IsHalfOfAnEqualPartOfTheLeast) {
   EXPECT_EQ(memory_share(16 * kGiB, {}, 4), 2 * kGiB);
-  EXPECT_EQ(memory_share(16 * kGiB, {8 * kGiB, 0}, 4), kGiB);
-  EXPECT_EQ(memory_share(16 * kGiB, {64 * kGiB, 0}, 4), 2 * kGiB);
-  EXPECT_EQ(memory_share(16 * kGiB, {0, kGiB}, 4), kGiB / 2);
+  EXPECT_EQ(memory_share(16 * kGiB, {8 * kGiB, {}, {}}, 4), kGiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {64 * kGiB, {}, {}}, 4), 2 * kGiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {kGiB}, {}}, 4), kGiB / 2);
   EXPECT_EQ(memory_share(1024 * kGiB, {}, 1), 4 * kGiB);
-  EXPECT_EQ(memory_share(16 * kGiB, {0, 8 * kGiB}, 4, 4), kGiB) << "threads share the process's limit";
-  EXPECT_EQ(memory_share(16 * kGiB, {0, 3 * kGiB, 2 * kGiB}, 4), kGiB / 2) << "less what is in use";
-  EXPECT_EQ(memory_share(16 * kGiB, {0, kGiB, 2 * kGiB}, 4), kMiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {8 * kGiB}, {}}, 4, 4), kGiB) << "threads share the process's limit";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {3 * kGiB}, {2 * kGiB}}, 4), kGiB / 2) << "less what is in use";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {kGiB}, {2 * kGiB}}, 4), kMiB);
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {0, kGiB}, {2 * kGiB}}, 4, 2), kGiB / 8) << "addresses in use are no data";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {3 * kGiB, 2 * kGiB}, {2 * kGiB, kGiB}}, 4), kGiB / 4) << "the lesser of both";
   EXPECT_EQ(memory_share(0, {}, 1), kGiB / 2);
-  EXPECT_EQ(memory_share(0, {256 * kMiB, 0}, 1), 128 * kMiB);
+  EXPECT_EQ(memory_share(0, {256 * kMiB, {}, {}}, 1), 128 * kMiB);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "host/film/compile.h"
 #include "node/dice.h"

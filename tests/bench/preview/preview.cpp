@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/failure.h"
+#include "hal/explain.h"
 #include "host/animator/read_film.h"
 #include "host/preview/film_drawing.h"
 #include "host/preview/terminal_picture.h"

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "hal/explain.h"
 #include "hal/failure.h"
 #include "host/document/fields.h"
 #include "tests/host/document/failure_of.h"

@@ -100,11 +100,11 @@ TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./-t"), 1) << shell_text(command);
 }
 
-TEST(Command, NoMpiWithinASmallMemoryLimit) {
+TEST(Command, NoMpiWithinTooFewAddresses) {
   Surroundings surroundings = alone(8);
-  surroundings.memory_limit = std::uint64_t{200} << 20;
+  surroundings.address_limit = std::uint64_t{200} << 20;
   EXPECT_TRUE(holds(failure_of([&] { line(3, surroundings); }), "ulimit -v: the limit of 204800 kB"));
-  surroundings.memory_limit = std::uint64_t{1} << 30;
+  surroundings.address_limit = std::uint64_t{1} << 30;
   EXPECT_EQ(failure_of([&] { line(3, surroundings); }), "");
 }
 
@@ -149,6 +149,8 @@ TEST(Command, HostfilesAreRead) {
   const std::string long_name(100000, 'y');
   EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
                     "hosts:1: is no host's name: it is too long"));
+  const std::string longest(255, 'y');
+  EXPECT_EQ(read_hostfile(write_hostfile(folder, longest + " slots=2\n")).at(0).host, longest);
   EXPECT_EQ(read_hostfile(write_hostfile(folder, "n1 " + long_name + " slots=2 #" + long_name)).at(0).count, 2u);
   EXPECT_TRUE(holds(failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
 }

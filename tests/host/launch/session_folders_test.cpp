@@ -1,0 +1,154 @@
+// Folders of jobs, as the environment wants them and as their locks say that they live.
+#include "host/launch/session_folders.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "tests/host/sinks/temporary_folder.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTemporary = "OMPI_MCA_orte_tmpdir_base";
+constexpr std::array kShared = {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"};
+
+Command open_mpi() { return {{}, {"mpirun"}, true}; }
+
+std::optional<fs::path> folder_for(const char* setting, const Command& command) {
+  for (const auto& [name, value] : command.environment)
+    if (name == setting) return value;
+  return std::nullopt;
+}
+
+class SessionFoldersTest : public testing::Test {
+ protected:
+  SessionFoldersTest() {
+    for (const char* name : {kTemporary, kShared[0], kShared[1], "TEMP", "TMP"}) unsetenv(name);
+    setenv("TMPDIR", base_.path().c_str(), 1);
+  }
+  ~SessionFoldersTest() override {
+    for (const char* name : {"TMPDIR", "TMP"}) unsetenv(name);
+  }
+
+  bool base_is_empty() const { return fs::is_empty(base_.path()); }
+
+  const TemporaryFolder base_;
+};
+
+TEST_F(SessionFoldersTest, ArePartOfTheCommandAndGo) {
+  Command command = open_mpi();
+  {
+    const SessionFolders folders(command);
+    EXPECT_EQ(folder_for(kTemporary, command)->parent_path(), base_.path());
+    EXPECT_TRUE(fs::is_directory(*folder_for(kTemporary, command)));
+    EXPECT_EQ(folder_for(kShared[0], command)->parent_path(), "/dev/shm");
+    EXPECT_EQ(folder_for(kShared[0], command), folder_for(kShared[1], command));
+  }
+  EXPECT_TRUE(base_is_empty());
+  EXPECT_FALSE(fs::exists(*folder_for(kShared[0], command)));
+}
+
+TEST_F(SessionFoldersTest, AnEmptyTmpdirIsNone) {
+  setenv("TMPDIR", "", 1);
+  setenv("TMP", base_.path().c_str(), 1);
+  Command command = open_mpi(), threads{{}, {"mars-threads"}};
+  const SessionFolders folders(command), none(threads);
+  EXPECT_EQ(folder_for(kTemporary, command)->parent_path(), base_.path());
+  EXPECT_TRUE(threads.environment.empty());
+}
+
+TEST_F(SessionFoldersTest, OfARelativeTmpdirAreNamedInFull) {
+  const fs::path before = fs::current_path();
+  fs::current_path(base_.path());
+  setenv("TMPDIR", ".", 1);
+  Command command = open_mpi();
+  {
+    const SessionFolders folders(command);
+    EXPECT_TRUE(folder_for(kTemporary, command)->is_absolute());
+    EXPECT_FALSE(base_is_empty());
+  }
+  fs::current_path(before);
+  EXPECT_TRUE(base_is_empty());
+}
+
+TEST_F(SessionFoldersTest, AreNotMadeWhereAPersonNamedOthers) {
+  setenv(kTemporary, "/elsewhere", 1);
+  setenv(kShared[0], "/elsewhere", 1);
+  Command command = open_mpi();
+  const SessionFolders folders(command);
+  EXPECT_TRUE(base_is_empty());
+  ASSERT_EQ(command.environment.size(), 1u);
+  EXPECT_EQ(command.environment[0].first, kShared[1]);
+}
+
+TEST_F(SessionFoldersTest, OfALivingJobStayAndOfAnEndedOneGo) {
+  Command first = open_mpi(), second = open_mpi();
+  const SessionFolders living(first);
+  const fs::path lives = *folder_for(kTemporary, first);
+  const fs::path ended = lives.string().substr(0, lives.string().size() - 6) + "abcdef";
+  fs::create_directories(ended / "session");
+  const int lock = open(ended.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(lock, LOCK_SH), 0);
+  { const SessionFolders next(second); }
+  EXPECT_TRUE(fs::exists(lives));
+  EXPECT_TRUE(fs::exists(ended)) << "its lock is taken";
+  close(lock);
+  { const SessionFolders next(second); }
+  EXPECT_TRUE(fs::exists(lives));
+  EXPECT_FALSE(fs::exists(ended));
+}
+
+// As kernels before 5.9 and some containers do.
+void forbid_close_range() {
+  sock_filter program[] = {{BPF_LD | BPF_W | BPF_ABS, 0, 0, 0},  // the call's number
+                           {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, SYS_close_range},
+                           {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | ENOSYS},
+                           {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}};
+  const sock_fprog filter{4, program};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) != 0) _exit(1);
+}
+
+TEST_F(SessionFoldersTest, AreRemovedByAnotherWithNothingOpen) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t starter = fork();
+  if (starter == 0) {
+    forbid_close_range();
+    Command command = open_mpi();
+    const SessionFolders folders(command);
+    folders.leave_to_another();
+    _exit(base_is_empty() ? 1 : 0);
+  }
+  close(ends[1]);
+  int status = 0;
+  waitpid(starter, &status, 0);
+  EXPECT_EQ(status, 0);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!base_is_empty() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_TRUE(base_is_empty());
+  fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  char none = 0;
+  EXPECT_EQ(read(ends[0], &none, 1), 0) << "it holds what it inherited";
+  close(ends[0]);
+}
+
+}  // namespace
+}  // namespace mars::host
