@@ -38,18 +38,14 @@ std::string listed(std::span<const std::string_view> names) {
   return list.size() > 300 ? list.substr(0, 300) + " ..." : list;
 }
 
-std::string in_quotes(std::string_view name) {
-  std::string text = "'";
-  text += name.substr(0, 80);
-  return text += name.size() > 80 ? "...'" : "'";
-}
-
 std::string form_or(const Element& element, const std::string& otherwise) {
   const std::string form = form_of(element);
   return form.empty() ? otherwise : form;
 }
 
 }  // namespace
+
+std::string in_quotes(std::string_view name) { return "'" + shortened(name) + "'"; }
 
 std::string shown(double number) {
   char text[32];

@@ -119,6 +119,12 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
   EXPECT_TRUE(
       holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
             "models.m: is '/nowhere/m.json', which does not exist"));
+  const auto named = [&](const std::string& model) {
+    return told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
+  };
+  EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: /: is a directory, not a file (name a file in it)");
+  EXPECT_TRUE(holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
+  EXPECT_TRUE(holds(named(R"({"from": "none.json", "proportions": {}})"), "f.json:1: models.m.from: none.json: there is no"));
 }
 
 std::string outcome_of(const std::string& json) {
@@ -134,7 +140,9 @@ TEST(ReadFilm, CutShortAnywhereIsOneClearError) {
   const std::string whole = kWhole;
   EXPECT_EQ(outcome_of(whole), "film");
   for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_TRUE(holds(outcome_of(whole.substr(0, length)), "f.json")) << length;
+    EXPECT_TRUE(holds(outcome_of(whole.substr(0, length)),
+                      whole.find_first_not_of(" \n") < length ? "it ends before its last bracket" : "is empty"))
+        << length;
 }
 
 TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
