@@ -115,7 +115,7 @@ TEST(Fields, TellWhatIsWrongAndWhatWouldBeRight) {
   EXPECT_TRUE(holds(thing_failure("{\"palce\": 1}"), "did you mean 'place'?"));
   EXPECT_TRUE(holds(thing_failure("{\"zzzzzz\": 1}"), "its keys are: place, limits, segment"));
   EXPECT_TRUE(holds(thing_failure("{}"), "has no 'place'"));
-  EXPECT_TRUE(holds(thing_failure("[]"), "is a list, not an object"));
+  EXPECT_EQ(thing_failure("[]"), "a.json:1: is a list, not a thing (write it as {\"place\": ...})");
   EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2]}"), "has 2 items"));
   EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2, 1e308]}"), "place[2]: is 1e+308"));
   EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2, \"x\"]}"), "is a text, not a number"));
