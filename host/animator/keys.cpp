@@ -160,18 +160,18 @@ Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::ui
                   const std::optional<Ease>& ease, Beyond beyond) {
   std::vector<Chosen> chosen = choose(film, meaning, choice);
   std::vector<Tracks> changed;
+  Remarks remarks = left_out(meaning, choice);
   for (const Chosen& one : chosen) {
     Tracks& tracks = changed.emplace_back(tracks_of(*one.thing.json));
     for (const std::string& name : one.parts) {
       const KeyedPart& part = one.thing.part(name);
       if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
       Json value = part.value_at(frame);
-      if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond));
+      if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond, remarks));
       split_way(tracks[name], frame, std::move(value));
     }
     if (ease) set_ease(tracks, frame, *ease);
   }
-  Remarks remarks = left_out(meaning, choice);
   for (std::size_t i = 0; i < chosen.size(); ++i) append(remarks, put(chosen[i], changed[i]));
   return remarks;
 }
@@ -203,6 +203,7 @@ Remarks ease_keys(Json& film, const Film& meaning, const Choice& choice, FrameRa
 }
 
 Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames) {
+  Remarks none;
   return change_tracks(
       film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
         const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
@@ -210,7 +211,7 @@ Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_
           const KeyedPart& part = one.thing.part(name);
           Json value = part.value_at(frame);
           if (part.joint)
-            value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused));
+            value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
           split_way(track, frame, std::move(value));
         }
         remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });

@@ -14,24 +14,31 @@ namespace mars::host {
 namespace {
 
 [[noreturn]] void refuse_wish(const std::string& text) {
-  throw Failure("is no wish", "'" + text + "'", "write it like elbow.y=90, elbow=0,90,0, place=2,0,0 or turn.z=45");
+  throw Failure("is not PART=NUMBERS", "'" + text + "'",
+                "write it like elbow.y=90, elbow=0,90,0, place=2,0,0 or turn.z=45");
 }
 
-double number_of(std::string_view digits, const std::string& text) {
+// How the part is written, by what it is now.
+std::string remedy_for(const std::string& part, const Json& now) {
+  if (!now.is_array()) return "write one number: " + part + "=" + now.dump();
+  return "write one number for one axis, like " + part + ".y=" + now[1].dump() + ", or three for all: " + part + "=" +
+         now[0].dump() + "," + now[1].dump() + "," + now[2].dump();
+}
+
+double number_of(std::string_view digits, const std::string& text, const std::string& remedy) {
   double number = 0;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error != std::errc() || end != digits.data() + digits.size() || !(number >= -kFarthest && number <= kFarthest))
-    throw Failure("has '" + std::string(digits) + "' where a number belongs", "'" + text + "'",
-                  "write it like elbow.y=90 or elbow=0,90,0");
+    throw Failure("has '" + std::string(digits) + "' where a number belongs", "'" + text + "'", remedy);
   return number;
 }
 
-std::vector<double> numbers_of(const std::string& list, const std::string& text) {
+std::vector<double> numbers_of(const std::string& list, const std::string& text, const std::string& remedy) {
   std::vector<double> numbers;
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t comma = std::min(list.find(',', at), list.size());
-    numbers.push_back(number_of(std::string_view(list).substr(at, comma - at), text));
+    numbers.push_back(number_of(std::string_view(list).substr(at, comma - at), text, remedy));
     at = comma + 1;
   }
   return numbers;
@@ -44,13 +51,28 @@ bool has_part(const Thing& thing, const std::string& name) {
 }
 
 // What the part is to be: its numbers at the frame, those wished for exchanged.
-Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond) {
+Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond,
+            Remarks& remarks) {
   Json value = part.value_at(frame);
   if (!value.is_array()) return written(*wish.numbers[0]);
   glm::dvec3 numbers = vector_of(value);
   for (int axis = 0; axis < 3; ++axis) numbers[axis] = wish.numbers[axis].value_or(numbers[axis]);
-  if (part.joint) numbers = within_limits(thing.name, *part.joint, numbers, beyond);
+  if (part.joint) numbers = within_limits(thing.name, *part.joint, numbers, beyond, remarks);
   return written(numbers);
+}
+
+// "-170 degrees about y is beyond its limits -150 to 0".
+std::string beyond_limits(const Limits& limits, int axis, double angle) {
+  const std::string text = shown(angle) + " degrees about " + "xyz"[axis];
+  return limits.free() ? text + " is beyond its limits " + shown(limits.lower) + " to " + shown(limits.upper)
+                       : text + ", where it is locked at " + shown(limits.lower);
+}
+
+// Refuses an axis that an earlier wish has set; `set` are the parts and axes of those.
+void refuse_twice(const Wish& wish, const std::string& text, std::set<std::pair<std::string, int>>& set) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (wish.numbers[axis] && !set.emplace(wish.part, axis).second)
+      throw Failure("sets what an earlier word has set", "'" + text + "'", "give each part and axis once");
 }
 
 // A new key goes on as the way did on which it stands.
@@ -66,28 +88,37 @@ Wish Wish::read(const std::string& text, const Thing& thing) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) refuse_wish(text);
   Wish wish{text.substr(0, equals), {}};
-  const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text);
   const bool with_axis = wish.part.size() > 2 && wish.part[wish.part.size() - 2] == '.' &&
                          wish.part.back() >= 'x' && wish.part.back() <= 'z' && !has_part(thing, wish.part);
   const std::size_t axis = with_axis ? std::size_t(wish.part.back() - 'x') : 0;
   if (with_axis) wish.part.resize(wish.part.size() - 2);
-  wish.part = part_named(thing, wish.part);
-  const bool three = thing.part(wish.part).value_at(0).is_array();
+  const std::string typed = wish.part;
+  wish.part = part_named(thing, typed);
+  const Json now = thing.part(wish.part).value_at(0);
+  const std::string remedy = remedy_for(typed, now);
+  const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
+  const bool three = now.is_array();
   const std::size_t needed = with_axis || !three ? 1 : 3;
   if (numbers.size() != needed || (with_axis && !three))
     throw Failure("has " + std::to_string(numbers.size()) + (numbers.size() == 1 ? " number" : " numbers"),
-                  "'" + text + "'",
-                  three ? "write one number for one axis, like elbow.y=90, or three for all: elbow=0,90,0"
-                        : "write one number: " + wish.part + "=40");
+                  "'" + text + "'", remedy);
   for (std::size_t i = 0; i < needed; ++i) wish.numbers[axis + i] = numbers[i];
   return wish;
 }
 
-glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond) {
+glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
+                         Remarks& remarks) {
   const glm::dvec3 nearest = clamped(joint, pose);
-  if (beyond == Beyond::clamped || largest_excess(joint, pose) <= kAngleRounding) return nearest;
-  throw Failure(*broken_limit(joint, pose), thing + ", joint '" + joint.name + "'",
-                "--clamp takes the nearest allowed, or widen the limits in its model");
+  if (largest_excess(joint, pose) <= kAngleRounding) return nearest;
+  const std::string name = thing + ", joint '" + joint.name + "'";
+  if (beyond == Beyond::refused)
+    throw Failure(*broken_limit(joint, pose), name,
+                  "--clamp takes the nearest allowed, or widen the limits in its model");
+  for (int axis = 0; axis < 3; ++axis)
+    if (excess_of(joint, pose)[axis] > kAngleRounding)
+      remarks.push_back(name + ": " + beyond_limits(joint.limits[axis], axis, pose[axis]) + ": keyed as " +
+                        shown(nearest[axis]));
+  return nearest;
 }
 
 Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,
@@ -96,12 +127,15 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
   const Thing& thing = chosen.thing;
   Tracks tracks = tracks_of(*thing.json);
   std::set<std::string> touched;
+  std::set<std::pair<std::string, int>> set;
+  Remarks remarks;
   for (const std::string& text : wishes) {
     const Wish wish = Wish::read(text, thing);
+    refuse_twice(wish, text, set);
     const KeyedPart& part = thing.part(wish.part);
     Track& track = tracks[part.name];
     if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
-    Json value = wished(wish, thing, part, frame, beyond);
+    Json value = wished(wish, thing, part, frame, beyond, remarks);
     if (TrackKey* key = key_at(track, frame)) {
       // A second wish for the part keeps what the first one set.
       for (std::size_t axis = 0; touched.contains(part.name) && axis < 3 && value.is_array(); ++axis)
@@ -114,7 +148,9 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
   }
   if (ease) set_ease(tracks, frame, *ease);
   chosen.parts.assign(touched.begin(), touched.end());
-  return put(chosen, tracks);
+  const Remarks more = put(chosen, tracks);
+  remarks.insert(remarks.end(), more.begin(), more.end());
+  return remarks;
 }
 
 }  // namespace mars::host

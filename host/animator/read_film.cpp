@@ -181,7 +181,7 @@ class ActorReader {
     Actor actor;
     actor.name = read_name(fields.required("name"));
     if (!names_.insert(actor.name).second)
-      element.refuse("is a second actor named '" + actor.name + "'", "give every actor its own name");
+      element.refuse("is a second actor named " + in_quotes(actor.name), "give every actor its own name");
     actor.model = find_model(fields.required("model"));
     if (const auto material = fields.find("material")) actor.material = film_material(*material);
     if (const auto materials = fields.find("materials")) read_materials(*materials, actor);
@@ -196,7 +196,7 @@ class ActorReader {
     const std::string name = read_text(element);
     if (const auto found = models_.find(name); found != models_.end()) return found->second;
     const std::vector<std::string_view> names(model_names_.begin(), model_names_.end());
-    element.refuse("is '" + name + "', which is none of the film's models",
+    element.refuse("is " + in_quotes(name) + ", which is none of the film's models",
                    did_you_mean(name, names, "add it to the film's models"));
   }
 
@@ -204,7 +204,7 @@ class ActorReader {
     const std::string name = read_text(element);
     if (materials_.contains(name)) return name;
     const std::vector<std::string_view> names(materials_.begin(), materials_.end());
-    element.refuse("is '" + name + "', which is none of the film's materials",
+    element.refuse("is " + in_quotes(name) + ", which is none of the film's materials",
                    did_you_mean(name, names, "add it to the film's materials"));
   }
 
@@ -322,8 +322,10 @@ Model read_film_model(const Element& element, const Film& film, const std::files
   if (element.kind() == Kind::text) {
     const std::filesystem::path path = folder / read_text(element);
     if (!file_exists(path))
-      element.refuse("is '" + path.string() + "', which does not exist", "name a model file as seen from the film's folder");
-    return load_model(path, materials);
+      element.refuse("is " + in_quotes(path.string()) + ", which does not exist",
+                     "name a model file as seen from the film's folder");
+    const Document model = read_document(element, path);
+    return read_model(model.root(), materials);
   }
   if (element.kind() != Kind::object)
     element.refuse(std::string("is ") + name_of(element.kind()),

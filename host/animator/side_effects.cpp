@@ -60,7 +60,7 @@ std::string other_way(const Joint& joint, const Way& way) {
   } else if (largest(change) <= 180) {
     return "";
   }
-  return degrees > kNothing ? "makes the smallest turn, of " + degrees_text(degrees) + "," : "does not turn";
+  return degrees > kNothing ? "goes only " + degrees_text(degrees) : "does not turn";
 }
 
 std::string asked_of(const glm::dvec3& change) {

@@ -39,6 +39,8 @@ struct Reader {
   bool operator!=(const Reader& other) const { return at != other.at; }
 };
 
+constexpr std::size_t kLongestShown = 80;  // bytes of a name in a message
+
 // What is not JSON, by words of the parser's message, which are not for people. The first that fits counts.
 struct Mistake {
   std::string_view words;
@@ -46,11 +48,12 @@ struct Mistake {
   const char* remedy;
 };
 
+constexpr const char* kEndsEarly = "it ends before its last bracket";
 constexpr const char* kCutShort = "the file may be cut short";
 constexpr const char* kEscapes = "after a backslash write one of \" \\ / b f n r t, or u and four hexadecimal digits";
 constexpr std::array kMistakes = {
     Mistake{"; expected end of input", "it goes on after its end", "take out what follows the last bracket"},
-    Mistake{"end of input", "it ends before all lists and objects are closed", kCutShort},
+    Mistake{"end of input", kEndsEarly, kCutShort},
     Mistake{"missing closing quote", "it ends within a text", kCutShort},
     Mistake{"UTF-8", "a text is not UTF-8", "save the file as UTF-8"},
     Mistake{"control character", "a text holds the end of a line, or another control character",
@@ -75,8 +78,8 @@ std::pair<std::string, const char*> complaint(const std::string& token, std::str
 // Takes the parser's events and appends nodes.
 class Builder {
  public:
-  Builder(Document& document, const char* begin, const char* const& reached)
-      : document_(document), reached_(reached), counted_(begin) {
+  Builder(Document& document, std::string_view json, const char* const& reached)
+      : document_(document), json_(json), reached_(reached), counted_(json.data()) {
     document_.texts_.push_back('\0');
   }
 
@@ -90,6 +93,7 @@ class Builder {
   }
   bool number_float(double value, const std::string&) { return add(Kind::number).number = value, true; }
   bool string(std::string& value) {
+    require_sound(value, "text");
     const std::uint64_t offset = keep(value);
     add(Kind::text).text = offset;
     return true;
@@ -98,6 +102,7 @@ class Builder {
   bool start_object(std::size_t) { return open(Kind::object); }
   bool start_array(std::size_t) { return open(Kind::list); }
   bool key(std::string& value) {
+    require_sound(value, "key");
     key_ = static_cast<std::uint32_t>(keep(value));
     return true;
   }
@@ -107,8 +112,9 @@ class Builder {
     return close(), true;
   }
   bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) {
+    if (cut_short()) fail(std::string("is not JSON: ") + kEndsEarly, kCutShort);
     const auto [problem, remedy] = complaint(token, error.what());
-    fail(problem, remedy);
+    fail_here(problem, remedy);
   }
 
  private:
@@ -125,11 +131,30 @@ class Builder {
     throw Failure(problem, document_.name_ + ":" + std::to_string(line()), remedy);
   }
 
-  std::uint64_t keep(const std::string& text) {
+  // As fail(), and names what is being read: a value, or the object of which it is a key.
+  [[noreturn]] void fail_here(const std::string& problem, const std::string& remedy) {
+    if (open_.empty()) fail(problem, remedy);
+    const bool value = key_ != 0 || document_.nodes_[open_.back()].kind == Kind::list;
+    if (value) add(Kind::null);
+    const Element at(&document_, value ? static_cast<std::uint32_t>(document_.nodes_.size() - 1) : open_.back());
+    const std::string path = at.path();
+    throw Failure(problem, document_.name_ + ":" + std::to_string(line()) + (path.empty() ? "" : ": ") + path, remedy);
+  }
+
+  // All of it was read, lists or objects are open, and it does not end with a bracket that could close them.
+  bool cut_short() const {
+    const char* const last = json_.data() + json_.find_last_not_of(" \t\r\n");
+    return !open_.empty() && reached_ >= last && *last != ']' && *last != '}';
+  }
+
+  void require_sound(const std::string& text, const std::string& what) {
     if (text.size() > kMaxText)
-      fail("has a text of " + std::to_string(text.size()) + " bytes", "at most 4096 bytes");
+      fail_here("has a " + what + " of " + std::to_string(text.size()) + " bytes", "at most 4096 bytes");
     if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }))
-      fail("has a text with a control character", "take it out");
+      fail_here("has a " + what + " with a control character", "take it out");
+  }
+
+  std::uint64_t keep(const std::string& text) {
     if (text.empty()) return 0;
     const std::uint64_t offset = document_.texts_.size();
     if (offset + text.size() > 0xf000'0000u) fail("has too much text", "use fewer or shorter names");
@@ -187,6 +212,7 @@ class Builder {
   }
 
   Document& document_;
+  const std::string_view json_;
   const char* const& reached_;
   const char* counted_;
   std::uint32_t line_ = 1;
@@ -206,13 +232,30 @@ Document::Document(std::string_view json, std::string name) : name_(std::move(na
   if (json.substr(0, 4096).find('\0') != std::string_view::npos)
     throw Failure("is binary, not JSON", name_, "name a film or model written as JSON");
   const char* reached = json.data();
-  Builder builder(*this, json.data(), reached);
+  Builder builder(*this, json, reached);
   const char* const end = json.data() + json.size();
   nlohmann::json::sax_parse(Reader{json.data(), &reached}, Reader{end, &reached}, &builder);
 }
 
 Document read_document(const std::filesystem::path& path) {
   return Document(read_file(path, kLargestFile), path.string());
+}
+
+Document read_document(const Element& name, const std::filesystem::path& path) {
+  std::string text;
+  try {
+    text = read_file(path, kLargestFile);
+  } catch (const Failure& failure) {
+    throw Failure(failure.problem, name.where() + ": " + failure.where, failure.remedy);
+  }
+  return Document(text, path.string());
+}
+
+std::string shortened(std::string_view name) {
+  if (name.size() <= kLongestShown) return std::string(name);
+  std::size_t end = kLongestShown;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // within a character
+  return std::string(name.substr(0, end)) + "...";
 }
 
 Kind Element::kind() const { return document_->nodes_[index_].kind; }
@@ -239,8 +282,8 @@ std::string Element::path() const {
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80;
   });
-  if (!plain) return above + "[\"" + std::string(name) + "\"]";
-  return above.empty() ? std::string(name) : above + "." + std::string(name);
+  if (!plain) return above + "[\"" + shortened(name) + "\"]";
+  return (above.empty() ? "" : above + ".") + shortened(name);
 }
 
 std::string Element::where() const {

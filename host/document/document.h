@@ -33,7 +33,7 @@ class Element {
 
   Kind kind() const;
   std::uint32_t line() const;    // from 1, where the value begins
-  std::string path() const;      // "" for the whole document
+  std::string path() const;      // "" for the whole document; long keys are shortened()
   std::string where() const;     // "film.json:12: actors[3].place"
   std::string_view key() const;  // its key in the object that holds it, "" in a list
   const Document& document() const { return *document_; }
@@ -117,5 +117,10 @@ class Document {
 
 // Reads and parses a file.
 Document read_document(const std::filesystem::path& path);
+// One that `name` names: where it cannot be read, the place of `name` is told, too.
+Document read_document(const Element& name, const std::filesystem::path& path);
+
+// A name from a file as messages show it: the beginning of a long one, and "...".
+std::string shortened(std::string_view name);
 
 }  // namespace mars::host

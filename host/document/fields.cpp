@@ -38,10 +38,12 @@ std::string listed(std::span<const std::string_view> names) {
   return list.size() > 300 ? list.substr(0, 300) + " ..." : list;
 }
 
-std::string in_quotes(std::string_view name) {
-  std::string text = "'";
-  text += name.substr(0, 80);
-  return text += name.size() > 80 ? "...'" : "'";
+// "a material", "a key of an actor": what messages call an object, by its name in the schema.
+std::string with_article(std::string_view name) {
+  if (name.starts_with("film_")) name.remove_prefix(5);
+  if (name.ends_with("_key")) return "a key of " + with_article(name.substr(0, name.size() - 4));
+  const bool several = name.ends_with('s'), vowel = std::string_view("aeiou").find(name.front()) != name.npos;
+  return (several ? "" : vowel ? "an " : "a ") + std::string(name);
 }
 
 std::string form_or(const Element& element, const std::string& otherwise) {
@@ -50,6 +52,8 @@ std::string form_or(const Element& element, const std::string& otherwise) {
 }
 
 }  // namespace
+
+std::string in_quotes(std::string_view name) { return "'" + shortened(name) + "'"; }
 
 std::string shown(double number) {
   char text[32];
@@ -117,7 +121,7 @@ glm::dvec3 read_color(const Element& element) {
   require_size(element, 3);
   glm::dvec3 color;
   int part = 0;
-  for (const Element item : element) color[part++] = read_number(item);
+  for (const Element item : element) color[part++] = read_number(item, {-HUGE_VAL, HUGE_VAL});
   const auto ranges_over = [&](double most) {
     return std::min({color.x, color.y, color.z}) >= 0 && std::max({color.x, color.y, color.z}) <= most;
   };
@@ -145,17 +149,20 @@ std::size_t read_choice(const Element& element, std::span<const std::string_view
 }
 
 Fields::Fields(const Element& object, const Keys& keys) : object_(object), keys_(keys) {
+  if (object.kind() != Kind::object && form_of(object).empty())
+    object.refuse(std::string("is ") + name_of(object.kind()) + ", not " + with_article(keys.of),
+                  "write it as {\"" + std::string(keys.names[0]) + "\": ...}");
   require_kind(object, Kind::object);
   for (const Element child : object) {
     if (std::find(keys.names.begin(), keys.names.end(), child.key()) != keys.names.end()) continue;
-    child.refuse(std::string("is no key of a ") + keys.of,
+    child.refuse((std::string_view(keys.of).ends_with("_key") ? "does not belong to " : "is no key of ") + with_article(keys.of),
                  did_you_mean(child.key(), keys.names, "its keys are: " + listed(keys.names)));
   }
 }
 
 Element Fields::required(std::string_view key) const {
   const auto found = find(key);
-  if (!found) object_.refuse("has no " + in_quotes(key), std::string("a ") + keys_.of + " needs it");
+  if (!found) object_.refuse("has no " + in_quotes(key), with_article(keys_.of) + " needs it");
   return *found;
 }
 

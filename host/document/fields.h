@@ -45,6 +45,9 @@ std::optional<std::string> near_name(std::string_view wanted, std::span<const st
 std::string did_you_mean(std::string_view wanted, std::span<const std::string_view> names,
                          const std::string& otherwise);
 
+// "'knee'", long names shortened().
+std::string in_quotes(std::string_view name);
+
 // "12.5", as short as tells it, for messages.
 std::string shown(double number);
 

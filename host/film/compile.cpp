@@ -76,6 +76,12 @@ class Compiler {
     return compiled;
   }
 
+  void check_camera() const {
+    const CameraMotion& motion = film_.camera;
+    const std::uint32_t frames = frames_to_see(motion.eye, motion.at, motion.up);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) camera_at(frame);
+  }
+
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& element,
                          const std::string& remedy) const {
@@ -282,6 +288,8 @@ void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& wanted) {
 CompiledFilm compile(const Film& film, const CompileOptions& options) {
   return Compiler(film, options).compile();
 }
+
+void check_camera(const Film& film) { Compiler(film, {}).check_camera(); }
 
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {
   if (!is_compiled_film(path)) return compile(read_film(path), options);

@@ -42,6 +42,9 @@ struct CompiledFilm {
 
 CompiledFilm compile(const Film& film, const CompileOptions& options = {});
 
+// Throws as compile() does where the camera sees nothing in some frame: it looks at its own place, or along its up vector.
+void check_camera(const Film& film);
+
 // A film file or a .mars file, known by its content. The intervals of a .mars file are cut for good.
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options = {});
 

@@ -2,6 +2,7 @@
 
 #include "hal/failure.h"
 #include "host/animator/read_film.h"
+#include "host/film/compile.h"
 #include "host/film/film_file.h"
 
 namespace mars::host {
@@ -25,7 +26,7 @@ void change_film(const std::filesystem::path& path, const std::function<void(Jso
   meaning_of(path);  // tells what a file of another kind is
   change_json(
       path, [&](Json& json) { change(json, read_film(path)); },
-      [&](const Element& root) { read_film(root, path.parent_path()); });
+      [&](const Element& root) { check_camera(read_film(root, path.parent_path())); });
 }
 
 }  // namespace mars::host

@@ -22,7 +22,8 @@ void add_materials(const Element& model, int sources, std::vector<std::string>& 
     }
   const auto from = model.find("from");
   if (!from || from->kind() != Kind::text || sources == kMostSources) return;
-  const Document source = read_document(std::filesystem::path(from->document().name()).parent_path() / from->text());
+  const std::filesystem::path folder = std::filesystem::path(from->document().name()).parent_path();
+  const Document source = read_document(*from, folder / from->text());
   add_materials(source.root(), sources + 1, names);
 }
 

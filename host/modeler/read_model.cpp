@@ -127,7 +127,7 @@ class ModelReader {
       from.refuse("derives the model from itself", "name a file with joints");
     std::vector<std::filesystem::path> sources = sources_;
     sources.push_back(path);
-    const Document document = read_document(path);
+    const Document document = read_document(from, path);
     std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
     return ModelReader(names, sources).read(document.root());
   }
@@ -193,7 +193,7 @@ class ModelReader {
       if (model_.shapes[i].name == name) return i;
       own.push_back(model_.shapes[i].name);
     }
-    element.refuse("is '" + name + "', which is no shape of the library or of this model",
+    element.refuse("is " + in_quotes(name) + ", which is no shape of the library or of this model",
                    likely_shape(name, own));
   }
 
@@ -224,7 +224,7 @@ class ModelReader {
     if (!segment.material.empty() && !material_names_.contains(segment.material)) {
       const std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
       fields.find("material")
-          ->refuse("is '" + segment.material + "', which is no material of the model or the film",
+          ->refuse("is " + in_quotes(segment.material) + ", which is no material of the model or the film",
                    did_you_mean(segment.material, names, "add it to the materials"));
     }
     return segment;
@@ -296,7 +296,7 @@ class ModelReader {
     const auto found = numbers_.find(name);
     if (found != numbers_.end()) return found->second;
     parent->refuse(
-        "is '" + name + "', which is no joint of this model",
+        "is " + in_quotes(name) + ", which is no joint of this model",
         did_you_mean(name, names_of(model_.joints), "name a joint of this model, or leave parent out"));
   }
 

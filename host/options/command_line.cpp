@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -138,6 +139,23 @@ std::string misfit(const CLI::App& command) {
   return "'" + name + "'" + what + (near.empty() ? "" : " (" + near + ")");
 }
 
+// The command that was given, within all others.
+const CLI::App& innermost(const CLI::App& app) {
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  return given.empty() ? app : innermost(*given.front());
+}
+
+// How an option that takes several words is written, by its help; "" of others.
+std::string form_told(const CLI::App& app, const CLI::ArgumentMismatch& error) {
+  const std::string message = error.what(), name = message.substr(0, message.find(':'));
+  const CLI::Option* option = innermost(app).get_option_no_throw(name);
+  if (option == nullptr || option->get_type_name().find(' ') == std::string::npos) return "";
+  const std::string help = option->get_description();
+  const std::size_t example = help.find("Example: ");
+  if (example == std::string::npos) return "";
+  return name + ": write " + option->get_type_name() + ", as in " + help.substr(example + std::strlen("Example: "));
+}
+
 // Commands may be within commands: `mars model show`.
 void prepare(CLI::App& command, const std::shared_ptr<Help>& help) {
   command.formatter(help);
@@ -173,6 +191,11 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
       app.exit(CLI::ValidationError(misfit(app)), std::cout, std::cerr);
       return kUsage;
     }
+    if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+      if (const std::string form = form_told(app, *mismatch); !form.empty()) {
+        app.exit(CLI::ValidationError(form), std::cout, std::cerr);
+        return kUsage;
+      }
     return app.exit(error, std::cout, std::cerr) == 0 ? 0 : kUsage;
   }
 }

@@ -1,6 +1,7 @@
 #include "host/programs/animate_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -24,6 +25,8 @@ constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all
   mars animate film.json time robot --frame 0 --ease both  begin and end slowly
 docs/animating.md tells more.
 )";
+
+constexpr const char* kEaseRemedy = "write --ease 0.4,0,0.6,1";
 
 // What a person typed, of all the commands.
 struct Words {
@@ -66,9 +69,19 @@ std::uint32_t one_frame(const std::string& text) {
 std::optional<Ease> ease_of_words(const std::string& text) {
   if (text.empty()) return std::nullopt;
   const bool named = std::isalpha(static_cast<unsigned char>(text[0]));
-  const Document document(R"({"ease": )" + (named ? "\"" + text + "\"" : "[" + text + "]") + "}", "--ease");
-  constexpr std::string_view names[] = {"ease"};
-  return read_ease(Fields(document.root(), Keys{"option", names}));
+  const auto numbers = std::count(text.begin(), text.end(), ',') + 1;
+  if (!named && numbers != 4)
+    throw Failure("has " + std::to_string(numbers) + (numbers == 1 ? " number" : " numbers"), "--ease", kEaseRemedy);
+  const std::string json = R"({"ease": )" + (named ? "\"" + text + "\"" : "[" + text + "]") + "}";
+  if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !Json::accept(json))
+    throw Failure("is '" + text + "'", "--ease", kEaseRemedy);
+  try {
+    const Document document(json, "--ease");
+    constexpr std::string_view names[] = {"ease"};
+    return read_ease(Fields(document.root(), Keys{"option", names}));
+  } catch (const Failure& failure) {
+    throw Failure(failure.problem, "--ease", failure.remedy);  // nobody has typed a line and a key
+  }
 }
 
 // Changes the film file by `change`; it stays as it was where that fails or the result is no film.

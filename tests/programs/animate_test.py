@@ -65,8 +65,11 @@ class Animate(ProgramTest):
         told = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
         self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", told)
         self.assertIn("--clamp", told)
-        actor = self.changed("pose", "robot", "elbow.y=170", "--frame", 24, "--clamp")
-        self.assertEqual(actor["keys"][1]["pose"]["elbow"], [0, 150, 0])
+        clamped = self.animate("pose", "robot", "elbow.y=170", "--frame", 24, "--clamp")
+        self.assertEqual((clamped.returncode, clamped.stderr),
+                         (0, "mars: actor 'robot', joint 'elbow': 170 degrees about y is beyond its limits 0 to 150: "
+                             "keyed as 150\n"))
+        self.assertEqual(self.actor()["keys"][1]["pose"]["elbow"], [0, 150, 0])
 
     def test_keys_moved_copied_and_timed(self):
         self.changed("pose", "robot", "elbow.y=90", "--frame", 12)
@@ -177,6 +180,12 @@ class Animate(ProgramTest):
         self.assertIn("is no frame", self.refused("key", "robot", "--frame", "twelve"))
         self.assertIn("ends before it begins", self.refused("delete", "robot", "--frame", "12-3"))
         self.assertIn("did you mean 'both'", self.refused("time", "robot", "--frame", 0, "--ease", "boht"))
+        for typed, says in [("0.4,0,0.6", "has 3 numbers (write --ease 0.4,0,0.6,1)"), ("0.4,0,0.6,x", "is '0.4,0,0.6,x' ("),
+                            ("5,0,0.6,1", "is 5 (write a number from 0 to 1)")]:
+            self.assertIn("mars: --ease: " + says, self.refused("time", "robot", "--frame", 0, "--ease", typed))
+        self.assertIn("camera, frame 3: has its eye where it looks at",
+                      self.refused("pose", "camera", "at=0,0,0", "eye=0,0,0", "--frame", 3))
+        self.assertIn("looks along its up vector", self.refused("pose", "camera", "eye=0,0,5", "--frame", 3))
         self.assertEqual(self.animate("tyme").returncode, 2)
 
     def test_films_without_keys_to_change(self):

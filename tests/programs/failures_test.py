@@ -83,7 +83,7 @@ class Films(ProgramTest):
             "latin.json": (film.replace(b'"', b'"\xff', 1), "a text is not UTF-8"),
             "line.json": (b'{"a\n": 1}', "the end of a line"), "escape.json": (b'{"a\\x": 1}', "a wrong escape"),
             "half.json": (b'{"a\\ud800": 1}', "half a character"), "more.json": (film + b"}", "goes on after its end"),
-            "digit.json": (b'{"frames": 1.}', "a number is not complete"), "text.json": (b'{"fra', "ends within a text"),
+            "digit.json": (b'{"frames": 1.}', "a number is not complete"), "text.json": (b'{"fra}', "ends within a text"),
             "twice.json": (b'{"frames": 1, "frames": 2}', "stands twice"), "null.json": (b"null", ""),
             "huge.json": (b'{"frames": 123456789012345678901234567890}', ""),
             "garbled.mars": (garbled(whole), ""), "cut.mars": (whole[:len(whole) // 2], "")}

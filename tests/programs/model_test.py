@@ -151,7 +151,11 @@ class Model(ProgramTest):
         ]:
             self.refuse(*words, says=says)
         for words, says in [(["set", "dog.json", "leg", "--limits", "q", 0, 1], "'q' is no axis"),
-                            (["set", "dog.json", "leg", "--place", 0, 1], "--place"),
+                            (["set", "dog.json", "leg", "--limits", "y"],
+                             "--limits: write x|y|z LOWER UPPER, as in --limits y -30 60"),
+                            (["set", "dog.json", "--material", "fur", "--color", 1],
+                             "--color: write R G B, as in --color 0.6 0.4 0.2"),
+                            (["set", "dog.json", "leg", "--place", 0, 1], "--place: write X Y Z, as in"),
                             (["set", "dog.json", "leg", "--reset", "plcae"], "plcae"),
                             (["set", "dog.json", "leg", "--plcae", 0, 1, 0], "did you mean '--place'?"),
                             (["add"], "MODEL is required")]:

@@ -248,8 +248,9 @@ Motion walk(const Scene& scene) {
     refuse_both(wishes, "steps", "distance");
     refuse_both(wishes, "steps", "to");
   }
-  Going going(scene, "walk");
+  const std::uint32_t asked = wishes.count("steps", 4, kMostSteps);
   std::optional<double> far = wishes.number("distance", {1e-6, kFarthest});
+  Going going(scene, "walk");
   if (const auto to = wishes.vector("to")) {
     const double by = bearing(stand_of(going.now()), *to);
     if (std::abs(by) > kOnTheWay) going.turn(by);
@@ -259,7 +260,7 @@ Motion walk(const Scene& scene) {
   const double ordinary =
       wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, kFarthest});
   std::uint32_t steps =
-      far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : wishes.count("steps", 4, kMostSteps);
+      far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : asked;
   constexpr std::string_view sides[] = {"left", "right"};
   const Side first =
       kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];

@@ -110,6 +110,10 @@ TEST(Pose, LimitsAreHeldAndTold) {
   EXPECT_EQ(scene.json, before);
   EXPECT_EQ(wanted("elbow.y=170", Beyond::clamped), "");
   EXPECT_EQ(scene.keys()[1]["pose"]["elbow"].dump(), "[0,150,0]");
+  const std::vector<std::string> wishes = {"elbow.y=-170", "elbow.x=20"};
+  EXPECT_EQ(pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::clamped),
+            (Remarks{"actor 'it', joint 'elbow': -170 degrees about y is beyond its limits 0 to 150: keyed as 0",
+                     "actor 'it', joint 'elbow': 20 degrees about x, where it is locked at 0: keyed as 0"}));
 }
 
 TEST(Pose, TellsWhatItDoesNotUnderstand) {
@@ -125,6 +129,17 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
   EXPECT_TRUE(holds(told("elbow.y="), "where a number belongs"));
   EXPECT_TRUE(holds(told("elbwo.y=1"), "did you mean"));
   EXPECT_TRUE(holds(told("=1"), "write it like"));
+  EXPECT_TRUE(holds(told("-knee"), "'-knee': is not PART=NUMBERS"));
+  EXPECT_TRUE(holds(told("place=2"), "like place.y=0, or three for all: place="));
+  const auto told_twice = [&](const std::vector<std::string>& wishes) {
+    return failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
+  };
+  EXPECT_EQ(told_twice({"elbow.y=20", "elbow.y=30"}),
+            "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
+  EXPECT_TRUE(holds(told_twice({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
+  const std::vector<std::string> eye = {"eye=1,2"};
+  EXPECT_TRUE(holds(failure_of([&] { pose(scene.json, scene.film, "camera", eye, 3, {}, Beyond::refused); }),
+                    "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
 }
 
 TEST(Pose, TheCameraIsSetToo) {
@@ -336,7 +351,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Turned{"turn.z=450", "goes 90 degrees on from frame 0 to 20, not 450 degrees about z"},
                     Turned{"turn.y=360", "does not turn from frame 0 to 20, not 360 degrees about y"},
                     Turned{"turn.y=360", "pose it turn.y=120 --frame 7, pose it turn.y=240 --frame 13)"},
-                    Turned{"turn=10,20,400", "turn makes the smallest turn, of"}, Turned{"turn=100,80,-170", ""},
+                    Turned{"turn=10,20,400", "turn goes only "}, Turned{"turn=100,80,-170", ""},
                     Turned{"elbow.y=150", ""}, Turned{"shoulder=90,-90,90", ""}));
 
 TEST(SideEffects, AHingeGoesRoundByItself) {

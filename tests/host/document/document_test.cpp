@@ -47,7 +47,15 @@ TEST_P(MalformedDocument, IsOneClearError) {
 INSTANTIATE_TEST_SUITE_P(
     Table, MalformedDocument,
     testing::Values(Malformed{"", "is empty"}, Malformed{" \n\t", "is empty"},
-                    Malformed{"{", "may be cut short"}, Malformed{"{\"a\": [1, 2", "may be cut short"},
+                    Malformed{"{", "ends before its last bracket (the file may be cut short)"},
+                    Malformed{"[1,2", "ends before its last bracket"}, Malformed{"{\"a\": {}", "before its last bracket"},
+                    Malformed{"{\"a\": tr\n", "ends before its last bracket"},
+                    Malformed{"{\"a\": 1.", "ends before its last bracket"},
+                    Malformed{"{\"a\": \"x\\", "ends before its last bracket"},
+                    Malformed{"{\"a\": \"x\xc3", "ends before its last bracket"},
+                    Malformed{"{\"a\": \"x}", "ends within a text"},
+                    Malformed{"{\"frames\": 3}}", "goes on after its end (take out what follows the last bracket)"},
+                    Malformed{"{\"frames\": 1.}", "frames: is not JSON: a number is not complete"},
                     Malformed{"{\n\"a\": tru}", "a.json:2"}, Malformed{"{\"a\": NaN}", "not JSON"},
                     Malformed{"{\"a\": 1e999}", "a number is too large"},
                     Malformed{"{\"a\": -Infinity}", "not JSON"}, Malformed{"// hello\n{}", "no comments"},
@@ -55,7 +63,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Malformed{"\xff\xfe{}", "not JSON"},
                     Malformed{"{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", "a.json:3: a: stands twice"},
                     Malformed{"[1, {\"k\": [{\"a\": 1, \"a\": 2}]}]", "[1].k[0].a: stands twice"},
-                    Malformed{"{\"a\\u0000b\": 1}", "control character"}));
+                    Malformed{"{\"a\\u0000b\": 1}", "a.json:1: has a key with a control character"},
+                    Malformed{"{\"k\": {\n\"a\\u0001\": 1}}", "a.json:2: k: has a key with a control character"},
+                    Malformed{"{\"k\": [1,\n\"a\\u0001\"]}", "a.json:2: k[1]: has a text with a control character"},
+                    Malformed{"{\"k\": {\"a\": \"x\ty\"}}", "a.json:1: k.a: is not JSON: a text holds the end of a line"}));
+
+TEST(Document, ALongTextIsToldWithItsPlaceAndALongKeyShortened) {
+  const std::string longest(5000, 'x');
+  EXPECT_EQ(parse_failure("{\"a\": [{\"name\": \"" + longest + "\"}]}"),
+            "a.json:1: a[0].name: has a text of 5000 bytes (at most 4096 bytes)");
+  EXPECT_TRUE(holds(parse_failure("{\"a\": {\"" + longest + "\": 1}}"), "a.json:1: a: has a key of 5000 bytes"));
+  const Document document("{\"" + longest.substr(0, 3000) + "\": 1}", "a.json");
+  EXPECT_EQ((*document.root().begin()).path(), longest.substr(0, 80) + "...");
+  EXPECT_EQ(shortened(longest.substr(0, 79) + "\xc3\xa4y"), longest.substr(0, 79) + "...");
+}
 
 TEST(Document, RefusesDeepNestingAndBinaryFiles) {
   EXPECT_TRUE(holds(parse_failure(std::string(100'000, '[')), "64 deep"));
@@ -94,7 +115,7 @@ TEST(Fields, TellWhatIsWrongAndWhatWouldBeRight) {
   EXPECT_TRUE(holds(thing_failure("{\"palce\": 1}"), "did you mean 'place'?"));
   EXPECT_TRUE(holds(thing_failure("{\"zzzzzz\": 1}"), "its keys are: place, limits, segment"));
   EXPECT_TRUE(holds(thing_failure("{}"), "has no 'place'"));
-  EXPECT_TRUE(holds(thing_failure("[]"), "is a list, not an object"));
+  EXPECT_EQ(thing_failure("[]"), "a.json:1: is a list, not a thing (write it as {\"place\": ...})");
   EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2]}"), "has 2 items"));
   EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2, 1e308]}"), "place[2]: is 1e+308"));
   EXPECT_TRUE(holds(thing_failure("{\"place\": [1, 2, \"x\"]}"), "is a text, not a number"));

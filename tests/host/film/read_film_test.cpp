@@ -119,6 +119,16 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
   EXPECT_TRUE(
       holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
             "models.m: is '/nowhere/m.json', which does not exist"));
+  const std::string materials = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "materials": {"m": )";
+  EXPECT_TRUE(holds(told(materials + R"({"x": 1}})" + rest), "materials.m.x: is no key of a material"));
+  EXPECT_TRUE(holds(told(materials + R"({"keys": [{}]}})" + rest), "a key of a material needs it"));
+  EXPECT_TRUE(holds(told(materials + R"({"keys": [{"x": 1}]}})" + rest), "x: does not belong to a key of a material"));
+  const auto named = [&](const std::string& model) {
+    return told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
+  };
+  EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: /: is a directory, not a file (name a file in it)");
+  EXPECT_TRUE(holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
+  EXPECT_TRUE(holds(named(R"({"from": "none.json", "proportions": {}})"), "f.json:1: models.m.from: none.json: there is no"));
 }
 
 std::string outcome_of(const std::string& json) {
@@ -134,7 +144,9 @@ TEST(ReadFilm, CutShortAnywhereIsOneClearError) {
   const std::string whole = kWhole;
   EXPECT_EQ(outcome_of(whole), "film");
   for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_TRUE(holds(outcome_of(whole.substr(0, length)), "f.json")) << length;
+    EXPECT_TRUE(holds(outcome_of(whole.substr(0, length)),
+                      whole.find_first_not_of(" \n") < length ? "it ends before its last bracket" : "is empty"))
+        << length;
 }
 
 TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
@@ -169,6 +181,7 @@ TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
   };
   EXPECT_EQ(told("[255, 128, 51]"),
             "f.json:1: background: has 255, above 1, where colours go from 0 to 1 (divide by 255: [1, 0.502, 0.2])");
+  EXPECT_EQ(told("[1e18, 0, 0]"), "f.json:1: background[0]: is 1e+18 (write a number from 0 to 1)");
   EXPECT_EQ(told("[256, 0, 0]"), "f.json:1: background[0]: is 256 (write a number from 0 to 1)");
   EXPECT_EQ(told("[200, -1, 0]"), "f.json:1: background[0]: is 200 (write a number from 0 to 1)");
   EXPECT_TRUE(holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
