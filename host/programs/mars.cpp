@@ -1,5 +1,6 @@
 // mars: what a person types. It knows no MPI: `mars render` starts the programs that do.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <string_view>
@@ -215,6 +216,7 @@ int run(int argc, char** argv) {
 }  // namespace mars::host
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond ulimit -f a write fails then, and MARS says so
   try {
     return mars::host::run(argc, argv);
   } catch (const std::exception& failure) {

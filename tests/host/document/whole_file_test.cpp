@@ -109,6 +109,11 @@ TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
   EXPECT_TRUE(holds(failure_of([&] { check_can_write(folder / "folder"); }), "Is a directory"));
 }
 
+TEST(WholeFile, ALimitOfFilesIsTold) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(holds(failure_of([&] { fail_file("write", folder / "file", EFBIG); }), "raise ulimit -f"));
+}
+
 // A disk of 64 KiB, where the system lets us have one.
 TEST(WholeFile, AFullDiskLeavesTheOldFile) {
   const TemporaryFolder folder;
