@@ -84,6 +84,8 @@ const char* remedy_for(int error) {
     case ENOSPC:
     case EDQUOT:
       return "free some space or choose a folder on another disk";
+    case EFBIG:
+      return "raise ulimit -f, which says how large files may grow";
     case EACCES:
     case EPERM:
     case EROFS:

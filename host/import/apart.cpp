@@ -149,7 +149,7 @@ std::string reason_of_end(int status, bool too_late, const ApartLimits& limits) 
     return "takes more than " + seconds(limits.processor_time) + " of processor time to read";
   if (WIFEXITED(status) && WEXITSTATUS(status) == kHasNoMemory)
     return "takes more than " + mebibytes(limits.memory) + " of memory to read";
-  if (WIFSIGNALED(status)) return std::string("cannot be read: its reader crashed, ") + strsignal(WTERMSIG(status));
+  if (WIFSIGNALED(status)) return "cannot be read: its reader crashed";
   return "cannot be read: its reader ended with code " + std::to_string(WEXITSTATUS(status));
 }
 

@@ -74,6 +74,7 @@ std::vector<std::string> read_of(const MeshFile& file) {
 
 Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
   const MeshFile file = read_mesh_file(options.from, kind, {upright(up), options.scale, options.crease});
+  for (const std::filesystem::path& companion : file.companions) refuse_same_file(companion, options.to);
   std::vector<ImportedPart> parts;
   for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});
   const std::string joints = parts.size() == 1 ? "one joint" : std::to_string(parts.size()) + " joints, the first";

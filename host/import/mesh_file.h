@@ -35,6 +35,7 @@ struct MeshFile {
   Box bounds;
   std::size_t vertices = 0;           // in the file, before those that agree in place and normal are joined
   std::vector<std::string> not_read;  // "19 bones", ...
+  std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers
 };
 
 // `kind` is a mesh's. Normals are the file's where it gives them for all; else the mesh has a crease: 0 for glTF, which

@@ -6,13 +6,15 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
 #include <exception>
+#include <memory>
+#include <string_view>
 
 #include "hal/failure.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/promised.h"
+#include "host/import/scene_sources.h"
 #include "host/import/unread_parts.h"
 
 namespace mars::host {
@@ -29,6 +31,36 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
   list.insert(list.end(), more.begin(), more.end());
 }
 
+struct Reason {
+  std::string_view part;  // of Assimp's message
+  const char* words;
+};
+
+constexpr Reason kReasons[] = {{"mNumMeshes is 0", "it has no meshes"},
+                               {"No scene", "it has no scene"},
+                               {"OBJ: no vertices", "it has no vertices"},
+                               {" is a POINT", "a face has one corner"},
+                               {" is a LINE", "a face has two corners"},
+                               {"mNumChannels is 0", "an animation moves nothing"},
+                               {"Invalid face index", "a face has a corner that is not in the file"},
+                               {"index out of range", "a face has a corner that is not in the file"},
+                               {"exceeds size of actual data", "a buffer is shorter than it should be"},
+                               {"missing the \"uri\"", "a buffer names no file"},
+                               {"with offset/", "numbers are beyond the end of their buffer"},
+                               {"JSON parse error", "it is not JSON, or cut short"},
+                               {"JSON document", "it is not as glTF should be"},
+                               {"Unsupported glTF version", "its version of glTF is not known"},
+                               {"too small", "it is empty or cut short"},
+                               {"is empty", "it is empty or cut short"},
+                               {"unexpected EOF", "it is cut short"}};
+
+// ": it has no meshes"; "" for what Assimp says of its inner workings only.
+std::string reason_in_our_words(std::string_view message) {
+  for (const Reason& reason : kReasons)
+    if (message.find(reason.part) != std::string_view::npos) return std::string(": ") + reason.words;
+  return "";
+}
+
 class SceneReader {
  public:
   SceneReader(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes)
@@ -36,6 +68,7 @@ class SceneReader {
         kind_(kind),
         is_gltf_(kind == FileKind::gltf || kind == FileKind::glb),
         promised_(promised_by(path, kind)),
+        sources_(handed_over(std::make_unique<SceneSources>(path))),
         scene_(load()),
         builder_(path.string(), wishes, has_normals()) {}
 
@@ -47,6 +80,7 @@ class SceneReader {
     file.vertices = promised_.vertices.value_or(file.vertices);
     append(file.not_read, unread_parts(scene_, is_gltf_));
     append(file.not_read, promised_.not_read);
+    file.companions = sources_.companions();
     return file;
   }
 
@@ -59,21 +93,30 @@ class SceneReader {
   const aiScene& load() {
     const aiScene* scene = importer_.ReadFile(path_.string(), aiProcess_ValidateDataStructure);
     if (scene && scene->mRootNode) return *scene;
-    rethrow_memory();
-    std::string why = importer_.GetErrorString();
-    if (why.size() > 160) why = why.substr(0, 160) + " ...";
-    std::replace_if(
-        why.begin(), why.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
-    fail("is no sound mesh file: " + why, "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
+    rethrow_ours();
+    if (!sources_.not_opened().empty())
+      throw Failure("cannot be read", sources_.not_opened().back().string(),
+                    path_.string() + " names it: check that it is there, and its permissions");
+    fail("is no sound mesh file" + reason_in_our_words(importer_.GetErrorString()),
+         "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
   }
 
-  void rethrow_memory() const {
+  const SceneSources& handed_over(std::unique_ptr<SceneSources> sources) {
+    const SceneSources& kept = *sources;
+    importer_.SetIOHandler(sources.release());
+    return kept;
+  }
+
+  // Those that the system and SceneSources threw; what Assimp says of its own load() puts in other words.
+  void rethrow_ours() const {
     if (!importer_.GetException()) return;
     try {
       std::rethrow_exception(importer_.GetException());
+    } catch (const Failure&) {
+      throw;
     } catch (const std::bad_alloc&) {
       throw;
-    } catch (const std::exception&) {  // load() says which
+    } catch (const std::exception&) {
     }
   }
 
@@ -145,6 +188,7 @@ class SceneReader {
   bool is_gltf_;
   Promised promised_;
   Assimp::Importer importer_;
+  const SceneSources& sources_;  // the importer's
   const aiScene& scene_;
   MeshBuilder builder_;
   std::size_t visited_ = 0;

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -79,7 +80,16 @@ void Video::start(PictureSize extent, double rate) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const int error = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, pointers.data(), environ);
+  // MARS ignores this signal; ffmpeg, which would cut the video short without a word, must die of it.
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGXFSZ);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int error = posix_spawnp(&process_, "ffmpeg", &actions, &attributes, pointers.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   if (error == 0) return;
@@ -107,6 +117,7 @@ void Video::finish() {
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) fail_file("write", path_, EFBIG);
   if (status != 0) fail();
   write_whole_file(path_, content_of(output_));
 }

@@ -1,5 +1,6 @@
 // mars: what a person types. It knows no MPI: `mars render` starts the programs that do.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <string_view>
@@ -223,6 +224,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace mars::host;
   open_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond ulimit -f a write fails then, and MARS says so
   try {
     return exit_code(run(argc, argv));
   } catch (const std::exception& failure) {

@@ -193,6 +193,16 @@ class Folders(ProgramTest):
         self.assertEqual(done.returncode, 1)
         self.assertClear(done.stderr, "ulimit -f")
         self.assertNothingTorn(self.folder / "out")
+        corners = "".join(f"v {i} {i % 7} {i % 5}\nf -3 -2 -1\n" for i in range(3, 300))
+        mesh = self.write("mesh.obj", "v 0 0 0\nv 1 0 0\n" + corners)
+        before = set(os.listdir(self.folder))
+        for words in [["import", mesh], ["compile", TEAPOT], ["preview", TEAPOT]]:
+            new = {"import": "new.json", "compile": "new.mars", "preview": "new.png"}[words[0]]
+            self.fail_clearly(1, *words, "-o", new, says=f"{new}: cannot write: File too large (raise ulimit -f",
+                              preexec_fn=limit)
+        if shutil.which("ffmpeg"):  # which would cut it short
+            self.fail_clearly(1, "preview", TEAPOT, "-o", "new.gif", says="ulimit -f", preexec_fn=limit)
+        self.assertEqual(set(os.listdir(self.folder)), before, "no part of a file is left")
 
 
 class Starting(ProgramTest):

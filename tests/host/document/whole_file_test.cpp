@@ -125,6 +125,11 @@ TEST(WholeFile, ANewFileThatCannotBeWrittenIsRemoved) {
   EXPECT_EQ(folder.entries(), 0u);
 }
 
+TEST(WholeFile, ALimitOfFilesIsTold) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(holds(failure_of([&] { fail_file("write", folder / "file", EFBIG); }), "raise ulimit -f"));
+}
+
 // A disk of 64 KiB, where the system lets us have one.
 TEST(WholeFile, AFullDiskLeavesTheOldFile) {
   const TemporaryFolder folder;

@@ -42,7 +42,7 @@ TEST(Apart, ItsFailureIsOurs) {
 
 TEST(Apart, DyingIsTold) {
   EXPECT_EQ(failure([] { return raise(SIGKILL), std::string(); }),
-            "a file: cannot be read: its reader crashed, Killed (mend it)");
+            "a file: cannot be read: its reader crashed (mend it)");
   EXPECT_EQ(failure([]() -> std::string { _exit(1); }),
             "a file: cannot be read: its reader ended with code 1 (mend it)");
 }

@@ -1,0 +1,23 @@
+#include "host/import/scene_sources.h"
+
+#include "hal/failure.h"
+
+namespace mars::host {
+
+namespace fs = std::filesystem;
+
+Assimp::IOStream* SceneSources::Open(const char* name, const char* mode) {
+  std::error_code none;
+  const fs::file_status status = fs::status(name, none);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw Failure(fs::is_directory(status) ? "is a directory, not a file" : "is not a regular file", name,
+                  mesh_.string() + " names it: let it name a file on a disk");
+  Assimp::IOStream* stream = DefaultIOSystem::Open(name, mode);
+  if (stream == nullptr)
+    not_opened_.emplace_back(name);
+  else if (mesh_ != name)
+    companions_.emplace_back(name);
+  return stream;
+}
+
+}  // namespace mars::host

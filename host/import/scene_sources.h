@@ -1,0 +1,27 @@
+// The files that Assimp reads: a mesh file and those that it names, such as materials and buffers.
+#pragma once
+
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace mars::host {
+
+class SceneSources : public Assimp::DefaultIOSystem {
+ public:
+  explicit SceneSources(std::filesystem::path mesh) : mesh_(std::move(mesh)) {}
+
+  // Throws Failure where `name` is there and is no regular file: a pipe would wait, a device never end.
+  Assimp::IOStream* Open(const char* name, const char* mode) override;
+
+  // What Open() has opened besides the mesh file, and what it could not open: both in the order of its calls.
+  const std::vector<std::filesystem::path>& companions() const { return companions_; }
+  const std::vector<std::filesystem::path>& not_opened() const { return not_opened_; }
+
+ private:
+  std::filesystem::path mesh_;
+  std::vector<std::filesystem::path> companions_, not_opened_;
+};
+
+}  // namespace mars::host
