@@ -143,7 +143,7 @@ class Animate(ProgramTest):
         self.assertEqual((rendered.returncode, rendered.stdout, rendered.stderr), (0, "", compiled.stderr))
         mend = re.search(r"mend it with: (.*)\)", ended.stdout)[1]
         worst = self.degrees_outside(ended.stdout)
-        self.changed(*mend.split())
+        self.assertIn("is beyond its limits -81 to 81: keyed as ", self.animate(*mend.split()).stderr)
         after = self.animate("check").stdout
         self.assertLess(self.degrees_outside(after) if "turns" in after else 0, worst / 2)
 
