@@ -7,6 +7,7 @@
 #include "host/animator/limits_left.h"
 #include "host/animator/things.h"
 #include "host/document/fields.h"
+#include "host/document/shell_word.h"
 
 namespace mars::host {
 namespace {

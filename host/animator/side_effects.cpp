@@ -8,6 +8,7 @@
 #include "host/animator/figure.h"
 #include "host/animator/written.h"
 #include "host/document/fields.h"
+#include "host/document/shell_word.h"
 
 namespace mars::host {
 namespace {

@@ -125,14 +125,6 @@ const KeyedPart& Thing::part(const std::string& wanted) const {
   return *found;
 }
 
-std::string shell_word(const std::string& name) {
-  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") == std::string::npos)
-    return name;
-  std::string text = "'";
-  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string part_named(const Thing& thing, const std::string& name) {
   for (const std::string& candidate : {name, "/" + name})
     for (const KeyedPart& part : thing.parts)

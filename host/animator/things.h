@@ -46,9 +46,6 @@ struct Chosen {
 // actor is moved by matrices; those are left out where all is chosen.
 std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice);
 
-// A name as a person types it in a command.
-std::string shell_word(const std::string& name);
-
 // The part's own name of what a person calls it: "elbow" is "/elbow".
 std::string part_named(const Thing& thing, const std::string& name);
 
