@@ -79,7 +79,8 @@ std::string set_look(const ImportOptions& options) {
 }
 
 Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
-  const MeshFile file = read_mesh_file(options.from, kind, {upright(up), options.scale, options.crease, set_look(options)});
+  const MeshWishes wishes{upright(up), options.scale, options.crease, set_look(options)};
+  const MeshFile file = read_mesh_file(options.from, kind, wishes);
   for (const std::filesystem::path& companion : file.companions) refuse_same_file(companion, options.to);
   std::vector<ImportedPart> parts;
   for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});

@@ -40,7 +40,8 @@ struct Reason {
 
 constexpr Reason kReasons[] = {{"mNumMeshes is 0", "it has no meshes"},
                                {"No scene", "it has no scene"},
-                               {"OBJ: no vertices", "it has no vertices"},
+                               {"contains no faces", "a mesh has no faces"},
+                               {"no vertices", "a mesh has no vertices"},
                                {" is a POINT", "a face has one corner"},
                                {" is a LINE", "a face has two corners"},
                                {"mNumChannels is 0", "an animation moves nothing"},
@@ -84,8 +85,8 @@ class SceneReader {
     append(file.not_read, unread_parts(scene_, is_gltf_, set_look_));
     append(file.not_read, promised_.not_read);
     if (!cut_colors_.empty())
-      file.not_read.push_back(counted(cut_colors_.size(), "colour", "colours") + " beyond 0 to 1: cut to that (another: " +
-                              set_look_ + " --color 0.8 0.6 0.4)");
+      file.not_read.push_back(counted(cut_colors_.size(), "colour", "colours") +
+                              " beyond 0 to 1: cut to that (another: " + set_look_ + " --color 0.8 0.6 0.4)");
     file.companions = sources_.companions();
     return file;
   }

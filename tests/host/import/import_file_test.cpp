@@ -300,8 +300,10 @@ TEST_F(ImportTest, WhatAMeshNamesMustBeAFile) {
 TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
   const std::string lines = failure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
   EXPECT_TRUE(holds(lines, "is no sound mesh file: a face has two corners (export it again")) << lines;
-  const std::string empty = failure("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})");
-  EXPECT_TRUE(holds(empty, "is no sound mesh file: it has no meshes (")) << empty;
+  const std::string points = failure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n# no more\n");
+  EXPECT_TRUE(holds(points, "is no sound mesh file: a mesh has no faces (")) << points;
+  const std::string empty = failure("a.gltf", R"({"asset": {"version": "2.0"}})");
+  EXPECT_TRUE(holds(empty, "is no sound mesh file: it has no scene (")) << empty;
   for (const std::string& text : {std::string("v 0 0 0\nf 1 2 9\n"), std::string("{"), std::string(9, '\xff')}) {
     for (const char* name : {"b.obj", "b.stl", "b.gltf", "b.glb"}) {
       if (text == "{" && holds(name, "glb")) continue;  // its name is told to be wrong
