@@ -9,6 +9,7 @@
 
 #include "hal/failure.h"
 #include "host/document/json_file.h"
+#include "host/document/shell_word.h"
 #include "host/document/whole_file.h"
 #include "host/import/apart.h"
 #include "host/import/file_kind.h"
@@ -38,8 +39,7 @@ glm::dmat3 upright(char up) {
   return up == 'y' ? glm::dmat3(x, z, -y) : glm::dmat3(x, y, z);
 }
 
-std::string box_of(const Box& bounds, char up) {
-  const glm::dvec3 extent = bounds.max - bounds.min;
+std::string box_of(const glm::dvec3& extent, char up) {
   char text[96];
   std::snprintf(text, sizeof text, "%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
   return text;
@@ -50,7 +50,7 @@ Imported import_patches(const ImportOptions& options, char up) {
     throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
   const PatchFile file = read_patch_file(options.from, upright(up) * options.scale);
   return {{"model of one joint '" + options.joint + "'",
-           box_of(file.bounds, up),
+           box_of(file.extent, up),
            {counted(file.patches.size(), "patch", "patches")},
            {}},
           model_text({{shape_text(file.patches), {}}}, file.bounds, options.joint)};
@@ -72,13 +72,20 @@ std::vector<std::string> read_of(const MeshFile& file) {
   return read;
 }
 
+// Of the first joint, whether it has a colour or not.
+std::string set_look(const ImportOptions& options) {
+  return "mars model set " + shell_word(options.to.string()) + " " + shell_word(options.joint) + " --material " +
+         material_name(0);
+}
+
 Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
-  const MeshFile file = read_mesh_file(options.from, kind, {upright(up), options.scale, options.crease});
+  const MeshWishes wishes{upright(up), options.scale, options.crease, set_look(options)};
+  const MeshFile file = read_mesh_file(options.from, kind, wishes);
   for (const std::filesystem::path& companion : file.companions) refuse_same_file(companion, options.to);
   std::vector<ImportedPart> parts;
   for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});
   const std::string joints = parts.size() == 1 ? "one joint" : std::to_string(parts.size()) + " joints, the first";
-  return {{"model of " + joints + " '" + options.joint + "'", box_of(file.bounds, up), read_of(file), file.not_read},
+  return {{"model of " + joints + " '" + options.joint + "'", box_of(file.extent, up), read_of(file), file.not_read},
           model_text(parts, file.bounds, options.joint)};
 }
 
@@ -110,14 +117,19 @@ bool is_utf8(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)) == text;
 }
 
-void check_joint(const std::string& joint) {
+// `given` is the name that a person gave; "": the joint is named as the file.
+void check_joint(const std::string& joint, const std::string& given, const std::filesystem::path& from) {
   constexpr std::size_t kMost = 90;  // of a name's 100 bytes: numbers may follow
   const bool plain = !joint.empty() && joint.size() <= kMost && joint.find('/') == std::string::npos &&
                      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); }) &&
                      is_utf8(joint);
-  if (!plain)
-    throw Failure("cannot name a joint", "'" + printable(joint) + "'",
-                  "choose a name of 1 to 90 bytes of UTF-8, without '/', with --joint");
+  if (plain) return;
+  const std::string name = "'" + printable(joint) + "'";
+  constexpr const char* kNames = "of 1 to 90 bytes of UTF-8, without '/' and ends of lines";
+  if (given.empty())
+    throw Failure("its name, " + name + ", cannot name a joint", printable(from.string()),
+                  std::string("give the joint a name with --joint: one ") + kNames);
+  throw Failure("cannot name a joint", "--joint " + name, std::string("choose a name ") + kNames);
 }
 
 void check_target(const ImportOptions& options) {
@@ -134,7 +146,7 @@ std::string import_model(const ImportOptions& given) {
   ImportOptions options = given;
   const FileKind kind = kind_of_name(options.from);
   if (options.joint.empty()) options.joint = options.from.stem().string();
-  check_joint(options.joint);
+  check_joint(options.joint, given.joint, given.from);
   check_first_bytes(options.from, kind);
   check_target(options);
   const char up = options.up.value_or(usual_up(kind));

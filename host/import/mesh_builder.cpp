@@ -58,6 +58,8 @@ MeshBuilder::Vertex MeshBuilder::placed(const glm::dvec3& place, const glm::dvec
   Vertex vertex{wishes_.upright * place * wishes_.scale, {}};
   if (takes_normals_) vertex.normal = wishes_.upright * normal;
   for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(place[axis]))
+      fail("has a vertex that is not at numbers, or at too large ones", "the file may be damaged: export it again");
     if (!(std::abs(vertex.place[axis]) <= kFarthest))
       fail("has a vertex at " + shown(vertex.place[axis]),
            "keep vertices within 1e9 of the origin, with a smaller --scale if need be");
@@ -91,7 +93,6 @@ void MeshBuilder::add_face(std::size_t number, std::vector<std::uint32_t>& face)
   part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
 }
 
-// Round what lies on faces; where that is flat, the box is one unit thick and it lies on the lower side.
 Box MeshBuilder::bounds() const {
   Box box{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(std::numeric_limits<double>::lowest())};
   for (const Part& part : parts_)
@@ -99,8 +100,6 @@ Box MeshBuilder::bounds() const {
       box.min = glm::min(box.min, part.vertices[corner].place);
       box.max = glm::max(box.max, part.vertices[corner].place);
     }
-  for (int axis = 0; axis < 3; ++axis)
-    if (box.min[axis] == box.max[axis]) box.max[axis] += 1;
   return box;
 }
 
@@ -124,7 +123,8 @@ Mesh MeshBuilder::mesh_of(const Part& part, const Box& bounds, double crease) co
 MeshFile MeshBuilder::finish(double default_crease) {
   std::erase_if(parts_, [](const Part& part) { return part.ends.empty(); });
   if (parts_.empty()) fail("has no faces", "export the object's surface, not only points or lines");
-  MeshFile file{{}, bounds(), 0, {}};
+  const Box box = bounds();
+  MeshFile file{{}, thickened(box), box.max - box.min, 0, {}, {}};
   for (Part& part : parts_) {
     part.numbers = {};  // its memory is wanted for the mesh
     file.parts.push_back({part.color, mesh_of(part, file.bounds, wishes_.crease.value_or(default_crease))});

@@ -55,7 +55,7 @@ class MeshBuilder {
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
   Vertex placed(const glm::dvec3& place, const glm::dvec3& normal) const;
-  Box bounds() const;
+  Box bounds() const;  // round what lies on faces
   Mesh mesh_of(const Part& part, const Box& bounds, double crease) const;
 
   std::string file_;

@@ -21,6 +21,7 @@ struct MeshWishes {
   glm::dmat3 upright{1};  // turns the file's axes into ours
   double scale = 1;
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
+  std::string set_look;          // "mars model set rock.json rock --material color": remedies begin so
 };
 
 // The faces of one colour.
@@ -33,6 +34,7 @@ struct MeshPart {
 struct MeshFile {
   std::vector<MeshPart> parts;  // at least one, in the file's order
   Box bounds;
+  glm::dvec3 extent;                  // of the faces; 0 where they are flat
   std::size_t vertices = 0;           // in the file, before those that agree in place and normal are joined
   std::vector<std::string> not_read;  // "19 bones", ...
   std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers

@@ -43,6 +43,8 @@ std::string numbered(const std::string& name, std::size_t number) {
 
 }  // namespace
 
+std::string material_name(std::size_t part) { return numbered("color", part); }
+
 std::string shape_text(const std::vector<node::Patch>& patches) {
   std::string text;
   append_rows(text, patches.size(), [&](std::size_t number) {
@@ -79,7 +81,7 @@ std::string model_text(const std::vector<ImportedPart>& parts, const Box& bounds
   append_row(sbb, &bounds.max.x, 3);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string comma = i == 0 ? "\n    " : ",\n    ";
-    const std::string shape = quoted(numbered("imported", i)), material = quoted(numbered("color", i));
+    const std::string shape = quoted(numbered("imported", i)), material = quoted(material_name(i));
     joints += comma + "{\"name\": " + quoted(numbered(joint, i));
     if (i > 0) joints += ", \"parent\": " + quoted(joint) + ", \"limits\": {}";
     joints += ", \"segment\": {\"shape\": " + shape + ", \"sbb\": " + sbb + "]";

@@ -18,6 +18,9 @@ struct ImportedPart {
   std::optional<std::array<double, 3>> color;
 };
 
+// Of part 0, 1, ...
+std::string material_name(std::size_t part);
+
 // A shape as JSON.
 std::string shape_text(const std::vector<node::Patch>& patches);
 std::string shape_text(const Mesh& mesh);

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <set>
 #include <string_view>
 
 #include "hal/failure.h"
+#include "host/import/import_report.h"
 #include "host/import/mesh_builder.h"
 #include "host/import/promised.h"
 #include "host/import/scene_sources.h"
@@ -38,7 +40,8 @@ struct Reason {
 
 constexpr Reason kReasons[] = {{"mNumMeshes is 0", "it has no meshes"},
                                {"No scene", "it has no scene"},
-                               {"OBJ: no vertices", "it has no vertices"},
+                               {"contains no faces", "a mesh has no faces"},
+                               {"no vertices", "a mesh has no vertices"},
                                {" is a POINT", "a face has one corner"},
                                {" is a LINE", "a face has two corners"},
                                {"mNumChannels is 0", "an animation moves nothing"},
@@ -66,6 +69,7 @@ class SceneReader {
   SceneReader(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes)
       : path_(path),
         kind_(kind),
+        set_look_(wishes.set_look),
         is_gltf_(kind == FileKind::gltf || kind == FileKind::glb),
         promised_(promised_by(path, kind)),
         sources_(handed_over(std::make_unique<SceneSources>(path))),
@@ -78,8 +82,11 @@ class SceneReader {
     MeshFile file = builder_.finish(is_gltf_ ? 0 : kDefaultCrease);
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
     file.vertices = promised_.vertices.value_or(file.vertices);
-    append(file.not_read, unread_parts(scene_, is_gltf_));
+    append(file.not_read, unread_parts(scene_, is_gltf_, set_look_));
     append(file.not_read, promised_.not_read);
+    if (!cut_colors_.empty())
+      file.not_read.push_back(counted(cut_colors_.size(), "colour", "colours") +
+                              " beyond 0 to 1: cut to that (another: " + set_look_ + " --color 0.8 0.6 0.4)");
     file.companions = sources_.companions();
     return file;
   }
@@ -166,7 +173,7 @@ class SceneReader {
   }
 
   // OBJ's colour is as shown, glTF's is light.
-  MeshBuilder::Color color_of(const aiMesh& mesh) const {
+  MeshBuilder::Color color_of(const aiMesh& mesh) {
     if (kind_ == FileKind::stl) return {};
     const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
     aiColor4D given;
@@ -175,6 +182,8 @@ class SceneReader {
         material.Get(AI_MATKEY_COLOR_DIFFUSE, given) != AI_SUCCESS)
       return {};
     std::array<double, 3> color{given.r, given.g, given.b};
+    if (std::any_of(color.begin(), color.end(), [](double c) { return !(c >= 0 && c <= 1); }))
+      cut_colors_.insert(mesh.mMaterialIndex);
     for (double& c : color) {
       c = c >= 0 ? std::min(c, 1.0) : 0;
       if (is_gltf_) c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
@@ -185,6 +194,7 @@ class SceneReader {
 
   std::filesystem::path path_;
   FileKind kind_;
+  std::string set_look_;
   bool is_gltf_;
   Promised promised_;
   Assimp::Importer importer_;
@@ -192,6 +202,7 @@ class SceneReader {
   const aiScene& scene_;
   MeshBuilder builder_;
   std::size_t visited_ = 0;
+  std::set<unsigned> cut_colors_;  // numbers of materials
 };
 
 }  // namespace

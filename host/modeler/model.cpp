@@ -4,6 +4,12 @@
 
 namespace mars::host {
 
+Box thickened(Box box) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (box.min[axis] == box.max[axis]) box.max[axis] += 1;
+  return box;
+}
+
 glm::dvec3 Joint::rest() const {
   glm::dvec3 pose;
   for (int axis = 0; axis < 3; ++axis) pose[axis] = std::clamp(0.0, limits[axis].lower, limits[axis].upper);

@@ -41,6 +41,9 @@ struct Box {
   bool operator==(const Box&) const = default;
 };
 
+// `box` where it is flat one unit thick, with what is flat on its lower side.
+Box thickened(Box box);
+
 // Patches or a mesh in the unit cube, shared by all segments that name them.
 struct Shape {
   std::string name;

@@ -36,9 +36,14 @@ class Words {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size())
       fail("has " + quoted(word) + " for " + of, "write a number");
-    if (!(std::abs(value) <= kFarthest))
-      fail("has " + quoted(word) + " for " + of, "at most 1e9 from the origin");
     rest_.remove_prefix(word.size());
+    return value;
+  }
+
+  double coordinate(const char* of) {
+    const double value = number(of);
+    if (!(std::abs(value) <= kFarthest))
+      fail("has " + shown(value) + " for " + of, "at most 1e9 from the origin");
     return value;
   }
 
@@ -73,8 +78,8 @@ glm::dvec3 placed(const Words& words, glm::dvec3 point) {
 Points read_points(Words& words, const glm::dmat3& placing) {
   const double count = words.number("the number of patches");
   if (!(count >= 1 && count <= kMostPatches && count == std::floor(count)))
-    words.fail("has no sensible number of patches",
-               "begin with the number of patches, a whole number from 1");
+    words.fail("has " + shown(count) + " for the number of patches",
+               "begin with the number of patches, a whole number from 1 to " + std::to_string(kMostPatches));
   Points points;
   for (std::size_t patch = 0; patch < static_cast<std::size_t>(count); ++patch) {
     const double u = words.number("a patch's first degree"), v = words.number("a patch's second degree");
@@ -82,7 +87,7 @@ Points read_points(Words& words, const glm::dmat3& placing) {
       words.fail("has a patch of degrees " + shown(u) + " " + shown(v),
                  "only bicubic patches, 3 3, can be read");
     for (int point = 0; point < 16; ++point) {
-      const double x = words.number("x"), y = words.number("y"), z = words.number("z");
+      const double x = words.coordinate("x"), y = words.coordinate("y"), z = words.coordinate("z");
       points.push_back(placed(words, placing * glm::dvec3(x, y, z)));
     }
   }
@@ -91,7 +96,6 @@ Points read_points(Words& words, const glm::dmat3& placing) {
   return points;
 }
 
-// Where the points are flat, the box is one unit thick and they lie on its lower side.
 Box bounds_of(const Points& points) {
   Box box{points[0], points[0]};
   for (const glm::dvec3& point : points)
@@ -99,8 +103,6 @@ Box bounds_of(const Points& points) {
       box.min[axis] = std::min(box.min[axis], point[axis]);
       box.max[axis] = std::max(box.max[axis], point[axis]);
     }
-  for (int axis = 0; axis < 3; ++axis)
-    if (box.min[axis] == box.max[axis]) box.max[axis] += 1;
   return box;
 }
 
@@ -110,7 +112,8 @@ PatchFile read_patch_file(const std::filesystem::path& path, const glm::dmat3& p
   const std::string text = read_file(path, kLargestFile);
   Words words(text, path.string());
   const Points points = read_points(words, placing);
-  PatchFile file{std::vector<node::Patch>(points.size() / 16), bounds_of(points)};
+  const Box bounds = bounds_of(points);
+  PatchFile file{std::vector<node::Patch>(points.size() / 16), thickened(bounds), bounds.max - bounds.min};
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const double extent = file.bounds.max[axis] - file.bounds.min[axis];

@@ -14,6 +14,7 @@ namespace mars::host {
 struct PatchFile {
   std::vector<node::Patch> patches;
   Box bounds;
+  glm::dvec3 extent;  // of the points; 0 where they are flat
 };
 
 // Each point is first multiplied by `placing`.

@@ -23,6 +23,14 @@ auto number_from(double least, double greatest, const char* what) {
   };
 }
 
+// Of an axis in capitals the small letter; what is wrong with others.
+std::string small_axis(std::string& word) {
+  const std::string small = CLI::detail::to_lower(word);
+  if (small != "x" && small != "y" && small != "z") return "'" + word + "' is no axis: write x, y or z";
+  word = small;
+  return "";
+}
+
 }  // namespace
 
 void add_import(CLI::App& app) {
@@ -41,7 +49,7 @@ void add_import(CLI::App& app) {
       ->add_option("--up", options->up,
                    "Which axis of the file points up, where z does in MARS; default: y for OBJ and glTF, z for "
                    "others. Example: --up y")
-      ->check(CLI::IsMember({"x", "y", "z"}).description(""))
+      ->transform(CLI::Validator(small_axis, ""))
       ->type_name("x|y|z");
   command->add_option("--scale", options->scale, "Makes it so many times larger; default: 1. Example: --scale 0.01")
       ->check(number_from(1e-9, 1e9, "no factor: write a number from 1e-9 to 1e9"))

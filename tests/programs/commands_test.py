@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import struct
@@ -115,6 +116,12 @@ class Commands(ProgramTest):
         film = self.write("film.json", film)
         self.assertRegex(self.succeed("mars", "info", film), r"triangles +8, 8 of them stored")
         self.succeed("mars", "render", film, "-o", "out", "--backend", "threads")
+        self.write("tent.mtl", "newmtl canvas\nKs 1 1 1\n")
+        self.write("tent.obj", "mtllib tent.mtl\nusemtl canvas\n" + (self.folder / "tent.obj").read_text())
+        told = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--force")
+        remedy = re.search(r"1 material's gloss \((mars model set .*)\)", told).group(1)
+        self.assertEqual(remedy, "mars model set tent.json tent --material color --specular 0.3")
+        self.succeed(*remedy.split())
         self.fail_clearly(1, "import", self.write("bad.obj", "f 1 2 3\n"), "-o", "bad.json", says="bad.obj")
 
     def test_import_replaces_a_model_only_by_force(self):
@@ -125,20 +132,19 @@ class Commands(ProgramTest):
         self.succeed("mars", "import", "flat.obj", "-o", "flat.json", "--force", "--scale", "2", "--crease", "22.5")
         self.assertEqual(json.loads((self.folder / "flat.json").read_text())["joints"][0]["segment"]["sbb"][1], [2, 1, 2])
         for option, value in [("--scale", "0"), ("--scale", "nan"), ("--crease", "181"), ("--up", "w")]:
-            self.fail_clearly(2, "import", "flat.obj", "-o", "other.json", option, value, says=value)
+            self.fail_clearly(2, "import", "flat.obj", "-o", "other.json", option, value, says=f"'{value}' is no")
+        self.succeed("mars", "import", "flat.obj", "-o", "other.json", "--up", "Z")
 
     def test_an_import_that_waits_ends_with_mars(self):
-        """Its reader waits for ever, for nobody writes into the pipe that the file names."""
-        os.mkfifo(self.folder / "nobody")
-        self.write("waits.gltf", {"asset": {"version": "2.0"}, "buffers": [{"uri": "nobody", "byteLength": 8}],
-                                  "bufferViews": [{"buffer": 0, "byteLength": 8}], "scenes": [{"nodes": [0]}],
-                                  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR"}],
-                                  "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})
-        mars = subprocess.Popen([PROGRAMS / "mars", "import", "waits.gltf", "-o", "waits.json"], cwd=self.folder)
+        """Its reader has so much to read that it can be stopped before its end."""
+        self.write("waits.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 1000000)
+        mars = subprocess.Popen([PROGRAMS / "mars", "import", "waits.obj", "-o", "waits.json"], cwd=self.folder)
         self.addCleanup(mars.kill)
         reader = {}
         wait_until(lambda: reader.update(family(mars.pid)) or reader, SECONDS, "no reader")
         self.addCleanup(lambda: [os.kill(each, signal.SIGKILL) for each in living(reader)])
+        for each in reader:
+            os.kill(each, signal.SIGSTOP)
         mars.terminate()
         self.assertEqual(mars.wait(SECONDS), -signal.SIGTERM)
         wait_until(lambda: not living(reader), SECONDS, "the reader goes on")

@@ -66,6 +66,45 @@ std::string ply_box() {
   return text;
 }
 
+// A triangle with all that a model cannot have: a skin of two bones and its motion, a texture, colours, a target.
+std::string gltf_figure() {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 3]}],
+"extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
+"nodes": [{"mesh": 0, "skin": 0}, {"name": "hip", "children": [2]}, {"name": "knee"},
+          {"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+"cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2, "COLOR_0": 3, "TEXCOORD_0": 4},
+            "material": 0, "targets": [{"POSITION": 0}]}]},
+           {"primitives": [{"attributes": {"POSITION": 0}}]}],
+"skins": [{"joints": [1, 2], "inverseBindMatrices": 7}],
+"materials": [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+"textures": [{"source": 0}], "images": [{"uri": "skin.png"}],
+"animations": [{"samplers": [{"input": 5, "output": 6}], "channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+              {"bufferView": 1, "componentType": 5121, "count": 3, "type": "VEC4"},
+              {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"},
+              {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+              {"bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC2"},
+              {"bufferView": 4, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+              {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"},
+              {"bufferView": 5, "componentType": 5126, "count": 2, "type": "MAT4"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12},
+                {"buffer": 0, "byteOffset": 48, "byteLength": 48}, {"buffer": 0, "byteOffset": 96, "byteLength": 24},
+                {"buffer": 0, "byteOffset": 120, "byteLength": 8}, {"buffer": 0, "byteOffset": 128, "byteLength": 128}],
+"buffers": [{"uri": "figure.bin", "byteLength": 256}]})";
+}
+
+std::string gltf_numbers() {
+  std::vector<float> numbers(64);
+  numbers[3] = numbers[7] = 1;                                            // places; then joints, all 0
+  for (const std::size_t weight : {12, 13, 16, 17, 20, 21}) numbers[weight] = 0.5f;
+  numbers[31] = 1;                                                        // after places in a texture, times
+  for (std::size_t i = 0; i < 32; ++i) numbers[32 + i] = i % 16 % 5 == 0;  // matrices
+  std::string bytes(numbers.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
 class ImportTest : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
@@ -186,6 +225,15 @@ TEST_F(ImportTest, ColoursAreJointsOfOneBox) {
   EXPECT_EQ(model.shapes[1].mesh->ends.size(), 1u);
 }
 
+TEST_F(ImportTest, ColoursBeyondOneAreCutAndTold) {
+  write("bytes.mtl", "newmtl red\nKd 255 20 0\n");
+  const Model model = import(write("two words.obj", "mtllib bytes.mtl\nusemtl red\n" + obj_box()));
+  EXPECT_EQ(model.materials[0].material.color, (std::array<float, 3>{1, 1, 0}));
+  EXPECT_EQ(not_read(), std::vector<std::string>{"1 colour beyond 0 to 1: cut to that (another: mars model set " +
+                                                 (folder_ / "model.json").string() +
+                                                 " 'two words' --material color --color 0.8 0.6 0.4)"});
+}
+
 TEST_F(ImportTest, FacesThatCannotBeReadAsTheyStandAreMended) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nf 1 2 2\nf 1 3 2 4\nf 1 2 5\n";
   const Mesh mesh = import(write("odd.obj", text)).shapes[0].mesh.value();
@@ -196,6 +244,7 @@ TEST_F(ImportTest, FacesThatCannotBeReadAsTheyStandAreMended) {
 TEST_F(ImportTest, AFlatMeshHasABoxAllTheSame) {
   const Model model = import_upright(write("flat.obj", "v 0 0 3\nv 2 0 3\nv 0 2 3\nf 1 2 3\n"), 'z');
   EXPECT_EQ(model.joints[0].segment->sbb.max, glm::dvec3(2, 2, 4));
+  EXPECT_TRUE(holds(told_, "  box        2 x 2 x 0, the file's z upward\n")) << told_;
 }
 
 TEST_F(ImportTest, BadFilesAreOneClearFailure) {
@@ -205,12 +254,19 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
   EXPECT_TRUE(holds(failure("a.gltf", "{\"asset\": "), "is no sound mesh file"));
   EXPECT_TRUE(holds(failure("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "has no faces"));
   EXPECT_TRUE(holds(failure("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n"), "within 1e9"));
+  for (const std::string number : {"nan", "1e999"}) {
+    const std::string told = failure("a.obj", "v 0 0 0\nv " + number + " 3 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_TRUE(holds(told, "has a vertex that is not at numbers, or at too large ones (the file may be damaged")) << told;
+  }
   EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(folder_ / "no.obj")); }), "no.obj"));
   ImportOptions options = wishes(write("b.obj", obj_box()));
   options.joint = "a/b";
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "'/'"));
   options.joint = "caf\xe9";
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "'caf?': cannot name a joint")) << "no UTF-8";
+  const fs::path lines = write("a b\nc.obj", obj_box());
+  EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(lines)); }),
+                    "a b?c.obj: its name, 'a b?c', cannot name a joint (give the joint a name with --joint: one of 1"));
   options.to = folder_ / "x/m.json";
   options.joint = "";
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "m.json"));
@@ -221,6 +277,48 @@ TEST_F(ImportTest, WhatIsNoFileIsRefusedAtOnce) {
     ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
     EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(folder_ / name)); }), "is not a regular file"));
   }
+}
+
+// Nobody writes into the pipe, the device has no end.
+TEST_F(ImportTest, WhatAMeshNamesMustBeAFile) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_directory(folder_ / "folder");
+  fs::create_symlink("/dev/zero", folder_ / "device");
+  for (const std::string name : {"pipe", "folder", "device"}) {
+    const std::string says = name + (name == "folder" ? ": is a directory, not a file" : ": is not a regular file");
+    const std::string obj = failure("names.obj", "mtllib " + name + "\n" + obj_box());
+    EXPECT_TRUE(holds(obj, says)) << obj;
+    std::string text = gltf_figure();
+    text.replace(text.find("figure.bin"), 10, name);
+    const std::string gltf = failure("names.gltf", text);
+    EXPECT_TRUE(holds(gltf, says)) << gltf;
+  }
+  EXPECT_TRUE(holds(failure("lost.gltf", gltf_figure()), "figure.bin: cannot be read ("));
+}
+
+TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
+  const std::string lines = failure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
+  EXPECT_TRUE(holds(lines, "is no sound mesh file: a face has two corners (export it again")) << lines;
+  const std::string points = failure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n# no more\n");
+  EXPECT_TRUE(holds(points, "is no sound mesh file: a mesh has no faces (")) << points;
+  const std::string empty = failure("a.gltf", R"({"asset": {"version": "2.0"}})");
+  EXPECT_TRUE(holds(empty, "is no sound mesh file: it has no scene (")) << empty;
+  for (const std::string& text : {std::string("v 0 0 0\nf 1 2 9\n"), std::string("{"), std::string(9, '\xff')}) {
+    for (const char* name : {"b.obj", "b.stl", "b.gltf", "b.glb"}) {
+      if (text == "{" && holds(name, "glb")) continue;  // its name is told to be wrong
+      const std::string told = failure(name, text);
+      for (const char* theirs : {"aiMesh", "aiScene", "suitable reader", "Validation", "OBJ:", "GLTF:", "STL:", "JSON parse"})
+        EXPECT_FALSE(holds(told.substr(told.find(": ")), theirs)) << told;
+    }
+  }
+}
+
+TEST_F(ImportTest, AFileThatWasReadBesidesIsNotOverwritten) {
+  ImportOptions options = wishes(write("wedge.obj", "mtllib wedge.mtl\n" + obj_box()));
+  options.to = write("wedge.mtl", "newmtl a\n");
+  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "wedge.mtl: is the file that is read (write to another)"));
+  EXPECT_EQ(read_whole_file(options.to).size(), 9u);
 }
 
 TEST_F(ImportTest, OtherEndingsAreRefusedByName) {
@@ -309,45 +407,6 @@ TEST_F(ImportTest, AModelInStripsKeepsItsBody) {
   EXPECT_TRUE(holds(told_, "80 vertices, 78 faces")) << told_;
 }
 
-// A triangle with all that a model cannot have: a skin of two bones and its motion, a texture, colours, a target.
-std::string gltf_figure() {
-  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 3]}],
-"extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
-"nodes": [{"mesh": 0, "skin": 0}, {"name": "hip", "children": [2]}, {"name": "knee"},
-          {"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}],
-"cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
-"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2, "COLOR_0": 3, "TEXCOORD_0": 4},
-            "material": 0, "targets": [{"POSITION": 0}]}]},
-           {"primitives": [{"attributes": {"POSITION": 0}}]}],
-"skins": [{"joints": [1, 2], "inverseBindMatrices": 7}],
-"materials": [{"name": "skin", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
-"textures": [{"source": 0}], "images": [{"uri": "skin.png"}],
-"animations": [{"samplers": [{"input": 5, "output": 6}], "channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}]}],
-"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
-              {"bufferView": 1, "componentType": 5121, "count": 3, "type": "VEC4"},
-              {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"},
-              {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-              {"bufferView": 3, "componentType": 5126, "count": 3, "type": "VEC2"},
-              {"bufferView": 4, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
-              {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"},
-              {"bufferView": 5, "componentType": 5126, "count": 2, "type": "MAT4"}],
-"bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12},
-                {"buffer": 0, "byteOffset": 48, "byteLength": 48}, {"buffer": 0, "byteOffset": 96, "byteLength": 24},
-                {"buffer": 0, "byteOffset": 120, "byteLength": 8}, {"buffer": 0, "byteOffset": 128, "byteLength": 128}],
-"buffers": [{"uri": "figure.bin", "byteLength": 256}]})";
-}
-
-std::string gltf_numbers() {
-  std::vector<float> numbers(64);
-  numbers[3] = numbers[7] = 1;                                            // places; then joints, all 0
-  for (const std::size_t weight : {12, 13, 16, 17, 20, 21}) numbers[weight] = 0.5f;
-  numbers[31] = 1;                                                        // after places in a texture, times
-  for (std::size_t i = 0; i < 32; ++i) numbers[32 + i] = i % 16 % 5 == 0;  // matrices
-  std::string bytes(numbers.size() * sizeof(float), '\0');
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  return bytes;
-}
-
 TEST_F(ImportTest, BuffersBesideAFileCountAsItsSize) {
   const fs::path gltf = write("figure.gltf", gltf_figure());
   EXPECT_EQ(bytes_of_buffers(gltf), 0u);
@@ -425,6 +484,7 @@ TEST_F(ImportTest, PatchFilesAreModelsToo) {
   const Box box = import(options).joints[0].segment->sbb;
   EXPECT_EQ(box.min, glm::dvec3(20, -14, -6));
   EXPECT_EQ(box.max, glm::dvec3(32, -13, 0)) << "flat: one unit thick";
+  EXPECT_TRUE(holds(told_, "  box        12 x 0 x 6, the file's y upward\n")) << told_;
   options.crease = 30;
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "leave out --crease"));
 }

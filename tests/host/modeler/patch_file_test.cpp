@@ -42,6 +42,7 @@ TEST_F(PatchFileTest, ScalesIntoTheUnitCube) {
   ASSERT_EQ(file.patches.size(), 1u);
   EXPECT_EQ(file.bounds.min, glm::dvec3(10, -3, 7));
   EXPECT_EQ(file.bounds.max, glm::dvec3(16, 0, 8)) << "flat in z: one unit thick";
+  EXPECT_EQ(file.extent, glm::dvec3(6, 3, 0));
   EXPECT_EQ(file.patches[0].points[0], (std::array<float, 3>{0, 1, 0}));
   EXPECT_EQ(file.patches[0].points[15], (std::array<float, 3>{1, 0, 0}));
 }
@@ -49,8 +50,9 @@ TEST_F(PatchFileTest, ScalesIntoTheUnitCube) {
 TEST_F(PatchFileTest, TellsTheLineOfWhatIsWrong) {
   EXPECT_TRUE(holds(failure(""), "ends before the number of patches"));
   EXPECT_TRUE(holds(failure("x"), "has 'x' for the number of patches"));
-  EXPECT_TRUE(holds(failure("0"), "no sensible number"));
-  EXPECT_TRUE(holds(failure("1e300"), "at most 1e9"));
+  for (const char* count : {"0", "1.5", "4000000000", "1e300"})
+    EXPECT_TRUE(holds(failure(count), "for the number of patches (begin with the number of patches, a whole number from 1"));
+  EXPECT_TRUE(holds(failure("1\n3 3\n0 2e9"), "has 2e+09 for y (at most 1e9"));
   EXPECT_TRUE(holds(failure("9999999\n3 3\n"), "cut short"));
   EXPECT_TRUE(holds(failure(one_patch("2 3")), ":2: has a patch of degrees 2 3"));
   EXPECT_TRUE(holds(failure(one_patch() + "1\n"), "goes on after its last patch"));
