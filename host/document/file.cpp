@@ -1,9 +1,13 @@
 #include "host/document/file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
+#include <utility>
 
 #include "hal/failure.h"
 #include "host/document/recorded_reads.h"
@@ -15,50 +19,93 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// The size of a regular file that may be read.
-std::uintmax_t checked_size(const fs::path& path, std::uintmax_t largest) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found)
-    throw Failure("there is no such file", path.string(), "check its name");
-  if (error)
-    throw Failure("cannot be read: " + error.message(), path.string(), "check its name and permissions");
-  if (fs::is_directory(status))
-    throw Failure("is a directory, not a file", path.string(), "name a file in it");
-  if (!fs::is_regular_file(status))
-    throw Failure("is not a regular file", path.string(), "name a file on a disk");
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw Failure("cannot be read: " + error.message(), path.string(), "check its permissions");
-  if (size > largest)
-    throw Failure("has " + std::to_string(size) + " bytes, too many to read", path.string(),
-                  "at most " + std::to_string(largest) + " bytes can be read");
-  return size;
+const char* remedy_for(int error) {
+  switch (error) {
+    case ELOOP:
+      return "its links lead in a circle: replace it";
+    case EMFILE:
+    case ENFILE:
+      return "let more files be open at once (ulimit -n)";
+    case EACCES:
+    case EPERM:
+      return "check its permissions";
+    default:
+      return "check the disk";
+  }
 }
 
-using OpenFile = std::unique_ptr<FILE, int (*)(FILE*)>;
+[[noreturn]] void fail_to_read(const fs::path& path, int error) {
+  throw Failure("cannot be read: " + reason(error), path.string(), remedy_for(error));
+}
 
-OpenFile open_to_read(const fs::path& path) { return {std::fopen(path.c_str(), "rb"), &std::fclose}; }
+// Opened so that neither opening nor reading waits: a pipe has perhaps nobody at its other end.
+class RegularFile {
+ public:
+  explicit RegularFile(const fs::path& path)
+      : path_(path), number_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)), error_(errno) {}
+  ~RegularFile() {
+    if (number_ >= 0) close(number_);
+  }
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+
+  bool is_missing() const { return number_ < 0 && (error_ == ENOENT || error_ == ENOTDIR); }
+
+  // Refuses what is no regular file.
+  std::uintmax_t size() const {
+    struct stat status{};
+    if (number_ < 0 && error_ != ENXIO) fail_to_read(path_, error_);
+    if (number_ >= 0 && fstat(number_, &status) != 0) fail_to_read(path_, errno);
+    if (S_ISDIR(status.st_mode)) throw Failure("is a directory, not a file", path_.string(), "name a file in it");
+    if (!S_ISREG(status.st_mode)) throw Failure("is not a regular file", path_.string(), "name a file on a disk");
+    return static_cast<std::uintmax_t>(status.st_size);
+  }
+
+  std::string read_first(std::size_t bytes) const {
+    std::string content(bytes, '\0');
+    std::size_t used = 0;
+    while (used < bytes) {
+      const ssize_t done = read(number_, content.data() + used, bytes - used);
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) fail_to_read(path_, errno);
+      if (done == 0) break;
+      used += static_cast<std::size_t>(done);
+    }
+    content.resize(used);
+    return content;
+  }
+
+ private:
+  const fs::path& path_;
+  int number_;
+  int error_;  // why it could not be opened; ENXIO: it is a socket
+};
 
 }  // namespace
 
-std::string read_file(const fs::path& path, std::uintmax_t largest) {
+std::optional<std::string> read_file_if_there(const fs::path& path, std::uintmax_t largest) {
   RecordedReads::record(path);
-  std::string content(checked_size(path, largest), '\0');
-  const OpenFile file = open_to_read(path);
-  if (!file) throw Failure("cannot be read: " + reason(errno), path.string(), "check its permissions");
-  content.resize(std::fread(content.data(), 1, content.size(), file.get()));
-  if (std::ferror(file.get()))
-    throw Failure("cannot be read: " + reason(errno), path.string(), "check the disk");
-  return content;
+  const RegularFile file(path);
+  if (file.is_missing()) return std::nullopt;
+  const std::uintmax_t size = file.size();
+  if (size > largest)
+    throw Failure("has " + std::to_string(size) + " bytes, too many to read", path.string(),
+                  "at most " + std::to_string(largest) + " bytes can be read");
+  return file.read_first(size);
 }
 
-std::string read_start(const fs::path& path, std::size_t bytes) {
+std::string read_file(const fs::path& path, std::uintmax_t largest) {
+  std::optional<std::string> content = read_file_if_there(path, largest);
+  if (!content) throw Failure("there is no such file", path.string(), "check its name");
+  return std::move(*content);
+}
+
+std::string read_start(const fs::path& path, std::size_t bytes) try {
   RecordedReads::record(path);
-  std::error_code error;
-  const OpenFile file = fs::is_regular_file(path, error) ? open_to_read(path) : OpenFile{nullptr, &std::fclose};
-  std::string start(bytes, '\0');
-  start.resize(file ? std::fread(start.data(), 1, bytes, file.get()) : 0);
-  return start;
+  const RegularFile file(path);
+  return file.read_first(std::min<std::uintmax_t>(file.size(), bytes));
+} catch (const Failure&) {
+  return "";
 }
 
 bool file_exists(const fs::path& path) {

@@ -1,15 +1,20 @@
-// A whole file into memory, for every reader of models and films. What cannot be read is one Failure that
-// names the file. (whole_file.h writes them, recorded_reads.h knows which were read.)
+// A whole file into memory, for every reader. What cannot be read is one Failure that names the file, at once: pipes
+// and devices, which nobody may ever fill or which never end, are neither waited for nor read. (whole_file.h writes them, recorded_reads.h knows which were read.)
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace mars::host {
 
+inline constexpr std::uintmax_t kLargestFileRead = std::uintmax_t{1} << 34;  // bytes
+
 // Refuses what is missing, no regular file, or larger than `largest` bytes.
-std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = std::uintmax_t{1} << 34);
+std::string read_file(const std::filesystem::path& path, std::uintmax_t largest = kLargestFileRead);
+// Likewise; none where it is missing.
+std::optional<std::string> read_file_if_there(const std::filesystem::path& path, std::uintmax_t largest);
 
 // The first bytes of a regular file: fewer where it is shorter, none where it cannot be read.
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);

@@ -75,12 +75,6 @@ Json read_json(const std::filesystem::path& path) {
   return Json::parse(text);
 }
 
-nlohmann::json read_json_file(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_whole_file(path);
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  return nlohmann::json::parse(text, text + bytes.size());
-}
-
 std::string laid_out(const Json& json) try {
   std::string text;
   lay_out(json, 0, 0, text);

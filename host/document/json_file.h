@@ -16,10 +16,6 @@ using Json = nlohmann::ordered_json;
 // Refuses what read_document() refuses, with the line.
 Json read_json(const std::filesystem::path& path);
 
-// A file that MARS itself wrote: whatever JSON it holds. Throws Failure where it cannot be read, Json::exception where
-// it is no JSON.
-nlohmann::json read_json_file(const std::filesystem::path& path);
-
 // As a person would write it: a list or object that fits in 110 columns stands on one line.
 std::string laid_out(const Json& json);
 

@@ -42,21 +42,6 @@ class Descriptor {
     }
   }
 
-  std::vector<std::byte> read_all() {
-    std::vector<std::byte> bytes;
-    std::size_t used = 0;
-    while (true) {
-      bytes.resize(std::max<std::size_t>(used * 2, 1 << 16));
-      const ssize_t done = read(number_, bytes.data() + used, bytes.size() - used);
-      if (done < 0 && errno == EINTR) continue;
-      if (done < 0) fail_file(act_, path_, errno);
-      used += static_cast<std::size_t>(done);
-      if (done == 0) break;
-    }
-    bytes.resize(used);
-    return bytes;
-  }
-
   // What a machine that loses its power then finds under the file's name is whole. Some file systems have no such call.
   void sync() {
     while (fsync(number_) != 0) {
@@ -96,6 +81,16 @@ const char* remedy_for(int error) {
     case EISDIR:
     case EEXIST:
       return "something of another kind has this name: choose another";
+    case ENOTEMPTY:
+      return "it is a folder with something in it: move that away, or choose another name";
+    case ELOOP:
+      return "its links lead in a circle: replace them, or choose another name";
+    case EMFILE:
+    case ENFILE:
+      return "let more files be open at once (ulimit -n)";
+    case EIO:
+    case ESTALE:
+      return "see whether its disk can still be used, and start again";
     default:
       return "";
   }
@@ -218,10 +213,6 @@ void refuse_same_file(const std::filesystem::path& from, const std::filesystem::
   std::error_code none;
   if (std::filesystem::equivalent(from, to, none))
     throw Failure("is the file that is read", to.string(), "write to another");
-}
-
-std::vector<std::byte> read_whole_file(const std::filesystem::path& path) {
-  return Descriptor(path, path, O_RDONLY, "read").read_all();
 }
 
 void fail_file(const char* act, const std::filesystem::path& path, int error) {

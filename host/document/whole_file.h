@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace mars::host {
 
@@ -42,8 +41,6 @@ void refuse_same_file(const std::filesystem::path& from, const std::filesystem::
 
 // 16 hexadecimal digits that no other process comes to, nor can foresee.
 std::string unique_word();
-
-std::vector<std::byte> read_whole_file(const std::filesystem::path& path);
 
 // Throws Failure("cannot <act>: <the system's reason>", path, what to do about it) for `error`, an errno.
 [[noreturn]] void fail_file(const char* act, const std::filesystem::path& path, int error);

@@ -83,8 +83,9 @@ int print_verdict(const Verdict& verdict) {
     std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong\n";
     return kFailed;
   }
-  std::cout << verdict.expected << " frames, all there and whole\n";
-  if (!verdict.compared) std::cout << "frames.json has no pixel hashes: pixels were not compared with those rendered\n";
+  std::cout << verdict.expected << " frames, all there";
+  std::cout << (verdict.compared ? " and whole\n"
+                                 : "; frames.json has no pixel hashes, so pixels were not compared\n");
   std::cout << "pixels " << verdict.hash << '\n';
   return 0;
 }

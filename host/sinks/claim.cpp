@@ -6,15 +6,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "hal/failure.h"
-#include "host/document/json_file.h"
+#include "host/document/file.h"
 #include "host/document/whole_file.h"
 #include "host/options/frame_set.h"
+#include "host/sinks/record.h"
 
 namespace mars::host {
 
@@ -24,6 +26,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kHashDigits = 32;
+constexpr std::uint64_t kLastSecond = 253402300799;  // of the year 9999
 
 std::optional<fs::path> file_of(const RunFiles& run, std::string_view ending) {
   const auto found = std::ranges::find_if(run.files, [&](const fs::path& file) { return file.extension() == ending; });
@@ -40,6 +43,16 @@ std::string frames_text(const std::vector<std::uint32_t>& frames) {
          std::to_string(frames.back());
 }
 
+// On one line of a terminal, whoever wrote it; of a long path the end, which tells more.
+std::string film_text(const std::string& film) {
+  constexpr std::size_t kLongestShown = 200;  // bytes
+  std::size_t from = film.size() - std::min(film.size(), kLongestShown);
+  while (from < film.size() && (static_cast<unsigned char>(film[from]) & 0xc0) == 0x80) ++from;  // within a letter
+  std::string text = (from > 0 ? "..." : "") + film.substr(from);
+  std::ranges::replace_if(text, [](unsigned char c) { return std::iscntrl(c); }, '?');
+  return text;
+}
+
 // With the day unless it is today's.
 std::string time_text(std::int64_t when) {
   const time_t then = when, now = time(nullptr);
@@ -53,9 +66,9 @@ std::string time_text(std::int64_t when) {
 }
 
 // "another run, process 4711 on host n1, renders frames 0-99 of film.json into this folder since 12:01:33"
-std::string description(const Claim& claim, const std::string& film) {
+std::string description(const Claim& claim, const std::string& which = "") {
   return "another run, process " + std::to_string(claim.process.number) + " on host " + claim.process.host +
-         ", renders " + frames_text(claim.manifest.frames) + " of " + film + " into this folder since " +
+         ", renders " + frames_text(claim.manifest.frames) + " of " + which + film_text(claim.manifest.film) + " into this folder since " +
          time_text(claim.since);
 }
 
@@ -73,10 +86,14 @@ bool has_claim(const RunFiles& run) { return file_of(run, kClaimEnding).has_valu
 std::optional<Claim> claim_of(const RunFiles& run) {
   const std::optional<fs::path> file = file_of(run, kClaimEnding);
   if (!file) return std::nullopt;
+  const std::optional<std::string> text = read_file_if_there(*file, kLargestRecord);
+  if (!text) return std::nullopt;
   try {
-    const json from = read_json_file(*file);
-    return Claim{process_name_of(from), from.at("since").get<std::int64_t>(), manifest_of(from.at("manifest"))};
-  } catch (const std::exception&) {
+    const json from = parse_record(*text);
+    const Record record(from);
+    const auto since = static_cast<std::int64_t>(record.whole_number("since", 0, kLastSecond));
+    return Claim{process_name_of(from), since, manifest_of(record.value("manifest"))};
+  } catch (const Failure&) {
     return std::nullopt;
   }
 }
@@ -87,7 +104,8 @@ std::optional<Manifest> rendered_by(const RunFiles& run) {
   Manifest& manifest = claim->manifest;
   manifest.pixel_hashes.assign(manifest.frames.size(), "");
   const std::optional<fs::path> file = file_of(run, kHashesEnding);
-  std::ifstream lines(file.value_or(fs::path()));
+  const std::optional<std::string> text = file ? read_file_if_there(*file, kLargestRecord) : std::nullopt;
+  std::istringstream lines(text.value_or(""));
   std::uint32_t frame = 0;
   for (std::string hash; lines >> frame >> hash;) {
     const bool whole = hash.size() == kHashDigits;  // the last line may have been cut off
@@ -118,13 +136,13 @@ void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& f
                   file_of(run, kClaimEnding)->string(), "give another folder with -o, or wait");
   const Manifest& theirs = rival->manifest;
   if (theirs.checksum != wanted.checksum) {
-    const std::string film = (theirs.film == wanted.film ? "another version or size of " : "") + theirs.film;
-    throw Failure(description(*rival, film), folder.string(), "give another folder with -o, or wait");
+    const std::string which = theirs.film == wanted.film ? "another version or size of " : "";
+    throw Failure(description(*rival, which), folder.string(), "give another folder with -o, or wait");
   }
   std::vector<std::uint32_t> both;
   std::ranges::set_intersection(theirs.frames, wanted.frames, std::back_inserter(both));
   if (both.empty()) return;
-  throw Failure(description(*rival, theirs.film), folder.string(),
+  throw Failure(description(*rival), folder.string(),
                 "give other frames with --frames, another folder with -o, or wait");
 }
 

@@ -25,10 +25,11 @@ struct Claim {
 std::string text_of(const Claim& claim);
 
 bool has_claim(const RunFiles& run);
-// None where the run has none (any more), or it cannot be read.
+// None where the run has none (any more), or what it has is none. Throws Failure where its file cannot be read.
 std::optional<Claim> claim_of(const RunFiles& run);
 
-// What a run has rendered so far: its claim's manifest with the hashes of the frames it has written.
+// What a run has rendered so far: its claim's manifest with the hashes of the frames it has written; none where it
+// has no claim. Throws Failure where a file cannot be read.
 std::optional<Manifest> rendered_by(const RunFiles& run);
 
 // A run's .hashes, as it grows.

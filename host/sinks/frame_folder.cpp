@@ -9,10 +9,11 @@
 #include <system_error>
 
 #include "hal/failure.h"
-#include "host/document/json_file.h"
+#include "host/document/file.h"
 #include "host/document/whole_file.h"
 #include "host/sinks/claim.h"
 #include "host/sinks/png_file.h"
+#include "host/sinks/record.h"
 
 namespace mars::host {
 
@@ -28,33 +29,27 @@ void create_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail_file("create the folder", path, error.value());
-  if (!fs::is_directory(path)) fail_file("create the folder", path, ENOTDIR);
+  if (!fs::is_directory(path, error)) fail_file("create the folder", path, ENOTDIR);
 }
 
-Manifest read_frames_json(const fs::path& folder) {
+// What frames.json says; none where there is none. Throws Failure where it cannot be read or says nothing sound: then
+// nobody knows any more what belongs into the folder, and nobody may decide that nothing does.
+std::optional<Manifest> read_frames_json(const fs::path& folder) {
   const fs::path path = folder / kManifestName;
-  if (!fs::exists(path)) {
-    throw Failure("no folder of frames: it has no frames.json", folder.string(),
-                  "name the folder that was given to mars render with -o");
-  }
+  const std::optional<std::string> text = read_file_if_there(path, kLargestRecord);
+  if (!text) return std::nullopt;
   try {
-    return manifest_of(read_json_file(path));
-  } catch (const Failure&) {  // it cannot be read
-    throw;
-  } catch (const std::exception& error) {
-    throw Failure(std::string("not a manifest of frames: ") + error.what(), path.string(),
-                  "render into the folder again");
+    return manifest_of(parse_record(*text));
+  } catch (const Failure& failure) {
+    throw Failure("not a manifest of frames: " + failure.problem, path.string(),
+                  "remove it, and render all frames of the folder again");
   }
 }
 
-// The folder's manifest, if it has a sound one and that is of this very film.
+// The folder's manifest, if it is of this very film.
 std::optional<Manifest> manifest_of_same_film(const fs::path& folder, const std::string& checksum) {
-  try {
-    Manifest old = read_frames_json(folder);
-    if (old.checksum == checksum) return old;
-  } catch (const Failure&) {
-  }
-  return std::nullopt;
+  std::optional<Manifest> old = read_frames_json(folder);
+  return old && old->checksum == checksum ? old : std::nullopt;
 }
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
@@ -64,12 +59,11 @@ void write_manifest(const Manifest& manifest, const fs::path& folder, const Runs
 
 // False, and nothing is added, where the manifest is of another film.
 bool add_to_manifest(const Manifest& rendered, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
-  const bool missing = !fs::exists(folder / kManifestName);
-  std::optional<Manifest> all = missing ? rendered : manifest_of_same_film(folder, rendered.checksum);
+  Manifest all = read_frames_json(folder).value_or(rendered);
   turn.confirm();
-  if (!all) return false;
-  add_frames(*all, rendered);
-  write_manifest(*all, folder, runs);
+  if (all.checksum != rendered.checksum) return false;
+  add_frames(all, rendered);
+  write_manifest(all, folder, runs);
   return true;
 }
 
@@ -95,6 +89,10 @@ void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const Fol
     if (const std::optional<Manifest> rendered = rendered_by(run)) add_to_manifest(*rendered, folder, runs, turn);
     remove_files(run, turn);
   }
+}
+
+void remove_frame(const fs::path& file) {
+  if (unlink(file.c_str()) != 0 && errno != ENOENT) fail_file("remove", file, errno);
 }
 
 // Names that were made in the folder are on the disk too; not every file system can do that.
@@ -127,7 +125,7 @@ void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
   turn.confirm();
   std::optional<Manifest> all = manifest_of_same_film(path_, manifest.checksum);
   if (!all) {  // another film's frames under the names to come would pass as this one's if the run were interrupted
-    for (const std::uint32_t frame : manifest.frames) fs::remove(file_of(frame));
+    for (const std::uint32_t frame : manifest.frames) remove_frame(file_of(frame));
     all = manifest;
   }
   add_frames(*all, manifest);
@@ -196,10 +194,13 @@ Manifest read_manifest(const fs::path& folder) {
   std::vector<Manifest> unfinished;
   for (const RunFiles& run : RunsFolder(folder, this_process()).runs())
     if (std::optional<Manifest> rendered = rendered_by(run)) unfinished.push_back(std::move(*rendered));
-  Manifest manifest = read_frames_json(folder);
+  std::optional<Manifest> manifest = read_frames_json(folder);
+  if (!manifest)
+    throw Failure("no folder of frames: it has no frames.json", folder.string(),
+                  "name the folder that was given to mars render with -o");
   for (const Manifest& rendered : unfinished)
-    if (rendered.checksum == manifest.checksum) add_frames(manifest, rendered);
-  return manifest;
+    if (rendered.checksum == manifest->checksum) add_frames(*manifest, rendered);
+  return std::move(*manifest);
 }
 
 void PngSink::take(const Frame& frame) {

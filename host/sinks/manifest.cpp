@@ -1,12 +1,15 @@
 #include "host/sinks/manifest.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <stdexcept>
+#include <string_view>
 
+#include "hal/failure.h"
 #include "host/options/frame_set.h"
 #include "host/sinks/checksum.h"
+#include "host/sinks/record.h"
 #include "node/film.h"
 
 namespace mars::host {
@@ -14,6 +17,10 @@ namespace mars::host {
 using nlohmann::json;
 
 namespace {
+
+constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
+constexpr auto kKeys = std::to_array<std::string_view>(
+    {"film", "checksum", "width", "height", "rate", "film_frames", "frames", "pixel_hashes"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -23,20 +30,20 @@ json stretches_of(const std::vector<std::uint32_t>& frames) {
   return stretches;
 }
 
-// A whole number below `end`; JSON's own conversions would bend any other into one.
-std::uint32_t whole_number(const json& from, std::uint32_t end) {
-  if (!from.is_number_unsigned() || from.get<std::uint64_t>() >= end) {
-    throw std::out_of_range(from.dump() + " is not a whole number below " + std::to_string(end));
-  }
-  return from.get<std::uint32_t>();
+std::uint32_t frame_of(const json& number, std::uint32_t film_frames) {
+  if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= film_frames)
+    refuse_value("frames", number, "a whole number below film_frames, " + std::to_string(film_frames));
+  return number.get<std::uint32_t>();
 }
 
 std::vector<std::uint32_t> frames_of(const json& stretches, std::uint32_t film_frames) {
   std::vector<std::uint32_t> frames;
   for (const json& stretch : stretches) {
-    const std::uint32_t last = whole_number(stretch.at(1), film_frames);
-    const std::uint32_t first = whole_number(stretch.at(0), film_frames);
-    if (!frames.empty() && first <= frames.back()) throw std::out_of_range("frames do not ascend");
+    if (!stretch.is_array() || stretch.size() != 2) refuse_value("frames", stretch, "a stretch, [first, last]");
+    const std::uint32_t first = frame_of(stretch[0], film_frames);
+    const std::uint32_t last = frame_of(stretch[1], film_frames);
+    const bool ascends = first <= last && (frames.empty() || frames.back() < first);
+    if (!ascends) refuse_value("frames", stretch[0], "above all before, and at most the last of its stretch");
     for (std::uint32_t frame = first; frame <= last; ++frame) frames.push_back(frame);
   }
   return frames;
@@ -49,9 +56,14 @@ json hashes_json(const std::vector<std::string>& hashes) {
 }
 
 std::vector<std::string> hashes_of(const json& list, std::size_t frames) {
-  if (list.size() != frames) throw std::out_of_range("pixel_hashes has not one entry for each frame");
+  if (list.size() != frames)
+    throw Failure("pixel_hashes has " + std::to_string(list.size()) + " entries for " + std::to_string(frames) +
+                      " frames", "", "");
   std::vector<std::string> hashes;
-  for (const json& hash : list) hashes.push_back(hash.is_null() ? "" : hash.get<std::string>());
+  for (const json& hash : list) {
+    if (!hash.is_null() && !is_checksum(hash)) refuse_value("pixel_hashes", hash, "32 hexadecimal digits or null");
+    hashes.push_back(hash.is_null() ? "" : hash.get<std::string>());
+  }
   return hashes;
 }
 
@@ -101,16 +113,18 @@ json to_json(const Manifest& manifest) {
 }
 
 Manifest manifest_of(const json& from) {
+  const Record record(from);
+  record.refuse_keys_but(kKeys);
   Manifest manifest;
-  from.at("film").get_to(manifest.film);
-  from.at("checksum").get_to(manifest.checksum);
-  manifest.width = whole_number(from.at("width"), node::kMaxSide + 1);
-  manifest.height = whole_number(from.at("height"), node::kMaxSide + 1);
-  from.at("rate").get_to(manifest.rate);
-  manifest.film_frames = whole_number(from.at("film_frames"), node::kMostFrames + 1);
-  manifest.frames = frames_of(from.at("frames"), manifest.film_frames);
+  manifest.film = record.text("film", kLongestFilm);
+  manifest.checksum = record.checksum("checksum");
+  manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, node::kMaxSide));
+  manifest.height = static_cast<std::uint32_t>(record.whole_number("height", 1, node::kMaxSide));
+  manifest.rate = record.positive_number("rate");
+  manifest.film_frames = static_cast<std::uint32_t>(record.whole_number("film_frames", 1, node::kMostFrames));
+  manifest.frames = frames_of(record.list("frames"), manifest.film_frames);
   if (from.contains("pixel_hashes"))
-    manifest.pixel_hashes = hashes_of(from.at("pixel_hashes"), manifest.frames.size());
+    manifest.pixel_hashes = hashes_of(record.list("pixel_hashes"), manifest.frames.size());
   return manifest;
 }
 

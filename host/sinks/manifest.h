@@ -34,7 +34,7 @@ void add_frames(Manifest& manifest, const Manifest& more);
 void set_hash(Manifest& manifest, std::uint32_t frame, const std::string& hash);
 
 nlohmann::json to_json(const Manifest& manifest);
-// Throws std::exception where it is none.
+// Throws Failure, without a place, where it is none, or has keys of another kind.
 Manifest manifest_of(const nlohmann::json& from);
 
 // Names sort as frames do: as many digits as the film's last frame needs, at least four.

@@ -9,12 +9,15 @@
 #include <string>
 
 #include "hal/failure.h"
-#include "host/document/whole_file.h"
+#include "host/document/file.h"
 #include "node/film.h"
 
 namespace mars::host {
 
 namespace {
+
+// Of the largest picture, not compressed, with 4 channels of 16 bits; the rest is room for what else a file says.
+constexpr std::uintmax_t kLargestPng = std::uintmax_t{8} * node::kMaxSide * node::kMaxSide + (1 << 24);
 
 // libpng leaves a failing call by longjmp, which must not pass a C++ object: the functions between setjmp and
 // libpng hold plain data only, and what grows lives with their caller.
@@ -161,7 +164,10 @@ std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
   return bytes;
 }
 
-Image read_png(const std::filesystem::path& path) { return decode_png(read_whole_file(path), path.string()); }
+Image read_png(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path, kLargestPng);
+  return decode_png(std::as_bytes(std::span(bytes)), path.string());
+}
 
 Image decode_png(std::span<const std::byte> bytes, const std::string& name) {
   const auto torn = [&](const Reader& reader) {

@@ -4,13 +4,18 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+
+#include "host/sinks/record.h"
 
 namespace mars::host {
 
@@ -65,12 +70,16 @@ nlohmann::json to_json(const ProcessName& process) {
 }
 
 ProcessName process_name_of(const nlohmann::json& from) {
+  constexpr std::size_t kLongestText = 255;  // bytes; a host's name has at most 64
+  const Record record(from);
   ProcessName process;
-  from.at("host").get_to(process.host);
-  from.at("boot").get_to(process.boot);
-  from.at("processes").get_to(process.processes);
-  from.at("process").get_to(process.number);
-  from.at("start").get_to(process.start);
+  process.host = record.text("host", kLongestText);
+  if (std::ranges::any_of(process.host, [](unsigned char c) { return std::iscntrl(c); }))
+    refuse_value("host", from.at("host"), "the name of a machine");
+  process.boot = record.text("boot", kLongestText);
+  process.processes = record.text("processes", kLongestText);
+  process.number = static_cast<std::int64_t>(record.whole_number("process", 1, std::numeric_limits<pid_t>::max()));
+  process.start = record.whole_number("start", 0, std::numeric_limits<std::uint64_t>::max());
   return process;
 }
 

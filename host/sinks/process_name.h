@@ -22,7 +22,7 @@ struct ProcessName {
 ProcessName this_process();
 
 nlohmann::json to_json(const ProcessName& process);
-// Throws std::exception where it is none.
+// Throws Failure, without a place, where it is none that a process can have.
 ProcessName process_name_of(const nlohmann::json& from);
 
 enum class Running { yes, no, unknown };  // unknown: it cannot be seen from here

@@ -6,11 +6,13 @@
 #include <cctype>
 #include <cerrno>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "hal/failure.h"
-#include "host/document/json_file.h"
+#include "host/document/file.h"
 #include "host/document/whole_file.h"
+#include "host/sinks/record.h"
 
 namespace mars::host {
 
@@ -25,6 +27,19 @@ std::string run_name(const ProcessName& self) {
   std::string host = self.host;
   std::ranges::replace_if(host, [](unsigned char c) { return !std::isalnum(c); }, '-');
   return host + "-" + std::to_string(self.number) + "-" + unique_word();
+}
+
+std::string run_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.substr(0, name.find('.'));
+}
+
+// Runs make regular files only; to open anything else could wait for ever.
+void refuse_other_kinds(const fs::directory_entry& entry) {
+  std::error_code gone;
+  const fs::file_type type = entry.symlink_status(gone).type();
+  if (!gone && type != fs::file_type::regular && type != fs::file_type::not_found)
+    throw Failure("is not a regular file, and runs keep only such there", entry.path().string(), "remove it");
 }
 
 }  // namespace
@@ -61,20 +76,21 @@ fs::path RunsFolder::add_own_file(std::string_view ending, std::string_view text
 
 void RunsFolder::remove_own_files() const {
   std::error_code ignored;  // what stays, the next run removes
-  for (const RunFiles& run : runs())
-    if (run.run == name_)
-      for (const fs::path& file : run.files) fs::remove(file, ignored);
+  for (fs::directory_iterator entry(path_, ignored), end; entry != end; entry.increment(ignored))
+    if (run_of(entry->path()) == name_) fs::remove(entry->path(), ignored);
 }
 
 std::vector<RunFiles> RunsFolder::runs() const {
   std::map<std::string, RunFiles> found;
   if (!exists()) return {};
-  std::error_code ignored;  // what cannot be listed cannot be written either
-  for (fs::directory_iterator entry(path_, ignored), end; entry != end; entry.increment(ignored)) {
-    const std::string file = entry->path().filename().string();
-    RunFiles& run = found[file.substr(0, file.find('.'))];
-    run.files.push_back(entry->path());
+  std::error_code error;
+  for (fs::directory_iterator entry(path_, error), end; entry != end; entry.increment(error)) {
+    refuse_other_kinds(*entry);
+    found[run_of(entry->path())].files.push_back(entry->path());
   }
+  if (error && error != std::errc::no_such_file_or_directory)  // the last run has removed it
+    throw Failure("cannot be listed, and who else renders into this folder stands there: " + error.message(),
+                  path_.string(), "change its permissions, or give another folder");
   std::vector<RunFiles> runs;
   for (auto& [name, run] : found) runs.push_back({name, std::move(run.files)});
   return runs;
@@ -89,7 +105,7 @@ ProcessName process_of(const RunFiles& run) {
   for (const fs::path& file : run.files) {
     if (file.extension() == kPartSuffix || file.extension() == kHashesEnding) continue;
     try {
-      return process_name_of(read_json_file(file));
+      return process_name_of(parse_record(read_file(file, kLargestRecord)));
     } catch (const std::exception&) {  // it is gone meanwhile, or not whole yet
     }
   }

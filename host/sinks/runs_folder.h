@@ -41,7 +41,8 @@ class RunsFolder {
   // Failure where it cannot, or something that is no folder has its name.
   std::filesystem::path add_own_file(std::string_view ending, std::string_view text) const;
   void remove_own_files() const;
-  // Of every run, by name; none where there is no folder.
+  // Of every run, by name; none where there is no folder. Throws Failure where it cannot be listed, or has something
+  // in it that is no regular file.
   std::vector<RunFiles> runs() const;
   void remove_if_empty() const;
 

@@ -1,6 +1,7 @@
 #include "host/document/document.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -129,6 +130,16 @@ TEST(File, RefusesWhatIsNoFile) {
   EXPECT_TRUE(holds(failure_of([&] { read_file(folder); }), "is a directory"));
   EXPECT_TRUE(holds(failure_of([&] { read_file(folder / "no-such-file.json"); }), "no such file"));
   EXPECT_TRUE(holds(failure_of([&] { read_file("/dev/zero"); }), "not a regular file"));
+  const std::filesystem::path odd = folder / "mars_document_test.odd";
+  std::filesystem::remove(odd);
+  EXPECT_FALSE(read_file_if_there(odd, 4));
+  ASSERT_EQ(mkfifo(odd.c_str(), 0600), 0);
+  EXPECT_TRUE(holds(failure_of([&] { read_file_if_there(odd, 4); }), "odd: is not a regular file"));
+  EXPECT_EQ(read_start(odd, 4), "");
+  std::filesystem::remove(odd);
+  std::filesystem::create_symlink(odd.filename(), odd);
+  EXPECT_TRUE(holds(failure_of([&] { read_file(odd); }), "levels of symbolic links (its links lead in a circle"));
+  std::filesystem::remove(odd);
   const std::filesystem::path file = folder / "mars_document_test.json";
   std::ofstream(file) << "12345";
   EXPECT_TRUE(holds(failure_of([&] { read_file(file, 4); }), "5 bytes, too many"));

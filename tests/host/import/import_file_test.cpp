@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "host/document/file.h"
 #include "host/document/whole_file.h"
 #include "host/import/mesh_file.h"
 #include "host/import/promised.h"
@@ -388,7 +389,7 @@ TEST_F(ImportTest, AFileThatIsThereIsReplacedOnlyByForce) {
   std::ofstream(options.to) << "mine";
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }),
                     "model.json: is there already (choose another name, or replace it with --force)"));
-  EXPECT_EQ(read_whole_file(options.to).size(), 4u);
+  EXPECT_EQ(read_file(options.to).size(), 4u);
   options.force = true;
   EXPECT_EQ(import(options).joints.size(), 1u);
 }
@@ -494,7 +495,7 @@ TEST_F(ImportTest, TheFileItselfIsNotOverwritten) {
   ImportOptions options = wishes(from);
   options.to = from;
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "is the file that is read (write to another)"));
-  EXPECT_EQ(read_whole_file(from).size(), 2u);
+  EXPECT_EQ(read_file(from).size(), 2u);
 }
 
 // Files of others, where they lie beside the project.

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <nlohmann/json.hpp>
+
+#include "host/document/file.h"
 #include "host/document/whole_file.h"
 #include "tests/host/document/failure_of.h"
 #include "tests/host/sinks/temporary_folder.h"
@@ -73,6 +76,37 @@ TEST(Claim, OneThatCannotBeReadIsRefusedToo) {
   EXPECT_TRUE(holds(claim.refuses(film("a.json", 'a', {3})), "n1.claim: another run renders into this folder"));
 }
 
+TEST(Claim, OneThatNoRunWritesCannotBeRead) {
+  const ClaimOf claim(film("a.json", 'a', {1}));
+  const std::filesystem::path file = claim.run().files.front();
+  const nlohmann::json sound = nlohmann::json::parse(read_file(file));
+  const auto with = [&](const char* key, const nlohmann::json& value) {
+    nlohmann::json changed = sound;
+    changed[key] = value;
+    write_whole_file(file, changed.dump());
+    return claim_of(claim.run()).has_value();
+  };
+  EXPECT_TRUE(with("process", 4712));
+  EXPECT_FALSE(with("process", (std::int64_t{1} << 40) + 1));
+  EXPECT_FALSE(with("process", 0));
+  EXPECT_FALSE(with("since", std::int64_t{1} << 62));
+  EXPECT_FALSE(with("since", -1));
+  EXPECT_FALSE(with("host", "n1\nmars: all is well"));
+  EXPECT_FALSE(with("host", "\033[2J"));
+  EXPECT_FALSE(with("host", std::string(100000, 'n')));
+  EXPECT_FALSE(with("manifest", nullptr));
+}
+
+TEST(Claim, FilmsNamesAreToldOnOneLineAndShort) {
+  const std::string odd = ClaimOf(film("a\n\033[2J.json", 'a', {1})).refuses(film("x", 'a', {1}));
+  EXPECT_TRUE(holds(odd, "renders frame 1 of a??[2J.json into")) << odd;
+  const std::string path = std::string(4000, '/') + "film.json";
+  const std::string told = ClaimOf(film(path.c_str(), 'a', {1})).refuses(film("x", 'a', {1}));
+  EXPECT_TRUE(holds(told, "frame 1 of ...//")) << told;
+  EXPECT_TRUE(holds(told, "/film.json into")) << told;
+  EXPECT_LT(told.size(), 500u);
+}
+
 TEST(Claim, WhatWasRenderedIsKnownUpToWhereTheRunWasKilled) {
   const ClaimOf claim(film("a.json", 'a', {0, 1, 2, 9}));
   EXPECT_EQ(rendered_by(claim.run())->pixel_hashes, std::vector<std::string>(4)) << "no frame yet";
@@ -84,9 +118,7 @@ TEST(Claim, WhatWasRenderedIsKnownUpToWhereTheRunWasKilled) {
     log.add(5, hash);  // not claimed
   }
   EXPECT_NE(failure_of([&] { HashLog(claim.hashes()); }), "") << "it is one run's own";
-  const std::vector<std::byte> whole = read_whole_file(claim.hashes());
-  std::string text(reinterpret_cast<const char*>(whole.data()), whole.size());
-  write_whole_file(claim.hashes(), text + "2 777");
+  write_whole_file(claim.hashes(), read_file(claim.hashes()) + "2 777");
   EXPECT_EQ(rendered_by(claim.run())->pixel_hashes, (std::vector<std::string>{"", hash, "", hash}));
 }
 

@@ -115,7 +115,7 @@ TEST(FolderTurn, WhatTheSystemRefusesIsNotTakenForALoss) {
   const RunsFolder blocked(folder.path(), this_process()), runs(folder.path(), this_process());
   fs::create_directories(blocked.own_file(kTurnEnding));
   const std::string failure = failure_of([&] { const FolderTurn turn(blocked); });
-  EXPECT_TRUE(holds(failure, "cannot rename: Is a directory")) << failure;
+  EXPECT_TRUE(holds(failure, ".turn: is not a regular file")) << failure;
   fs::remove(blocked.own_file(kTurnEnding));
   const FolderTurn turn(runs);
   fs::rename(folder / ".runs", folder / "away");

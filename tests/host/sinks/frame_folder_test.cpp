@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,10 +10,12 @@
 #include <atomic>
 #include <barrier>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/document/file.h"
 #include "host/document/whole_file.h"
 #include "host/sinks/png_file.h"
 #include "host/sinks/verify.h"
@@ -128,7 +131,7 @@ TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
   put_frames(frames, of_frames({1}), 7);
   write_whole_file(folder / "frames.json", "nonsense");
   const std::string failure = failure_of([&] { frames.finish(); });
-  EXPECT_TRUE(holds(failure, "frames.json: is no longer the manifest of the film")) << failure;
+  EXPECT_TRUE(holds(failure, "frames.json: not a manifest of frames")) << failure;
   EXPECT_TRUE(fs::exists(file_of_run(folder.path(), ".hashes")));
 }
 
@@ -207,13 +210,13 @@ TEST(FrameFolder, RunsThatWouldBeMixedAreRefusedAndChangeNothing) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1, 2}));
   put_frames(frames, of_frames({1}), 7);
-  const std::vector<std::byte> manifest = read_whole_file(folder / "frames.json");
+  const std::string manifest = read_file(folder / "frames.json");
   EXPECT_TRUE(holds(failure_to_claim(folder.path(), of_frames({2, 3})), "renders frames 1-2 of a film.json into"));
   Manifest other = of_frames({1, 3});
   other.checksum = std::string(32, 'b');
   other.film = "other.json";
   EXPECT_TRUE(holds(failure_to_claim(folder.path(), other), "renders frames 1-2 of a film.json into"));
-  EXPECT_EQ(read_whole_file(folder / "frames.json"), manifest);
+  EXPECT_EQ(read_file(folder / "frames.json"), manifest);
   EXPECT_TRUE(fs::exists(frames.file_of(1)));
   EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), "");
   put_frames(frames, of_frames({2}), 7);
@@ -290,8 +293,14 @@ TEST(FrameFolder, NothingIsWrittenThroughLinks) {
   const TemporaryFolder folder;
   write_whole_file(folder / "precious", "old");
   fs::create_directory(folder / "out");
-  for (const char* name : {"frame-0001.png", "frame-0001.png.part", "frames.json", "frames.json.part"})
+  for (const char* name : {"frame-0001.png", "frame-0001.png.part", "frames.json.part"})
     fs::create_symlink("../precious", folder / "out" / name);
+  fill(folder / "theirs", of_frames({3}), 7);
+  const std::string theirs = read_file(folder / "theirs/frames.json");
+  fs::create_symlink("../theirs/frames.json", folder / "out/frames.json");
+  fill(folder / "out", of_frames({1}), 7);
+  EXPECT_EQ(read_file(folder / "theirs/frames.json"), theirs);
+  fs::remove(folder / "out/frames.json");
   fill(folder / "out", small_manifest(), 7);
   EXPECT_EQ(fs::file_size(folder / "precious"), 3u);
   EXPECT_TRUE(verify_folder(folder / "out").troubles.empty());
@@ -334,21 +343,131 @@ TEST(FrameFolder, TellsWhereItCannotBe) {
   EXPECT_TRUE(holds(failure("file/below"), "cannot create the folder")) << failure("file/below");
 }
 
-TEST(FrameFolder, WrongManifestsAreTold) {
+TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
   const TemporaryFolder folder;
   EXPECT_TRUE(holds(failure_of([&] { read_manifest(folder.path()); }), "it has no frames.json"));
-  for (const char* text : {"", "{", "[]", "{\"film\": 3}", "\xff", "null"}) {
+  const auto told = [&](const std::string& text) {
     write_whole_file(folder / "frames.json", text);
-    EXPECT_TRUE(holds(failure_of([&] { read_manifest(folder.path()); }), "frames.json: not a manifest"))
-        << text;
+    const std::string failure = failure_of([&] { read_manifest(folder.path()); });
+    EXPECT_TRUE(holds(failure, "frames.json: not a manifest of frames: ")) << text;
+    EXPECT_TRUE(holds(failure, "remove it, and render all frames")) << text;
+    EXPECT_FALSE(holds(failure, "exception")) << failure;
+    EXPECT_EQ(failure_to_claim(folder.path(), small_manifest()), failure);
+    EXPECT_EQ(read_file(folder / "frames.json"), text);
+    return failure;
+  };
+  EXPECT_TRUE(holds(told("{\n"), "byte 3 is no JSON, or the end is missing"));
+  EXPECT_TRUE(holds(told("[]"), "a list is not an object"));
+  EXPECT_TRUE(holds(told("{\"film\": 3}"), "film: 3 is not a text"));
+  for (const char* text : {"", "\xff", "null"}) told(text);
+  const std::string head = R"({"film":"x","width":1,"height":1,"rate":24,"film_frames":4,)";
+  const std::string sum = "\"checksum\":\"" + std::string(32, 'a') + "\",";
+  write_whole_file(folder / "frames.json", head + sum + R"("frames":[[0,1]]})");
+  EXPECT_EQ(failure_of([&] { read_manifest(folder.path()); }), "") << "else what follows is wrong anyway";
+  for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]", "[[2,1]]",
+                             R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])",
+                             R"([[0,0]],"pixel_hashes":["x"])"})
+    told(head + sum + "\"frames\":" + frames + "}");
+  EXPECT_TRUE(holds(told(head + sum + R"("frames":[[0,1]],"pixel\u001b_hashes":[]})"),
+                    R"(the key "pixel\u001b_hashes" is unknown)"));
+  EXPECT_TRUE(holds(told(head + R"("frames":[[0,1]]})"), R"(the key "checksum" is missing)"));
+  const std::string of_long = told(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
+  EXPECT_TRUE(holds(of_long, "xxx... is not 32 hexadecimal digits")) << of_long.substr(0, 1000);
+  EXPECT_LT(of_long.size(), 400u);
+}
+
+// Whoever reads waits for none, and reads no device to its end, which never comes.
+TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  const fs::path manifest = folder / "frames.json";
+  fs::rename(manifest, folder / "kept");
+  const auto refused = [&](const char* reason) {
+    const std::string failure = failure_to_claim(folder.path(), of_frames({3}));
+    EXPECT_TRUE(holds(failure, manifest.string() + ": " + reason)) << failure;
+    EXPECT_EQ(failure_of([&] { read_manifest(folder.path()); }), failure);
+    EXPECT_TRUE(fs::exists(fs::symlink_status(manifest)));
+    fs::remove(manifest);
+  };
+  ASSERT_EQ(mkfifo(manifest.c_str(), 0600), 0);
+  refused("is not a regular file");
+  fs::create_symlink("/dev/zero", manifest);
+  refused("is not a regular file");
+  fs::create_directory(manifest);
+  refused("is a directory");
+  fs::create_symlink("frames.json", manifest);
+  refused("cannot be read: Too many levels");
+  write_whole_file(manifest, "");
+  fs::resize_file(manifest, std::uintmax_t{1} << 40);
+  refused("has 1099511627776 bytes, too many");
+  EXPECT_EQ(folder.entries(), 6u);
+}
+
+TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
+  for (const char* ending : {"claim", "turn", "hashes", "waits"}) {
+    const TemporaryFolder folder;
+    fill(folder.path(), small_manifest(), 7);
+    fs::create_directory(folder / ".runs");
+    const fs::path file = folder / (std::string(".runs/vm-1-abc.") + ending);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    const std::string says = file.string() + ": is not a regular file, and runs keep only such there (remove it)";
+    EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
+    EXPECT_EQ(failure_of([&] { read_manifest(folder.path()); }), says);
+    clear_ended_runs(folder.path());
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".runs"), {}), 1) << "what was begun is gone again";
+    fs::remove(file);
+    fs::create_symlink("/dev/zero", file);
+    EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
   }
-  const std::string head =
-      R"({"film":"x","checksum":"x","width":1,"height":1,"rate":24,"film_frames":4,"frames":)";
-  for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]",
-                             R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])"}) {
-    write_whole_file(folder / "frames.json", head + frames + "}");
-    EXPECT_TRUE(holds(failure_of([&] { read_manifest(folder.path()); }), "not a manifest")) << frames;
+}
+
+// Runs `act` as a person who is not root; whatever fails there fails the test.
+void as_nobody(const fs::path& folder, const std::function<bool()>& act) {
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() == 0) {
+    ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+      ASSERT_EQ(chown(entry.path().c_str(), kNobody, kNobody), 0);
   }
+  const pid_t child = fork();
+  if (child == 0) {
+    const bool may = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
+    _exit(may && act() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
+TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  fs::permissions(folder / "frames.json", fs::perms::none);
+  as_nobody(folder.path(), [&] {
+    return holds(failure_to_claim(folder.path(), of_frames({3})),
+                 "frames.json: cannot be read: Permission denied (check its permissions)");
+  });
+  EXPECT_EQ(read_manifest(folder.path()).frames, small_manifest().frames);
+  EXPECT_EQ(folder.entries(), 6u);
+}
+
+TEST(FrameFolder, RivalsThatCannotBeListedAreAnError) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  fs::create_directory(folder / ".runs");
+  fs::permissions(folder / ".runs", fs::perms::owner_write | fs::perms::owner_exec);
+  as_nobody(folder.path(), [&] {
+    const char* says = ".runs: cannot be listed, and who else renders into this folder stands there";
+    return holds(failure_to_claim(folder.path(), of_frames({3})), says) &&
+           holds(failure_of([&] { read_manifest(folder.path()); }), says);
+  });
+}
+
+TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "frame-0001.png/below");
+  const std::string failure = failure_to_claim(folder.path(), small_manifest());
+  EXPECT_TRUE(holds(failure, "frame-0001.png: cannot remove: Is a directory (something of another kind")) << failure;
 }
 
 TEST(Verify, OneHashForEqualFrames) {
@@ -384,6 +503,23 @@ TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {
   EXPECT_EQ(verdict.troubles[2].reason, "2x3 pixels instead of 6x4");
   EXPECT_EQ(verdict.troubles[3].reason, "other pixels than were rendered");
   EXPECT_EQ(verdict.hash, "");
+}
+
+TEST(Verify, FramesThatAreNoFilesAreNamedAndTheOthersLookedAt) {
+  const TemporaryFolder folder;
+  fill(folder.path(), small_manifest(), 7);
+  for (const char* name : {"frame-0000.png", "frame-0001.png", "frame-0002.png", "frame-0005.png"})
+    fs::remove(folder / name);
+  fs::create_symlink("frame-0000.png", folder / "frame-0000.png");
+  ASSERT_EQ(mkfifo((folder / "frame-0001.png").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder / "frame-0002.png");
+  fs::create_directory(folder / "frame-0005.png");
+  const Verdict verdict = verify_folder(folder.path());
+  ASSERT_EQ(verdict.troubles.size(), 4u);
+  EXPECT_TRUE(holds(verdict.troubles[0].reason, "cannot be read: Too many levels"));
+  EXPECT_EQ(verdict.troubles[1].reason, "is not a regular file");
+  EXPECT_EQ(verdict.troubles[2].reason, "is not a regular file");
+  EXPECT_EQ(verdict.troubles[3].reason, "is a directory, not a file");
 }
 
 TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
