@@ -93,14 +93,14 @@ class Run {
   void show_slow_load() {
     if (slow_load_shown_ || Clock::now() - waiting_since_ < kSlowLoad) return;
     slow_load_shown_ = true;
-    display_.tell("compiling " + loading_->film + " ...");
+    display_.tell("loading " + loading_->film + " ...");
   }
 
   // Nodes are waited for only from now on: the host does not listen to them before.
   void end_loading(const Loaded& loaded) {
     loading_.reset();
     waiting_since_ = Clock::now();
-    if (slow_load_shown_) display_.tell("compiled in " + clock_text(loaded.seconds));
+    if (slow_load_shown_) display_.tell("loaded in " + clock_text(loaded.seconds));
   }
 
   void take_error(const std::string& line) {

@@ -63,7 +63,7 @@ class SlowStart(ProgramTest):
         self.assertIn("no node has answered for 20 seconds", told["late"])
         self.assertIn("mars doctor tells more", told["late"])
         self.assertNotIn("no node has answered", told["compiling"])
-        self.assertIn("compiling long.json ...\ncompiled in 0:22", told["compiling"])
+        self.assertIn("loading long.json ...\nloaded in 0:22", told["compiling"])
 
     def test_a_signal_ends_it_at_any_moment(self):
         for sent in [signal.SIGTERM, signal.SIGINT]:

@@ -279,7 +279,7 @@ TEST(All, IsCameraLightsMaterialsAndActorsButMatrices) {
 TEST(EaseKeys, ALastKeyTakesAnotherEaseToo) {
   Scene scene(R"(, "keys": [{"frame": 0, "pose": {"elbow": [0, 0, 0]}},
                             {"frame": 10, "pose": {"elbow": [0, 50, 0]}, "ease": "in"}])");
-  ease_keys(scene.json, scene.film, {.thing = "it"}, {10, 10}, kOut);
+  ease_keys(scene.json, scene.film, {false, "it", {}}, {10, 10}, kOut);
   EXPECT_EQ(scene.keys()[1]["ease"], "out");
 }
 

@@ -319,7 +319,7 @@ TEST_F(ImportTest, AFileThatWasReadBesidesIsNotOverwritten) {
   ImportOptions options = wishes(write("wedge.obj", "mtllib wedge.mtl\n" + obj_box()));
   options.to = write("wedge.mtl", "newmtl a\n");
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "wedge.mtl: is the file that is read (write to another)"));
-  EXPECT_EQ(read_whole_file(options.to).size(), 9u);
+  EXPECT_EQ(read_file(options.to).size(), 9u);
 }
 
 TEST_F(ImportTest, OtherEndingsAreRefusedByName) {
