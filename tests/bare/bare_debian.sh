@@ -213,7 +213,9 @@ unshare --mount --pid --fork mount -t tmpfs none /mnt || give_up "may not mount 
 command -v debootstrap >/dev/null || give_up "needs debootstrap (apt-get install debootstrap)"
 work=$(mktemp -d "${TMPDIR:-/tmp}/mars-bare.XXXXXX")
 trap 'rm -rf --one-file-system "$work"' EXIT
-trap 'exit 130' INT TERM HUP
 base=$(realpath -m "${kept:-$work/base.tar}")
 chmod 755 "$work"
-unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base" "$only"
+# In the background: bash takes a signal only when what it waits for in the foreground has ended.
+unshare --mount --propagation private --pid --fork --kill-child "$0" --within "$work" "$base" "$only" &
+trap 'kill -KILL $!; exit 130' INT TERM HUP
+wait $!
