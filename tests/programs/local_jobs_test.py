@@ -13,6 +13,7 @@ from harness import (ENVIRONMENT, MPICH, PROGRAMS, ProgramTest, family, living, 
                      wait_until)
 
 SHARED = pathlib.Path("/dev/shm")
+FOLDER_SETTINGS = ["OMPI_MCA_orte_tmpdir_base", "OMPI_MCA_btl_vader_backing_directory"]
 NAMED = f"mars.{socket.gethostname()[:32]}."
 
 
@@ -40,7 +41,6 @@ class LocalJobs(ProgramTest):
         super().setUp()
         self.temporary = self.folder / "tmp"
         self.temporary.mkdir()
-        self.before = set(SHARED.iterdir())
         self.film = self.write("film.json", spinning_teapot(2, [16, 9]))
         self.environment = dict(ENVIRONMENT, TMPDIR=str(self.temporary))
 
@@ -48,10 +48,18 @@ class LocalJobs(ProgramTest):
         film = self.write("long.json", spinning_teapot(20000, [160, 90]))
         return self.start_mars("render", film, "-o", "out", "--nodes", 2, *words, env=self.environment)
 
-    def folders(self):
-        """Those of jobs since the test began."""
-        return [path for base in [self.temporary, SHARED] for path in base.glob(NAMED + "??????")
-                if path not in self.before]
+    @staticmethod
+    def folders_of(processes):
+        """Those that were made for this job: others run beside it."""
+        found = set()
+        for process in processes:
+            try:
+                lines = pathlib.Path(f"/proc/{process}/environ").read_text().split("\0")
+            except OSError:
+                continue  # it has ended
+            settings = dict(line.split("=", 1) for line in lines if "=" in line)
+            found.update(pathlib.Path(settings[name]) for name in FOLDER_SETTINGS if name in settings)
+        return sorted(found)
 
     def processes(self):
         """Those with this test's environment, whoever is their parent."""
@@ -85,14 +93,14 @@ class LocalJobs(ProgramTest):
     def test_what_a_killed_job_left_is_removed(self):
         process = self.start()
         everyone = family(process.pid)
+        left = self.folders_of(everyone)
         for each in [process.pid, *everyone]:
             os.kill(each, signal.SIGKILL)
         wait_until(lambda: not living(everyone), 10, "they live on")
-        left = self.folders()
-        self.assertEqual(len(left), 2)
+        self.assertEqual([path.parent for path in left], [SHARED, self.temporary])
         self.assertTrue(all(any(path.iterdir()) for path in left), left)
         self.render_a_frame()
-        self.assertEqual(self.folders(), [])
+        self.assertEqual([path for path in left if path.exists()], [])
         self.assertEqual(list(self.temporary.iterdir()), [])
 
     @needs_mpi
@@ -100,7 +108,7 @@ class LocalJobs(ProgramTest):
     def test_what_others_have_stays(self):
         victim = self.write("victim", "precious")
         process = self.start()
-        living_job = self.folders()
+        living_job = self.folders_of(family(process.pid))
         self.assertEqual(len(living_job), 2)
         planted = self.temporary / (NAMED + "abcdef")
         planted.symlink_to(self.folder)
@@ -121,13 +129,14 @@ class LocalJobs(ProgramTest):
     @needs_mpi
     def test_mars_nx_leaves_nothing(self):
         program = self.folder / "sleeper"
-        program.write_text('#!/bin/sh\necho "$OMPI_MCA_orte_tmpdir_base"\n')
+        program.write_text("#!/bin/sh\n" + "".join(f'echo "${name}"\n' for name in FOLDER_SETTINGS))
         program.chmod(0o755)
         named = self.succeed("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, env=self.environment).split()
+        named = sorted(map(pathlib.Path, set(named)))
         if not MPICH:
-            self.assertEqual(len(named), 2)
-            self.assertRegex(named[0], f"^{re.escape(str(self.temporary / NAMED))}.{{6}}$")
-        wait_until(lambda: not self.folders(), 10, "its folders stay")
+            self.assertEqual([path.parent for path in named], [SHARED, self.temporary])
+            self.assertTrue(all(re.fullmatch(re.escape(NAMED) + ".{6}", path.name) for path in named), named)
+        wait_until(lambda: not any(path.exists() for path in named), 10, "its folders stay")
         wait_until(lambda: not self.processes(), 10, "who removed them stays")
         done = self.run_program("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, "--", ":")
         self.assertClear(done.stderr, "mpirun takes : for the end of a program's arguments")
