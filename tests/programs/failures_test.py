@@ -1,6 +1,7 @@
 """Whatever is wrong, there is one clear line on standard error, the right exit code, and no half frame."""
 
 import os
+import re
 import resource
 import shutil
 import subprocess
@@ -143,6 +144,13 @@ class Memory(ProgramTest):
                 for kilobytes in range(80000, 500000, 60000):
                     self.within(kilobytes, *draw)
                 self.assertTrue(self.within(1500000, *draw))
+
+    def test_the_limit_that_is_named_does(self):
+        for nodes in [1, 3]:
+            draw = ["render", TEAPOT, "--sink", "none", "--nodes", nodes, "--frames", "0", "--backend", "threads"]
+            limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (300000 << 10, 300000 << 10))
+            told = self.fail_clearly(1, *draw, says="ulimit -v: the limit of 300000 kB", preexec_fn=limit).stderr
+            self.assertTrue(self.within(int(re.search(r"raise it to (\d+) or more", told)[1]), "mars", *draw))
 
     def test_a_limit_of_data_is_named(self):
         limit = lambda: resource.setrlimit(resource.RLIMIT_DATA, (100000 << 10, 100000 << 10))
