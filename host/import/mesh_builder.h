@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/import/mesh_file.h"
+#include "host/import/imported_mesh.h"
 
 namespace mars::host {
 

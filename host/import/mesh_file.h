@@ -1,44 +1,12 @@
-// Mesh files of other programs - OBJ, STL, PLY, glTF, GLB - as meshes in the unit cube. What stands still is read;
-// what else the file holds is listed.
+// Mesh files of other programs: OBJ, STL, PLY, glTF, GLB. What stands still is read.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <filesystem>
-#include <glm/mat3x3.hpp>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "host/import/file_kind.h"
-#include "host/modeler/mesh.h"
-#include "host/modeler/model.h"
+#include "host/import/imported_mesh.h"
 
 namespace mars::host {
-
-// How a person wants the file read.
-struct MeshWishes {
-  glm::dmat3 upright{1};  // turns the file's axes into ours
-  double scale = 1;
-  std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
-  std::string set_look;          // "mars model set rock.json rock --material color": remedies begin so
-};
-
-// The faces of one colour.
-struct MeshPart {
-  std::optional<std::array<double, 3>> color;  // none: the file gives none
-  Mesh mesh;
-};
-
-// All parts are scaled together from `bounds` into the unit cube, so that vertices they share stay the same.
-struct MeshFile {
-  std::vector<MeshPart> parts;  // at least one, in the file's order
-  Box bounds;
-  glm::dvec3 extent;                  // of the faces; 0 where they are flat
-  std::size_t vertices = 0;           // in the file, before those that agree in place and normal are joined
-  std::vector<std::string> not_read;  // "19 bones", ...
-  std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers
-};
 
 // `kind` is a mesh's. Normals are the file's where it gives them for all; else the mesh has a crease: 0 for glTF, which
 // says so, 30 degrees for the others. Faces that run against their normals are turned, those with fewer than three

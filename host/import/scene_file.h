@@ -4,7 +4,8 @@
 
 #include <filesystem>
 
-#include "host/import/mesh_file.h"
+#include "host/import/file_kind.h"
+#include "host/import/imported_mesh.h"
 
 namespace mars::host {
 
