@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/shared_memory.h"
-#include "node/film.h"
-#include "node/kernels.h"
-#include "node/protocol.h"
+#include "hal/messages/shared_memory.h"
+#include "node/wire/film.h"
+#include "node/simd/kernels.h"
+#include "node/wire/protocol.h"
 #include "node/renderer.h"
 
 namespace mars::node {

@@ -2,11 +2,11 @@
 // their edge boxes counted line by line.
 #pragma once
 
-#include "node/dice.h"
-#include "node/meshlets.h"
-#include "node/protocol.h"
-#include "node/scene.h"
-#include "node/setup.h"
+#include "node/shape/dice.h"
+#include "node/geometry/meshlets.h"
+#include "node/wire/protocol.h"
+#include "node/geometry/scene.h"
+#include "node/raster/setup.h"
 
 namespace mars::node {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
-#include "hal/recorder.h"
+#include "hal/messages/process.h"
+#include "hal/messages/recorder.h"
 
 namespace mars::node {
 namespace {

@@ -8,14 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "hal/cube.h"
-#include "node/arena.h"
-#include "node/czb.h"
-#include "node/exchange.h"
-#include "node/outbox.h"
+#include "hal/collectives/cube.h"
+#include "node/raster/arena.h"
+#include "node/raster/czb.h"
+#include "node/group/exchange.h"
+#include "node/group/outbox.h"
 #include "node/polygons.h"
-#include "node/scanline.h"
-#include "node/scene.h"
+#include "node/raster/scanline.h"
+#include "node/geometry/scene.h"
 #include "node/tracer.h"
 
 namespace mars::node {

@@ -1,7 +1,7 @@
 #include "node/tracer.h"
 
 #include "hal/nx/nx_messages.h"
-#include "node/protocol.h"
+#include "node/wire/protocol.h"
 
 namespace mars::node {
 namespace {

@@ -1,8 +1,8 @@
 // Records what the calling node does and sends it to the host, while frames are drawn and at the end. One
-// message is on its way at a time; meanwhile events gather, and what does not fit is counted (hal/recorder.h).
+// message is on its way at a time; meanwhile events gather, and what does not fit is counted (hal/messages/recorder.h).
 #pragma once
 
-#include "hal/recorder.h"
+#include "hal/messages/recorder.h"
 
 namespace mars::node {
 

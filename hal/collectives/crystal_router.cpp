@@ -1,14 +1,14 @@
-#include "hal/crystal_router.h"
+#include "hal/collectives/crystal_router.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <utility>
 
-#include "hal/dimension_exchange.h"
-#include "hal/failure.h"
-#include "hal/process.h"
-#include "hal/reduction.h"
+#include "hal/collectives/dimension_exchange.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/process.h"
+#include "hal/collectives/reduction.h"
 
 namespace mars::hal {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/backend.h"
-#include "hal/cube.h"
+#include "hal/messages/backend.h"
+#include "hal/collectives/cube.h"
 
 namespace mars::hal {
 

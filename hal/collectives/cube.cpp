@@ -1,9 +1,9 @@
-#include "hal/cube.h"
+#include "hal/collectives/cube.h"
 
 #include <functional>
 
-#include "hal/failure.h"
-#include "hal/reduction.h"
+#include "hal/failure/failure.h"
+#include "hal/collectives/reduction.h"
 
 namespace mars::hal {
 namespace {

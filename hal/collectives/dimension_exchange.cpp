@@ -1,11 +1,11 @@
-#include "hal/dimension_exchange.h"
+#include "hal/collectives/dimension_exchange.h"
 
 #include <bit>
 
-#include "hal/arguments.h"
-#include "hal/failure.h"
+#include "hal/messages/arguments.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_errno.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/cube.h"
+#include "hal/collectives/cube.h"
 
 namespace mars::hal {
 

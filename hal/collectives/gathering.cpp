@@ -1,4 +1,4 @@
-#include "hal/gathering.h"
+#include "hal/collectives/gathering.h"
 
 #include <algorithm>
 

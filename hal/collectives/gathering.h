@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "hal/dimension_exchange.h"
+#include "hal/collectives/dimension_exchange.h"
 
 namespace mars::hal {
 

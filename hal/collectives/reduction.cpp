@@ -1,6 +1,6 @@
-#include "hal/reduction.h"
+#include "hal/collectives/reduction.h"
 
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "hal/backend.h"
-#include "hal/cube.h"
-#include "hal/dimension_exchange.h"
+#include "hal/messages/backend.h"
+#include "hal/collectives/cube.h"
+#include "hal/collectives/dimension_exchange.h"
 
 namespace mars::hal {
 

@@ -1,4 +1,4 @@
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 
 #include <filesystem>
 #include <new>

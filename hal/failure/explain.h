@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars {
 

@@ -1,4 +1,4 @@
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 #include <utility>
 

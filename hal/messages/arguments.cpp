@@ -1,8 +1,8 @@
-#include "hal/arguments.h"
+#include "hal/messages/arguments.h"
 
-#include "hal/message_types.h"
+#include "hal/messages/message_types.h"
 #include "hal/nx/nx_errno.h"
-#include "hal/progress.h"
+#include "hal/messages/progress.h"
 
 namespace mars::hal {
 namespace {

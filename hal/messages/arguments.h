@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "hal/matching.h"
+#include "hal/messages/matching.h"
 
 namespace mars::hal {
 

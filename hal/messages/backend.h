@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-#include "hal/shared_memory.h"
+#include "hal/messages/shared_memory.h"
 
 namespace mars::hal {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::hal {
 

@@ -1,9 +1,9 @@
-#include "hal/handlers.h"
+#include "hal/messages/handlers.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "hal/requests.h"
+#include "hal/messages/requests.h"
 
 namespace mars::hal {
 

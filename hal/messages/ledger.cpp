@@ -1,4 +1,4 @@
-#include "hal/ledger.h"
+#include "hal/messages/ledger.h"
 
 #include "hal/nx/nx_messages.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/backend.h"
-#include "hal/recorder.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/recorder.h"
 
 namespace mars::hal {
 

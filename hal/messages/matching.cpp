@@ -1,8 +1,8 @@
-#include "hal/matching.h"
+#include "hal/messages/matching.h"
 
 #include <algorithm>
 
-#include "hal/requests.h"
+#include "hal/messages/requests.h"
 
 namespace mars::hal {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/backend.h"
-#include "hal/message_pool.h"
-#include "hal/message_types.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/message_pool.h"
+#include "hal/messages/message_types.h"
 
 namespace mars::hal {
 

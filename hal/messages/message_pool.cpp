@@ -1,4 +1,4 @@
-#include "hal/message_pool.h"
+#include "hal/messages/message_pool.h"
 
 #include <algorithm>
 #include <bit>

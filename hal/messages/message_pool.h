@@ -9,7 +9,7 @@
 #include <new>
 #include <vector>
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 

@@ -1,10 +1,10 @@
-#include "hal/private_memory.h"
+#include "hal/messages/private_memory.h"
 
 #include <sys/mman.h>
 
 #include <string>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 
 namespace mars::hal {
 

@@ -1,9 +1,9 @@
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 #include <utility>
 
-#include "hal/call_failure.h"
-#include "hal/files.h"
+#include "hal/messages/call_failure.h"
+#include "hal/nx/cfs.h"
 #include "hal/nx/nx_errno.h"
 
 namespace mars::hal {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/collectives.h"
-#include "hal/progress.h"
+#include "hal/messages/collectives.h"
+#include "hal/messages/progress.h"
 
 namespace mars::hal {
 

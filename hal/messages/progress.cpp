@@ -1,9 +1,9 @@
-#include "hal/progress.h"
+#include "hal/messages/progress.h"
 
 #include <cstring>
 #include <utility>
 
-#include "hal/call_failure.h"
+#include "hal/messages/call_failure.h"
 #include "hal/nx/nx_errno.h"
 
 namespace mars::hal {

@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <string>
 
-#include "hal/arguments.h"
-#include "hal/backend.h"
-#include "hal/handlers.h"
-#include "hal/ledger.h"
-#include "hal/matching.h"
-#include "hal/message_pool.h"
-#include "hal/rendezvous.h"
-#include "hal/requests.h"
+#include "hal/messages/arguments.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/handlers.h"
+#include "hal/messages/ledger.h"
+#include "hal/messages/matching.h"
+#include "hal/messages/message_pool.h"
+#include "hal/messages/rendezvous.h"
+#include "hal/messages/requests.h"
 
 namespace mars::hal {
 

@@ -1,8 +1,8 @@
-#include "hal/recorder.h"
+#include "hal/messages/recorder.h"
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 

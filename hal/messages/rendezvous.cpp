@@ -1,11 +1,11 @@
-#include "hal/rendezvous.h"
+#include "hal/messages/rendezvous.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
-#include "hal/arguments.h"
-#include "hal/progress.h"
+#include "hal/messages/arguments.h"
+#include "hal/messages/progress.h"
 
 namespace mars::hal {
 

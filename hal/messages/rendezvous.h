@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/message_types.h"
+#include "hal/messages/message_types.h"
 
 namespace mars::hal {
 

@@ -1,4 +1,4 @@
-#include "hal/requests.h"
+#include "hal/messages/requests.h"
 
 namespace mars::hal {
 namespace {

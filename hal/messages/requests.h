@@ -8,9 +8,9 @@
 #include <deque>
 #include <vector>
 
-#include "hal/backend.h"
-#include "hal/handlers.h"
-#include "hal/matching.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/handlers.h"
+#include "hal/messages/matching.h"
 
 namespace mars::hal {
 

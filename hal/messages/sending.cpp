@@ -1,5 +1,5 @@
 // How messages leave.
-#include "hal/progress.h"
+#include "hal/messages/progress.h"
 
 namespace mars::hal {
 

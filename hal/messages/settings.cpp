@@ -1,4 +1,4 @@
-#include "hal/settings.h"
+#include "hal/messages/settings.h"
 
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::hal {
 namespace {

@@ -1,6 +1,6 @@
-#include "hal/shared_memory.h"
+#include "hal/messages/shared_memory.h"
 
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <new>
 
-#include "hal/futex.h"
+#include "hal/messages/futex.h"
 #include "hal/mpi/mpi_call.h"
 
 namespace mars::hal {

@@ -9,8 +9,8 @@
 #include <exception>
 #include <string>
 
-#include "hal/failure.h"
-#include "hal/message_types.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/message_types.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
 #include "topology/machine.h"

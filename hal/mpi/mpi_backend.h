@@ -10,8 +10,8 @@
 
 #include <mpi.h>
 
-#include "hal/backend.h"
-#include "hal/message_pool.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/message_pool.h"
 #include "hal/mpi/bells.h"
 #include "hal/mpi/overflow.h"
 

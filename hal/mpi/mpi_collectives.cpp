@@ -3,7 +3,7 @@
 #include <climits>
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <string>
 
-#include "hal/call_failure.h"
-#include "hal/message_types.h"
+#include "hal/messages/call_failure.h"
+#include "hal/messages/message_types.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"

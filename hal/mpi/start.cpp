@@ -9,12 +9,12 @@
 
 #include <mpi.h>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

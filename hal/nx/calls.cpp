@@ -2,7 +2,7 @@
 
 #include "hal/nx/guard.h"
 #include "hal/nx/pid.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "topology/hypercube.h"
 
 using mars::hal::plain;

@@ -1,4 +1,4 @@
-#include "hal/files.h"
+#include "hal/nx/cfs.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,9 +13,9 @@
 #include <system_error>
 #include <utility>
 
-#include "hal/cube.h"
+#include "hal/collectives/cube.h"
 #include "hal/nx/nx_errno.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

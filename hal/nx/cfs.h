@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
-#include "hal/files_pointer.h"
-#include "hal/files_worker.h"
+#include "hal/nx/files_pointer.h"
+#include "hal/nx/files_worker.h"
 
 namespace mars::hal {
 

@@ -1,11 +1,11 @@
-#include "hal/files.h"
+#include "hal/nx/cfs.h"
 
 #include <cerrno>
 #include <cstdint>
 
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_files.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

@@ -1,4 +1,4 @@
-#include "hal/files_pointer.h"
+#include "hal/nx/files_pointer.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "hal/files_worker.h"
+#include "hal/nx/files_worker.h"
 
 #include <signal.h>
 #include <unistd.h>

@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "hal/arguments.h"
-#include "hal/gathering.h"
+#include "hal/messages/arguments.h"
+#include "hal/collectives/gathering.h"
 #include "hal/nx/guard.h"
-#include "hal/process.h"
-#include "hal/reduction.h"
+#include "hal/messages/process.h"
+#include "hal/collectives/reduction.h"
 
 namespace mars::hal {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 #include "hal/nx/nx_errno.h"
 
 namespace mars::hal {

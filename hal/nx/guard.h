@@ -6,8 +6,8 @@
 #include <string>
 #include <type_traits>
 
-#include "hal/call_failure.h"
-#include "hal/call_lock.h"
+#include "hal/messages/call_failure.h"
+#include "hal/messages/call_lock.h"
 
 namespace mars::hal {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/call_failure.h"
+#include "hal/messages/call_failure.h"
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_host.h"
 #include "hal/nx/pid.h"

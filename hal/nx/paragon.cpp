@@ -3,7 +3,7 @@
 #include <string>
 
 #include "hal/nx/guard.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 using mars::hal::plain;
 using mars::hal::process;

@@ -9,12 +9,12 @@
 #include <optional>
 #include <thread>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/guard.h"
 #include "hal/processes/processes_world.h"
-#include "hal/progress_thread.h"
-#include "hal/settings.h"
+#include "hal/nx/progress_thread.h"
+#include "hal/messages/settings.h"
 #ifdef MARS_NX_MPI
 #include "hal/mpi/join.h"
 #endif

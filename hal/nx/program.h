@@ -3,7 +3,7 @@
 #pragma once
 
 #include "hal/nx/world.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 

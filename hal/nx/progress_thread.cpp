@@ -1,10 +1,10 @@
-#include "hal/progress_thread.h"
+#include "hal/nx/progress_thread.h"
 
 #include <chrono>
 #include <exception>
 
-#include "hal/call_lock.h"
-#include "hal/explain.h"
+#include "hal/messages/call_lock.h"
+#include "hal/failure/explain.h"
 #include "hal/nx/guard.h"
 
 namespace mars::hal {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 

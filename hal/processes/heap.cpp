@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::hal {
 namespace {

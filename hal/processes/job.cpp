@@ -17,8 +17,8 @@
 #include <fstream>
 #include <utility>
 
-#include "hal/failure.h"
-#include "hal/process.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

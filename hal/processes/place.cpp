@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "hal/failure.h"
-#include "hal/settings.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
 
 namespace mars::hal {
 

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::hal {
 namespace {

@@ -4,7 +4,7 @@
 // segment, and every rank's next call throws the reason.
 #pragma once
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 #include "hal/processes/heap.h"
 #include "hal/processes/segment.h"
 

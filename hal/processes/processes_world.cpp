@@ -12,8 +12,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "hal/failure.h"
-#include "hal/process.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

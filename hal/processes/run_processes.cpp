@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "hal/explain.h"
-#include "hal/process.h"
+#include "hal/failure/explain.h"
+#include "hal/messages/process.h"
 #include "hal/processes/job.h"
 #include "hal/processes/processes_backend.h"
 

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <ctime>
 
-#include "hal/failure.h"
-#include "hal/futex.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/futex.h"
 
 namespace mars::hal {
 namespace {

@@ -7,7 +7,7 @@
 #include <new>
 #include <thread>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::hal {
 namespace {

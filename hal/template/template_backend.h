@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "hal/backend.h"
-#include "hal/message_pool.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/message_pool.h"
 
 namespace mars::hal {
 

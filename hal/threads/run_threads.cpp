@@ -4,8 +4,8 @@
 #include <thread>
 #include <vector>
 
-#include "hal/explain.h"
-#include "hal/process.h"
+#include "hal/failure/explain.h"
+#include "hal/messages/process.h"
 #include "hal/threads/threads_backend.h"
 
 namespace mars::hal {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 
 namespace mars::hal {
 namespace {

@@ -12,8 +12,8 @@
 #include <mutex>
 #include <vector>
 
-#include "hal/backend.h"
-#include "hal/message_pool.h"
+#include "hal/messages/backend.h"
+#include "hal/messages/message_pool.h"
 
 namespace mars::hal {
 

@@ -1,4 +1,4 @@
-#include "host/compositor/frame.h"
+#include "host/images/frame.h"
 
 namespace mars::host {
 

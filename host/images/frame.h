@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/compositor/block_flags.h"
+#include "host/render/compositor/block_flags.h"
 
 namespace mars::host {
 

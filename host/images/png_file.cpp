@@ -1,4 +1,4 @@
-#include "host/sinks/png_file.h"
+#include "host/images/png_file.h"
 
 #include <png.h>
 #include <zlib.h>
@@ -8,9 +8,9 @@
 #include <cstring>
 #include <string>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

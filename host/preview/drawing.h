@@ -1,4 +1,4 @@
-// Lines into a picture: projected as the renderer projects (node/scene.cpp), clipped at the near plane and at the
+// Lines into a picture: projected as the renderer projects (node/geometry/scene.cpp), clipped at the near plane and at the
 // picture's edges, one pen wide, nearer ones over farther ones, farther ones dimmer. One core, no allocation in
 // steady state.
 #pragma once
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/preview/view.h"
-#include "host/sinks/png_file.h"
+#include "host/images/png_file.h"
 
 namespace mars::host {
 

@@ -1,6 +1,6 @@
 #include "host/preview/film_reloader.h"
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 
 namespace mars::host {
 namespace {

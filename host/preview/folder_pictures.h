@@ -1,11 +1,11 @@
-// Rendered frames in a folder (host/sinks/frame_folder.h), as they are rendered or later.
+// Rendered frames in a folder (host/render/sinks/frame_folder.h), as they are rendered or later.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
 #include "host/preview/pictures.h"
-#include "host/sinks/frame_folder.h"
+#include "host/render/sinks/frame_folder.h"
 
 namespace mars::host {
 

@@ -1,9 +1,9 @@
 #include "host/preview/load.h"
 
-#include "host/animator/read_film.h"
-#include "host/document/document.h"
-#include "host/film/film_file.h"
-#include "host/modeler/model_file.h"
+#include "host/content/animator/read_film.h"
+#include "host/content/document/document.h"
+#include "host/content/film/film_file.h"
+#include "host/content/modeler/model_file.h"
 #include "host/preview/viewpoint.h"
 
 namespace mars::host {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "host/options/render_options.h"
+#include "host/shell/options/render_options.h"
 #include "host/preview/key_press.h"
-#include "host/sinks/png_file.h"
+#include "host/images/png_file.h"
 
 namespace mars::host {
 

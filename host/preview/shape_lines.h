@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 #include "host/preview/view.h"
 
 namespace mars::host {

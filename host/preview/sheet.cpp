@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "hal/failure.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/preview/pictures.h"
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/document/whole_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/whole_file.h"
 
 namespace mars::host {
 namespace {

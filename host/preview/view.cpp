@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "host/animator/figure.h"
+#include "host/content/animator/figure.h"
 #include "host/preview/shape_lines.h"
 
 namespace mars::host {

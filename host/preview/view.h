@@ -12,9 +12,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "host/animator/film.h"
-#include "host/film/compile.h"
-#include "node/film.h"
+#include "host/content/animator/film.h"
+#include "host/content/film/compile.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

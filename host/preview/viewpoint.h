@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "host/film/compile.h"
+#include "host/content/film/compile.h"
 #include "host/preview/view.h"
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -2,7 +2,7 @@
 // file system, and a look at a dozen files costs some microseconds.
 #pragma once
 
-#include "host/document/recorded_reads.h"
+#include "host/content/document/recorded_reads.h"
 
 namespace mars::host {
 

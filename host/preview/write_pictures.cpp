@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hal/failure.h"
-#include "host/document/whole_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/whole_file.h"
 #include "host/preview/sheet.h"
 #include "host/preview/video.h"
 

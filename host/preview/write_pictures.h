@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/options/frame_set.h"
+#include "host/content/film/frame_set.h"
 #include "host/preview/pictures.h"
 
 namespace mars::host {

@@ -6,15 +6,15 @@
 #include <iostream>
 #include <memory>
 
-#include "hal/failure.h"
-#include "host/animator/check.h"
-#include "host/animator/keys_table.h"
-#include "host/animator/pose.h"
-#include "host/animator/read_keys.h"
-#include "host/film/film_json.h"
-#include "host/options/command_line.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/check.h"
+#include "host/content/animator/keys_table.h"
+#include "host/content/animator/pose.h"
+#include "host/content/animator/read_keys.h"
+#include "host/content/film/film_json.h"
+#include "host/shell/options/command_line.h"
 #include "host/programs/motion_command.h"
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 namespace {

@@ -1,8 +1,8 @@
 #include "host/programs/film_of.h"
 
-#include "host/animator/check.h"
-#include "host/animator/read_film.h"
-#include "host/film/film_file.h"
+#include "host/content/animator/check.h"
+#include "host/content/animator/read_film.h"
+#include "host/content/film/film_file.h"
 
 namespace mars::host {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "host/film/compile.h"
-#include "host/options/render_options.h"
+#include "host/content/film/compile.h"
+#include "host/shell/options/render_options.h"
 
 namespace mars::host {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "host/import/import_file.h"
+#include "host/content/importer/import_file.h"
 
 namespace mars::host {
 namespace {

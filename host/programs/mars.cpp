@@ -6,19 +6,19 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
-#include "hal/settings.h"
-#include "host/doctor/doctor.h"
-#include "host/document/whole_file.h"
-#include "host/film/compile.h"
-#include "host/film/describe.h"
-#include "host/film/film_file.h"
-#include "host/launch/background_text.h"
-#include "host/launch/bench.h"
-#include "host/launch/launch.h"
-#include "host/options/command_line.h"
-#include "host/options/frame_set.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
+#include "host/shell/doctor/doctor.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/film/compile.h"
+#include "host/content/film/describe.h"
+#include "host/content/film/film_file.h"
+#include "host/shell/launch/background_text.h"
+#include "host/shell/launch/bench.h"
+#include "host/shell/launch/launch.h"
+#include "host/shell/options/command_line.h"
+#include "host/content/film/frame_set.h"
 #include "host/programs/animate_command.h"
 #include "host/programs/film_of.h"
 #include "host/programs/import_command.h"
@@ -27,7 +27,7 @@
 #include "host/programs/plot_command.h"
 #include "host/programs/preview_command.h"
 #include "host/programs/standard_streams.h"
-#include "host/sinks/verify.h"
+#include "host/render/sinks/verify.h"
 
 namespace mars::host {
 namespace {

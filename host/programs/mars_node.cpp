@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "hal/mpi/start.h"
-#include "host/options/command_line.h"
+#include "host/shell/options/command_line.h"
 #include "host/programs/node_job.h"
 
 int main(int argc, char** argv) {

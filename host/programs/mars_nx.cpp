@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
 #include "hal/processes/job.h"
-#include "hal/settings.h"
-#include "host/launch/command.h"
-#include "host/launch/environment.h"
-#include "host/launch/exec.h"
-#include "host/launch/session_folders.h"
-#include "host/options/command_line.h"
+#include "hal/messages/settings.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/environment.h"
+#include "host/shell/launch/exec.h"
+#include "host/shell/launch/session_folders.h"
+#include "host/shell/options/command_line.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 

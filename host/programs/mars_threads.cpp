@@ -2,9 +2,9 @@
 #include <exception>
 #include <iostream>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 #include "hal/threads/run_threads.h"
-#include "host/options/command_line.h"
+#include "host/shell/options/command_line.h"
 #include "host/programs/node_job.h"
 #include "host/programs/render_job.h"
 #include "host/programs/standard_streams.h"

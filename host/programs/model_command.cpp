@@ -8,15 +8,15 @@
 #include <tuple>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/modeler/describe.h"
-#include "host/modeler/edit.h"
-#include "host/modeler/model_file.h"
-#include "host/modeler/proportions.h"
-#include "host/modeler/review.h"
-#include "host/modeler/shape_library.h"
-#include "host/options/command_line.h"
-#include "host/options/wrapped.h"
+#include "hal/failure/failure.h"
+#include "host/content/modeler/describe.h"
+#include "host/content/modeler/edit.h"
+#include "host/content/modeler/model_file.h"
+#include "host/content/modeler/proportions.h"
+#include "host/content/modeler/review.h"
+#include "host/content/modeler/shape_library.h"
+#include "host/shell/options/command_line.h"
+#include "host/shell/options/wrapped.h"
 
 namespace mars::host {
 namespace {

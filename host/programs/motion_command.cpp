@@ -5,12 +5,12 @@
 #include <iostream>
 #include <memory>
 
-#include "hal/failure.h"
-#include "host/animator/motion/action.h"
-#include "host/animator/motion/script.h"
-#include "host/document/file.h"
-#include "host/film/film_json.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/script.h"
+#include "host/content/document/file.h"
+#include "host/content/film/film_json.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
-#include "hal/failure.h"
-#include "hal/settings.h"
-#include "hal/shared_memory.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
+#include "hal/messages/shared_memory.h"
 #include "node/firmware.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"

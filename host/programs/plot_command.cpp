@@ -10,10 +10,10 @@
 #include <cstring>
 #include <memory>
 
-#include "hal/failure.h"
-#include "host/animator/plot.h"
-#include "host/document/whole_file.h"
-#include "host/film/film_json.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/plot.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/film/film_json.h"
 
 extern char** environ;
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "hal/failure.h"
-#include "hal/settings.h"
-#include "host/options/render_options.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
+#include "host/shell/options/render_options.h"
 #include "host/preview/film_pictures.h"
 #include "host/preview/folder_pictures.h"
 #include "host/preview/load.h"

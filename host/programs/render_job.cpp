@@ -6,18 +6,18 @@
 #include <optional>
 #include <set>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "host/events/events.h"
-#include "host/farm/farm.h"
+#include "host/render/events/events.h"
+#include "host/render/farm/farm.h"
 #include "host/programs/film_of.h"
-#include "host/report/report.h"
-#include "host/sinks/checksum.h"
-#include "host/sinks/frame_folder.h"
-#include "host/sinks/sink_pool.h"
-#include "host/document/whole_file.h"
-#include "host/trace/trace_file.h"
+#include "host/render/report/report.h"
+#include "host/content/document/checksum.h"
+#include "host/render/sinks/frame_folder.h"
+#include "host/render/sinks/sink_pool.h"
+#include "host/content/document/whole_file.h"
+#include "host/render/trace/trace_file.h"
 #include "topology/machine.h"
 
 namespace mars::host {

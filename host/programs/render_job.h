@@ -1,7 +1,7 @@
 // What the host's rank does from a person's options to the last frame: the same in every program that renders.
 #pragma once
 
-#include "host/options/render_options.h"
+#include "host/shell/options/render_options.h"
 
 namespace mars::host {
 

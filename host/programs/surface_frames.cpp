@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/threads/run_threads.h"
-#include "host/farm/farm.h"
+#include "host/render/farm/farm.h"
 #include "host/preview/viewpoint.h"
 #include "host/programs/node_job.h"
-#include "host/sinks/png_file.h"
+#include "host/images/png_file.h"
 #include "topology/machine.h"
 
 namespace mars::host {

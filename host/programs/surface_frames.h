@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "host/film/compile.h"
+#include "host/content/film/compile.h"
 #include "host/preview/surface_source.h"
 
 namespace mars::host {

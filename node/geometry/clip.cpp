@@ -1,4 +1,4 @@
-#include "node/clip.h"
+#include "node/geometry/clip.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "node/kernels.h"
+#include "node/simd/kernels.h"
 
 namespace mars::node {
 

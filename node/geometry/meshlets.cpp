@@ -1,4 +1,4 @@
-#include "node/meshlets.h"
+#include "node/geometry/meshlets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // One meshlet of a polygon mesh at a time, as the film has it, becomes a surface: moved to eye space and projected.
 #pragma once
 
-#include "node/bezier.h"
-#include "node/film.h"
-#include "node/surface.h"
+#include "node/shape/bezier.h"
+#include "node/wire/film.h"
+#include "node/shape/surface.h"
 
 namespace mars::node {
 

@@ -1,4 +1,4 @@
-#include "node/scene.h"
+#include "node/geometry/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "node/bezier.h"
-#include "node/film.h"
-#include "node/kernels.h"
-#include "node/mapping.h"
+#include "node/shape/bezier.h"
+#include "node/wire/film.h"
+#include "node/simd/kernels.h"
+#include "node/group/mapping.h"
 
 namespace mars::node {
 

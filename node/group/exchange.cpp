@@ -1,12 +1,12 @@
-#include "node/exchange.h"
+#include "node/group/exchange.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "node/protocol.h"
+#include "node/wire/protocol.h"
 
 namespace mars::node {
 namespace {

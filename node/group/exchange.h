@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "hal/cube.h"
-#include "node/arena.h"
-#include "node/mapping.h"
-#include "node/scanline.h"
+#include "hal/collectives/cube.h"
+#include "node/raster/arena.h"
+#include "node/group/mapping.h"
+#include "node/raster/scanline.h"
 
 namespace mars::node {
 

@@ -1,4 +1,4 @@
-#include "node/mapping.h"
+#include "node/group/mapping.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "node/protocol.h"
+#include "node/wire/protocol.h"
 
 namespace mars::node {
 

@@ -1,7 +1,7 @@
-#include "node/outbox.h"
+#include "node/group/outbox.h"
 
 #include "hal/nx/nx_messages.h"
-#include "hal/recorder.h"
+#include "hal/messages/recorder.h"
 
 namespace mars::node {
 

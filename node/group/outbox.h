@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "node/strip_buffer.h"
+#include "node/raster/strip_buffer.h"
 
 namespace mars::node {
 

@@ -1,8 +1,8 @@
-#include "node/arena.h"
+#include "node/raster/arena.h"
 
 #include <algorithm>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::node {
 

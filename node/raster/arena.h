@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "hal/private_memory.h"
+#include "hal/messages/private_memory.h"
 
 namespace mars::node {
 

@@ -1,6 +1,6 @@
-#include "node/czb.h"
+#include "node/raster/czb.h"
 
-#include "hal/cube.h"
+#include "hal/collectives/cube.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::node {

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "hal/private_memory.h"
-#include "hal/shared_memory.h"
-#include "node/mapping.h"
+#include "hal/messages/private_memory.h"
+#include "hal/messages/shared_memory.h"
+#include "node/group/mapping.h"
 
 namespace mars::node {
 

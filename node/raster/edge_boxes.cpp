@@ -1,4 +1,4 @@
-#include "node/edge_boxes.h"
+#include "node/raster/edge_boxes.h"
 
 #include <algorithm>
 #include <utility>

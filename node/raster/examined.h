@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "node/vertices.h"
+#include "node/shape/vertices.h"
 
 namespace mars::node {
 

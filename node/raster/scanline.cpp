@@ -1,8 +1,8 @@
-#include "node/scanline.h"
+#include "node/raster/scanline.h"
 
 #include <algorithm>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::node {
 std::span<const EdgeBox> LineBoxes::stationary(std::uint32_t line) const {

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "node/arena.h"
-#include "node/czb.h"
-#include "node/kernels.h"
-#include "node/mapping.h"
-#include "node/strip_buffer.h"
+#include "node/raster/arena.h"
+#include "node/raster/czb.h"
+#include "node/simd/kernels.h"
+#include "node/group/mapping.h"
+#include "node/raster/strip_buffer.h"
 
 namespace mars::node {
 

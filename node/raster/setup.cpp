@@ -1,11 +1,11 @@
-#include "node/setup.h"
+#include "node/raster/setup.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
-#include "node/clip.h"
+#include "node/geometry/clip.h"
 
 namespace mars::node {
 namespace {

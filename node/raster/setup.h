@@ -10,8 +10,8 @@
 #include <optional>
 #include <span>
 
-#include "node/surface.h"
-#include "node/edge_boxes.h"
+#include "node/shape/surface.h"
+#include "node/raster/edge_boxes.h"
 
 namespace mars::node {
 

@@ -1,4 +1,4 @@
-#include "node/strip_buffer.h"
+#include "node/raster/strip_buffer.h"
 
 #include <cstring>
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "hal/private_memory.h"
-#include "node/kernels.h"
-#include "node/protocol.h"
+#include "hal/messages/private_memory.h"
+#include "node/simd/kernels.h"
+#include "node/wire/protocol.h"
 
 namespace mars::node {
 

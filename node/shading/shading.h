@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "node/film_parts.h"
-#include "node/protocol.h"
-#include "node/vertices.h"
+#include "node/wire/film_parts.h"
+#include "node/wire/protocol.h"
+#include "node/shape/vertices.h"
 
 namespace mars::node {
 

@@ -1,4 +1,4 @@
-#include "node/bezier.h"
+#include "node/shape/bezier.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // message, no film, no picture. Rates are numbers of steps.
 #pragma once
 
-#include "node/film.h"
-#include "node/kernels.h"
+#include "node/wire/film.h"
+#include "node/simd/kernels.h"
 
 namespace mars::node {
 

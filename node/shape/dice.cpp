@@ -1,4 +1,4 @@
-#include "node/dice.h"
+#include "node/shape/dice.h"
 
 #include <algorithm>
 #include <cmath>

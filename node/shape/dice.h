@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "node/bezier.h"
-#include "node/surface.h"
+#include "node/shape/bezier.h"
+#include "node/shape/surface.h"
 
 namespace mars::node {
 

@@ -1,4 +1,4 @@
-#include "node/surface.h"
+#include "node/shape/surface.h"
 
 #include <algorithm>
 

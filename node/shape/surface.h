@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "node/kernels.h"
+#include "node/simd/kernels.h"
 
 namespace mars::node {
 

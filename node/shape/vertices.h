@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "node/triangle.h"
+#include "node/raster/triangle.h"
 
 namespace mars::node {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "hal/failure.h"
-#include "node/kernels.h"
+#include "hal/failure/failure.h"
+#include "node/simd/kernels.h"
 
 namespace mars::node {
 

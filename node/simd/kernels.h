@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "node/examined.h"
-#include "node/shading.h"
-#include "node/vertices.h"
+#include "node/raster/examined.h"
+#include "node/shading/shading.h"
+#include "node/shape/vertices.h"
 
 namespace mars::node {
 

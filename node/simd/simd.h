@@ -5,7 +5,7 @@
 
 #include <hwy/highway.h>
 
-#include "node/kernels.h"
+#include "node/simd/kernels.h"
 
 namespace mars::node::MARS_SET {
 

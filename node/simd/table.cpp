@@ -1,4 +1,4 @@
-#include "node/kernels/simd.h"
+#include "node/simd/simd.h"
 
 #define MARS_JOIN2(a, b) a##b
 #define MARS_JOIN(a, b) MARS_JOIN2(a, b)

@@ -1,4 +1,4 @@
-#include "node/film.h"
+#include "node/wire/film.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::node {
 namespace {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "node/film_parts.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::node {
 

@@ -61,13 +61,13 @@ TEST(Boundaries, PngInOneHostFile) {
   EXPECT_TRUE(begins(*files.begin(), "host/"));
 }
 
-TEST(Boundaries, AssimpInItsHostFolder) { expect_within(files_including(std::regex("^assimp/")), "host/import/"); }
+TEST(Boundaries, AssimpInItsHostFolder) { expect_within(files_including(std::regex("^assimp/")), "host/content/importer/"); }
 
 TEST(Boundaries, GetenvInOneSettingsFile) {
   Files files;
   for (const Source& source : sources())
     if (std::regex_search(source.text, std::regex("\\b(secure_)?getenv\\s*\\("))) files.insert(source.path);
-  EXPECT_EQ(files, Files{"hal/settings.cpp"});
+  EXPECT_EQ(files, Files{"hal/messages/settings.cpp"});
 }
 
 TEST(Boundaries, TopologyDependsOnNothing) {
@@ -75,7 +75,7 @@ TEST(Boundaries, TopologyDependsOnNothing) {
 }
 
 TEST(Boundaries, FailureDependsOnNothing) {
-  expect_includes("hal/failure.", [](const std::string& i) { return i == "hal/failure.h"; });
+  expect_includes("hal/failure/failure.", [](const std::string& i) { return i == "hal/failure/failure.h"; });
 }
 
 TEST(Boundaries, HalDependsOnTopologyAlone) {
@@ -84,7 +84,7 @@ TEST(Boundaries, HalDependsOnTopologyAlone) {
 
 TEST(Boundaries, NodeDependsOnHalAlone) {
   expect_includes("node/", [](const std::string& i) {
-    const bool backend = begins(i, "hal/mpi/") || begins(i, "hal/threads/") || i == "hal/settings.h";
+    const bool backend = begins(i, "hal/mpi/") || begins(i, "hal/threads/") || i == "hal/messages/settings.h";
     return begins(i, "node/") || (begins(i, "hal/") && !backend);
   });
 }
@@ -96,7 +96,7 @@ TEST(Boundaries, NodeOpensNoFileAndPrintsNothing) {
 
 // Of the node, the host knows the protocol, the film and pure shape; only programs link both sides.
 TEST(Boundaries, HostAndNodeShareTheProtocol) {
-  const Files shared = {"node/protocol.h", "node/film.h", "node/bezier.h", "node/dice.h"};
+  const Files shared = {"node/wire/protocol.h", "node/wire/film.h", "node/shape/bezier.h", "node/shape/dice.h"};
   for (const Source& source : sources()) {
     if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;
     for (const std::string& include : source.includes) {
@@ -114,11 +114,11 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
       return std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
     });
   };
-  const std::string document = "host/document/", modeler = "host/modeler/", animator = "host/animator/";
-  const std::string film = "host/film/", preview = "host/preview/", sinks = "host/sinks/", options = "host/options/";
+  const std::string document = "host/content/document/", modeler = "host/content/modeler/", animator = "host/content/animator/";
+  const std::string film = "host/content/film/", preview = "host/preview/", sinks = "host/render/sinks/", options = "host/shell/options/";
   below(document, {document});
   below(modeler, {document, modeler});
-  below("host/import/", {document, modeler, "host/import/"});
+  below("host/content/importer/", {document, modeler, "host/content/importer/"});
   below(animator, {document, modeler, animator});
   below(film, {document, modeler, animator, film, sinks});
   below(preview, {document, modeler, animator, film, preview, sinks, options});
@@ -134,16 +134,16 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide
 // CPU's copy of an inline function for all.
 TEST(Boundaries, KernelsIncludeLittle) {
-  const Files allowed = {"bit", "cstddef", "cstring", "hwy/highway.h", "node/kernels.h", "node/kernels/simd.h"};
+  const Files allowed = {"bit", "cstddef", "cstring", "hwy/highway.h", "node/simd/kernels.h", "node/simd/simd.h"};
   int seen = 0;
   for (const Source& source : sources()) {
-    if (!begins(source.path, "node/kernels/")) continue;
+    if (!begins(source.path, "node/simd/kernels/")) continue;
     ++seen;
     for (const std::string& include : source.includes)
       EXPECT_TRUE(allowed.count(include)) << source.path << " includes " << include;
   }
   EXPECT_GT(seen, 5) << "nothing to scan: the test is broken";
-  expect_within(files_including(std::regex("^hwy/")), "node/kernels/");
+  expect_within(files_including(std::regex("^hwy/")), "node/simd/kernels/");
 }
 
 // Frames are exact: only the peers of a benchmark, other people's renderers in our harness, may be built otherwise.

@@ -12,7 +12,7 @@
 #include <optional>
 #include <tuple>
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::hal {

@@ -5,11 +5,11 @@
 #include <map>
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
-#include "hal/shared_memory.h"
+#include "hal/messages/process.h"
+#include "hal/messages/shared_memory.h"
 #include "tests/hal/faults/faults.h"
 
 namespace mars::hal {

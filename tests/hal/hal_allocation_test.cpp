@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/cube.h"
+#include "hal/collectives/cube.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/mpi/start.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

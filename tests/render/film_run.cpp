@@ -7,8 +7,8 @@
 #include <mutex>
 #include <numeric>
 
-#include "host/sinks/png_file.h"
-#include "host/sinks/sink_pool.h"
+#include "host/images/png_file.h"
+#include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"
 
 namespace mars::test {

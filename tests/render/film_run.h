@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hal/threads/run_threads.h"
-#include "host/farm/farm.h"
-#include "node/film.h"
+#include "host/render/farm/farm.h"
+#include "node/wire/film.h"
 
 namespace mars::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "host/modeler/primitives.h"
-#include "host/modeler/teapot.h"
+#include "host/content/modeler/primitives.h"
+#include "host/content/modeler/teapot.h"
 
 namespace mars::test {
 namespace {

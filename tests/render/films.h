@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/modeler/meshlets.h"
-#include "node/film.h"
+#include "host/content/modeler/meshlets.h"
+#include "node/wire/film.h"
 
 namespace mars::test {
 

@@ -10,7 +10,7 @@
 #include <new>
 #include <numeric>
 
-#include "host/sinks/sink_pool.h"
+#include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"

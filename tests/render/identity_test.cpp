@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "tests/hal/machines_backend.h"
-#include "tests/node/kernel_sets.h"
+#include "tests/node/simd/kernel_sets.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 

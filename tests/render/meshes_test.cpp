@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "host/modeler/primitives.h"
-#include "node/dice.h"
+#include "host/content/modeler/primitives.h"
+#include "node/shape/dice.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 

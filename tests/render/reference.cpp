@@ -4,9 +4,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "node/dice.h"
-#include "node/meshlets.h"
-#include "node/scene.h"
+#include "node/shape/dice.h"
+#include "node/geometry/meshlets.h"
+#include "node/geometry/scene.h"
 
 namespace mars::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "node/film.h"
-#include "tests/node/plain_set_up.h"
+#include "node/wire/film.h"
+#include "tests/node/raster/plain_set_up.h"
 
 namespace mars::test {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "host/modeler/primitives.h"
+#include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "hal/message_types.h"
-#include "host/trace/trace_file.h"
+#include "hal/messages/message_types.h"
+#include "host/render/trace/trace_file.h"
 #include "node/renderer.h"
 #include "tests/hal/counting_backend.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 

@@ -1,5 +1,5 @@
 # Completion for bash. The programs say themselves what they take (--list-options, which is described in
-# host/options/command_line.h), so this file knows no option.
+# host/shell/options/command_line.h), so this file knows no option.
 
 # _mars_values VALUE WORD: what may stand where help asks for VALUE and WORD is typed so far.
 _mars_values() {

@@ -1,5 +1,5 @@
 # Completion for fish. The programs say themselves what they take (--list-options, which is described in
-# host/options/command_line.h), so this file knows no option.
+# host/shell/options/command_line.h), so this file knows no option.
 
 # What may stand where help asks for a value.
 function __mars_values

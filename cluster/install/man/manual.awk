@@ -1,5 +1,5 @@
 # Fills a manual page's template in with what programs say about their options (--list-options, described in
-# host/options/command_line.h):  awk -v doc=DIR -v data=DIR -f manual.awk OPTIONS TEMPLATE
+# host/shell/options/command_line.h):  awk -v doc=DIR -v data=DIR -f manual.awk OPTIONS TEMPLATE
 #   @OPTIONS mars render@   the section OPTIONS of a command
 #   @COMMANDS mars@         a subsection for each command that has no page of its own
 #   @SETTINGS@              a list of the environment's variables, but for those of NX's programs

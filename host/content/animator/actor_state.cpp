@@ -1,4 +1,4 @@
-#include "host/animator/actor_state.h"
+#include "host/content/animator/actor_state.h"
 
 namespace mars::host {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/animator/film.h"
+#include "host/content/animator/film.h"
 
 namespace mars::host {
 

@@ -1,10 +1,10 @@
-#include "host/animator/angles.h"
+#include "host/content/animator/angles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/animator/rotation.h"
+#include "host/content/animator/rotation.h"
 
 namespace mars::host {
 namespace {

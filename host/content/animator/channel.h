@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/animator/ease.h"
+#include "host/content/animator/ease.h"
 
 namespace mars::host {
 

@@ -1,13 +1,13 @@
-#include "host/animator/check.h"
+#include "host/content/animator/check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/animator/limits_left.h"
-#include "host/animator/things.h"
-#include "host/document/fields.h"
-#include "host/document/shell_word.h"
+#include "host/content/animator/limits_left.h"
+#include "host/content/animator/things.h"
+#include "host/content/document/fields.h"
+#include "host/content/document/shell_word.h"
 
 namespace mars::host {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/animator/direction.h"
+#include "host/content/animator/direction.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/animator/rotation.h"
+#include "host/content/animator/rotation.h"
 
 namespace mars::host {
 

@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "host/animator/channel.h"
+#include "host/content/animator/channel.h"
 
 namespace mars::host {
 

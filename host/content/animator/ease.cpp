@@ -1,4 +1,4 @@
-#include "host/animator/ease.h"
+#include "host/content/animator/ease.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "host/animator/edit.h"
+#include "host/content/animator/edit.h"
 
 #include <cmath>
 #include <cstdio>
@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/animator/tracks.h"
-#include "host/animator/written.h"
-#include "host/document/fields.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/tracks.h"
+#include "host/content/animator/written.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

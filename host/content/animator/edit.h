@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "host/animator/ease.h"
-#include "host/document/json_file.h"
+#include "host/content/animator/ease.h"
+#include "host/content/document/json_file.h"
 
 namespace mars::host {
 

@@ -1,10 +1,10 @@
-#include "host/animator/figure.h"
+#include "host/content/animator/figure.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "host/animator/angles.h"
-#include "host/document/fields.h"
+#include "host/content/animator/angles.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

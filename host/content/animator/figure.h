@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "host/animator/channel.h"
-#include "host/animator/rotation.h"
-#include "host/modeler/frames.h"
-#include "host/modeler/model.h"
+#include "host/content/animator/channel.h"
+#include "host/content/animator/rotation.h"
+#include "host/content/modeler/frames.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

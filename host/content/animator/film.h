@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/animator/figure.h"
-#include "host/modeler/model.h"
+#include "host/content/animator/figure.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

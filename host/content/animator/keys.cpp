@@ -1,16 +1,16 @@
-#include "host/animator/keys.h"
+#include "host/content/animator/keys.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "hal/failure.h"
-#include "host/animator/edit.h"
-#include "host/animator/pose.h"
-#include "host/animator/side_effects.h"
-#include "host/animator/written.h"
-#include "host/document/fields.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/edit.h"
+#include "host/content/animator/pose.h"
+#include "host/content/animator/side_effects.h"
+#include "host/content/animator/written.h"
+#include "host/content/document/fields.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 namespace {

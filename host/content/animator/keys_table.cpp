@@ -1,10 +1,10 @@
-#include "host/animator/keys_table.h"
+#include "host/content/animator/keys_table.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "host/animator/tracks.h"
-#include "host/document/fields.h"
+#include "host/content/animator/tracks.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

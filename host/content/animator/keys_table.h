@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/animator/keys.h"
+#include "host/content/animator/keys.h"
 
 namespace mars::host {
 

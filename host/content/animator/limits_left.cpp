@@ -1,4 +1,4 @@
-#include "host/animator/limits_left.h"
+#include "host/content/animator/limits_left.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "host/animator/angles.h"
+#include "host/content/animator/angles.h"
 
 namespace mars::host {
 namespace {

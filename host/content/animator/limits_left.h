@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/animator/film.h"
+#include "host/content/animator/film.h"
 
 namespace mars::host {
 

@@ -1,12 +1,12 @@
-#include "host/animator/plot.h"
+#include "host/content/animator/plot.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "hal/failure.h"
-#include "host/animator/tracks.h"
-#include "host/document/fields.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/tracks.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "host/animator/things.h"
+#include "host/content/animator/things.h"
 
 namespace mars::host {
 

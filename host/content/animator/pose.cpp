@@ -1,14 +1,14 @@
-#include "host/animator/pose.h"
+#include "host/content/animator/pose.h"
 
 #include <charconv>
 #include <set>
 
-#include "hal/failure.h"
-#include "host/animator/angles.h"
-#include "host/animator/edit.h"
-#include "host/animator/tracks.h"
-#include "host/animator/written.h"
-#include "host/document/fields.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/angles.h"
+#include "host/content/animator/edit.h"
+#include "host/content/animator/tracks.h"
+#include "host/content/animator/written.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "host/animator/keys.h"
+#include "host/content/animator/keys.h"
 
 namespace mars::host {
 

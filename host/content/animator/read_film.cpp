@@ -1,13 +1,13 @@
-#include "host/animator/read_film.h"
+#include "host/content/animator/read_film.h"
 
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "host/animator/read_keys.h"
-#include "host/document/file.h"
-#include "host/modeler/read_model.h"
-#include "node/film.h"
+#include "host/content/animator/read_keys.h"
+#include "host/content/document/file.h"
+#include "host/content/modeler/read_model.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 namespace {

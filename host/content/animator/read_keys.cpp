@@ -1,4 +1,4 @@
-#include "host/animator/read_keys.h"
+#include "host/content/animator/read_keys.h"
 
 namespace mars::host {
 

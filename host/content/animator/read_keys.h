@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "host/animator/channel.h"
-#include "host/document/fields.h"
-#include "node/film.h"
+#include "host/content/animator/channel.h"
+#include "host/content/document/fields.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

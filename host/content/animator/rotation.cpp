@@ -1,4 +1,4 @@
-#include "host/animator/rotation.h"
+#include "host/content/animator/rotation.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,11 +1,11 @@
 // The one turn that takes an orientation to another (thesis 3.4). Rotations are matrices for column vectors, made by
-// host/modeler/frames.h.
+// host/content/modeler/frames.h.
 #pragma once
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "host/modeler/frames.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 

@@ -1,14 +1,14 @@
-#include "host/animator/side_effects.h"
+#include "host/content/animator/side_effects.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "host/animator/figure.h"
-#include "host/animator/written.h"
-#include "host/document/fields.h"
-#include "host/document/shell_word.h"
+#include "host/content/animator/figure.h"
+#include "host/content/animator/written.h"
+#include "host/content/document/fields.h"
+#include "host/content/document/shell_word.h"
 
 namespace mars::host {
 namespace {

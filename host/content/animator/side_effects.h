@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/animator/things.h"
-#include "host/animator/tracks.h"
+#include "host/content/animator/things.h"
+#include "host/content/animator/tracks.h"
 
 namespace mars::host {
 

@@ -1,15 +1,15 @@
-#include "host/animator/things.h"
+#include "host/content/animator/things.h"
 
 #include <algorithm>
 #include <memory>
 #include <string_view>
 
-#include "hal/failure.h"
-#include "host/animator/angles.h"
-#include "host/animator/direction.h"
-#include "host/animator/edit.h"
-#include "host/animator/written.h"
-#include "host/document/fields.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/angles.h"
+#include "host/content/animator/direction.h"
+#include "host/content/animator/edit.h"
+#include "host/content/animator/written.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

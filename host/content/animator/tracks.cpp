@@ -1,9 +1,9 @@
-#include "host/animator/tracks.h"
+#include "host/content/animator/tracks.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "host/animator/written.h"
+#include "host/content/animator/written.h"
 
 namespace mars::host {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/animator/ease.h"
-#include "host/document/json_file.h"
+#include "host/content/animator/ease.h"
+#include "host/content/document/json_file.h"
 
 namespace mars::host {
 

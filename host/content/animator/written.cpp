@@ -1,4 +1,4 @@
-#include "host/animator/written.h"
+#include "host/content/animator/written.h"
 
 #include <array>
 #include <cmath>

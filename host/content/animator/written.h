@@ -3,8 +3,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "host/animator/ease.h"
-#include "host/document/json_file.h"
+#include "host/content/animator/ease.h"
+#include "host/content/document/json_file.h"
 
 namespace mars::host {
 

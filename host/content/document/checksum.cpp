@@ -1,4 +1,4 @@
-#include "host/sinks/checksum.h"
+#include "host/content/document/checksum.h"
 
 #include <xxhash.h>
 

@@ -1,4 +1,4 @@
-#include "host/document/document.h"
+#include "host/content/document/document.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
 
 namespace mars::host {
 namespace {

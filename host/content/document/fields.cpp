@@ -1,4 +1,4 @@
-#include "host/document/fields.h"
+#include "host/content/document/fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "host/document/forms.h"
+#include "host/content/document/forms.h"
 
 namespace mars::host {
 namespace {

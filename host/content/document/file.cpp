@@ -1,4 +1,4 @@
-#include "host/document/file.h"
+#include "host/content/document/file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "hal/failure.h"
-#include "host/document/recorded_reads.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/recorded_reads.h"
 
 namespace mars::host {
 namespace {

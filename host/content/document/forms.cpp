@@ -1,4 +1,4 @@
-#include "host/document/forms.h"
+#include "host/content/document/forms.h"
 
 #include <algorithm>
 

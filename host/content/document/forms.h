@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "host/document/document.h"
+#include "host/content/document/document.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/document/json_file.h"
+#include "host/content/document/json_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -6,9 +6,9 @@
 
 #include <cerrno>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
 
 namespace mars::host {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "host/document/document.h"
+#include "host/content/document/document.h"
 
 namespace mars::host {
 

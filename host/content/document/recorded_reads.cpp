@@ -1,4 +1,4 @@
-#include "host/document/recorded_reads.h"
+#include "host/content/document/recorded_reads.h"
 
 #include <sys/stat.h>
 

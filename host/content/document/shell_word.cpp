@@ -1,4 +1,4 @@
-#include "host/document/shell_word.h"
+#include "host/content/document/shell_word.h"
 
 namespace mars::host {
 

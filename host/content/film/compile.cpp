@@ -1,4 +1,4 @@
-#include "host/film/compile.h"
+#include "host/content/film/compile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 #include <limits>
 #include <unordered_map>
 
-#include "hal/failure.h"
-#include "host/animator/direction.h"
-#include "host/animator/read_film.h"
-#include "host/film/film_file.h"
-#include "host/film/intervals.h"
-#include "host/film/motion_writer.h"
-#include "host/film/shape_writer.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/direction.h"
+#include "host/content/animator/read_film.h"
+#include "host/content/film/film_file.h"
+#include "host/content/film/intervals.h"
+#include "host/content/film/motion_writer.h"
+#include "host/content/film/shape_writer.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-// From a film as described to the film as nodes read it (node/film.h): T-matrices computed once, only what
+// From a film as described to the film as nodes read it (node/wire/film.h): T-matrices computed once, only what
 // changes from frame to frame kept, render intervals cut. And the door to either kind of file: `load_film`.
 #pragma once
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "host/animator/film.h"
-#include "host/film/lazy_memory.h"
-#include "node/film.h"
+#include "host/content/animator/film.h"
+#include "host/content/film/lazy_memory.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

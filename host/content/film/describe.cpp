@@ -1,8 +1,8 @@
-#include "host/film/describe.h"
+#include "host/content/film/describe.h"
 
 #include <cstdio>
 
-#include "host/sinks/checksum.h"
+#include "host/content/document/checksum.h"
 
 namespace mars::host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/film/compile.h"
+#include "host/content/film/compile.h"
 
 namespace mars::host {
 

@@ -1,12 +1,12 @@
-#include "host/film/film_file.h"
+#include "host/content/film/film_file.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "host/sinks/checksum.h"
-#include "host/document/whole_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/document/checksum.h"
+#include "host/content/document/whole_file.h"
 
 namespace mars::host {
 namespace {

@@ -1,10 +1,10 @@
-// Compiled films on disk: .mars files. A header of 64 bytes with a checksum, then the block of node/film.h.
+// Compiled films on disk: .mars files. A header of 64 bytes with a checksum, then the block of node/wire/film.h.
 // Written whole or not at all; read only if every bit is as it was written.
 #pragma once
 
 #include <filesystem>
 
-#include "host/film/compile.h"
+#include "host/content/film/compile.h"
 
 namespace mars::host {
 

@@ -1,9 +1,9 @@
-#include "host/film/film_json.h"
+#include "host/content/film/film_json.h"
 
-#include "hal/failure.h"
-#include "host/animator/read_film.h"
-#include "host/film/compile.h"
-#include "host/film/film_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/read_film.h"
+#include "host/content/film/compile.h"
+#include "host/content/film/film_file.h"
 
 namespace mars::host {
 namespace {

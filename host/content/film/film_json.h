@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "host/animator/film.h"
-#include "host/document/json_file.h"
+#include "host/content/animator/film.h"
+#include "host/content/document/json_file.h"
 
 namespace mars::host {
 

@@ -1,9 +1,9 @@
-#include "host/options/frame_set.h"
+#include "host/content/film/frame_set.h"
 
 #include <charconv>
 #include <string_view>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

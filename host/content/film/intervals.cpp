@@ -1,11 +1,11 @@
-#include "host/film/intervals.h"
+#include "host/content/film/intervals.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <vector>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 namespace {

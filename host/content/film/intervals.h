@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <span>
 
-#include "host/animator/film.h"
-#include "node/film.h"
+#include "host/content/animator/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/film/motion_writer.h"
+#include "host/content/film/motion_writer.h"
 
 #include <unistd.h>
 
@@ -12,13 +12,13 @@
 #include <mutex>
 #include <thread>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "topology/memory_limit.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kFarthestMatrix = 1e12;              // as node/film.h allows
+constexpr double kFarthestMatrix = 1e12;              // as node/wire/film.h allows
 constexpr std::size_t kWorthAThread = 20'000;          // matrices
 constexpr std::size_t kRoomBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
 constexpr std::size_t kBytesEach = sizeof(node::Matrix) + 3 * sizeof(node::Change);  // with lists on the way

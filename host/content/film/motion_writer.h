@@ -5,9 +5,9 @@
 
 #include <cstddef>
 
-#include "host/animator/film.h"
-#include "host/film/compile.h"
-#include "node/film.h"
+#include "host/content/animator/film.h"
+#include "host/content/film/compile.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,9 +1,9 @@
-#include "host/film/shape_writer.h"
+#include "host/content/film/shape_writer.h"
 
 #include <limits>
 
-#include "hal/failure.h"
-#include "host/modeler/meshlets.h"
+#include "hal/failure/failure.h"
+#include "host/content/modeler/meshlets.h"
 
 namespace mars::host {
 namespace {

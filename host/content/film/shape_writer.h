@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/modeler/model.h"
-#include "node/film.h"
+#include "host/content/modeler/model.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/import/apart.h"
+#include "host/content/importer/apart.h"
 
 #include <poll.h>
 #include <sys/prctl.h>
@@ -15,8 +15,8 @@
 #include <optional>
 #include <vector>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
 #include "topology/memory_limit.h"
 
 namespace mars::host {

@@ -1,4 +1,4 @@
-#include "host/import/file_kind.h"
+#include "host/content/importer/file_kind.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/import/import_file.h"
+#include "host/content/importer/import_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,17 +7,17 @@
 #include <functional>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/document/json_file.h"
-#include "host/document/shell_word.h"
-#include "host/document/whole_file.h"
-#include "host/import/apart.h"
-#include "host/import/file_kind.h"
-#include "host/import/import_report.h"
-#include "host/import/mesh_file.h"
-#include "host/import/model_text.h"
-#include "host/import/promised.h"
-#include "host/modeler/patch_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/json_file.h"
+#include "host/content/document/shell_word.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/importer/apart.h"
+#include "host/content/importer/file_kind.h"
+#include "host/content/importer/import_report.h"
+#include "host/content/importer/mesh_file.h"
+#include "host/content/importer/model_text.h"
+#include "host/content/importer/promised.h"
+#include "host/content/modeler/patch_file.h"
 
 namespace mars::host {
 namespace {

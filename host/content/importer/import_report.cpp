@@ -1,4 +1,4 @@
-#include "host/import/import_report.h"
+#include "host/content/importer/import_report.h"
 
 #include <algorithm>
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "host/modeler/mesh.h"
-#include "host/modeler/model.h"
+#include "host/content/modeler/mesh.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

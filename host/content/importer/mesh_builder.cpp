@@ -1,4 +1,4 @@
-#include "host/import/mesh_builder.h"
+#include "host/content/importer/mesh_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "hal/failure.h"
-#include "host/document/fields.h"
-#include "host/import/import_report.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/importer/import_report.h"
 
 namespace mars::host {
 namespace {

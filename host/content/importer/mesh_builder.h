@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/import/imported_mesh.h"
+#include "host/content/importer/imported_mesh.h"
 
 namespace mars::host {
 

@@ -1,10 +1,10 @@
-#include "host/import/mesh_file.h"
+#include "host/content/importer/mesh_file.h"
 
 #include <limits>
 
-#include "host/import/mesh_builder.h"
-#include "host/import/ply_file.h"
-#include "host/import/scene_file.h"
+#include "host/content/importer/mesh_builder.h"
+#include "host/content/importer/ply_file.h"
+#include "host/content/importer/scene_file.h"
 
 namespace mars::host {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "host/import/file_kind.h"
-#include "host/import/imported_mesh.h"
+#include "host/content/importer/file_kind.h"
+#include "host/content/importer/imported_mesh.h"
 
 namespace mars::host {
 

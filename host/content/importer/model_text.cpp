@@ -1,4 +1,4 @@
-#include "host/import/model_text.h"
+#include "host/content/importer/model_text.h"
 
 #include <charconv>
 #include <nlohmann/json.hpp>

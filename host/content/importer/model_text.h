@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "host/modeler/mesh.h"
-#include "host/modeler/model.h"
-#include "node/film.h"
+#include "host/content/modeler/mesh.h"
+#include "host/content/modeler/model.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

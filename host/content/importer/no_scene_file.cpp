@@ -1,5 +1,5 @@
-#include "hal/failure.h"
-#include "host/import/scene_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/importer/scene_file.h"
 
 namespace mars::host {
 

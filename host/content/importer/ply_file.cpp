@@ -1,4 +1,4 @@
-#include "host/import/ply_file.h"
+#include "host/content/importer/ply_file.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <optional>
 #include <string_view>
 
-#include "host/document/file.h"
-#include "host/import/import_report.h"
-#include "host/import/ply_header.h"
+#include "host/content/document/file.h"
+#include "host/content/importer/import_report.h"
+#include "host/content/importer/ply_header.h"
 
 namespace mars::host {
 namespace {

@@ -1,10 +1,10 @@
-#include "host/import/ply_header.h"
+#include "host/content/importer/ply_header.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "hal/failure.h"
-#include "host/import/import_report.h"
+#include "hal/failure/failure.h"
+#include "host/content/importer/import_report.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/import/promised.h"
+#include "host/content/importer/promised.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,9 +6,9 @@
 #include <set>
 #include <string_view>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "host/import/import_report.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/importer/import_report.h"
 
 namespace mars::host {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/import/file_kind.h"
+#include "host/content/importer/file_kind.h"
 
 namespace mars::host {
 

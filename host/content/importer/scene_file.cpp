@@ -1,4 +1,4 @@
-#include "host/import/scene_file.h"
+#include "host/content/importer/scene_file.h"
 
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -12,12 +12,12 @@
 #include <set>
 #include <string_view>
 
-#include "hal/failure.h"
-#include "host/import/import_report.h"
-#include "host/import/mesh_builder.h"
-#include "host/import/promised.h"
-#include "host/import/scene_sources.h"
-#include "host/import/unread_parts.h"
+#include "hal/failure/failure.h"
+#include "host/content/importer/import_report.h"
+#include "host/content/importer/mesh_builder.h"
+#include "host/content/importer/promised.h"
+#include "host/content/importer/scene_sources.h"
+#include "host/content/importer/unread_parts.h"
 
 namespace mars::host {
 namespace {

@@ -1,6 +1,6 @@
-#include "host/import/scene_sources.h"
+#include "host/content/importer/scene_sources.h"
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

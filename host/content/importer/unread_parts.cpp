@@ -1,4 +1,4 @@
-#include "host/import/unread_parts.h"
+#include "host/content/importer/unread_parts.h"
 
 #include <assimp/material.h>
 #include <assimp/scene.h>
@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-#include "host/import/import_report.h"
+#include "host/content/importer/import_report.h"
 
 namespace mars::host {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/modeler/body_shapes.h"
+#include "host/content/modeler/body_shapes.h"
 
 #include <cstddef>
 #include <utility>
 
-#include "host/modeler/loft.h"
+#include "host/content/modeler/loft.h"
 
 namespace mars::host {
 namespace {

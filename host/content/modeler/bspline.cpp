@@ -1,4 +1,4 @@
-#include "host/modeler/bspline.h"
+#include "host/content/modeler/bspline.h"
 
 #include <algorithm>
 #include <span>

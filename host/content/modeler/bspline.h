@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

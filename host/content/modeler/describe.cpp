@@ -1,12 +1,12 @@
-#include "host/modeler/describe.h"
+#include "host/content/modeler/describe.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "host/document/fields.h"
-#include "host/modeler/frames.h"
+#include "host/content/document/fields.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/modeler/edit.h"
+#include "host/content/modeler/edit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <set>
 #include <span>
 
-#include "hal/failure.h"
-#include "host/document/fields.h"
-#include "host/modeler/edit_limbs.h"
-#include "host/modeler/shape_library.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/modeler/edit_limbs.h"
+#include "host/content/modeler/shape_library.h"
 
 namespace mars::host {
 namespace {

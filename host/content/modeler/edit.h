@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/document/json_file.h"
-#include "host/modeler/model.h"
+#include "host/content/document/json_file.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

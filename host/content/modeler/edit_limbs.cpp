@@ -1,13 +1,13 @@
-#include "host/modeler/edit_limbs.h"
+#include "host/content/modeler/edit_limbs.h"
 
 #include <algorithm>
 #include <functional>
 #include <iterator>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/document/fields.h"
-#include "host/modeler/limbs.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/modeler/limbs.h"
 
 namespace mars::host {
 namespace {

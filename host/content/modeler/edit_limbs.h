@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "host/document/json_file.h"
+#include "host/content/document/json_file.h"
 
 namespace mars::host {
 

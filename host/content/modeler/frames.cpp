@@ -1,4 +1,4 @@
-#include "host/modeler/frames.h"
+#include "host/content/modeler/frames.h"
 
 #include <array>
 #include <cmath>

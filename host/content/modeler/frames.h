@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,6 +1,6 @@
-#include "host/modeler/limb_shapes.h"
+#include "host/content/modeler/limb_shapes.h"
 
-#include "host/modeler/loft.h"
+#include "host/content/modeler/loft.h"
 
 namespace mars::host {
 namespace {

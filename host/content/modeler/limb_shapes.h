@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

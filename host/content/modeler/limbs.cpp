@@ -1,11 +1,11 @@
-#include "host/modeler/limbs.h"
+#include "host/content/modeler/limbs.h"
 
 #include <algorithm>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "host/document/fields.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/modeler/loft.h"
+#include "host/content/modeler/loft.h"
 
 #include <algorithm>
 #include <array>

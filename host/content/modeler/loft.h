@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "host/modeler/bspline.h"
-#include "node/film.h"
+#include "host/content/modeler/bspline.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

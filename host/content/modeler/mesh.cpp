@@ -1,4 +1,4 @@
-#include "host/modeler/mesh.h"
+#include "host/content/modeler/mesh.h"
 
 #include <algorithm>
 #include <cmath>

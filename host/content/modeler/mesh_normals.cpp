@@ -1,4 +1,4 @@
-#include "host/modeler/mesh_normals.h"
+#include "host/content/modeler/mesh_normals.h"
 
 #include <algorithm>
 #include <cmath>

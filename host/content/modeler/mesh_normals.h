@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/modeler/mesh.h"
+#include "host/content/modeler/mesh.h"
 
 namespace mars::host {
 

@@ -1,10 +1,10 @@
-#include "host/modeler/meshlets.h"
+#include "host/content/modeler/meshlets.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "hal/failure.h"
-#include "host/modeler/mesh_normals.h"
+#include "hal/failure/failure.h"
+#include "host/content/modeler/mesh_normals.h"
 
 namespace mars::host {
 namespace {

@@ -1,11 +1,11 @@
-// A polygon mesh as nodes read it: triangles with the normals of their corners, cut into meshlets (node/film.h).
+// A polygon mesh as nodes read it: triangles with the normals of their corners, cut into meshlets (node/wire/film.h).
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "host/modeler/mesh.h"
-#include "node/film.h"
+#include "host/content/modeler/mesh.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

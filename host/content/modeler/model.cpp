@@ -1,4 +1,4 @@
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 
 #include <algorithm>
 

@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "host/modeler/limbs.h"
-#include "host/modeler/mesh.h"
-#include "node/film.h"
+#include "host/content/modeler/limbs.h"
+#include "host/content/modeler/mesh.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,10 +1,10 @@
-#include "host/modeler/model_file.h"
+#include "host/content/modeler/model_file.h"
 
 #include <string>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/modeler/read_model.h"
+#include "hal/failure/failure.h"
+#include "host/content/modeler/read_model.h"
 
 namespace mars::host {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "host/document/json_file.h"
-#include "host/modeler/model.h"
+#include "host/content/document/json_file.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

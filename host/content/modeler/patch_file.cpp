@@ -1,4 +1,4 @@
-#include "host/modeler/patch_file.h"
+#include "host/content/modeler/patch_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "hal/failure.h"
-#include "host/document/fields.h"
-#include "host/document/file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "host/content/document/file.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/modeler/primitives.h"
+#include "host/content/modeler/primitives.h"
 
 #include <array>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,12 +1,12 @@
-#include "host/modeler/proportions.h"
+#include "host/content/modeler/proportions.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "hal/failure.h"
-#include "host/modeler/edit.h"
-#include "host/modeler/frames.h"
+#include "hal/failure/failure.h"
+#include "host/content/modeler/edit.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {

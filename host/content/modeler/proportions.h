@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "host/document/fields.h"
-#include "host/document/json_file.h"
-#include "host/modeler/model.h"
+#include "host/content/document/fields.h"
+#include "host/content/document/json_file.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,9 +1,9 @@
-#include "host/modeler/read_bspline.h"
+#include "host/content/modeler/read_bspline.h"
 
 #include <algorithm>
 #include <string>
 
-#include "host/modeler/bspline.h"
+#include "host/content/modeler/bspline.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/modeler/read_mesh.h"
+#include "host/content/modeler/read_mesh.h"
 
 #include <algorithm>
 #include <string>

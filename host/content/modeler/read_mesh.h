@@ -4,8 +4,8 @@
 #include <array>
 #include <string_view>
 
-#include "host/document/fields.h"
-#include "host/modeler/mesh.h"
+#include "host/content/document/fields.h"
+#include "host/content/modeler/mesh.h"
 
 namespace mars::host {
 

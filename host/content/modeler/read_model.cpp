@@ -1,4 +1,4 @@
-#include "host/modeler/read_model.h"
+#include "host/content/modeler/read_model.h"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 #include <unordered_set>
 #include <utility>
 
-#include "hal/failure.h"
-#include "host/modeler/proportions.h"
-#include "host/modeler/read_bspline.h"
-#include "host/modeler/read_mesh.h"
-#include "host/modeler/shape_library.h"
+#include "hal/failure/failure.h"
+#include "host/content/modeler/proportions.h"
+#include "host/content/modeler/read_bspline.h"
+#include "host/content/modeler/read_mesh.h"
+#include "host/content/modeler/shape_library.h"
 
 namespace mars::host {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/document/fields.h"
-#include "host/modeler/model.h"
+#include "host/content/document/fields.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

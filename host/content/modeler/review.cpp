@@ -1,4 +1,4 @@
-#include "host/modeler/review.h"
+#include "host/content/modeler/review.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <set>
 #include <string_view>
 
-#include "host/document/fields.h"
-#include "host/modeler/frames.h"
+#include "host/content/document/fields.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {

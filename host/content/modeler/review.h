@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

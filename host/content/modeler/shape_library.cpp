@@ -1,11 +1,11 @@
-#include "host/modeler/shape_library.h"
+#include "host/content/modeler/shape_library.h"
 
 #include <algorithm>
 
-#include "host/modeler/body_shapes.h"
-#include "host/modeler/limb_shapes.h"
-#include "host/modeler/primitives.h"
-#include "host/modeler/teapot.h"
+#include "host/content/modeler/body_shapes.h"
+#include "host/content/modeler/limb_shapes.h"
+#include "host/content/modeler/primitives.h"
+#include "host/content/modeler/teapot.h"
 
 namespace mars::host {
 namespace {

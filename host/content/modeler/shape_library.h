@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/document/fields.h"
-#include "node/film.h"
+#include "host/content/document/fields.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,6 +1,6 @@
-#include "host/modeler/teapot.h"
+#include "host/content/modeler/teapot.h"
 
-#include "host/modeler/teapot_data.h"
+#include "host/content/modeler/teapot_data.h"
 
 namespace mars::host {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host/modeler/model.h"
+#include "host/content/modeler/model.h"
 
 namespace mars::host {
 

@@ -1,6 +1,6 @@
-#include "host/compositor/block_flags.h"
+#include "host/render/compositor/block_flags.h"
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

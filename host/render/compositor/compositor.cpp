@@ -1,11 +1,11 @@
-#include "host/compositor/compositor.h"
+#include "host/render/compositor/compositor.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

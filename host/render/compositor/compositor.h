@@ -20,8 +20,8 @@
 #include <optional>
 #include <span>
 
-#include "host/compositor/frame.h"
-#include "node/protocol.h"
+#include "host/images/frame.h"
+#include "node/wire/protocol.h"
 
 namespace mars::host {
 

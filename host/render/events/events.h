@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "host/events/progress.h"
+#include "host/render/events/progress.h"
 
 namespace mars::host {
 

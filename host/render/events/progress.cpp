@@ -1,4 +1,4 @@
-#include "host/events/progress.h"
+#include "host/render/events/progress.h"
 
 namespace mars::host {
 

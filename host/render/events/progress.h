@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "node/protocol.h"
+#include "node/wire/protocol.h"
 
 namespace mars::host {
 

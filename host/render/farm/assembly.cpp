@@ -1,4 +1,4 @@
-#include "host/farm/assembly.h"
+#include "host/render/farm/assembly.h"
 
 #include <algorithm>
 #include <utility>

@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "host/compositor/compositor.h"
-#include "host/farm/schedule.h"
-#include "host/farm/strip_message.h"
-#include "host/sinks/sink_pool.h"
+#include "host/render/compositor/compositor.h"
+#include "host/render/farm/schedule.h"
+#include "host/render/farm/strip_message.h"
+#include "host/render/sinks/sink_pool.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/farm/farm.h"
+#include "host/render/farm/farm.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,11 +6,11 @@
 #include <string>
 #include <unordered_map>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "host/farm/assembly.h"
-#include "host/farm/schedule.h"
-#include "host/farm/tracing.h"
+#include "host/render/farm/assembly.h"
+#include "host/render/farm/schedule.h"
+#include "host/render/farm/tracing.h"
 
 namespace mars::host {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/sinks/sink_pool.h"
-#include "host/trace/trace.h"
-#include "node/film.h"
-#include "node/protocol.h"
+#include "hal/failure/failure.h"
+#include "host/render/sinks/sink_pool.h"
+#include "host/render/trace/trace.h"
+#include "node/wire/film.h"
+#include "node/wire/protocol.h"
 
 namespace mars::host {
 

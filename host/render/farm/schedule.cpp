@@ -1,4 +1,4 @@
-#include "host/farm/schedule.h"
+#include "host/render/farm/schedule.h"
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/cube.h"
-#include "node/film.h"
+#include "hal/collectives/cube.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

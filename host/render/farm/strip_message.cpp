@@ -1,9 +1,9 @@
-#include "host/farm/strip_message.h"
+#include "host/render/farm/strip_message.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-// A strip as it arrived, with its parts in place (node/protocol.h), and the memory that strips arrive in.
+// A strip as it arrived, with its parts in place (node/wire/protocol.h), and the memory that strips arrive in.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "node/protocol.h"
+#include "node/wire/protocol.h"
 
 namespace mars::host {
 

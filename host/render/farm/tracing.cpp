@@ -1,7 +1,7 @@
-#include "host/farm/tracing.h"
+#include "host/render/farm/tracing.h"
 
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-// The farm's part in a trace (host/trace): reads the nodes' clocks, records the host itself, and receives what
+// The farm's part in a trace (host/render/trace): reads the nodes' clocks, records the host itself, and receives what
 // nodes recorded. Where no trace is asked for, every call does nothing.
 #pragma once
 
@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/recorder.h"
-#include "host/trace/trace.h"
+#include "hal/messages/recorder.h"
+#include "host/render/trace/trace.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/report/report.h"
+#include "host/render/report/report.h"
 
 #include <algorithm>
 #include <map>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/farm/farm.h"
+#include "host/render/farm/farm.h"
 
 namespace mars::host {
 

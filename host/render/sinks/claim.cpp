@@ -1,4 +1,4 @@
-#include "host/sinks/claim.h"
+#include "host/render/sinks/claim.h"
 
 #include <fcntl.h>
 #include <time.h>
@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "host/options/frame_set.h"
-#include "host/sinks/record.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/film/frame_set.h"
+#include "host/render/sinks/record.h"
 
 namespace mars::host {
 

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "host/sinks/manifest.h"
-#include "host/sinks/process_name.h"
-#include "host/sinks/runs_folder.h"
+#include "host/render/sinks/manifest.h"
+#include "host/render/sinks/process_name.h"
+#include "host/render/sinks/runs_folder.h"
 
 namespace mars::host {
 

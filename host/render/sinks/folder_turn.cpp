@@ -1,4 +1,4 @@
-#include "host/sinks/folder_turn.h"
+#include "host/render/sinks/folder_turn.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,8 +11,8 @@
 #include <optional>
 #include <thread>
 
-#include "hal/failure.h"
-#include "host/document/whole_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/whole_file.h"
 
 namespace mars::host {
 

@@ -14,8 +14,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "host/sinks/growing_pauses.h"
-#include "host/sinks/runs_folder.h"
+#include "host/render/sinks/growing_pauses.h"
+#include "host/render/sinks/runs_folder.h"
 
 namespace mars::host {
 

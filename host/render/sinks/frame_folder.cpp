@@ -1,4 +1,4 @@
-#include "host/sinks/frame_folder.h"
+#include "host/render/sinks/frame_folder.h"
 
 #include <fcntl.h>
 #include <time.h>
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "host/sinks/claim.h"
-#include "host/sinks/png_file.h"
-#include "host/sinks/record.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "host/render/sinks/claim.h"
+#include "host/images/png_file.h"
+#include "host/render/sinks/record.h"
 
 namespace mars::host {
 

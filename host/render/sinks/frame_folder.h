@@ -12,13 +12,13 @@
 #include <span>
 #include <string>
 
-#include "host/sinks/claim.h"
-#include "host/sinks/folder_turn.h"
-#include "host/sinks/lease.h"
-#include "host/sinks/manifest.h"
-#include "host/sinks/process_name.h"
-#include "host/sinks/runs_folder.h"
-#include "host/sinks/sink.h"
+#include "host/render/sinks/claim.h"
+#include "host/render/sinks/folder_turn.h"
+#include "host/render/sinks/lease.h"
+#include "host/render/sinks/manifest.h"
+#include "host/render/sinks/process_name.h"
+#include "host/render/sinks/runs_folder.h"
+#include "host/render/sinks/sink.h"
 
 namespace mars::host {
 

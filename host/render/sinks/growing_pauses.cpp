@@ -1,4 +1,4 @@
-#include "host/sinks/growing_pauses.h"
+#include "host/render/sinks/growing_pauses.h"
 
 #include <algorithm>
 

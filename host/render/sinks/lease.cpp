@@ -1,4 +1,4 @@
-#include "host/sinks/lease.h"
+#include "host/render/sinks/lease.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/sinks/manifest.h"
+#include "host/render/sinks/manifest.h"
 
 #include <algorithm>
 #include <array>
@@ -6,11 +6,11 @@
 #include <span>
 #include <string_view>
 
-#include "hal/failure.h"
-#include "host/options/frame_set.h"
-#include "host/sinks/checksum.h"
-#include "host/sinks/record.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "host/content/film/frame_set.h"
+#include "host/content/document/checksum.h"
+#include "host/render/sinks/record.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

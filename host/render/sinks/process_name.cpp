@@ -1,4 +1,4 @@
-#include "host/sinks/process_name.h"
+#include "host/render/sinks/process_name.h"
 
 #include <signal.h>
 #include <sys/utsname.h>
@@ -15,7 +15,7 @@
 #include <optional>
 #include <sstream>
 
-#include "host/sinks/record.h"
+#include "host/render/sinks/record.h"
 
 namespace mars::host {
 

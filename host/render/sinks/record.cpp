@@ -1,11 +1,11 @@
-#include "host/sinks/record.h"
+#include "host/render/sinks/record.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "hal/failure.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/sinks/runs_folder.h"
+#include "host/render/sinks/runs_folder.h"
 
 #include <sys/stat.h>
 
@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "hal/failure.h"
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "host/sinks/record.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "host/render/sinks/record.h"
 
 namespace mars::host {
 

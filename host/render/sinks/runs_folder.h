@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/sinks/process_name.h"
+#include "host/render/sinks/process_name.h"
 
 namespace mars::host {
 

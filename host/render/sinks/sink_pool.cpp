@@ -1,9 +1,9 @@
-#include "host/sinks/sink_pool.h"
+#include "host/render/sinks/sink_pool.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::host {

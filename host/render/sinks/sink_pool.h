@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/sinks/sink.h"
+#include "host/render/sinks/sink.h"
 
 namespace mars::host {
 

@@ -1,13 +1,13 @@
-#include "host/sinks/verify.h"
+#include "host/render/sinks/verify.h"
 
 #include <optional>
 #include <span>
 #include <system_error>
 
-#include "hal/failure.h"
-#include "host/sinks/checksum.h"
-#include "host/sinks/frame_folder.h"
-#include "host/sinks/png_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/checksum.h"
+#include "host/render/sinks/frame_folder.h"
+#include "host/images/png_file.h"
 
 namespace mars::host {
 

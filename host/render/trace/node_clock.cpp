@@ -1,4 +1,4 @@
-#include "host/trace/node_clock.h"
+#include "host/render/trace/node_clock.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "host/trace/timeline.h"
+#include "host/render/trace/timeline.h"
 
 #include <algorithm>
 #include <cmath>

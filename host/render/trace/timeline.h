@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/trace/trace.h"
+#include "host/render/trace/trace.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/trace/trace.h"
+#include "host/render/trace/trace.h"
 
 #include <algorithm>
 #include <numeric>

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "hal/recorder.h"
-#include "host/sinks/sink_pool.h"
-#include "host/trace/node_clock.h"
-#include "node/protocol.h"
+#include "hal/messages/recorder.h"
+#include "host/render/sinks/sink_pool.h"
+#include "host/render/trace/node_clock.h"
+#include "node/wire/protocol.h"
 
 namespace mars::host {
 

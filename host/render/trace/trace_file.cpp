@@ -1,4 +1,4 @@
-#include "host/trace/trace_file.h"
+#include "host/render/trace/trace_file.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "hal/message_types.h"
-#include "host/document/whole_file.h"
-#include "host/trace/timeline.h"
+#include "hal/messages/message_types.h"
+#include "host/content/document/whole_file.h"
+#include "host/render/trace/timeline.h"
 
 namespace mars::host {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/trace/trace.h"
+#include "host/render/trace/trace.h"
 
 namespace mars::host {
 

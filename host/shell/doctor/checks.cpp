@@ -1,10 +1,10 @@
-#include "host/doctor/checks.h"
+#include "host/shell/doctor/checks.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 
-#include "host/launch/text_reader.h"
+#include "host/shell/launch/text_reader.h"
 
 namespace mars::host {
 namespace {

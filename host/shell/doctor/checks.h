@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/doctor/facts.h"
-#include "host/launch/launch.h"
+#include "host/shell/doctor/facts.h"
+#include "host/shell/launch/launch.h"
 
 namespace mars::host {
 

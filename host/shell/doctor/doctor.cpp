@@ -1,12 +1,12 @@
-#include "host/doctor/doctor.h"
+#include "host/shell/doctor/doctor.h"
 
 #include <algorithm>
 #include <charconv>
 #include <iostream>
 
-#include "host/doctor/show.h"
-#include "host/launch/child.h"
-#include "host/launch/environment.h"
+#include "host/shell/doctor/show.h"
+#include "host/shell/launch/child.h"
+#include "host/shell/launch/environment.h"
 
 namespace mars::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/launch/launch.h"
+#include "host/shell/launch/launch.h"
 
 namespace mars::host {
 

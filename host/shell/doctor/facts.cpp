@@ -1,4 +1,4 @@
-#include "host/doctor/facts.h"
+#include "host/shell/doctor/facts.h"
 
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -7,10 +7,10 @@
 
 #include <charconv>
 
-#include "hal/failure.h"
-#include "hal/settings.h"
-#include "host/launch/child.h"
-#include "host/launch/environment.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
+#include "host/shell/launch/child.h"
+#include "host/shell/launch/environment.h"
 #include "topology/machine.h"
 
 namespace mars::host {

@@ -1,5 +1,5 @@
 // What is known of the surroundings of a rendering on this machine, as plain values: found out once, and made
-// up in tests. What a start itself depends on (programs, root, copies) is found by host/launch, as for mars render.
+// up in tests. What a start itself depends on (programs, root, copies) is found by host/shell/launch, as for mars render.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/launch/command.h"
+#include "host/shell/launch/command.h"
 #include "topology/memory_limit.h"
 
 namespace mars::host {

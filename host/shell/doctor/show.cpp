@@ -1,11 +1,11 @@
-#include "host/doctor/show.h"
+#include "host/shell/doctor/show.h"
 
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "host/options/wrapped.h"
+#include "host/shell/options/wrapped.h"
 #include "topology/placement.h"
 
 namespace mars::host {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/doctor/checks.h"
+#include "host/shell/doctor/checks.h"
 #include "topology/machine.h"
 
 namespace mars::host {

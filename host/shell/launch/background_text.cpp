@@ -1,4 +1,4 @@
-#include "host/launch/background_text.h"
+#include "host/shell/launch/background_text.h"
 
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 
 namespace mars::host {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/launch/bench.h"
+#include "host/shell/launch/bench.h"
 
 #include <algorithm>
 
-#include "hal/failure.h"
-#include "host/launch/exec.h"
+#include "hal/failure/failure.h"
+#include "host/shell/launch/exec.h"
 
 namespace mars::host {
 namespace {

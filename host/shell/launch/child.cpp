@@ -1,4 +1,4 @@
-#include "host/launch/child.h"
+#include "host/shell/launch/child.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/launch/exec.h"
+#include "host/shell/launch/exec.h"
 
 namespace mars::host {
 

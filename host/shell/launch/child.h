@@ -11,9 +11,9 @@
 #include <set>
 #include <string>
 
-#include "hal/failure.h"
-#include "host/launch/command.h"
-#include "host/launch/signal_relay.h"
+#include "hal/failure/failure.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/signal_relay.h"
 
 namespace mars::host {
 

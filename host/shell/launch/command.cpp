@@ -1,4 +1,4 @@
-#include "host/launch/command.h"
+#include "host/shell/launch/command.h"
 
 #include <signal.h>
 #include <sys/prctl.h>
@@ -13,11 +13,11 @@
 #include <string_view>
 #include <system_error>
 
-#include "hal/failure.h"
-#include "hal/settings.h"
-#include "host/document/shell_word.h"
-#include "host/launch/environment.h"
-#include "host/launch/text_reader.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
+#include "host/content/document/shell_word.h"
+#include "host/shell/launch/environment.h"
+#include "host/shell/launch/text_reader.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/launch/environment.h"
-#include "host/options/render_options.h"
+#include "host/shell/launch/environment.h"
+#include "host/shell/options/render_options.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/launch/diagnosis.h"
+#include "host/shell/launch/diagnosis.h"
 
 #include <netdb.h>
 #include <signal.h>
@@ -10,8 +10,8 @@
 #include <iterator>
 #include <set>
 
-#include "host/launch/mpi_words.h"
-#include "host/launch/text_reader.h"
+#include "host/shell/launch/mpi_words.h"
+#include "host/shell/launch/text_reader.h"
 
 namespace mars::host {
 

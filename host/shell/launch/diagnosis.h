@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "hal/failure.h"
-#include "host/events/events.h"
-#include "host/launch/child.h"
-#include "host/options/render_options.h"
+#include "hal/failure/failure.h"
+#include "host/render/events/events.h"
+#include "host/shell/launch/child.h"
+#include "host/shell/options/render_options.h"
 
 namespace mars::host {
 

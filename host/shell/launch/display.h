@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "host/events/events.h"
+#include "host/render/events/events.h"
 
 namespace mars::host {
 

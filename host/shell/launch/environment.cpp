@@ -1,4 +1,4 @@
-#include "host/launch/environment.h"
+#include "host/shell/launch/environment.h"
 
 #include <unistd.h>
 

@@ -1,11 +1,11 @@
-#include "host/launch/exec.h"
+#include "host/shell/launch/exec.h"
 
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 namespace {

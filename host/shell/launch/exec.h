@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/launch/command.h"
-#include "host/launch/environment.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/environment.h"
 
 namespace mars::host {
 

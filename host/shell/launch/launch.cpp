@@ -1,18 +1,18 @@
-#include "host/launch/launch.h"
+#include "host/shell/launch/launch.h"
 
 #include <algorithm>
 #include <chrono>
 #include <iostream>
 
-#include "hal/settings.h"
-#include "host/events/events.h"
-#include "host/launch/background_text.h"
-#include "host/launch/child.h"
-#include "host/launch/command.h"
-#include "host/launch/display.h"
-#include "host/launch/environment.h"
-#include "host/launch/session_folders.h"
-#include "host/sinks/frame_folder.h"
+#include "hal/messages/settings.h"
+#include "host/render/events/events.h"
+#include "host/shell/launch/background_text.h"
+#include "host/shell/launch/child.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/display.h"
+#include "host/shell/launch/environment.h"
+#include "host/shell/launch/session_folders.h"
+#include "host/render/sinks/frame_folder.h"
 #include "topology/machine.h"
 
 namespace mars::host {

@@ -1,9 +1,9 @@
-#include "host/launch/mpi_words.h"
+#include "host/shell/launch/mpi_words.h"
 
 #include <algorithm>
 #include <array>
 
-#include "host/launch/text_reader.h"
+#include "host/shell/launch/text_reader.h"
 
 namespace mars::host {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/launch/session_folders.h"
+#include "host/shell/launch/session_folders.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host/launch/environment.h"
+#include "host/shell/launch/environment.h"
 
 namespace mars::host {
 namespace {

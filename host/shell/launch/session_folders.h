@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/launch/command.h"
+#include "host/shell/launch/command.h"
 
 namespace mars::host {
 

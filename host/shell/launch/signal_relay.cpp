@@ -1,11 +1,11 @@
-#include "host/launch/signal_relay.h"
+#include "host/shell/launch/signal_relay.h"
 
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

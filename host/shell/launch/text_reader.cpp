@@ -1,4 +1,4 @@
-#include "host/launch/text_reader.h"
+#include "host/shell/launch/text_reader.h"
 
 #include <algorithm>
 #include <charconv>

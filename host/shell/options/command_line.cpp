@@ -1,4 +1,4 @@
-#include "host/options/command_line.h"
+#include "host/shell/options/command_line.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/settings.h"
-#include "host/document/fields.h"
-#include "host/options/wrapped.h"
+#include "hal/messages/settings.h"
+#include "host/content/document/fields.h"
+#include "host/shell/options/wrapped.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/options/render_options.h"
+#include "host/shell/options/render_options.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "hal/failure.h"
-#include "host/options/command_line.h"
-#include "node/film.h"
+#include "hal/failure/failure.h"
+#include "host/shell/options/command_line.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "host/options/frame_set.h"
-#include "node/protocol.h"
+#include "host/content/film/frame_set.h"
+#include "node/wire/protocol.h"
 
 namespace CLI {
 class App;

@@ -1,6 +1,6 @@
 // Sixteen triangles at a time: which way they face, which samples they cover. In 32-bit integers, exact for
 // triangles no larger than kMostExtent: places relative to the triangle stay below 2^15, sums of products below 2^31.
-#include "node/kernels/simd.h"
+#include "node/simd/simd.h"
 
 namespace mars::node::MARS_SET {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "node/kernels/simd.h"
+#include "node/simd/simd.h"
 
 namespace mars::node::MARS_SET {
 namespace {

@@ -1,5 +1,5 @@
 // Which triangle a line's samples show.
-#include "node/kernels/simd.h"
+#include "node/simd/simd.h"
 
 namespace mars::node::MARS_SET {
 namespace {

@@ -6,7 +6,7 @@
 // so |e| is never taken, and one root and one division do for n and e.
 #include <cstring>
 
-#include "node/kernels/simd.h"
+#include "node/simd/simd.h"
 
 namespace mars::node::MARS_SET {
 namespace {

@@ -1,5 +1,5 @@
 // How a patch bends, as it is seen, at sixteen places.
-#include "node/kernels/simd.h"
+#include "node/simd/simd.h"
 
 namespace mars::node::MARS_SET {
 namespace {

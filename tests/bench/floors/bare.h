@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "node/kernels.h"
+#include "node/simd/kernels.h"
 
 namespace mars::bench {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "node/polygons.h"
 #include "tests/bench/floors/bare.h"
 #include "tests/bench/floors/workload.h"

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "host/film/compile.h"
-#include "node/arena.h"
-#include "node/dice.h"
-#include "node/scanline.h"
-#include "node/scene.h"
+#include "host/content/film/compile.h"
+#include "node/raster/arena.h"
+#include "node/shape/dice.h"
+#include "node/raster/scanline.h"
+#include "node/geometry/scene.h"
 #include "tests/bench/floors/bare.h"
 
 namespace mars::bench {

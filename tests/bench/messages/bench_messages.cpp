@@ -14,7 +14,7 @@
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "tests/bench/messages/raw.h"
 
 namespace mars::bench {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/crystal_router.h"
+#include "hal/collectives/crystal_router.h"
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"

@@ -1,4 +1,4 @@
-// The messages of the three routes of a sparse all-to-all, as hal/crystal_router.cpp sends them, without what NX does
+// The messages of the three routes of a sparse all-to-all, as hal/collectives/crystal_router.cpp sends them, without what NX does
 // beside: so that smpirun can simulate a thousand nodes. Each has as many bytes for each of a few random others:
 // bench-simulated-routes.so [OTHERS BYTES [crystal|direct|mpi]].
 #include <algorithm>

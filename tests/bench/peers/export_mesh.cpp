@@ -3,11 +3,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
-#include "host/film/compile.h"
-#include "node/dice.h"
-#include "node/scene.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
+#include "host/content/film/compile.h"
+#include "node/shape/dice.h"
+#include "node/geometry/scene.h"
 #include "tests/bench/peers/mesh.h"
 
 namespace mars::bench {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "hal/nx/nx_messages.h"
-#include "hal/recorder.h"
-#include "host/farm/farm.h"
-#include "host/film/compile.h"
-#include "host/trace/trace.h"
+#include "hal/messages/recorder.h"
+#include "host/render/farm/farm.h"
+#include "host/content/film/compile.h"
+#include "host/render/trace/trace.h"
 #include "tests/bench/peers/peer.h"
 
 namespace mars::bench {

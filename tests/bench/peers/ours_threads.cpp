@@ -1,7 +1,7 @@
 // bench-ours-threads FILM whole|inbetween|latency NODES
 #include <iostream>
 
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 #include "hal/threads/run_threads.h"
 #include "host/programs/node_job.h"
 #include "tests/bench/peers/ours.h"

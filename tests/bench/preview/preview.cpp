@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/explain.h"
-#include "host/animator/read_film.h"
+#include "hal/failure/explain.h"
+#include "host/content/animator/read_film.h"
 #include "host/preview/film_drawing.h"
 #include "host/preview/terminal_picture.h"
 #include "host/preview/view.h"

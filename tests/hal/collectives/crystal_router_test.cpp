@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/crystal_router.h"
+#include "hal/collectives/crystal_router.h"
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/counting_backend.h"
 

@@ -3,8 +3,8 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "hal/call_failure.h"
-#include "hal/process.h"
+#include "hal/messages/call_failure.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal::conformance {
 

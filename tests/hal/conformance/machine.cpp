@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/cube.h"
+#include "hal/collectives/cube.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
-#include "hal/shared_memory.h"
+#include "hal/messages/process.h"
+#include "hal/messages/shared_memory.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
@@ -16,7 +16,7 @@
 namespace mars::hal::conformance {
 namespace {
 
-// The order that hal/cube.h promises, done by one; merge(a, b) leaves its result in a.
+// The order that hal/collectives/cube.h promises, done by one; merge(a, b) leaves its result in a.
 template <class T, class Merge>
 T in_order(std::vector<T> values, const Merge& merge) {
   const std::size_t corners = std::bit_floor(values.size());

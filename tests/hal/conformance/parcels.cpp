@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "hal/collectives.h"
-#include "hal/crystal_router.h"
+#include "hal/messages/collectives.h"
+#include "hal/collectives/crystal_router.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"

@@ -1,10 +1,10 @@
 // Every reduction by name, gopf, and gsendx.
 #include <vector>
 
-#include "hal/collectives.h"
+#include "hal/messages/collectives.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"

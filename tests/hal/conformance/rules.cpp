@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <tuple>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "tests/hal/conformance/talk.h"
 
 namespace mars::hal::conformance {

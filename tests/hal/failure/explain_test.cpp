@@ -1,5 +1,5 @@
 // What is said of exceptions that are no Failure.
-#include "hal/explain.h"
+#include "hal/failure/explain.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

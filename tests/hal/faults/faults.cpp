@@ -9,7 +9,7 @@
 #include <map>
 #include <thread>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 

@@ -10,7 +10,7 @@
 
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/nx_paragon.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "tests/hal/matching/model.h"
 #include "tests/hal/matching/scripted_backend.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/backend.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 

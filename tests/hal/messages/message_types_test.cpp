@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/message_types.h"
+#include "hal/messages/message_types.h"
 
 namespace mars::hal {
 namespace {

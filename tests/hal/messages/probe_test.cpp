@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {

@@ -1,9 +1,9 @@
-#include "hal/recorder.h"
+#include "hal/messages/recorder.h"
 
 #include <gtest/gtest.h>
 
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::hal {

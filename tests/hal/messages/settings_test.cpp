@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/failure.h"
-#include "hal/settings.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
 
 namespace mars::hal {
 namespace {

@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::hal {

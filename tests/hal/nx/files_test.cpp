@@ -16,10 +16,10 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/call_failure.h"
+#include "hal/messages/call_failure.h"
 #include "hal/nx/nx_files.h"
 #include "hal/nx/nx_global.h"
-#include "hal/process.h"
+#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 #include "tests/hal/machines_backend.h"
 

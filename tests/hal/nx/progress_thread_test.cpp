@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/progress_thread.h"
+#include "hal/nx/progress_thread.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::hal {

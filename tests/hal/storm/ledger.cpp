@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "hal/message_types.h"
+#include "hal/messages/message_types.h"
 
 namespace mars::hal::storm {
 namespace {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "hal/message_types.h"
+#include "hal/messages/message_types.h"
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/storm/handlers.h"
 

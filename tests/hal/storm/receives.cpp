@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hal/message_types.h"
+#include "hal/messages/message_types.h"
 
 namespace mars::hal::storm {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/storm/rank.h"
 

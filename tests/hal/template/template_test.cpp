@@ -6,8 +6,8 @@
 
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
-#include "hal/shared_memory.h"
+#include "hal/messages/process.h"
+#include "hal/messages/shared_memory.h"
 #include "hal/template/template_backend.h"
 
 namespace mars::hal {

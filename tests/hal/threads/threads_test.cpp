@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/failure.h"
-#include "hal/message_types.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/message_types.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/process.h"
-#include "hal/shared_memory.h"
+#include "hal/messages/process.h"
+#include "hal/messages/shared_memory.h"
 #include "hal/threads/run_threads.h"
 #include "tests/hal/counting_backend.h"
 

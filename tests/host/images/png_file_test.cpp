@@ -1,12 +1,12 @@
-#include "host/sinks/png_file.h"
+#include "host/images/png_file.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "host/document/whole_file.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/content/document/whole_file.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

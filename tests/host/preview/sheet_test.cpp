@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 #include "host/preview/write_pictures.h"
 
 namespace mars::host {

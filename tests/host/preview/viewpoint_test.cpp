@@ -6,7 +6,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "host/animator/read_film.h"
+#include "host/content/animator/read_film.h"
 #include "host/preview/film_pictures.h"
 
 namespace mars::host {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <functional>
 
-#include "hal/failure.h"
-#include "host/document/whole_file.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/whole_file.h"
 #include "host/preview/load.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

@@ -1,5 +1,5 @@
 // Clipping: what is left lies inside, is all that lies inside, and neighbours are cut at the same places.
-#include "node/clip.h"
+#include "node/geometry/clip.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/node/patches.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {

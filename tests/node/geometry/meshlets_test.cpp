@@ -1,17 +1,17 @@
 // Meshlets placed in eye space: places and normals by the formulas, bit for bit from every instruction set, however the
 // matrix stretches, shears or mirrors; and those outside the picture dropped, no others.
-#include "node/meshlets.h"
+#include "node/geometry/meshlets.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "tests/node/kernel_sets.h"
-#include "tests/node/patches.h"
-#include "tests/node/plain_set_up.h"
-#include "tests/node/set_ups.h"
-#include "tests/node/small_film.h"
+#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/raster/plain_set_up.h"
+#include "tests/node/raster/set_ups.h"
+#include "tests/node/wire/small_film.h"
 
 namespace mars::test {
 namespace {

@@ -1,12 +1,12 @@
 // Mapping of scanlines to nodes: greedy against figure 4.7 word for word, optimal against every partition
 // there is.
-#include "node/mapping.h"
+#include "node/group/mapping.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tests/node/patches.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {

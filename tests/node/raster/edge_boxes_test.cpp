@@ -1,14 +1,14 @@
 // Which samples a triangle covers: Outline against a plain test with edge functions in 64-bit integers, and
 // meshes that must cover every sample once.
-#include "node/edge_boxes.h"
+#include "node/raster/edge_boxes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "tests/node/patches.h"
-#include "tests/node/plain_set_up.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/raster/plain_set_up.h"
 
 namespace mars::test {
 namespace {

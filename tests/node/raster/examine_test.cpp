@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "tests/node/kernel_sets.h"
-#include "tests/node/patches.h"
-#include "tests/node/plain_set_up.h"
+#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/raster/plain_set_up.h"
 
 namespace mars::test {
 namespace {

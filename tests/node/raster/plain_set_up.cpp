@@ -1,10 +1,10 @@
-#include "tests/node/plain_set_up.h"
+#include "tests/node/raster/plain_set_up.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "node/clip.h"
+#include "node/geometry/clip.h"
 
 namespace mars::test {
 namespace {

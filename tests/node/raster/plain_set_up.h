@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "node/surface.h"
-#include "node/setup.h"
+#include "node/shape/surface.h"
+#include "node/raster/setup.h"
 
 namespace mars::test {
 

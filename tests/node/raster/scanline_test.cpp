@@ -1,5 +1,5 @@
 // Edge boxes into their lines: crossings of several senders against a plain search for each line and part.
-#include "node/scanline.h"
+#include "node/raster/scanline.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/node/patches.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/node/set_ups.h"
+#include "tests/node/raster/set_ups.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "node/setup.h"
+#include "node/raster/setup.h"
 
 namespace mars::test {
 

@@ -1,5 +1,5 @@
 // Set-ups of diced patches: which way they face, what their plane equations say, and which of them are kept.
-#include "node/setup.h"
+#include "node/raster/setup.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "node/dice.h"
-#include "tests/node/patches.h"
-#include "tests/node/plain_set_up.h"
-#include "tests/node/set_ups.h"
+#include "node/shape/dice.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/raster/plain_set_up.h"
+#include "tests/node/raster/set_ups.h"
 
 namespace mars::test {
 namespace {

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "node/dice.h"
-#include "tests/node/kernel_sets.h"
-#include "tests/node/patches.h"
-#include "tests/node/plain_set_up.h"
-#include "tests/node/set_ups.h"
+#include "node/shape/dice.h"
+#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/raster/plain_set_up.h"
+#include "tests/node/raster/set_ups.h"
 
 namespace mars::test {
 namespace {

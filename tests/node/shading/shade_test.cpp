@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "node/kernels.h"
-#include "tests/node/kernel_sets.h"
-#include "tests/node/patches.h"
+#include "node/simd/kernels.h"
+#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {

@@ -1,6 +1,6 @@
 // Patches in eye space: the basis, edges' canonical direction, rates that keep their tolerance, and what is
 // out of sight.
-#include "node/bezier.h"
+#include "node/shape/bezier.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/node/kernel_sets.h"
-#include "tests/node/patches.h"
+#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {

@@ -1,13 +1,13 @@
 // Dicing: meshes without T-joints at any rates, neighbours that share every vertex of their edge, and normals
 // where a side is collapsed to a point.
-#include "node/dice.h"
+#include "node/shape/dice.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/node/diced.h"
+#include "tests/node/shape/diced.h"
 
 namespace mars::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/node/diced.h"
+#include "tests/node/shape/diced.h"
 
 #include <gtest/gtest.h>
 

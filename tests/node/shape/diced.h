@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "node/dice.h"
-#include "tests/node/patches.h"
+#include "node/shape/dice.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 

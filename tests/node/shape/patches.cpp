@@ -1,9 +1,9 @@
-#include "tests/node/patches.h"
+#include "tests/node/shape/patches.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "node/scene.h"
+#include "node/geometry/scene.h"
 
 namespace mars::test {
 namespace {

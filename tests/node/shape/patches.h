@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <random>
 
-#include "node/bezier.h"
-#include "node/kernels.h"
+#include "node/shape/bezier.h"
+#include "node/simd/kernels.h"
 
 namespace mars::test {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "node/kernels.h"
+#include "node/simd/kernels.h"
 
 namespace mars::test {
 

@@ -1,6 +1,6 @@
 // The inner loops: the same bits from every instruction set, and what they compute against plain loops in
 // double precision.
-#include "node/kernels.h"
+#include "node/simd/kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/failure.h"
-#include "node/bezier.h"
-#include "tests/node/kernel_sets.h"
-#include "tests/node/patches.h"
+#include "hal/failure/failure.h"
+#include "node/shape/bezier.h"
+#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {

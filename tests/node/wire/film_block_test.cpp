@@ -5,9 +5,9 @@
 #include <functional>
 #include <limits>
 
-#include "hal/failure.h"
-#include "node/film.h"
-#include "tests/node/small_film.h"
+#include "hal/failure/failure.h"
+#include "node/wire/film.h"
+#include "tests/node/wire/small_film.h"
 
 namespace mars::test {
 namespace {

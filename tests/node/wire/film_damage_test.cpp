@@ -3,12 +3,12 @@
 
 #include <cstring>
 
-#include "hal/failure.h"
-#include "node/film.h"
-#include "node/meshlets.h"
-#include "node/scene.h"
-#include "tests/node/patches.h"
-#include "tests/node/small_film.h"
+#include "hal/failure/failure.h"
+#include "node/wire/film.h"
+#include "node/geometry/meshlets.h"
+#include "node/geometry/scene.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/wire/small_film.h"
 
 namespace mars::test {
 namespace {

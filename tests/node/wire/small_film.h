@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::test {
 

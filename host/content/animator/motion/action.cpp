@@ -1,4 +1,4 @@
-#include "host/animator/motion/action.h"
+#include "host/content/animator/motion/action.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,12 +6,12 @@
 #include <set>
 #include <sstream>
 
-#include "hal/failure.h"
-#include "host/animator/motion/gesture.h"
-#include "host/animator/motion/kinematic.h"
-#include "host/animator/motion/sitting.h"
-#include "host/animator/motion/steps.h"
-#include "host/animator/read_film.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/gesture.h"
+#include "host/content/animator/motion/kinematic.h"
+#include "host/content/animator/motion/sitting.h"
+#include "host/content/animator/motion/steps.h"
+#include "host/content/animator/read_film.h"
 
 namespace mars::host {
 namespace {

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "host/animator/edit.h"
-#include "host/animator/film.h"
-#include "host/document/fields.h"
+#include "host/content/animator/edit.h"
+#include "host/content/animator/film.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/animator/motion/body.h"
+#include "host/content/animator/motion/body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/animator/motion/posture.h"
+#include "host/content/animator/motion/posture.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/animator/motion/flight.h"
+#include "host/content/animator/motion/flight.h"
 
 #include <algorithm>
 #include <cmath>

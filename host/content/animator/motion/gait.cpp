@@ -1,4 +1,4 @@
-#include "host/animator/motion/gait.h"
+#include "host/content/animator/motion/gait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 
-#include "hal/failure.h"
-#include "host/animator/motion/curve.h"
-#include "host/animator/motion/stiff_legs.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/curve.h"
+#include "host/content/animator/motion/stiff_legs.h"
 
 namespace mars::host {
 namespace {

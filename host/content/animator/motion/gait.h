@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "host/animator/motion/stance.h"
+#include "host/content/animator/motion/stance.h"
 
 namespace mars::host {
 

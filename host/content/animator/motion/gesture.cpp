@@ -1,4 +1,4 @@
-#include "host/animator/motion/gesture.h"
+#include "host/content/animator/motion/gesture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "hal/failure.h"
-#include "host/animator/motion/gait.h"
-#include "host/animator/motion/glide.h"
-#include "host/animator/motion/reach.h"
-#include "host/animator/motion/stance.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/gait.h"
+#include "host/content/animator/motion/glide.h"
+#include "host/content/animator/motion/reach.h"
+#include "host/content/animator/motion/stance.h"
 
 namespace mars::host {
 namespace {

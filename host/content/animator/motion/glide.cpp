@@ -1,4 +1,4 @@
-#include "host/animator/motion/glide.h"
+#include "host/content/animator/motion/glide.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "host/animator/angles.h"
-#include "host/animator/motion/gait.h"
+#include "host/content/animator/angles.h"
+#include "host/content/animator/motion/gait.h"
 
 namespace mars::host {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "host/animator/edit.h"
-#include "host/animator/motion/body.h"
+#include "host/content/animator/edit.h"
+#include "host/content/animator/motion/body.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/animator/motion/kinematic.h"
+#include "host/content/animator/motion/kinematic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "host/animator/motion/body.h"
-#include "host/animator/motion/flight.h"
-#include "host/animator/motion/glide.h"
+#include "host/content/animator/motion/body.h"
+#include "host/content/animator/motion/flight.h"
+#include "host/content/animator/motion/glide.h"
 
 namespace mars::host {
 namespace {

@@ -2,7 +2,7 @@
 // straight.
 #pragma once
 
-#include "host/animator/motion/action.h"
+#include "host/content/animator/motion/action.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/animator/motion/posture.h"
+#include "host/content/animator/motion/posture.h"
 
 namespace mars::host {
 

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "host/animator/figure.h"
+#include "host/content/animator/figure.h"
 
 namespace mars::host {
 

@@ -1,4 +1,4 @@
-#include "host/animator/motion/reach.h"
+#include "host/content/animator/motion/reach.h"
 
 #include <algorithm>
 #include <cmath>

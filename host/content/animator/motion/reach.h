@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "host/animator/motion/posture.h"
+#include "host/content/animator/motion/posture.h"
 
 namespace mars::host {
 

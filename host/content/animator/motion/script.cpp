@@ -1,13 +1,13 @@
-#include "host/animator/motion/script.h"
+#include "host/content/animator/motion/script.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "hal/failure.h"
-#include "host/animator/motion/script_line.h"
-#include "host/animator/pose.h"
-#include "host/animator/read_film.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/script_line.h"
+#include "host/content/animator/pose.h"
+#include "host/content/animator/read_film.h"
 
 namespace mars::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/animator/motion/action.h"
+#include "host/content/animator/motion/action.h"
 
 namespace mars::host {
 

@@ -1,12 +1,12 @@
-#include "host/animator/motion/script_line.h"
+#include "host/content/animator/motion/script_line.h"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 
-#include "hal/failure.h"
-#include "host/document/fields.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
 
 namespace mars::host {
 namespace {

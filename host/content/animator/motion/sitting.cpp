@@ -1,4 +1,4 @@
-#include "host/animator/motion/sitting.h"
+#include "host/content/animator/motion/sitting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "hal/failure.h"
-#include "host/animator/motion/gait.h"
-#include "host/animator/motion/glide.h"
-#include "host/animator/motion/reach.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/gait.h"
+#include "host/content/animator/motion/glide.h"
+#include "host/content/animator/motion/reach.h"
 
 namespace mars::host {
 namespace {

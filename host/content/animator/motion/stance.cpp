@@ -1,4 +1,4 @@
-#include "host/animator/motion/stance.h"
+#include "host/content/animator/motion/stance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <glm/trigonometric.hpp>
 #include <vector>
 
-#include "hal/failure.h"
-#include "host/animator/motion/reach.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/reach.h"
 
 namespace mars::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "host/animator/motion/body.h"
+#include "host/content/animator/motion/body.h"
 
 namespace mars::host {
 

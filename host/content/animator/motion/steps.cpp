@@ -1,4 +1,4 @@
-#include "host/animator/motion/steps.h"
+#include "host/content/animator/motion/steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "hal/failure.h"
-#include "host/animator/motion/gait.h"
-#include "host/animator/motion/glide.h"
+#include "hal/failure/failure.h"
+#include "host/content/animator/motion/gait.h"
+#include "host/content/animator/motion/glide.h"
 
 namespace mars::host {
 namespace {

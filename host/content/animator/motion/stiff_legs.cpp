@@ -1,11 +1,11 @@
-#include "host/animator/motion/stiff_legs.h"
+#include "host/content/animator/motion/stiff_legs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "host/animator/motion/gait.h"
+#include "host/content/animator/motion/gait.h"
 
 namespace mars::host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/animator/motion/stance.h"
+#include "host/content/animator/motion/stance.h"
 
 namespace mars::host {
 

@@ -1,5 +1,5 @@
 // Joints that leave their limits between keys, found where they are known to; and what else is worth a word.
-#include "host/animator/check.h"
+#include "host/content/animator/check.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "host/animator/angles.h"
-#include "host/animator/limits_left.h"
-#include "host/animator/read_film.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/animator/angles.h"
+#include "host/content/animator/limits_left.h"
+#include "host/content/animator/read_film.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,10 +1,10 @@
-#include "host/animator/ease.h"
+#include "host/content/animator/ease.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "host/animator/channel.h"
+#include "host/content/animator/channel.h"
 
 namespace mars::host {
 namespace {

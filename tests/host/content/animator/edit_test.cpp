@@ -1,10 +1,10 @@
 // Keys put into a film file's JSON: what stands there afterwards, word for word.
-#include "host/animator/edit.h"
+#include "host/content/animator/edit.h"
 
 #include <gtest/gtest.h>
 
-#include "host/animator/read_film.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/animator/read_film.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/animator/figure.h"
+#include "host/content/animator/figure.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

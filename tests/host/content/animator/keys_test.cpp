@@ -1,14 +1,14 @@
 // Keys made, moved, copied, deleted and timed: what the film does afterwards, and what its file says.
-#include "host/animator/keys.h"
+#include "host/content/animator/keys.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "host/animator/keys_table.h"
-#include "host/animator/pose.h"
-#include "host/animator/read_film.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/animator/keys_table.h"
+#include "host/content/animator/pose.h"
+#include "host/content/animator/read_film.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/document/document.h"
+#include "host/content/document/document.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/document/fields.h"
-#include "host/document/file.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/document/fields.h"
+#include "host/content/document/file.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

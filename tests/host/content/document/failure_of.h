@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hal/failure.h"
+#include "hal/failure/failure.h"
 
 namespace mars::host {
 

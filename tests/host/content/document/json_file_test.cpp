@@ -1,15 +1,15 @@
 // Files that commands change: laid out for people, written only if what reads them agrees.
-#include "host/document/json_file.h"
+#include "host/content/document/json_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "hal/explain.h"
-#include "hal/failure.h"
-#include "host/document/fields.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

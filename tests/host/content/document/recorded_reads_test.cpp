@@ -1,14 +1,14 @@
 // Which files were read, and what changes a file's stamp.
-#include "host/document/recorded_reads.h"
+#include "host/content/document/recorded_reads.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

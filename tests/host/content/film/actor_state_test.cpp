@@ -1,9 +1,9 @@
 // How an actor stands at a frame, asked alone, is what the compiled film has.
-#include "host/animator/actor_state.h"
+#include "host/content/animator/actor_state.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/host/film/small_film.h"
+#include "tests/host/content/film/small_film.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
-#include "host/film/compile.h"
+#include "host/content/film/compile.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "tests/host/document/failure_of.h"
-#include "tests/host/film/small_film.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/content/film/small_film.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/film/film_file.h"
+#include "host/content/film/film_file.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <fstream>
 #include <random>
 
-#include "host/document/file.h"
-#include "host/film/describe.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/film/small_film.h"
+#include "host/content/document/file.h"
+#include "host/content/film/describe.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/content/film/small_film.h"
 
 namespace mars::host {
 namespace {

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <set>
 
-#include "host/document/file.h"
-#include "host/document/forms.h"
-#include "host/document/json_file.h"
-#include "host/film/compile.h"
-#include "host/animator/read_film.h"
-#include "host/modeler/read_model.h"
-#include "host/modeler/shape_library.h"
+#include "host/content/document/file.h"
+#include "host/content/document/forms.h"
+#include "host/content/document/json_file.h"
+#include "host/content/film/compile.h"
+#include "host/content/animator/read_film.h"
+#include "host/content/modeler/read_model.h"
+#include "host/content/modeler/shape_library.h"
 
 namespace mars::host {
 namespace {

@@ -1,8 +1,8 @@
-#include "host/options/frame_set.h"
+#include "host/content/film/frame_set.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

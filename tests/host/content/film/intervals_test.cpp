@@ -1,4 +1,4 @@
-#include "host/film/intervals.h"
+#include "host/content/film/intervals.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "tests/host/film/small_film.h"
+#include "tests/host/content/film/small_film.h"
 
 namespace mars::host {
 namespace {

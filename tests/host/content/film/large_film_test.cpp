@@ -4,8 +4,8 @@
 #include <chrono>
 #include <functional>
 
-#include "tests/host/document/failure_of.h"
-#include "tests/host/film/small_film.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/content/film/small_film.h"
 
 namespace mars::host {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <string>
 
-#include "host/animator/actor_state.h"
-#include "host/animator/read_film.h"
-#include "host/film/compile.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/animator/actor_state.h"
+#include "host/content/animator/read_film.h"
+#include "host/content/film/compile.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

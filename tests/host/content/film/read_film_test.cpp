@@ -1,11 +1,11 @@
-#include "host/animator/read_film.h"
+#include "host/content/animator/read_film.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "tests/host/document/failure_of.h"
-#include "tests/host/film/small_film.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/content/film/small_film.h"
 
 namespace mars::host {
 namespace {

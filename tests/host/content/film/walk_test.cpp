@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "host/film/compile.h"
-#include "tests/host/modeler/surface.h"
+#include "host/content/film/compile.h"
+#include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {
 namespace {

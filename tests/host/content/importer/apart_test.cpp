@@ -1,5 +1,5 @@
 // Work in a process of its own: what it says comes back; dying, never ending and taking all memory are one failure.
-#include "host/import/apart.h"
+#include "host/content/importer/apart.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -8,8 +8,8 @@
 #include <csignal>
 #include <vector>
 
-#include "hal/failure.h"
-#include "tests/host/document/failure_of.h"
+#include "hal/failure/failure.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

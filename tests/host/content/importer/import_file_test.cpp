@@ -1,5 +1,5 @@
 // mars import: files of other programs become models that can be read, bad ones one clear failure.
-#include "host/import/import_file.h"
+#include "host/content/importer/import_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,14 +10,14 @@
 #include <map>
 #include <sstream>
 
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "host/import/mesh_file.h"
-#include "host/import/promised.h"
-#include "host/modeler/meshlets.h"
-#include "host/modeler/patch_file.h"
-#include "host/modeler/read_model.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/importer/mesh_file.h"
+#include "host/content/importer/promised.h"
+#include "host/content/modeler/meshlets.h"
+#include "host/content/modeler/patch_file.h"
+#include "host/content/modeler/read_model.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,5 +1,5 @@
 // PLY files in every form there is, and damaged ones: as many vertices and faces as the header promises, or a failure.
-#include "host/import/ply_file.h"
+#include "host/content/importer/ply_file.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

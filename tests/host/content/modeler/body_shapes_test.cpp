@@ -1,11 +1,11 @@
-#include "host/modeler/body_shapes.h"
+#include "host/content/modeler/body_shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/modeler/loft.h"
-#include "tests/host/modeler/surface.h"
+#include "host/content/modeler/loft.h"
+#include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
 // Bezier patches made of B-spline surfaces, against the basis functions as Cox and de Boor define them.
-#include "host/modeler/bspline.h"
+#include "host/content/modeler/bspline.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "tests/host/modeler/surface.h"
+#include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {
 namespace {

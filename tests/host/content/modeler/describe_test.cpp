@@ -1,8 +1,8 @@
-#include "host/modeler/describe.h"
+#include "host/content/modeler/describe.h"
 
 #include <gtest/gtest.h>
 
-#include "host/modeler/read_model.h"
+#include "host/content/modeler/read_model.h"
 
 namespace mars::host {
 namespace {

@@ -1,8 +1,8 @@
-#include "host/modeler/edit.h"
+#include "host/content/modeler/edit.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,11 +1,11 @@
-#include "host/modeler/frames.h"
+#include "host/content/modeler/frames.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "host/modeler/read_model.h"
+#include "host/content/modeler/read_model.h"
 
 namespace mars::host {
 namespace {

@@ -1,11 +1,11 @@
-#include "host/modeler/limbs.h"
+#include "host/content/modeler/limbs.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "host/modeler/read_model.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/modeler/read_model.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,5 +1,5 @@
 // Meshes on their way to a film: faces in triangles, normals at corners, meshlets.
-#include "host/modeler/mesh.h"
+#include "host/content/modeler/mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "host/modeler/mesh_normals.h"
-#include "host/modeler/meshlets.h"
+#include "host/content/modeler/mesh_normals.h"
+#include "host/content/modeler/meshlets.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
-#include "host/modeler/patch_file.h"
+#include "host/content/modeler/patch_file.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "host/modeler/teapot.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/modeler/teapot.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

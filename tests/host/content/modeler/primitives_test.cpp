@@ -1,12 +1,12 @@
-#include "host/modeler/primitives.h"
+#include "host/content/modeler/primitives.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "host/modeler/teapot.h"
-#include "tests/host/modeler/surface.h"
+#include "host/content/modeler/teapot.h"
+#include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {
 namespace {

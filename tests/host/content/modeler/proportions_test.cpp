@@ -1,14 +1,14 @@
-#include "host/modeler/proportions.h"
+#include "host/content/modeler/proportions.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "host/document/whole_file.h"
-#include "host/modeler/frames.h"
-#include "host/modeler/read_model.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/document/whole_file.h"
+#include "host/content/modeler/frames.h"
+#include "host/content/modeler/read_model.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

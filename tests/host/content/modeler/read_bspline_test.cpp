@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "host/modeler/read_model.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/modeler/read_model.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
 // Meshes in model files: what is read, and that whatever is wrong is told with its place and a remedy.
-#include "host/modeler/read_mesh.h"
+#include "host/content/modeler/read_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "host/modeler/read_model.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/modeler/read_model.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

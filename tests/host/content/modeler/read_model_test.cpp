@@ -1,10 +1,10 @@
-#include "host/modeler/read_model.h"
+#include "host/content/modeler/read_model.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/modeler/review.h"
+#include "host/content/modeler/review.h"
 
 #include <gtest/gtest.h>
 
-#include "host/modeler/model_file.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/modeler/model_file.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

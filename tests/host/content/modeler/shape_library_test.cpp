@@ -1,5 +1,5 @@
 // Every shape of the library, as it is by default and at both ends of its option.
-#include "host/modeler/shape_library.h"
+#include "host/content/modeler/shape_library.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <ostream>
 #include <set>
 
-#include "node/dice.h"
-#include "tests/host/modeler/surface.h"
+#include "node/shape/dice.h"
+#include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {
 namespace {

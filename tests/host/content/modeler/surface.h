@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "node/film.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

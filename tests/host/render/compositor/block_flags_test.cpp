@@ -1,4 +1,4 @@
-#include "host/compositor/block_flags.h"
+#include "host/render/compositor/block_flags.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The compositor against a plain twin that draws every frame from scratch.
-#include "host/compositor/compositor.h"
+#include "host/render/compositor/compositor.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <random>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

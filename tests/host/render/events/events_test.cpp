@@ -1,4 +1,4 @@
-#include "host/events/events.h"
+#include "host/render/events/events.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Units of several frames put together from strips in every order that nodes can send them, against pictures
 // drawn from scratch.
-#include "host/farm/assembly.h"
+#include "host/render/farm/assembly.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/host/farm/strips.h"
+#include "tests/host/render/farm/strips.h"
 
 namespace mars::host {
 namespace {

@@ -1,11 +1,11 @@
-#include "host/farm/strip_message.h"
+#include "host/render/farm/strip_message.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "tests/host/document/failure_of.h"
-#include "tests/host/farm/strips.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/farm/strips.h"
 
 namespace mars::host {
 namespace {

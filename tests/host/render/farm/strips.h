@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "host/farm/strip_message.h"
+#include "host/render/farm/strip_message.h"
 
 namespace mars::host {
 

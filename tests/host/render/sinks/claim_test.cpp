@@ -1,14 +1,14 @@
-#include "host/sinks/claim.h"
+#include "host/render/sinks/claim.h"
 
 #include <gtest/gtest.h>
 #include <time.h>
 
 #include <nlohmann/json.hpp>
 
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/sinks/folder_turn.h"
+#include "host/render/sinks/folder_turn.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <set>
 #include <thread>
 
-#include "host/document/whole_file.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/content/document/whole_file.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

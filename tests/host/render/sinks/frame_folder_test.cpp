@@ -1,4 +1,4 @@
-#include "host/sinks/frame_folder.h"
+#include "host/render/sinks/frame_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "host/document/file.h"
-#include "host/document/whole_file.h"
-#include "host/sinks/png_file.h"
-#include "host/sinks/verify.h"
-#include "node/film.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/content/document/file.h"
+#include "host/content/document/whole_file.h"
+#include "host/images/png_file.h"
+#include "host/render/sinks/verify.h"
+#include "node/wire/film.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

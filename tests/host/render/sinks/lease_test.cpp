@@ -1,13 +1,13 @@
-#include "host/sinks/lease.h"
+#include "host/render/sinks/lease.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
-#include "host/document/whole_file.h"
-#include "tests/host/document/failure_of.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/content/document/whole_file.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

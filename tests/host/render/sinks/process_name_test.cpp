@@ -1,4 +1,4 @@
-#include "host/sinks/process_name.h"
+#include "host/render/sinks/process_name.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

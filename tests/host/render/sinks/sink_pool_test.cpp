@@ -1,4 +1,4 @@
-#include "host/sinks/sink_pool.h"
+#include "host/render/sinks/sink_pool.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <set>
 
-#include "hal/failure.h"
-#include "tests/host/document/failure_of.h"
+#include "hal/failure/failure.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
-#include "host/trace/trace_file.h"
+#include "host/render/trace/trace_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/trace/timeline.h"
-#include "tests/host/sinks/temporary_folder.h"
+#include "host/render/trace/timeline.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
 // Every check on made-up surroundings: what is found, how bad it is, and that there is something to do.
-#include "host/doctor/checks.h"
+#include "host/shell/doctor/checks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

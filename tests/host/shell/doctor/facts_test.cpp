@@ -1,4 +1,4 @@
-#include "host/doctor/facts.h"
+#include "host/shell/doctor/facts.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

@@ -1,10 +1,10 @@
-#include "host/doctor/show.h"
+#include "host/shell/doctor/show.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/launch/background_text.h"
+#include "host/shell/launch/background_text.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

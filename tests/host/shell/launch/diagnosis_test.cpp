@@ -1,11 +1,11 @@
-#include "host/launch/diagnosis.h"
+#include "host/shell/launch/diagnosis.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
 
 #include <algorithm>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

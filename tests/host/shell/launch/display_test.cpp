@@ -1,4 +1,4 @@
-#include "host/launch/display.h"
+#include "host/shell/launch/display.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Open MPI's messages as it writes them, wrapped and among others.
-#include "host/launch/mpi_words.h"
+#include "host/shell/launch/mpi_words.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "tests/host/document/failure_of.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

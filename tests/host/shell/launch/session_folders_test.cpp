@@ -1,5 +1,5 @@
 // Folders of jobs, as the environment wants them and as their locks say that they live.
-#include "host/launch/session_folders.h"
+#include "host/shell/launch/session_folders.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,7 +19,7 @@
 #include <string>
 #include <thread>
 
-#include "tests/host/sinks/temporary_folder.h"
+#include "tests/host/render/sinks/temporary_folder.h"
 
 namespace mars::host {
 namespace {

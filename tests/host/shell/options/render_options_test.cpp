@@ -1,11 +1,11 @@
-#include "host/options/render_options.h"
+#include "host/shell/options/render_options.h"
 
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
 
-#include "host/options/command_line.h"
-#include "tests/host/document/failure_of.h"
+#include "host/shell/options/command_line.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/options/wrapped.h"
+#include "host/shell/options/wrapped.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/animator/motion/action.h"
-#include "host/animator/read_film.h"
+#include "host/content/animator/motion/action.h"
+#include "host/content/animator/read_film.h"
 
 namespace mars::host {
 

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "host/film/compile.h"
-#include "tests/host/animator/motion/bodies.h"
-#include "tests/host/modeler/surface.h"
+#include "host/content/film/compile.h"
+#include "tests/host/content/animator/motion/bodies.h"
+#include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {
 namespace {

@@ -1,12 +1,12 @@
 // Kinematic laws against known answers: apex, impacts in geometric series, the end, what friction leaves.
-#include "host/animator/motion/flight.h"
+#include "host/content/animator/motion/flight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/animator/figure.h"
-#include "tests/host/animator/motion/bodies.h"
+#include "host/content/animator/figure.h"
+#include "tests/host/content/animator/motion/bodies.h"
 
 namespace mars::host {
 namespace {

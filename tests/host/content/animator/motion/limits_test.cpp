@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "host/animator/motion/body.h"
-#include "host/animator/motion/stance.h"
-#include "tests/host/animator/motion/bodies.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/animator/motion/body.h"
+#include "host/content/animator/motion/stance.h"
+#include "tests/host/content/animator/motion/bodies.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {

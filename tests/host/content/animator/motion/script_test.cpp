@@ -1,12 +1,12 @@
-#include "host/animator/motion/script.h"
+#include "host/content/animator/motion/script.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "host/document/file.h"
-#include "tests/host/animator/motion/bodies.h"
-#include "tests/host/document/failure_of.h"
+#include "host/content/document/file.h"
+#include "tests/host/content/animator/motion/bodies.h"
+#include "tests/host/content/document/failure_of.h"
 
 namespace mars::host {
 namespace {
