@@ -3,7 +3,7 @@
 
 usage: measure.py BINARIES [--nodes 1,2] [--backend mpi|threads] [--culled] [--frames N]
 
-Whole frames: every frame from scratch, one cube; the time between one frame's arrival in the host's memory and
+Whole frames: every frame from scratch, one group; the time between one frame's arrival in the host's memory and
 the next one's. s3's inbetweens: a node's own time for one. Printed: the best and, in brackets, the middle.
 docs/measuring.md says what these figures mean."""
 import argparse
@@ -33,7 +33,7 @@ def render(binaries, backend, nodes, film, folder, *options):
     with open(scene, "w") as file:
         json.dump(film, file)
     subprocess.run([os.path.join(binaries, "mars"), "render", scene, "--backend", backend, "--nodes", str(nodes),
-                    "--sink", "none", "--quiet", "--cubes", "1", "--report", report, *options], check=True)
+                    "--sink", "none", "--quiet", "--groups", "1", "--report", report, *options], check=True)
     with open(report) as file:
         return json.load(file)
 

@@ -36,7 +36,7 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
       polygon_maker_(kernels),
       arena_(load.memory),
       z_buffer_(kernels, scene_.width()),
-      czb_(machines, load.cubes, scene_.width(), scene_.height()),
+      czb_(machines, load.groups, scene_.width(), scene_.height()),
       exchange_(static_cast<int>(numnodes()), film.settings().height),
       outbox_(film.settings().width, load.credits),
       draws_(static_cast<std::size_t>(numnodes())),
@@ -50,11 +50,11 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
 }
 
 void Renderer::render(const Render& command, std::span<const std::uint32_t> frames) {
-  const hal::Cube cube{command.cube_first, command.cube_count};
-  const auto index = static_cast<std::uint64_t>(mynode() - cube.first);
+  const hal::Group group{command.group_first, command.group_count};
+  const auto index = static_cast<std::uint64_t>(mynode() - group.first);
   const auto inbetweens = frames.subspan(1);
   const auto artist = [&](std::size_t k) {
-    return (command.first_inbetween + k) % static_cast<std::uint64_t>(cube.count);
+    return (command.first_inbetween + k) % static_cast<std::uint64_t>(group.count);
   };
   command_ = command;
   scene_.set_interval(command.interval);
@@ -63,7 +63,7 @@ void Renderer::render(const Render& command, std::span<const std::uint32_t> fram
   for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[artist(k)] = 1;
 
   frame_ = frames.front();
-  draw_frame(FrameKind::keyframe, cube);
+  draw_frame(FrameKind::keyframe, group);
   for (std::size_t k = 0; k < inbetweens.size(); ++k) {
     if (artist(k) != index) continue;
     frame_ = inbetweens[k];
@@ -80,7 +80,7 @@ void Renderer::finish() {
   if (tracer_) tracer_->finish();
 }
 
-void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
+void Renderer::draw_frame(FrameKind kind, const hal::Group& group) {
   const double begin = clock_ = dclock();
   hal::record_frame(static_cast<std::int32_t>(frame_));
   sent_before_ = hal::traffic().to_nodes.bytes;
@@ -91,27 +91,27 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
   arena_.forget_fullest();
 
   std::fill(wanted_lines_.begin(), wanted_lines_.end(), std::uint8_t{1});
-  Polygons own = make_polygons(cube);
+  Polygons own = make_polygons(group);
   strip_.work.triangles = made_.triangles;
   strip_.work.edge_boxes_diced = made_.edge_boxes;
   clock(Phase::dice);
-  sum_counts(cube);
+  sum_counts(group);
   clock(Phase::sum);
-  const auto homes = std::span(homes_).first(static_cast<std::size_t>(cube.count));
+  const auto homes = std::span(homes_).first(static_cast<std::size_t>(group.count));
   map_lines(mapping_, ebc_, homes);
   strip_.load_ratio = load_ratio(ebc_, homes);
-  const std::uint32_t passes = plan_passes(cube);
+  const std::uint32_t passes = plan_passes(group);
   clock(Phase::map);
 
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     if (passes > 1) {
       arena_.clear();
-      mark_lines(cube, pass, passes);
-      own = make_polygons(cube);
+      mark_lines(group, pass, passes);
+      own = make_polygons(group);
       check(made_.all_stored, "a pass's triangles fit the memory planned for it");
       clock(Phase::dice);
     }
-    draw_pass(cube, own, pass, passes);
+    draw_pass(group, own, pass, passes);
     if (pass + 1 < passes) send_trace();
   }
   const Phase whole = kind == FrameKind::keyframe ? Phase::keyframe : Phase::inbetween;
@@ -121,11 +121,11 @@ void Renderer::draw_frame(FrameKind kind, const hal::Cube& cube) {
 
 // Triangles of the node's patches: of all in a keyframe, of the moving ones in an inbetween. The first time
 // in a frame every line is wanted and their boxes are counted; later, for passes, those of some lines are made again.
-Polygons Renderer::make_polygons(const hal::Cube& cube) {
+Polygons Renderer::make_polygons(const hal::Group& group) {
   std::fill(line_counts_.begin(), line_counts_.end(), 0u);
   SetUps out(arena_.rest(), line_counts_, wanted_lines_);
   strip_.work.patches = strip_.work.vertices = 0;
-  const Scatter scatter{static_cast<std::uint32_t>(mynode() - cube.first), static_cast<std::uint32_t>(cube.count)};
+  const Scatter scatter{static_cast<std::uint32_t>(mynode() - group.first), static_cast<std::uint32_t>(group.count)};
   if (strip_.kind == FrameKind::keyframe) polygon_maker_.make(scene_, Part::stationary, scatter, out, strip_.work);
   const std::size_t stationary = out.crossings().size();
   polygon_maker_.make(scene_, Part::moving, scatter, out, strip_.work);
@@ -136,50 +136,50 @@ Polygons Renderer::make_polygons(const hal::Cube& cube) {
 }
 
 // Prefix sum, then global sum of EBC; with it travels each node's memory for its own triangles.
-void Renderer::sum_counts(const hal::Cube& cube) {
+void Renderer::sum_counts(const hal::Group& group) {
   const std::size_t lines = line_counts_.size();
-  const auto nodes = static_cast<std::size_t>(cube.count);
+  const auto nodes = static_cast<std::size_t>(group.count);
   const auto sums = std::span(sums_).first(lines + nodes);
   double total = 0;
   for (std::size_t line = 0; line < lines; ++line) sums[line] = total += line_counts_[line];
   std::fill(sums.begin() + static_cast<std::ptrdiff_t>(lines), sums.end(), 0.0);
-  const std::uint64_t sent = cube.count > 1 ? made_.edge_boxes * kTravelling : 0;
-  sums[lines + static_cast<std::size_t>(mynode() - cube.first)] =
+  const std::uint64_t sent = group.count > 1 ? made_.edge_boxes * kTravelling : 0;
+  sums[lines + static_cast<std::size_t>(mynode() - group.first)] =
       static_cast<double>(made_.triangles * sizeof(Triangle) + made_.edge_boxes * sizeof(Crossing) + sent);
-  if (cube.count > 1) hal::cube_sum(cube, sums, std::span(work_).first(sums.size()));
+  if (group.count > 1) hal::group_sum(group, sums, std::span(work_).first(sums.size()));
   for (std::size_t line = 0; line < lines; ++line) ebc_[line + 1] = static_cast<std::uint64_t>(sums[line]);
   strip_.edge_box_total = ebc_[lines];
 }
 
-// How many passes over parts of the lines the cube needs, the same number on every node. Nodes ask each other
+// How many passes over parts of the lines the group needs, the same number on every node. Nodes ask each other
 // only where one pass might not do for one of them, which all can tell from the sums.
-std::uint32_t Renderer::plan_passes(const hal::Cube& cube) {
+std::uint32_t Renderer::plan_passes(const hal::Group& group) {
   const std::size_t lines = line_counts_.size();
   const std::uint64_t height = lines;
   std::uint32_t passes = 1;
   bool fits = true;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(cube.count); ++n) {
+  for (std::size_t n = 0; n < static_cast<std::size_t>(group.count); ++n) {
     const std::uint64_t boxes = ebc_[homes_[n].last] - ebc_[homes_[n].first];
-    const std::uint64_t received = cube.count > 1 ? boxes * kTravelling : 0;
+    const std::uint64_t received = group.count > 1 ? boxes * kTravelling : 0;
     const double need = sums_[lines + n] + static_cast<double>(received + boxes * kInLine) +
-                        static_cast<double>(overhead(height, static_cast<std::uint64_t>(cube.count)));
+                        static_cast<double>(overhead(height, static_cast<std::uint64_t>(group.count)));
     fits &= need <= static_cast<double>(arena_.size());
   }
   if (fits) return passes;
-  while (memory_for(cube, passes) > arena_.size() && passes < 2 * height) passes *= 2;
-  if (memory_for(cube, passes) > arena_.size())
-    throw Failure("one line's edge boxes need " + std::to_string((memory_for(cube, passes) >> 20) + 1) +
+  while (memory_for(group, passes) > arena_.size() && passes < 2 * height) passes *= 2;
+  if (memory_for(group, passes) > arena_.size())
+    throw Failure("one line's edge boxes need " + std::to_string((memory_for(group, passes) >> 20) + 1) +
                       " MiB, but a frame has " + std::to_string(arena_.size() >> 20) + " MiB",
                   "memory", "set MARS_MEMORY to more MiB");
   double most = passes, work = 0;
-  if (cube.count > 1) hal::cube_high(cube, {&most, 1}, {&work, 1});
+  if (group.count > 1) hal::group_high(group, {&most, 1}, {&work, 1});
   return static_cast<std::uint32_t>(most);
 }
 
 // A bound on the bytes that this node uses in any of `passes` passes: a triangle has at least one edge box.
-std::uint64_t Renderer::memory_for(const hal::Cube& cube, std::uint32_t passes) const {
-  const auto nodes = static_cast<std::size_t>(cube.count);
-  const LineRange& home = homes_[static_cast<std::size_t>(mynode() - cube.first)];
+std::uint64_t Renderer::memory_for(const hal::Group& group, std::uint32_t passes) const {
+  const auto nodes = static_cast<std::size_t>(group.count);
+  const LineRange& home = homes_[static_cast<std::size_t>(mynode() - group.first)];
   std::uint64_t most = 0;
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     std::uint64_t own_boxes = 0;
@@ -196,21 +196,21 @@ std::uint64_t Renderer::memory_for(const hal::Cube& cube, std::uint32_t passes) 
   return most + overhead(line_counts_.size(), nodes);
 }
 
-void Renderer::mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes) {
+void Renderer::mark_lines(const hal::Group& group, std::uint32_t pass, std::uint32_t passes) {
   std::fill(wanted_lines_.begin(), wanted_lines_.end(), std::uint8_t{0});
-  for (const LineRange& home : std::span(homes_).first(static_cast<std::size_t>(cube.count))) {
+  for (const LineRange& home : std::span(homes_).first(static_cast<std::size_t>(group.count))) {
     const LineRange part = part_of(home, pass, passes);
     std::fill(wanted_lines_.begin() + part.first, wanted_lines_.begin() + part.last, std::uint8_t{1});
   }
 }
 
-void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes) {
-  const auto nodes = static_cast<std::size_t>(cube.count);
+void Renderer::draw_pass(const hal::Group& group, const Polygons& own, std::uint32_t pass, std::uint32_t passes) {
+  const auto nodes = static_cast<std::size_t>(group.count);
   const auto pass_homes = std::span(pass_homes_).first(nodes);
   for (std::size_t n = 0; n < nodes; ++n) pass_homes[n] = part_of(homes_[n], pass, passes);
-  const LineRange lines = pass_homes[static_cast<std::size_t>(mynode() - cube.first)];
+  const LineRange lines = pass_homes[static_cast<std::size_t>(mynode() - group.first)];
 
-  const LineBoxes line_boxes = gather_boxes(cube, own, lines, pass_homes);
+  const LineBoxes line_boxes = gather_boxes(group, own, lines, pass_homes);
   strip_.work.edge_boxes += line_boxes.boxes.size();
   strip_.work.passes = passes;
   const Shading look = shading(own.triangles);
@@ -222,8 +222,8 @@ void Renderer::draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32
     strip = {strip.last, draw_strip(line_boxes, strip.last, look, buffer)};
     clock(Phase::scanline);
     const bool drawn = strip.last == lines.last;
-    if (drawn) finish_pass(cube, pass + 1 == passes);
-    send_strip(cube, strip, drawn && pass + 1 == passes);
+    if (drawn) finish_pass(group, pass + 1 == passes);
+    send_strip(group, strip, drawn && pass + 1 == passes);
   } while (strip.last < lines.last);
 }
 
@@ -241,20 +241,20 @@ std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, 
   return line;
 }
 
-void Renderer::finish_pass(const hal::Cube& cube, bool last) {
+void Renderer::finish_pass(const hal::Group& group, bool last) {
   exchange_.finish();
   clock(Phase::exchange);
-  if (!last || strip_.kind != FrameKind::keyframe || cube.count == 1) return;
-  exchange_.depth_lines(cube, homes_, lines_of_movers_, draws_, czb_);
+  if (!last || strip_.kind != FrameKind::keyframe || group.count == 1) return;
+  exchange_.depth_lines(group, homes_, lines_of_movers_, draws_, czb_);
   clock(Phase::depth);
 }
 
-void Renderer::send_strip(const hal::Cube& cube, const LineRange& lines, bool last) {
+void Renderer::send_strip(const hal::Group& group, const LineRange& lines, bool last) {
   strip_.frame = frame_;
   strip_.interval = command_.interval;
   strip_.node = static_cast<std::int32_t>(mynode());
-  strip_.cube_first = cube.first;
-  strip_.cube_count = cube.count;
+  strip_.group_first = group.first;
+  strip_.group_count = group.count;
   strip_.last = last ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;
@@ -266,15 +266,15 @@ void Renderer::send_strip(const hal::Cube& cube, const LineRange& lines, bool la
 }
 
 // Edge boxes of all nodes on `lines`. While others' are on their way, the own ones are put into their lines.
-LineBoxes Renderer::gather_boxes(const hal::Cube& cube, const Polygons& own, const LineRange& lines,
+LineBoxes Renderer::gather_boxes(const hal::Group& group, const Polygons& own, const LineRange& lines,
                                  std::span<const LineRange> homes) {
-  exchange_.send_triangles(cube, own, homes, line_counts_, arena_);
+  exchange_.send_triangles(group, own, homes, line_counts_, arena_);
   clock(Phase::exchange);
   LineFiller filler(lines, ebc_, own.triangles, arena_);
   filler.add(own);
   clock(Phase::fill);
-  for (int number = 1; number < cube.count; ++number) {
-    const Polygons others = exchange_.receive_triangles(cube, number, arena_);
+  for (int number = 1; number < group.count; ++number) {
+    const Polygons others = exchange_.receive_triangles(group, number, arena_);
     clock(Phase::exchange);
     filler.add(others);
     clock(Phase::fill);

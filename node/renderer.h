@@ -1,4 +1,4 @@
-// One node's way through the frames of an interval: the keyframe together with the other nodes of its cube
+// One node's way through the frames of an interval: the keyframe together with the other nodes of its group
 // (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "node/raster/arena.h"
 #include "node/raster/czb.h"
 #include "node/group/exchange.h"
@@ -43,18 +43,18 @@ class Renderer {
   std::uint32_t frame() const { return frame_; }
 
  private:
-  void draw_frame(FrameKind kind, const hal::Cube& cube);
-  Polygons make_polygons(const hal::Cube& cube);
-  void sum_counts(const hal::Cube& cube);
-  std::uint32_t plan_passes(const hal::Cube& cube);
-  std::uint64_t memory_for(const hal::Cube& cube, std::uint32_t passes) const;
-  void draw_pass(const hal::Cube& cube, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
+  void draw_frame(FrameKind kind, const hal::Group& group);
+  Polygons make_polygons(const hal::Group& group);
+  void sum_counts(const hal::Group& group);
+  std::uint32_t plan_passes(const hal::Group& group);
+  std::uint64_t memory_for(const hal::Group& group, std::uint32_t passes) const;
+  void draw_pass(const hal::Group& group, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
   std::uint32_t draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& look, StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
-  void finish_pass(const hal::Cube& cube, bool last);
-  void send_strip(const hal::Cube& cube, const LineRange& lines, bool last);
-  void mark_lines(const hal::Cube& cube, std::uint32_t pass, std::uint32_t passes);
-  LineBoxes gather_boxes(const hal::Cube& cube, const Polygons& own, const LineRange& lines,
+  void finish_pass(const hal::Group& group, bool last);
+  void send_strip(const hal::Group& group, const LineRange& lines, bool last);
+  void mark_lines(const hal::Group& group, std::uint32_t pass, std::uint32_t passes);
+  LineBoxes gather_boxes(const hal::Group& group, const Polygons& own, const LineRange& lines,
                          std::span<const LineRange> homes);
   Shading shading(const Triangle* triangles) const;
   // Adds the time since the last call to `phase`.
@@ -74,7 +74,7 @@ class Renderer {
   std::uint32_t frame_ = 0;
   Render command_{};
   LineRange lines_of_movers_;               // in the interval's inbetweens
-  std::vector<std::uint8_t> draws_;         // which of the cube's nodes draw inbetweens of the interval
+  std::vector<std::uint8_t> draws_;         // which of the group's nodes draw inbetweens of the interval
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<double> sums_, work_;         // EBC as it is summed, then each node's memory for its own triangles
   std::vector<std::uint64_t> ebc_;          // prefix-summed over all nodes

@@ -17,7 +17,7 @@ constexpr char kCall[] = "an exchange of parcels";
 
 // Below, all go directly; as do loads that are long enough for the way to matter more than the messages.
 constexpr int kFewNodes = 64;
-constexpr std::size_t kLongLoad = 64;  // bytes of a node, for each node of the cube
+constexpr std::size_t kLongLoad = 64;  // bytes of a node, for each node of the group
 
 }  // namespace
 
@@ -70,53 +70,53 @@ void CrystalRouter::receive(int from, Load& load) {
   load.size += process().receive_internal(kCall, from, load.room, load.size);
 }
 
-void CrystalRouter::by_crystal(const Cube& cube) {
-  const int me = process().backend().rank() - cube.first;
-  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(cube.count)));
-  const auto position = [&](const Head& head) { return head.to - cube.first; };
+void CrystalRouter::by_crystal(const Group& group) {
+  const int me = process().backend().rank() - group.first;
+  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(group.count)));
+  const auto position = [&](const Head& head) { return head.to - group.first; };
   if (me >= corners) {
-    send(cube.first + me - corners, held_);
+    send(group.first + me - corners, held_);
     held_.size = 0;
-    return receive(cube.first + me - corners, held_);
+    return receive(group.first + me - corners, held_);
   }
-  const bool folds = me + corners < cube.count;
-  if (folds) receive(cube.first + me + corners, held_);
+  const bool folds = me + corners < group.count;
+  if (folds) receive(group.first + me + corners, held_);
   for (int bit = 1; bit < corners; bit <<= 1) {
     split(held_, out_, next_, [&](const Head& head) { return ((position(head) & (corners - 1)) & bit) != (me & bit); });
     std::swap(held_, next_);
-    const Ticket sending = start(cube.first + (me ^ bit), out_);
-    receive(cube.first + (me ^ bit), held_);
+    const Ticket sending = start(group.first + (me ^ bit), out_);
+    receive(group.first + (me ^ bit), held_);
     process().wait_sent(sending);
   }
   if (!folds) return;
   split(held_, out_, next_, [&](const Head& head) { return position(head) != me; });
   std::swap(held_, next_);
-  send(cube.first + me + corners, out_);
+  send(group.first + me + corners, out_);
 }
 
-void CrystalRouter::directly(const Cube& cube) {
-  const int me = process().backend().rank() - cube.first;
-  loads_.resize(std::max(loads_.size(), static_cast<std::size_t>(cube.count)));
+void CrystalRouter::directly(const Group& group) {
+  const int me = process().backend().rank() - group.first;
+  loads_.resize(std::max(loads_.size(), static_cast<std::size_t>(group.count)));
   for (Load& load : loads_) load.size = 0;
   visit(held_, [&](const Head& head, const std::byte* bytes) {
-    add(loads_[static_cast<std::size_t>(head.to - cube.first)], head, bytes);
+    add(loads_[static_cast<std::size_t>(head.to - group.first)], head, bytes);
   });
   // So that not all send to the same node first.
   tickets_.clear();
-  for (int i = 1; i < cube.count; ++i) {
-    const int to = (me + i) % cube.count;
-    tickets_.push_back(start(cube.first + to, loads_[static_cast<std::size_t>(to)]));
+  for (int i = 1; i < group.count; ++i) {
+    const int to = (me + i) % group.count;
+    tickets_.push_back(start(group.first + to, loads_[static_cast<std::size_t>(to)]));
   }
   std::swap(held_, loads_[static_cast<std::size_t>(me)]);
-  for (int i = 1; i < cube.count; ++i) receive(cube.first + (me + cube.count - i) % cube.count, held_);
+  for (int i = 1; i < group.count; ++i) receive(group.first + (me + group.count - i) % group.count, held_);
   for (const Ticket ticket : tickets_) process().wait_sent(ticket);
 }
 
 // First the lengths, then the loads.
-bool CrystalRouter::by_network(const Cube& cube) {
+bool CrystalRouter::by_network(const Group& group) {
   Backend& backend = process().backend();
-  const auto count = static_cast<std::size_t>(cube.count);
-  if (cube != Cube{0, backend.nodes()}) return false;
+  const auto count = static_cast<std::size_t>(group.count);
+  if (group != Group{0, backend.nodes()}) return false;
   lengths_.assign(2 * count, 0);
   visit(held_, [&](const Head& head, const std::byte*) { lengths_[static_cast<std::size_t>(head.to)] += head.whole(); });
   to_.resize(count);
@@ -151,26 +151,26 @@ std::span<const Parcel> CrystalRouter::sorted() {
   return parcels_;
 }
 
-std::span<const Parcel> CrystalRouter::exchange(const Cube& cube, std::span<const Parcel> parcels, Route route) {
-  DimensionExchange membership(kCall, cube);  // fails on who is no member
+std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<const Parcel> parcels, Route route) {
+  DimensionExchange membership(kCall, group);  // fails on who is no member
   const int me = process().backend().rank();
   held_.size = 0;
   for (const Parcel& parcel : parcels) {
-    check(cube.first <= parcel.node && parcel.node < cube.first + cube.count, "a parcel is for a node of the cube");
+    check(group.first <= parcel.node && parcel.node < group.first + group.count, "a parcel is for a node of the group");
     add(held_, {me, parcel.node, parcel.bytes.size()}, parcel.bytes.data());
   }
   if (route == Route::automatic && process().collectives() == Collectives::network) route = Route::network;
   if (route == Route::automatic && process().collectives() == Collectives::cube) route = Route::crystal;
-  if (route == Route::automatic && cube.count >= kFewNodes) {
+  if (route == Route::automatic && group.count >= kFewNodes) {
     auto most = static_cast<unsigned long>(held_.size), work = 0ul;
     reduce(membership, operation<unsigned long, higher>, &most, 1, &work);
     membership.conclude();
-    route = route_for(cube.count, most);
+    route = route_for(group.count, most);
   }
   if (route == Route::crystal)
-    by_crystal(cube);
-  else if (route != Route::network || !by_network(cube))
-    directly(cube);
+    by_crystal(group);
+  else if (route != Route::network || !by_network(group))
+    directly(group);
   return sorted();
 }
 

@@ -17,16 +17,16 @@ constexpr char kSpoilt = 0;
 
 }  // namespace
 
-DimensionExchange::DimensionExchange(const char* call, const Cube& cube)
-    : call_(call), process_(process()), cube_(cube) {
+DimensionExchange::DimensionExchange(const char* call, const Group& group)
+    : call_(call), process_(process()), group_(group) {
   const Backend& backend = process_.backend();
   const int rank = backend.rank();
   if (rank == backend.host())
     process_.fail(call, EQNODE, "the host takes no part in collectives", "call it on nodes only");
-  check(0 <= cube.first && 0 < cube.count && cube.first + cube.count <= backend.nodes(), "a cube lies within the nodes");
-  position_ = rank - cube.first;
-  check(0 <= position_ && position_ < cube.count, "a node takes part in its own cube");
-  corners_ = static_cast<int>(std::bit_floor(static_cast<unsigned>(cube.count)));
+  check(0 <= group.first && 0 < group.count && group.first + group.count <= backend.nodes(), "a group lies within the nodes");
+  position_ = rank - group.first;
+  check(0 <= position_ && position_ < group.count, "a node takes part in its own group");
+  corners_ = static_cast<int>(std::bit_floor(static_cast<unsigned>(group.count)));
 }
 
 // One byte, or none where one is what belongs there.
@@ -34,13 +34,13 @@ std::size_t DimensionExchange::spoilt_length(std::size_t bytes) const { return b
 
 void DimensionExchange::send(int to, const void* data, std::size_t bytes) {
   if (spoilt())
-    process_.send_internal(cube_.first + to, &kSpoilt, spoilt_length(bytes));
+    process_.send_internal(group_.first + to, &kSpoilt, spoilt_length(bytes));
   else
-    process_.send_internal(cube_.first + to, data, bytes);
+    process_.send_internal(group_.first + to, data, bytes);
 }
 
 void DimensionExchange::receive(int from, void* data, std::size_t bytes) {
-  check_came(from, process_.receive_internal(call_, cube_.first + from, data, bytes), bytes);
+  check_came(from, process_.receive_internal(call_, group_.first + from, data, bytes), bytes);
 }
 
 void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes) {
@@ -48,7 +48,7 @@ void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, v
     send(with, out, out_bytes);
     receive(with, in, in_bytes);
   } else {
-    const Ticket ticket = process_.start_internal(cube_.first + with, out, out_bytes);
+    const Ticket ticket = process_.start_internal(group_.first + with, out, out_bytes);
     receive(with, in, in_bytes);
     process_.wait_sent(ticket);
   }
@@ -60,7 +60,7 @@ void DimensionExchange::check_came(int from, std::size_t came, std::size_t bytes
   if (came == spoilt_length(bytes))
     return spoil(EQLEN, std::string("another node's ") + call_ + " failed", remedy);
   spoil(EQLEN,
-        rank_name(cube_.first + from, process_.backend().host()) + " gave " + bytes_text(came) + " where " +
+        rank_name(group_.first + from, process_.backend().host()) + " gave " + bytes_text(came) + " where " +
             bytes_text(bytes) + " belong",
         remedy);
 }

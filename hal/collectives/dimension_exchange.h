@@ -1,5 +1,5 @@
-// One node's part in a collective by dimension exchange: the hypercube that the nodes of a cube form, and the
-// messages across it. Positions are node ids less the cube's first. The lowest 2^d of them are the corners; each
+// One node's part in a collective by dimension exchange: the hypercube that the nodes of a group form, and the
+// messages across it. Positions are node ids less the group's first. The lowest 2^d of them are the corners; each
 // other one folds in with the corner 2^d below it. What one node finds wrong all get to know, and none is left
 // waiting: messages go on as ever, spoilt ones among them, and at the end all fail.
 #pragma once
@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 
 namespace mars::hal {
 
@@ -17,13 +17,13 @@ class Process;
 class DimensionExchange {
  public:
   // For a call of that name on the calling thread's process; fails on the host.
-  DimensionExchange(const char* call, const Cube& cube);
+  DimensionExchange(const char* call, const Group& group);
 
   int position() const { return position_; }
-  int count() const { return cube_.count; }
+  int count() const { return group_.count; }
   int corners() const { return corners_; }
   bool folded() const { return position_ >= corners_; }              // has a partner below
-  bool folds() const { return position_ + corners_ < cube_.count; }  // has a partner above
+  bool folds() const { return position_ + corners_ < group_.count; }  // has a partner above
 
   // One message of just so many bytes. A receive is there for each send, of the same length.
   void send(int to, const void* data, std::size_t bytes);
@@ -52,7 +52,7 @@ class DimensionExchange {
 
   const char* call_;
   Process& process_;
-  Cube cube_;
+  Group group_;
   int position_ = 0;
   int corners_ = 1;
   std::optional<Fault> fault_;

@@ -1,4 +1,4 @@
-// Element-wise operations on vectors of all nodes of a cube, the result on each of them with the same bits. The
+// Element-wise operations on vectors of all nodes of a group, the result on each of them with the same bits. The
 // order, which matters to floating point: first positions p and p + 2^d where there is one, then pairs across bit
 // 0, 1, ... d - 1 of the positions, always the lower position's operand on the left. It is the same for all ways
 // that reduce knows.
@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "hal/messages/backend.h"
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "hal/collectives/dimension_exchange.h"
 
 namespace mars::hal {

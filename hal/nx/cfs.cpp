@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "hal/nx/nx_errno.h"
 #include "hal/messages/process.h"
 
@@ -121,7 +121,7 @@ std::vector<Files::Word> Files::agree(const char* call, const Word& mine) const 
   std::vector<Word> words(nodes);
   std::vector<double> work(nodes * kParts);
   words[me] = mine;
-  cube_sum({0, backend.nodes()}, {&words[0].error, work.size()}, work);
+  group_sum({0, backend.nodes()}, {&words[0].error, work.size()}, work);
   if (mine.error != 0) fail(call, static_cast<int>(mine.error));
   for (std::size_t node = 0; node < nodes; ++node) {
     const std::string name = "node " + std::to_string(node);

@@ -23,7 +23,7 @@ using Bits = unsigned long;
 constexpr auto product = [](auto a, auto b) { return a * b; };
 constexpr auto lower = [](auto a, auto b) { return b < a ? b : a; };
 
-Cube all_nodes() { return {0, process().backend().nodes()}; }
+Group all_nodes() { return {0, process().backend().nodes()}; }
 
 // What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there is none.
 std::size_t checked_count(DimensionExchange& exchange, const void* x, const void* work, long n) {

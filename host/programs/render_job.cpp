@@ -120,7 +120,7 @@ void render(const RenderOptions& options, const char* backend, Trace* trace) {
   FarmOptions farm;
   farm.mapping = options.mapping;
   farm.coherence = !options.no_coherence;
-  farm.cubes = options.cubes;
+  farm.groups = options.groups;
   farm.each_frame = !options.report.empty();
   farm.frames = options.frames.of_film(settings.frames);
   farm.trace = trace;

@@ -34,9 +34,9 @@ Exchange::Exchange(int nodes, std::size_t lines) : parcels_(static_cast<std::siz
   pending_.reserve(4 * static_cast<std::size_t>(nodes));
 }
 
-void Exchange::send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
+void Exchange::send_triangles(const hal::Group& group, const Polygons& own, std::span<const LineRange> homes,
                               std::span<const std::uint32_t> line_counts, Arena& arena) {
-  const auto self = static_cast<std::size_t>(mynode() - cube.first);
+  const auto self = static_cast<std::size_t>(mynode() - group.first);
   if (homes.size() == 1) return;
   for (std::size_t home = 0; home < homes.size(); ++home) {
     const auto on_home = [&](const auto& lines) { return lines.subspan(homes[home].first, homes[home].count()); };
@@ -50,7 +50,7 @@ void Exchange::send_triangles(const hal::Cube& cube, const Polygons& own, std::s
   for (std::size_t i = 1; i < homes.size(); ++i) {
     const std::size_t index = (self + i) % homes.size();  // so that not all send to the same node first
     const Parcel& parcel = parcels_[index];
-    const long node = cube.first + static_cast<long>(index);
+    const long node = group.first + static_cast<long>(index);
     const auto triangles = parcel.triangles.first(parcel.triangle_count);
     pending_.push_back(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
     pending_.push_back(isend(crossings_from(mynode()), parcel.crossings.data(), bytes_of(parcel.crossings), node, 0));
@@ -70,9 +70,9 @@ void Exchange::fill_parcels(const Polygons& own, std::uint32_t self) {
   });
 }
 
-Polygons Exchange::receive_triangles(const hal::Cube& cube, int number, Arena& arena) {
-  const int self = static_cast<int>(mynode()) - cube.first;
-  const int node = cube.first + (self + cube.count - number) % cube.count;
+Polygons Exchange::receive_triangles(const hal::Group& group, int number, Arena& arena) {
+  const int self = static_cast<int>(mynode()) - group.first;
+  const int node = group.first + (self + group.count - number) % group.count;
   cprobe(triangles_from(node));
   const auto triangles = arena.take<Triangle>(static_cast<std::size_t>(infocount()) / sizeof(Triangle));
   crecv(triangles_from(node), triangles.data(), bytes_of(triangles));
@@ -85,26 +85,26 @@ Polygons Exchange::receive_triangles(const hal::Cube& cube, int number, Arena& a
   return {triangles.data(), crossings.subspan(moving), crossings.first(moving)};
 }
 
-// A machine's first node of the cube, its head, collects what the others write or send there, then tells all who wait.
-void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
+// A machine's first node of the group, its head, collects what the others write or send there, then tells all who wait.
+void Exchange::depth_lines(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed,
                            std::span<const std::uint8_t> draws, Czb& czb) {
   const auto self = static_cast<int>(mynode());
   const int head = czb.head_of(self);
-  const auto drawn_at = [&](int node) { return draws[static_cast<std::size_t>(node - cube.first)] == 1; };
+  const auto drawn_at = [&](int node) { return draws[static_cast<std::size_t>(node - group.first)] == 1; };
   const auto drawn_under = [&](int other_head) {
-    for (int node = other_head; node < cube.first + cube.count; ++node)
+    for (int node = other_head; node < group.first + group.count; ++node)
       if (drawn_at(node) && czb.head_of(node) == other_head) return true;
     return false;
   };
-  const LineRange own = overlap(homes[static_cast<std::size_t>(self - cube.first)], needed);
-  for (int to = cube.first; to < cube.first + cube.count; ++to) {
+  const LineRange own = overlap(homes[static_cast<std::size_t>(self - group.first)], needed);
+  for (int to = group.first; to < group.first + group.count; ++to) {
     if (to == self || czb.head_of(to) != to || own.count() == 0 || !drawn_under(to)) continue;
     const auto lines = czb.lines(to == head ? LineRange{} : own);
     pending_.push_back(isend(depth_lines_from(self), lines.data(), bytes_of(lines), to, 0));
   }
   if (self == head && drawn_under(self)) {
-    collect_depth(cube, homes, needed, czb);
-    for (int node = cube.first; node < cube.first + cube.count; ++node)
+    collect_depth(group, homes, needed, czb);
+    for (int node = group.first; node < group.first + group.count; ++node)
       if (node != self && drawn_at(node) && czb.head_of(node) == self)
         csend(depth_lines_from(self), nullptr, 0, node, 0);
   } else if (drawn_at(self)) {
@@ -113,11 +113,11 @@ void Exchange::depth_lines(const hal::Cube& cube, std::span<const LineRange> hom
   finish();
 }
 
-void Exchange::collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
+void Exchange::collect_depth(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed,
                              Czb& czb) {
   const auto self = static_cast<int>(mynode());
-  for (int from = cube.first; from < cube.first + cube.count; ++from) {
-    const LineRange lines = overlap(homes[static_cast<std::size_t>(from - cube.first)], needed);
+  for (int from = group.first; from < group.first + group.count; ++from) {
+    const LineRange lines = overlap(homes[static_cast<std::size_t>(from - group.first)], needed);
     if (from == self || lines.count() == 0) continue;
     const auto depth = czb.lines(czb.head_of(from) == self ? LineRange{} : lines);
     pending_.push_back(irecv(depth_lines_from(from), depth.data(), bytes_of(depth)));

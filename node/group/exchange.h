@@ -1,4 +1,4 @@
-// What nodes of a cube give each other in a keyframe: triangles, each once to every home of its scanlines, and
+// What nodes of a group give each other in a keyframe: triangles, each once to every home of its scanlines, and
 // afterwards CZB to those that will draw inbetweens.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "node/raster/arena.h"
 #include "node/group/mapping.h"
 #include "node/raster/scanline.h"
@@ -16,20 +16,20 @@ namespace mars::node {
 
 class Exchange {
  public:
-  // `nodes`: the most a cube has; `lines`: of a picture.
+  // `nodes`: the most a group has; `lines`: of a picture.
   Exchange(int nodes, std::size_t lines);
 
-  // Begins to send to every other node of the cube those of `own` triangles that have edge boxes on its lines,
+  // Begins to send to every other node of the group those of `own` triangles that have edge boxes on its lines,
   // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
-  void send_triangles(const hal::Cube& cube, const Polygons& own, std::span<const LineRange> homes,
+  void send_triangles(const hal::Group& group, const Polygons& own, std::span<const LineRange> homes,
                       std::span<const std::uint32_t> line_counts, Arena& arena);
   // What another node, the `number`th of count - 1, sends; it lies in `arena`.
-  Polygons receive_triangles(const hal::Cube& cube, int number, Arena& arena);
+  Polygons receive_triangles(const hal::Group& group, int number, Arena& arena);
   void finish();
 
   // Returns when lines `needed` of `czb` are whole on the caller's machine, if draws[index] is set for it, all nodes of
-  // the cube having written theirs there: lines go once to every other machine where a node draws.
-  void depth_lines(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed,
+  // the group having written theirs there: lines go once to every other machine where a node draws.
+  void depth_lines(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed,
                    std::span<const std::uint8_t> draws, Czb& czb);
 
  private:
@@ -43,7 +43,7 @@ class Exchange {
   };
 
   void fill_parcels(const Polygons& own, std::uint32_t self);
-  void collect_depth(const hal::Cube& cube, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
+  void collect_depth(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
 
   std::vector<long> pending_;  // message ids
   std::vector<Parcel> parcels_;

@@ -1,4 +1,4 @@
-// Which scanlines each node of a cube draws: contiguous ranges of about equal numbers of edge boxes, from the
+// Which scanlines each node of a group draws: contiguous ranges of about equal numbers of edge boxes, from the
 // prefix-summed EBC (thesis figure 4.7).
 #pragma once
 
@@ -21,7 +21,7 @@ struct LineRange {
 };
 
 // `ebc`: lines + 1 running totals, ebc[0] = 0 and ebc[i] = edge boxes on lines [0, i).
-// `ranges`: as many as the cube has nodes; set to tile [0, lines) in order.
+// `ranges`: as many as the group has nodes; set to tile [0, lines) in order.
 //
 // greedy: the thesis's heuristic; each range but the last ends at the line whose running total is nearest to
 // its share.

@@ -1,27 +1,27 @@
 #include "node/raster/czb.h"
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::node {
 
-Czb::Czb(std::span<const std::int32_t> machines, int cubes, std::int32_t width, std::int32_t height)
+Czb::Czb(std::span<const std::int32_t> machines, int groups, std::int32_t width, std::int32_t height)
     : width_(static_cast<std::size_t>(width)) {
   const auto nodes = static_cast<int>(machines.size()), self = static_cast<int>(mynode());
   const auto machine = [&](int node) { return machines[static_cast<std::size_t>(node)]; };
-  std::size_t shared = 0;           // by cubes with several nodes here
+  std::size_t shared = 0;           // by groups with several nodes here
   std::optional<std::size_t> mine;  // its number among them
-  for (int number = 0; number < cubes; ++number) {
-    const hal::Cube cube = hal::cube_of(nodes, cubes, number);
+  for (int number = 0; number < groups; ++number) {
+    const hal::Group group = hal::group_of(nodes, groups, number);
     int here = 0;
-    for (int node = cube.first; node < cube.first + cube.count; ++node) {
-      int head = cube.first;
+    for (int node = group.first; node < group.first + group.count; ++node) {
+      int head = group.first;
       while (machine(head) != machine(node)) ++head;
       heads_.push_back(head);
       here += machine(node) == machine(self);
     }
     if (here < 2) continue;
-    if (cube.first <= self && self < cube.first + cube.count) mine = shared;
+    if (group.first <= self && self < group.first + group.count) mine = shared;
     ++shared;
   }
   const std::size_t samples = width_ * static_cast<std::size_t>(height);

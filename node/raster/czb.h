@@ -1,7 +1,7 @@
 // CZB: the z that an interval's stationary parts left, on the lines that its inbetweens may touch. Each machine has
-// one for each cube: the cube's nodes there write their home lines to it, and all of them read it.
+// one for each group: the group's nodes there write their home lines to it, and all of them read it.
 //
-// Who writes when: home lines in a keyframe, after the cube's sum of EBC, which no node leaves before all have come to
+// Who writes when: home lines in a keyframe, after the group's sum of EBC, which no node leaves before all have come to
 // it and so have finished the inbetweens of the interval before. Who reads: inbetweens, after Exchange::depth_lines.
 #pragma once
 
@@ -19,21 +19,21 @@ namespace mars::node {
 
 class Czb {
  public:
-  // Of a picture's size, of the caller's cube, one of `cubes` that the nodes, each on its machine, form side by side.
+  // Of a picture's size, of the caller's group, one of `groups` that the nodes, each on its machine, form side by side.
   // Pages are used as lines are written. Collective over a machine's nodes. Throws Failure where it does not give it.
-  Czb(std::span<const std::int32_t> machines, int cubes, std::int32_t width, std::int32_t height);
+  Czb(std::span<const std::int32_t> machines, int groups, std::int32_t width, std::int32_t height);
 
   // 1 / w a sample, 0 where nothing stands; line after line.
   std::span<float> lines(const LineRange& lines);
 
-  // The first node of `node`'s cube on its machine, which collects there what comes from other machines.
+  // The first node of `node`'s group on its machine, which collects there what comes from other machines.
   int head_of(int node) const { return heads_[static_cast<std::size_t>(node)]; }
 
  private:
   std::size_t width_;
   std::vector<std::int32_t> heads_;
   std::optional<hal::SharedMemory> shared_;  // all that nodes of this machine share
-  hal::PrivateMemory own_;                   // where the cube has no other node here
+  hal::PrivateMemory own_;                   // where the group has no other node here
   float* depth_;
 };
 

@@ -62,17 +62,17 @@ struct Load {
   std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
   std::int32_t credits;   // strips a node may have on the way to the host
   Mapping mapping;
-  std::int32_t cubes;     // that the nodes form side by side (hal::cube_of), for all Render commands
+  std::int32_t groups;     // that the nodes form side by side (hal::group_of), for all Render commands
   std::uint32_t traced;   // 1: the node records what it does and sends it as Trace
 };
 
-// Frames of one interval for one cube: the first is rendered by all its nodes as the keyframe, the others go
-// whole to single nodes; inbetween number k of the film (first_inbetween counts those before) to the cube's
+// Frames of one interval for one group: the first is rendered by all its nodes as the keyframe, the others go
+// whole to single nodes; inbetween number k of the film (first_inbetween counts those before) to the group's
 // node k mod count. Followed by frame_count frame numbers (uint32), ascending.
 struct Render {
   std::uint32_t interval;
-  std::int32_t cube_first;
-  std::int32_t cube_count;
+  std::int32_t group_first;
+  std::int32_t group_count;
   std::uint32_t frame_count;
   std::uint64_t first_inbetween;
 };
@@ -122,8 +122,8 @@ struct Strip {
   std::uint32_t interval;
   FrameKind kind;
   std::int32_t node;
-  std::int32_t cube_first;
-  std::int32_t cube_count;
+  std::int32_t group_first;
+  std::int32_t group_count;
   std::uint32_t number;           // of the strips that this node sends for this frame, from 0
   std::uint32_t last;             // 1 if this is the last of them; a frame is whole when all nodes' last came
   std::uint32_t first_line;       // it is of the node's home lines [first_line, last_line)

@@ -48,7 +48,7 @@ class Rendering(ClusterTest):
                                         16, "mars-node"), 16)
 
     def test_one_program_by_rank(self):
-        self.assertRendered(self.mpirun("-n", 8, "mars-cube", self.film, "-o", "out"), 7)
+        self.assertRendered(self.mpirun("-n", 8, "mars-ranks", self.film, "-o", "out"), 7)
 
     def test_mars_with_a_hostfile(self):
         run = lambda *more: self.on("n1", "mars", "render", self.film, "-o", "out", "--hostfile", self.hostfile,

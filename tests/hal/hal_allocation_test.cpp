@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
@@ -57,7 +57,7 @@ void exchange(Buffers& buffers) {
     msgwait(mid);
     csend(4, buffers.out.data(), length, myhost(), 0);
   }
-  cube_sum({0, static_cast<int>(numnodes())}, buffers.values, buffers.work);
+  group_sum({0, static_cast<int>(numnodes())}, buffers.values, buffers.work);
   long count = 0;
   gcol(buffers.out.data(), 1000, buffers.in.data(), 200'000, &count);
   gsync();

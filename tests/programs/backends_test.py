@@ -28,7 +28,7 @@ class Backends(ProgramTest):
 
     def test_any_division_of_work(self):
         for options in [["--no-coherence"], ["--intervals", "keyframes"], ["--mapping", "optimal"],
-                        ["--cubes", 1], ["--block", 7]]:
+                        ["--groups", 1], ["--block", 7]]:
             with self.subTest(options=options):
                 self.assertEqual(self.hash_of("--nodes", 3, *options), self.expected())
 
@@ -50,7 +50,7 @@ class Backends(ProgramTest):
 
     @needs_mpi
     def test_combined_program(self):
-        self.succeed(*OWN_MPIRUN, "-n", 4, PROGRAMS / "mars-cube", FILM, "-o", "out", *FEW)
+        self.succeed(*OWN_MPIRUN, "-n", 4, PROGRAMS / "mars-ranks", FILM, "-o", "out", *FEW)
         self.assertEqual(self.verified_hash("out"), self.expected())
 
 

@@ -71,7 +71,7 @@ class Commands(ProgramTest):
 
     @needs_mpi
     def test_programs_of_a_job_tell_what_they_are(self):
-        for program in ["mars-host", "mars-node", "mars-cube"]:
+        for program in ["mars-host", "mars-node", "mars-ranks"]:
             self.assertRegex(self.succeed(program, "--help"), "mpirun -n .*mars-")
 
     def test_version(self):

@@ -255,7 +255,7 @@ class Starting(ProgramTest):
 
     @needs_mpi
     def test_a_half_of_the_job_alone(self):
-        for words in [["mars-node"], ["mars-host", TEAPOT, "-o", "out"], ["mars-cube", TEAPOT, "-o", "out"]]:
+        for words in [["mars-node"], ["mars-host", TEAPOT, "-o", "out"], ["mars-ranks", TEAPOT, "-o", "out"]]:
             done = self.run_program(*words)
             self.assertEqual(done.returncode, 1)
             self.assertIn("mpirun -n 1 mars-host", done.stderr)

@@ -49,14 +49,14 @@ struct Counted {
 struct Cluster {
   int nodes;
   int nodes_each = 1;  // of its machines
-  std::uint32_t cubes = 1;
+  std::uint32_t groups = 1;
 };
 
 void run_counted(const node::FilmData& film, const Cluster& cluster, Counted& out, std::vector<std::uint32_t> frames = {}) {
   hal::Machines machines(cluster.nodes_each);
   RunOptions options;
   options.nodes = cluster.nodes;
-  options.farm.cubes = cluster.cubes;
+  options.farm.groups = cluster.groups;
   options.farm.frames = std::move(frames);
   options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
   out.run = run_film(FilmBlock(film).bytes(), options);
@@ -186,7 +186,7 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
 
 TEST_P(Division, BytesReportedAreBytesSent) {
   const int nodes = GetParam();
-  Counted loading;  // cubes of one node give each other nothing but what loading the film takes
+  Counted loading;  // groups of one node give each other nothing but what loading the film takes
   run_counted(film_, {nodes, 1, static_cast<std::uint32_t>(nodes)}, loading, {0});
   for (const int nodes_each : {1, 2, nodes}) {
     Counted counted;
@@ -227,12 +227,12 @@ TEST_P(Division, MemoryIsAsTheFormulaSays) {
 
 INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
 
-// As many units as cubes: none gets two while another has none.
-TEST(Division, EveryCubeGetsAUnit) {
+// As many units as groups: none gets two while another has none.
+TEST(Division, EveryGroupGetsAUnit) {
   const FilmBlock film(crowd(64, 40, 4, 1));
   RunOptions options;
   options.nodes = 4;
-  options.farm.cubes = 4;
+  options.farm.groups = 4;
   std::set<std::int32_t> artists;
   for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) artists.insert(strip.node);
   EXPECT_EQ(artists.size(), 4u);

@@ -1,4 +1,4 @@
-// The host's pictures are bounded: the sinks' frames, and one saved background a cube where intervals have
+// The host's pictures are bounded: the sinks' frames, and one saved background a group where intervals have
 // inbetweens. Counts the host thread's blocks of a picture's size. And a longer film needs no more memory.
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -58,11 +58,11 @@ namespace {
 constexpr std::uint32_t kFrames = 3;  // buffers
 
 // The most pictures the host had at a time while it rendered the film.
-std::size_t most_pictures(const node::FilmData& film, bool coherence, std::uint32_t cubes) {
+std::size_t most_pictures(const node::FilmData& film, bool coherence, std::uint32_t groups) {
   const FilmBlock block(film);
   host::FarmOptions options;
   options.coherence = coherence;
-  options.cubes = cubes;
+  options.groups = groups;
   options.frames.resize(film.settings.frames);
   std::iota(options.frames.begin(), options.frames.end(), 0u);
   made = live = most = 0;
@@ -80,11 +80,11 @@ std::size_t most_pictures(const node::FilmData& film, bool coherence, std::uint3
   return most;
 }
 
-TEST(HostMemory, OneSavedBackgroundACube) {
+TEST(HostMemory, OneSavedBackgroundAGroup) {
   const node::FilmData film = crowd(kWidth, kHeight, 60, 3);
-  for (const std::uint32_t cubes : {1u, 2u, 4u}) {
-    const std::size_t pictures = most_pictures(film, true, cubes);
-    EXPECT_LE(pictures, kFrames + cubes);
+  for (const std::uint32_t groups : {1u, 2u, 4u}) {
+    const std::size_t pictures = most_pictures(film, true, groups);
+    EXPECT_LE(pictures, kFrames + groups);
     EXPECT_GE(pictures, 2u) << "the hook counts";
   }
 }

@@ -57,23 +57,23 @@ TEST_P(Identity, AnyNumberOfNodes) {
   }
 }
 
-TEST_P(Identity, AnyMappingAndCubes) {
-  for (const std::uint32_t cubes : {1u, 2u, 5u}) {
+TEST_P(Identity, AnyMappingAndGroups) {
+  for (const std::uint32_t groups : {1u, 2u, 5u}) {
     RunOptions options;
     options.nodes = 5;
-    options.farm.cubes = cubes;
-    options.farm.mapping = cubes == 2 ? node::Mapping::greedy : node::Mapping::optimal;
-    expect_as_from_scratch(options, std::to_string(cubes) + "-cubes");
+    options.farm.groups = groups;
+    options.farm.mapping = groups == 2 ? node::Mapping::greedy : node::Mapping::optimal;
+    expect_as_from_scratch(options, std::to_string(groups) + "-groups");
   }
 }
 
 TEST_P(Identity, AnyMachines) {
-  for (const auto& [nodes, nodes_each, cubes] : {std::tuple{4, 1, 1u}, {5, 2, 1u}, {7, 3, 2u}}) {
+  for (const auto& [nodes, nodes_each, groups] : {std::tuple{4, 1, 1u}, {5, 2, 1u}, {7, 3, 2u}}) {
     hal::Machines machines(nodes_each);
     hal::Counts counts;
     RunOptions options;
     options.nodes = nodes;
-    options.farm.cubes = cubes;
+    options.farm.groups = groups;
     options.wrap = [&](hal::Backend& inner) { return std::make_unique<hal::MachinesBackend>(inner, counts, machines); };
     expect_as_from_scratch(options, std::to_string(nodes_each) + "-a-machine");
   }
@@ -101,7 +101,7 @@ TEST_P(Identity, WithoutCoherenceOnManyNodes) {
   RunOptions options;
   options.nodes = 5;
   options.farm.coherence = false;
-  options.farm.cubes = 1;
+  options.farm.groups = 1;
   expect_as_from_scratch(options, "scratch-5-nodes");
 }
 

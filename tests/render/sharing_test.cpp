@@ -1,4 +1,4 @@
-// CZB is shared by the nodes of a cube on one machine: the pictures stay the same wherever the nodes are and
+// CZB is shared by the nodes of a group on one machine: the pictures stay the same wherever the nodes are and
 // whichever of them is slow, and lines go once to every other machine.
 #include <gtest/gtest.h>
 
@@ -41,17 +41,17 @@ struct SharedRun {
 struct Nodes {
   int count;
   int each;  // on its machines
-  std::uint32_t cubes = 1;
+  std::uint32_t groups = 1;
 };
 
-void PrintTo(const Nodes& n, std::ostream* out) { *out << n.count << " nodes, " << n.each << " a machine, " << n.cubes << " cubes"; }
+void PrintTo(const Nodes& n, std::ostream* out) { *out << n.count << " nodes, " << n.each << " a machine, " << n.groups << " groups"; }
 
 void run(const node::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = 0,
          std::uint64_t memory = 256 << 20) {
   hal::Machines machines(nodes.each);
   RunOptions options;
   options.nodes = nodes.count;
-  options.farm.cubes = nodes.cubes;
+  options.farm.groups = nodes.groups;
   options.memory = memory;
   options.wrap = [&](hal::Backend& inner) { return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type); };
   out.film = run_film(FilmBlock(data).bytes(), options);
@@ -76,13 +76,13 @@ std::uint64_t depth_bytes(const SharedRun& run, int nodes) {
   return bytes;
 }
 
-TEST(Sharing, AnyMachinesAndCubes) {
+TEST(Sharing, AnyMachinesAndGroups) {
   for (const std::uint32_t interval : {4u, 1u}) {
     const node::FilmData data = film(interval);
     const FilmRun expected = from_scratch(data);
     for (const int each : {6, 5, 4, 3, 2, 1})
-      for (const std::uint32_t cubes : {1u, 2u, 3u, 6u}) {
-        const Nodes nodes{6, each, cubes};
+      for (const std::uint32_t groups : {1u, 2u, 3u, 6u}) {
+        const Nodes nodes{6, each, groups};
         SCOPED_TRACE(testing::PrintToString(nodes));
         SharedRun rendered;
         run(data, nodes, rendered);
@@ -131,7 +131,7 @@ TEST(Sharing, LinesTravelOnceToEachMachine) {
   EXPECT_EQ(depth_bytes(six_nodes, 6), bytes);
 }
 
-TEST(Sharing, OneCzbForEachCubeWithSeveralNodesOnAMachine) {
+TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
   constexpr std::size_t kCzb = kWidth * kHeight * sizeof(float);
   const auto shared = [](const Nodes& nodes) {
     SharedRun rendered;
@@ -143,7 +143,7 @@ TEST(Sharing, OneCzbForEachCubeWithSeveralNodesOnAMachine) {
   EXPECT_EQ(shared({6, 3, 1}), 2 * kCzb);
   EXPECT_EQ(shared({6, 3, 2}), 2 * kCzb);
   EXPECT_EQ(shared({6, 4, 2}), 2 * kCzb) << "nodes 0 to 2; 4 and 5. Node 3 is apart from its mates";
-  EXPECT_EQ(shared({6, 6, 6}), 0u) << "a cube of one node has nobody to share with";
+  EXPECT_EQ(shared({6, 6, 6}), 0u) << "a group of one node has nobody to share with";
 }
 
 // Where there is no inbetween nothing is kept, and nobody is told of it.

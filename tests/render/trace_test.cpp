@@ -37,13 +37,13 @@ class Tracing : public testing::TestWithParam<Case> {
     RunOptions options;
     options.nodes = GetParam().nodes;
     options.memory = GetParam().memory;
-    options.farm.cubes = 1;
+    options.farm.groups = 1;
     plain_ = run_film(block_.bytes(), options);
     options.farm.trace = &trace_;
     options.wrap = hal::counting(counts_);
     traced_ = run_film(block_.bytes(), options);
     options.farm.trace = nullptr;
-    options.farm.cubes = static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
+    options.farm.groups = static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
     options.farm.frames = {0};
     options.wrap = hal::counting(loading_);
     run_film(block_.bytes(), options);

@@ -1,4 +1,4 @@
-// Frames of one unit put together from the strips of its cube's nodes, whatever the order of their arrival.
+// Frames of one unit put together from the strips of its group's nodes, whatever the order of their arrival.
 // A strip is pasted as soon as its frame has a buffer, and inbetweens when the keyframe is there, whose CFB
 // they show.
 #pragma once
@@ -18,7 +18,7 @@ namespace mars::host {
 
 class Assembly {
  public:
-  // `nodes`: of the cube that draws the unit.
+  // `nodes`: of the group that draws the unit.
   Assembly(const Unit& unit, int nodes);
 
   std::uint32_t interval() const { return interval_; }
@@ -27,7 +27,7 @@ class Assembly {
   // A strip of a frame it wants.
   void receive(StripMessage strip);
 
-  // From here on it has the cube's compositor, whose interval has begun and which nobody else uses until all
+  // From here on it has the group's compositor, whose interval has begun and which nobody else uses until all
   // is done. Buffers come from `sinks`.
 
   // The frame that begins next gets its buffer before its strips come, if there are enough; whether it did.

@@ -16,7 +16,7 @@ namespace mars::host {
 namespace {
 
 constexpr std::int32_t kCredits = 4;         // strips a node may have on the way
-constexpr std::size_t kUnitsAhead = 2;       // given to a cube at a time, so that it never waits for the host
+constexpr std::size_t kUnitsAhead = 2;       // given to a group at a time, so that it never waits for the host
 
 void send_to_all(long type, const void* data, std::size_t bytes) {
   for (long node = 0; node < numnodes(); ++node) csend(type, data, static_cast<long>(bytes), node, 0);
@@ -50,12 +50,12 @@ std::vector<node::Hello> receive_hellos() {
 }
 
 void load_film(std::span<const std::byte> block, const FarmOptions& options, std::span<const node::Hello> hellos,
-               std::size_t cubes) {
+               std::size_t groups) {
   const auto least = std::min_element(hellos.begin(), hellos.end(),
                                       [](const auto& a, const auto& b) { return a.memory < b.memory; });
   const SpanOf span(HostSpan::load, block.size());
   const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping,
-                        static_cast<std::int32_t>(cubes), options.trace != nullptr ? 1u : 0u};
+                        static_cast<std::int32_t>(groups), options.trace != nullptr ? 1u : 0u};
   std::vector<std::byte> message(sizeof load + hellos.size() * sizeof hellos[0].machine);
   std::memcpy(message.data(), &load, sizeof load);
   for (std::size_t n = 0; n < hellos.size(); ++n)
@@ -77,11 +77,11 @@ class Farm {
   void run();
 
  private:
-  // A cube's units are composed one after another, so it needs one saved background at most.
+  // A group's units are composed one after another, so it needs one saved background at most.
   struct Work {
-    hal::Cube cube;
+    hal::Group group;
     Compositor compositor;       // the first unit's
-    std::deque<Assembly> units;  // given to the cube and not done
+    std::deque<Assembly> units;  // given to the group and not done
     std::deque<double> given;    // and when, in seconds since the start
   };
 
@@ -127,8 +127,8 @@ Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sin
       start_(dclock()) {
   const SinkPool::Shape& shape = sinks.shape();
   const std::uint32_t background = pixel_of(film.settings().background);
-  for (const hal::Cube& cube : make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units_.size()))
-    work_.push_back({cube, Compositor(shape.width, shape.height, shape.block, background), {}, {}});
+  for (const hal::Group& group : make_groups(static_cast<int>(numnodes()), static_cast<int>(options.groups), units_.size()))
+    work_.push_back({group, Compositor(shape.width, shape.height, shape.block, background), {}, {}});
 }
 
 void Farm::run() {
@@ -150,7 +150,7 @@ void Farm::run() {
 
 void Farm::give_units() {
   if (listener_.more) return give_when_asked();
-  // Every cube gets its first before any gets one ahead: there may be few.
+  // Every group gets its first before any gets one ahead: there may be few.
   for (std::size_t ahead = 1; ahead <= kUnitsAhead; ++ahead)
     for (Work& work : work_)
       if (work.units.size() < ahead && next_unit_ < units_.size()) give(work);
@@ -168,15 +168,15 @@ void Farm::give(Work& work) {
   work.given.push_back(dclock() - start_);
   const Unit& unit = units_[next_unit_++];
   const SpanOf span(HostSpan::give, unit.interval);
-  const hal::Cube& cube = work.cube;
+  const hal::Group& group = work.group;
   const auto frames = static_cast<std::uint32_t>(unit.frames.size());
-  const node::Render command{unit.interval, cube.first, cube.count, frames, unit.first_inbetween};
+  const node::Render command{unit.interval, group.first, group.count, frames, unit.first_inbetween};
   std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
   std::memcpy(message.data(), &command, sizeof command);
   std::memcpy(message.data() + sizeof command, unit.frames.data(), frames * sizeof(std::uint32_t));
-  for (int node = cube.first; node < cube.first + cube.count; ++node)
+  for (int node = group.first; node < group.first + group.count; ++node)
     csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
-  work.units.emplace_back(unit, cube.count);
+  work.units.emplace_back(unit, group.count);
 }
 
 void Farm::receive() {
@@ -285,7 +285,7 @@ FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions&
   if (listener.booted) listener.booted(report.nodes, units, static_cast<std::uint32_t>(options.frames.size()) - units);
   Tracing tracing(options.trace, report.nodes, kCredits);
   load_film(film_block, options, report.nodes,
-            make_cubes(static_cast<int>(numnodes()), static_cast<int>(options.cubes), units).size());
+            make_groups(static_cast<int>(numnodes()), static_cast<int>(options.groups), units).size());
   report.load_seconds = dclock() - booted;
   const double start = dclock();
   Farm(film, options, sinks, listener, report, tracing).run();

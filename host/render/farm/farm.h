@@ -1,4 +1,4 @@
-// The host's side of a rendering: boots the nodes, sends the film, gives units to cubes of nodes, composes
+// The host's side of a rendering: boots the nodes, sends the film, gives units to groups of nodes, composes
 // their strips to frames, hands these to the sinks and gives credit back when they were taken.
 #pragma once
 
@@ -30,7 +30,7 @@ class NodeFailure : public Failure {
 struct FarmOptions {
   node::Mapping mapping = node::Mapping::greedy;
   bool coherence = true;
-  std::uint32_t cubes = 0;            // that work at a time; 0: as many as pay
+  std::uint32_t groups = 0;            // that work at a time; 0: as many as pay
   std::vector<std::uint32_t> frames;  // ascending, within the film, at least one
   std::uint64_t memory = 0;           // bytes for a frame on a node; 0: as the node with the least offers
   bool each_frame = false;            // report what is known of each frame, which grows with the film
@@ -42,7 +42,7 @@ struct FinishedFrame {
   std::uint32_t interval;
   node::FrameKind kind;
   double seconds;  // since the first command, when its last strip had come and it was composed
-  double given = 0;  // likewise, when its unit was given to a cube
+  double given = 0;  // likewise, when its unit was given to a group
 };
 
 // Called from the thread that runs the farm.
@@ -50,7 +50,7 @@ struct FarmListener {
   // All nodes are there; keyframes and inbetweens are what will be drawn.
   std::function<void(std::span<const node::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
   std::function<void(const FinishedFrame&)> finished;  // the sinks have it
-  // If there is one, units are given to the first cube alone, one at a time: it is asked when the sinks have all
+  // If there is one, units are given to the first group alone, one at a time: it is asked when the sinks have all
   // frames given before, and may wait. False: no more frames are wanted.
   std::function<bool()> more;
 };

@@ -5,7 +5,7 @@
 namespace mars::host {
 namespace {
 
-constexpr std::size_t kUnitsPerCube = 4;
+constexpr std::size_t kUnitsPerGroup = 4;
 
 }  // namespace
 
@@ -26,11 +26,11 @@ std::vector<Unit> make_units(const node::FilmView& film, std::span<const std::ui
   return units;
 }
 
-std::vector<hal::Cube> make_cubes(int nodes, int cubes, std::size_t units) {
-  const int that_pay = static_cast<int>(std::min<std::size_t>(units / kUnitsPerCube, static_cast<std::size_t>(nodes)));
-  const int count = std::clamp(cubes == 0 ? that_pay : cubes, 1, nodes);
-  std::vector<hal::Cube> out;
-  for (int i = 0; i < count; ++i) out.push_back(hal::cube_of(nodes, count, i));
+std::vector<hal::Group> make_groups(int nodes, int groups, std::size_t units) {
+  const int that_pay = static_cast<int>(std::min<std::size_t>(units / kUnitsPerGroup, static_cast<std::size_t>(nodes)));
+  const int count = std::clamp(groups == 0 ? that_pay : groups, 1, nodes);
+  std::vector<hal::Group> out;
+  for (int i = 0; i < count; ++i) out.push_back(hal::group_of(nodes, count, i));
   return out;
 }
 

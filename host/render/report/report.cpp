@@ -23,7 +23,7 @@ ordered_json node_json(const node::Hello& hello) {
           {"memory", hello.memory}};
 }
 
-// What the furthest neighbours share across each dimension of the cube of all nodes.
+// What the furthest neighbours share across each dimension of the hypercube of all nodes.
 ordered_json dimensions_json(const std::vector<node::Hello>& hellos) {
   std::vector<topology::Location> nodes;
   for (const node::Hello& hello : hellos) nodes.push_back({hello.machine, hello.seat});

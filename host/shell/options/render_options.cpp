@@ -165,7 +165,7 @@ Entry film(unsigned programs) {
 std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
   constexpr unsigned all =
-      bit(Program::mars) | bit(Program::host) | bit(Program::cube) | bit(Program::threads);
+      bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads);
   constexpr unsigned compiles = all | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads);
   constexpr unsigned person = bit(Program::mars);
@@ -197,8 +197,8 @@ std::vector<Entry> table() {
       number(all, "--block", {&RenderOptions::block, false, node::kMaxSide},
              "Side of the compositor's blocks in pixels; same pictures. Example: --block 32"),
       number(
-          all, "--cubes", {&RenderOptions::cubes, true, many},
-          "Intervals rendered at a time, each by a part of the nodes; 1 is the thesis. Example: --cubes 1"),
+          all, "--groups", {&RenderOptions::groups, true, many},
+          "Intervals rendered at a time, each by a part of the nodes; 1 is the thesis. Example: --groups 1"),
       option(all, "--sink", "png|none", &RenderOptions::sink,
              "Where frames go; none writes nothing, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,

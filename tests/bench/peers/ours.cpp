@@ -64,7 +64,7 @@ Driver::Driver(const node::FilmView& film, Course course, const std::string& bac
       sink_(frames_a_unit_),
       orders_([this] { return Picture{settings_.width, settings_.height, sink_.pixels()}; }) {
   options_.coherence = course == Course::inbetween;
-  options_.cubes = 1;
+  options_.groups = 1;
   options_.frames.resize(settings_.frames);
   std::iota(options_.frames.begin(), options_.frames.end(), 0u);
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/collectives/cube.h"
+#include "hal/collectives/group.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
@@ -16,7 +16,7 @@
 namespace mars::hal::conformance {
 namespace {
 
-// The order that hal/collectives/cube.h promises, done by one; merge(a, b) leaves its result in a.
+// The order that hal/collectives/group.h promises, done by one; merge(a, b) leaves its result in a.
 template <class T, class Merge>
 T in_order(std::vector<T> values, const Merge& merge) {
   const std::size_t corners = std::bit_floor(values.size());
@@ -33,21 +33,21 @@ double sum_in_order(const std::vector<double>& values) {
 
 double awkward(long node) { return 1.0 / (3 + static_cast<double>(node)) + 1e10 * static_cast<double>(node % 3); }
 
-void sum_in(const Cube& cube) {
-  if (mynode() < cube.first || mynode() >= cube.first + cube.count) return;
+void sum_in(const Group& group) {
+  if (mynode() < group.first || mynode() >= group.first + group.count) return;
   std::vector<double> x = {awkward(mynode()), -awkward(mynode())};
   std::vector<double> high = x;
   std::vector<double> work(2), all;
-  for (int node = cube.first; node < cube.first + cube.count; ++node) all.push_back(awkward(node));
-  cube_sum(cube, x, work);
-  cube_high(cube, high, work);
+  for (int node = group.first; node < group.first + group.count; ++node) all.push_back(awkward(node));
+  group_sum(group, x, work);
+  group_high(group, high, work);
   expect_equal(x[0], sum_in_order(all));
   expect_equal(x[1], -sum_in_order(all));
   expect_equal(high[0], *std::max_element(all.begin(), all.end()));
   expect_equal(high[1], -*std::min_element(all.begin(), all.end()));
 }
 
-RULE(parts_of_the_machine_sum, "cube_sum and cube_high work in any run of nodes, in the order that cube.h promises",
+RULE(parts_of_the_machine_sum, "group_sum and group_high work in any run of nodes, in the order that group.h promises",
      "another order would give other bits") {
   if (is_host()) return;
   const int nodes = static_cast<int>(numnodes());

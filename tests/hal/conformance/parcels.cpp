@@ -58,7 +58,7 @@ RULE(parcels_by_every_route, "parcels come by sender, and of each sender in its 
     for (long number = 0; number < parcels_between(mynode(), to); ++number)
       texts.push_back(parcel_of(mynode(), to, number));
   const std::vector<Parcel> parcels = parcels_of(texts);
-  const Cube all = {0, static_cast<int>(numnodes())};
+  const Group all = {0, static_cast<int>(numnodes())};
   CrystalRouter router;
   for (const Route route : kRoutes) expect_parcels(router.exchange(all, parcels, route));
   for (const Collectives means : {Collectives::network, Collectives::cube, Collectives::automatic}) {
@@ -67,11 +67,11 @@ RULE(parcels_by_every_route, "parcels come by sender, and of each sender in its 
   }
 }
 
-RULE(parcels_within_a_cube, "each half of the nodes exchanges parcels among themselves",
+RULE(parcels_within_a_group, "each half of the nodes exchanges parcels among themselves",
      "the other half gets none of them") {
   if (is_host() || numnodes() == 1) return;
   const auto nodes = static_cast<int>(numnodes()), me = static_cast<int>(mynode());
-  const Cube half = cube_of(nodes, 2, me < nodes / 2 ? 0 : 1);
+  const Group half = group_of(nodes, 2, me < nodes / 2 ? 0 : 1);
   const auto beside = [&](int step) { return half.first + (me - half.first + half.count + step) % half.count; };
   const std::string text = std::to_string(mynode());
   const std::vector<Parcel> parcels = {{beside(1), std::as_bytes(std::span(text))}};

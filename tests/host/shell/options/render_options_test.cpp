@@ -12,7 +12,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr Program kPrograms[] = {Program::mars, Program::host, Program::cube, Program::threads};
+constexpr Program kPrograms[] = {Program::mars, Program::host, Program::ranks, Program::threads};
 
 struct Reading {
   RenderOptions options;
@@ -47,7 +47,7 @@ RenderOptions unusual() {
   options.intervals = Intervals::keyframes;
   options.no_coherence = true;
   options.block = 5;
-  options.cubes = 3;
+  options.groups = 3;
   options.sink = SinkKind::none;
   options.report = "report.json";
   options.trace = "trace.json";
@@ -103,7 +103,7 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
       {{"--nodes", "-1"}, "not a number from 1"},
       {{"--nodes", "auto"}, "not a number from 1"},
       {{"--nodes", "3x"}, "not a number from 1"},
-      {{"--cubes", "0"}, "or auto"},
+      {{"--groups", "0"}, "or auto"},
       {{"--block", "99999"}, "from 1 to 16384"},
       {{"--backend", "pvm"}, "auto or mpi or threads"},
       {{"--mapping", ""}, "greedy or optimal"},
@@ -141,8 +141,8 @@ TEST(RenderOptions, CompilingTakesWhatShapesTheFilm) {
 }
 
 TEST(RenderOptions, CubesMayBeAuto) {
-  EXPECT_EQ(read(Program::mars, {"film.json", "--cubes", "auto"}).options.cubes, 0u);
-  EXPECT_EQ(read(Program::mars, {"film.json", "--cubes", "1"}).options.cubes, 1u);
+  EXPECT_EQ(read(Program::mars, {"film.json", "--groups", "auto"}).options.groups, 0u);
+  EXPECT_EQ(read(Program::mars, {"film.json", "--groups", "1"}).options.groups, 1u);
 }
 
 // Every option's help shows how it is written.
@@ -161,7 +161,7 @@ TEST(RenderOptions, EveryOptionHasAnExample) {
 }
 
 TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
-  for (const Program program : {Program::mars, Program::host, Program::cube, Program::threads}) {
+  for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json"});
     EXPECT_EQ(reading.code, kUsage);
     EXPECT_TRUE(holds(reading.told, "add -o DIR"));

@@ -1,4 +1,4 @@
-// mars-cube: host and nodes as one program, for starters that want only one: rank 0 is the host.
+// mars-ranks: host and nodes as one program, for starters that want only one: rank 0 is the host.
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_messages.h"
 #include "host/programs/node_job.h"
@@ -7,10 +7,10 @@
 int main(int argc, char** argv) {
   using namespace mars;
   constexpr const char* kPurpose =
-      "Host and nodes in one program, by rank: mpirun -n 5 mars-cube FILM -o DIR";
+      "Host and nodes in one program, by rank: mpirun -n 5 mars-ranks FILM -o DIR";
   host::RenderOptions options;
   if (const auto code =
-          host::read_render_options(host::Program::cube, "mars-cube", kPurpose, options, argc, argv)) {
+          host::read_render_options(host::Program::ranks, "mars-ranks", kPurpose, options, argc, argv)) {
     return *code;
   }
   return hal::run_mpi(argc, argv, hal::Role::by_rank, [&](int, char**) {

@@ -1,23 +1,23 @@
 // Nodes [first, first + count) that work on one interval together, and the sums they make. NX's own g*
 // calls always take the whole machine; these are built from csend and crecv, by dimension exchange over
-// the hypercube that the cube's nodes form (nodes beyond the largest power of two fold in first).
+// the hypercube that the group's nodes form (nodes beyond the largest power of two fold in first).
 #pragma once
 
 #include <span>
 
 namespace mars::hal {
 
-struct Cube {
+struct Group {
   int first = 0;
   int count = 1;
 
-  bool operator==(const Cube&) const = default;
+  bool operator==(const Group&) const = default;
 };
 
-// Number `number` of `cubes` cubes of about equal size that `nodes` nodes form side by side.
-constexpr Cube cube_of(int nodes, int cubes, int number) {
-  const int first = nodes * number / cubes;
-  return {first, nodes * (number + 1) / cubes - first};
+// Number `number` of `groups` groups of about equal size that `nodes` nodes form side by side.
+constexpr Group group_of(int nodes, int groups, int number) {
+  const int first = nodes * number / groups;
+  return {first, nodes * (number + 1) / groups - first};
 }
 
 // Element-wise sum of every member's `values`, left in `values` on all of them. All members call, in the
@@ -25,9 +25,9 @@ constexpr Cube cube_of(int nodes, int cubes, int number) {
 // the additions, with positions counted from `first` and 2^d the largest power of two within `count`: first
 // p and p + 2^d, then pairs across bit 0, 1, ... d - 1 of the positions, the lower one's sum always on the
 // left.
-void cube_sum(const Cube& cube, std::span<double> values, std::span<double> work);
+void group_sum(const Group& group, std::span<double> values, std::span<double> work);
 
 // Element-wise maximum, likewise.
-void cube_high(const Cube& cube, std::span<double> values, std::span<double> work);
+void group_high(const Group& group, std::span<double> values, std::span<double> work);
 
 }  // namespace mars::hal

@@ -1,0 +1,29 @@
+#include "hal/collectives/group.h"
+
+#include <functional>
+
+#include "hal/failure/failure.h"
+#include "hal/collectives/reduction.h"
+
+namespace mars::hal {
+namespace {
+
+void reduce_in(const char* call, const Group& group, const Operation& operation, std::span<double> values,
+               std::span<double> work) {
+  check(work.size() >= values.size(), "work is as long as the values");
+  DimensionExchange exchange(call, group);
+  reduce(exchange, operation, values.data(), values.size(), work.data());
+  exchange.conclude();
+}
+
+}  // namespace
+
+void group_sum(const Group& group, std::span<double> values, std::span<double> work) {
+  reduce_in("group_sum", group, operation<double, std::plus<double>{}>, values, work);
+}
+
+void group_high(const Group& group, std::span<double> values, std::span<double> work) {
+  reduce_in("group_high", group, operation<double, higher>, values, work);
+}
+
+}  // namespace mars::hal
