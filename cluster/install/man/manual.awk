@@ -60,7 +60,7 @@ FILENAME == ARGV[1] && $1 == "option" && $3 !~ /--help/ {
 FILENAME == ARGV[1] && $1 == "setting" && !($2 in known) {
   known[$2] = 1
   set = $2 ~ /^MARS_NX_/ ? "MARS_NX_" : ""
-  settings[set] = settings[set] ".It Ev " $2 "\n" help(toupper(substr($3, 1, 1)) substr($3, 2))
+  settings[set] = settings[set] ".It Ev " $2 "\n" help($3)
 }
 FILENAME == ARGV[1] { next }
 
