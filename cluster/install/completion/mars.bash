@@ -1,5 +1,5 @@
-# Completion for bash. The programs list their own options (--list-options, described in
-# host/options/command_line.h), so this file names none.
+# Completion for bash. The programs say themselves what they take (--list-options, which is described in
+# host/options/command_line.h), so this file knows no option.
 
 # _mars_values VALUE WORD: candidates for a value that help calls VALUE, where WORD is typed so far.
 _mars_values() {

@@ -1,5 +1,5 @@
-# Completion for fish. The programs list their own options (--list-options, described in
-# host/options/command_line.h), so this file names none.
+# Completion for fish. The programs say themselves what they take (--list-options, which is described in
+# host/options/command_line.h), so this file knows no option.
 
 # Candidates for a value that help calls $argv[1].
 function __mars_values
