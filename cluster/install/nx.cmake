@@ -1,5 +1,5 @@
-# NX for other people's programs: the library and what starts them, and apart from it what building them needs:
-# headers, how pkg-config and CMake find it, a manual page for each call.
+# NX for other people's programs. Component mars-nx: the library and the program that starts them. Component
+# mars-nx-dev: headers, files for pkg-config and CMake, a manual page for each call.
 get_target_property(nx_headers mars_nx HEADERS)
 install(TARGETS mars_nx EXPORT mars-nx
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mars-nx NAMELINK_COMPONENT mars-nx-dev)
@@ -7,7 +7,7 @@ install(TARGETS mars-nx RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ma
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME mars-nx-dev)
 install(FILES ${nx_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mars-nx)
 
-# The same for Fortran: a library in front of that one, and what programs include.
+# The same for Fortran: a library in front of that one, and the files that programs include.
 get_target_property(fortran_headers mars_nx_fortran HEADERS)
 install(TARGETS mars_nx_fortran EXPORT mars-nx
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT mars-nx NAMELINK_COMPONENT mars-nx-dev)
@@ -26,7 +26,7 @@ foreach(package mars-nx mars-nx-dev)
           COMPONENT ${package})
 endforeach()
 
-# The prefix from where the file is: an installation can be moved as a whole.
+# The prefix is relative to the file, so an installation can be moved as a whole.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
            OUTPUT_VARIABLE nx_prefix)
 foreach(file mars-nx.pc mars-nx-fortran.pc)
@@ -34,8 +34,8 @@ foreach(file mars-nx.pc mars-nx-fortran.pc)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()
 
-# The manual: pages written here, with prototypes as the headers have them; one that tells of several calls is found
-# by the name of each, and of each one's twin.
+# The manual: the pages here, filled in with the prototypes of the headers. A page that describes several calls is
+# installed under the name of each call and of each twin.
 find_program(AWK awk REQUIRED)
 get_target_property(nx_calls mars_nx CALLS)
 file(GLOB pages CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/man/nx/*)
@@ -66,7 +66,7 @@ foreach(page IN LISTS pages)
 endforeach()
 add_custom_target(nx_manual ALL DEPENDS ${filled})
 
-# All that the two components install.
+# Everything that the two components install.
 add_custom_target(nx DEPENDS mars-nx mars_nx mars_nx_fortran nx_manual)
 if(TARGET nx_option_list)
   add_dependencies(nx nx_option_list)

@@ -1,10 +1,10 @@
-# Spack's recipe for MARS. Untested: it was only checked to be Python. In a clone of MARS:
+# Spack's recipe for MARS. Untested: only its Python syntax was checked. In a clone of MARS:
 #   spack repo create ~/mars-spack mars-site && mkdir -p ~/mars-spack/packages/mars
 #   cp cluster/spack/package.py ~/mars-spack/packages/mars/ && spack repo add ~/mars-spack
 #   spack dev-build mars@main ^openmpi schedulers=slurm
 from spack.package import *
 
-try:  # from Spack 1.0 on build systems are in the repository of packages
+try:  # since Spack 1.0 build systems are in the repository of packages
     from spack_repo.builtin.build_systems.cmake import CMakePackage
 except ImportError:
     pass
@@ -15,7 +15,7 @@ class Mars(CMakePackage):
 
     license("MIT")
 
-    # Built from the clone one is in; there is nothing to download.
+    # Built from this clone; there is nothing to download.
     version("main")
 
     variant("mpi", default=True, description="Nodes as MPI processes; without it, as threads")

@@ -1,23 +1,23 @@
 #!/usr/bin/env bash
 # A virtual Beowulf on one machine: head n0 and hosts n1 to n4 of two processors each, with sshd and Slurm.
-# Every host has its own name, network, processes, /tmp, /run and /dev/shm; the rest of the file system is
-# shared, as NFS would be, and so is the checkout that this file is in, also below /tmp. All run on this
-# machine's processors: it shows how things behave, not how fast.
+# Every host has its own name, network, processes, /tmp, /run and /dev/shm. All hosts share the rest of the file
+# system, as if by NFS, and this file's checkout even if it is below /tmp. All hosts run on this machine's
+# processors, so the testbed shows behaviour, not speed.
 #
-#   testbed.sh up                   start it (first ending one that is there)
+#   testbed.sh up                   start it (ends a running one first)
 #   testbed.sh exec HOST COMMAND    run a command on a host, in this folder
-#   testbed.sh cut HOST             pull a host's network cable ...
-#   testbed.sh join HOST            ... and plug it in again
-#   testbed.sh slow HOST RATE       limit what a host receives, e.g. to 10mbit; RATE full: no limit
-#   testbed.sh kill HOST            a power cut: everything on that host is gone until the next up
-#   testbed.sh down                 end it; nothing is left
+#   testbed.sh cut HOST             pull a host's network cable
+#   testbed.sh join HOST            plug it in again
+#   testbed.sh slow HOST RATE       limit the rate at which a host receives, e.g. to 10mbit; full: no limit
+#   testbed.sh kill HOST            cut a host's power: everything on it is gone until the next up
+#   testbed.sh down                 end it and remove everything
 #
 # Needs root and, on Debian: slurmctld slurmd slurm-client munge openssh-server openmpi-bin iproute2.
-# TESTBED=name tells several at a time apart.
+# To run several at a time, give each a name: TESTBED=name.
 set -euo pipefail
 
 name=${TESTBED:-mars}
-# Not in /tmp, of which every host has its own. Programs refuse keys in folders that others could write to.
+# Not in /tmp, because every host has its own. Programs refuse keys in folders that others can write to.
 dir=/var/tmp/testbed-$name
 checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
 hosts="n0 n1 n2 n3 n4"
@@ -36,7 +36,7 @@ check_needs() {
     "munge openssh-server openmpi-bin iproute2 procps)"
 }
 
-# A host is one process with namespaces of its own; all that runs on it ends with that process.
+# A host is one process with its own namespaces; everything on the host ends with that process.
 pid_of() {
   local file=$dir/pid/$1
   if ! kill -0 "$(cat "$file" 2>/dev/null || echo none)" 2>/dev/null; then
@@ -45,7 +45,7 @@ pid_of() {
   cat "$file"
 }
 
-# Runs a command on host $1; not for the switch, which is a network only.
+# Runs a command on host $1. The switch is only a network: at_switch.
 on() {
   local pid
   pid=$(pid_of "$1")
@@ -60,7 +60,7 @@ start_daemon() {
   on "$host" setsid "$@" >"$dir/log/$host.$(basename "$1")" 2>&1 </dev/null &
 }
 
-# The new process tells its number as the machine sees it, for its own view may differ.
+# pgrep finds the new process's number on the machine; inside its namespace the number may differ.
 start_namespaces() {
   local host=$1
   shift
@@ -72,7 +72,7 @@ start_namespaces() {
   done
 }
 
-# The checkout is held elsewhere while a folder of the host's own may be laid over it.
+# Keeps the checkout mounted elsewhere while the host's own folders, which may cover it, are mounted.
 own_folders() {
   local host=$1 folder
   on "$host" mount --bind "$checkout" "$dir/checkout"
@@ -145,7 +145,7 @@ start_daemons() {
 
 all_idle() { [ "$(on n0 sinfo --noheader --states=idle --format=%D)" = 4 ]; }
 
-# Until a command succeeds, at most $1 seconds.
+# Waits at most $1 seconds until a command succeeds.
 wait_for() {
   local seconds=$1 end
   shift
@@ -173,7 +173,7 @@ up() {
   echo "testbed $name: head n0, hosts n1 n2 n3 n4; hostfile $dir/hostfile; logs $dir/log"
 }
 
-# Ends every host, whatever state it is in; keeps the logs.
+# Ends every host, in whatever state; keeps the logs.
 stop_all() {
   local file
   for file in "$dir"/pid/*; do

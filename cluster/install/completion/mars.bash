@@ -1,7 +1,7 @@
 # Completion for bash. The programs say themselves what they take (--list-options, which is described in
 # host/shell/options/command_line.h), so this file knows no option.
 
-# _mars_values VALUE WORD: what may stand where help asks for VALUE and WORD is typed so far.
+# _mars_values VALUE WORD: candidates for a value that help calls VALUE, where WORD is typed so far.
 _mars_values() {
   case $1 in
     FILM) compgen -d -- "$2"; compgen -f -X '!*.json' -- "$2"; compgen -f -X '!*.mars' -- "$2" ;;
@@ -28,7 +28,7 @@ _mars() {
   done < <("${1/#\~/$HOME}" --list-options 2>/dev/null)
   [ -n "$program" ] || return 0
 
-  # What was typed before: which command, how many of its arguments, and how many values an option still takes.
+  # From the words typed before: the command, the number of its arguments, and the values that an option still needs.
   local command=$program given=0 asked=()
   for ((i = 1; i < COMP_CWORD; i++)); do
     word=${COMP_WORDS[i]}

@@ -1,7 +1,7 @@
 # Completion for fish. The programs say themselves what they take (--list-options, which is described in
 # host/shell/options/command_line.h), so this file knows no option.
 
-# What may stand where help asks for a value.
+# Candidates for a value that help calls $argv[1].
 function __mars_values
     switch $argv[1]
         case FILM
@@ -29,7 +29,7 @@ function __mars
     set -g __mars_list ($words[1] --list-options 2>/dev/null)
     set -l command (string split \t -- $__mars_list[1])[2]
     set -l given 0 # arguments of the command
-    set -l asked # values that the last option still takes
+    set -l asked # values that the last option still needs
     for word in $words[2..-1]
         if set -q asked[1]
             set -e asked[1]

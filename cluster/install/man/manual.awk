@@ -2,20 +2,20 @@
 # host/shell/options/command_line.h):  awk -v doc=DIR -v data=DIR -f manual.awk OPTIONS TEMPLATE
 #   @OPTIONS mars render@   the section OPTIONS of a command
 #   @COMMANDS mars@         a subsection for each command that has no page of its own
-#   @SETTINGS@              a list of the environment's variables, but for those of NX's programs
-#   @SETTINGS MARS_NX_@     a list of those
+#   @SETTINGS@              a list of the environment variables, without those of NX programs
+#   @SETTINGS MARS_NX_@     a list of the environment variables of NX programs
 #   @DOC@, @DATA@           where documents and data are installed
 # Templates and result are in mdoc(7).
 BEGIN { FS = "\t" }
 
-# Text as mdoc takes it: nothing is a macro.
+# Escapes text so that mdoc finds no macro in it.
 function plain(text) {
   gsub(/\\/, "\\e", text)
   gsub(/-/, "\\-", text)
   return (text ~ /^[.']/ ? "\\&" : "") text
 }
 
-# A sentence a line; an example is what one types.
+# Puts each sentence on its own line, and the example in quotes.
 function help(text,    at, example) {
   at = index(text, "Example: ")
   example = at ? substr(text, at + 9) : ""
@@ -26,7 +26,7 @@ function help(text,    at, example) {
   return text (example == "" ? "" : "Example:\n.Ql " plain(example) "\n")
 }
 
-# "X Y Z" are three values; of "a|b" one is chosen.
+# "X Y Z" are three values; "a|b" is a choice of one.
 function value(name,    i, count, each, text) {
   if (name == "-") return ""
   count = split(name, each, " ")
@@ -60,7 +60,7 @@ FILENAME == ARGV[1] && $1 == "option" && $3 !~ /--help/ {
 FILENAME == ARGV[1] && $1 == "setting" && !($2 in known) {
   known[$2] = 1
   set = $2 ~ /^MARS_NX_/ ? "MARS_NX_" : ""
-  settings[set] = settings[set] ".It Ev " $2 "\n" help(toupper(substr($3, 1, 1)) substr($3, 2))
+  settings[set] = settings[set] ".It Ev " $2 "\n" help($3)
 }
 FILENAME == ARGV[1] { next }
 
@@ -71,7 +71,7 @@ function first(names) {
 
 function list(text) { return ".Bl -tag -width Ds\n" text ".El" }
 
-# Of "mars": each "mars WORD" that is not in a page of its own.
+# The commands of a program that have no page of their own.
 function subsections(program,    i, name, text) {
   for (i = 1; i <= command_count; i++) {
     name = commands[i]
@@ -83,7 +83,7 @@ function subsections(program,    i, name, text) {
   return text
 }
 
-# "mars animate FILM pose": as it is typed, after the arguments of the commands it is within.
+# A command as the user types it, with the arguments of its parent commands: "mars animate FILM pose".
 function typed(program, name,    parent) {
   parent = name
   sub(/ [^ ]*$/, "", parent)

@@ -1,14 +1,14 @@
 # Fills in a manual page of NX's calls with what the C headers declare:  awk -f nx_manual.awk HEADER.h... PAGE
 #   @SYNOPSIS@      the prototypes of the calls that the page's NAME lists, in its order
 #   @TYPE name@     the definition of a type or a struct
-#   @TWINS@         what becomes of an error: which twins those calls have, and that the list follows
+#   @TWINS@         how those calls and their twins fail; the page's list of errors follows
 # Pages and result are in mdoc(7).
 FILENAME ~ /\.h$/ {
   if ($0 !~ /^(#|extern "C"|}$)/) headers = headers $0 "\n"
   next
 }
 
-# Of each call: result[name] and arguments[name].
+# Fills in result[name] and arguments[name] of each call.
 function read_headers(    count, each, i, name) {
   gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, "", headers)
   gsub(/[ \n]+/, " ", headers)
@@ -22,7 +22,7 @@ function read_headers(    count, each, i, name) {
   }
 }
 
-# As mdoc's own pages write C: the star at the name.
+# C as mdoc's own pages write it, with the star at the name.
 function tidy(text) {
   gsub(/^ +| +$/, "", text)
   gsub(/\* /, "*", text)
@@ -74,13 +74,13 @@ function definition(name,    text) {
 function twins(    i, with) {
   for (i = 1; i <= calls; i++)
     if (("_" call[i]) in result) with[++with[0]] = "_" call[i]
-  print "A call that fails ends the program on all nodes, after telling why."
+  print "A call that fails prints the reason and ends the program on all nodes."
   print (with[0] == 1 ? "Its twin" : "The twins")
   for (i = 1; i <= with[0]; i++)
     print ".Fn " with[i] (i == with[0] ? "" : i == with[0] - 1 ? "\nand" : " ,")
-  print (with[0] == 1 ? "returns" : "return") " \\-1 instead, with"
-  print ".Va errno"
-  print "set, and 0 or more on success:"
+  print (with[0] == 1 ? "returns" : "return") " 0 or more on success."
+  print "On failure " (with[0] == 1 ? "it returns" : "they return") " \\-1 and " (with[0] == 1 ? "sets" : "set")
+  print ".Va errno :"
 }
 
 FNR == 1 { read_headers() }
