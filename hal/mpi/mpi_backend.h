@@ -34,10 +34,10 @@ class MpiBackend : public Backend {
   bool sent(Ticket ticket) override;
   std::optional<Envelope> peek() override;
   void take(void* buffer) override;
-  bool receive_soon(int type, void* buffer, std::size_t room, Envelope& came) override;
+  bool receive_soon(int type, void* buffer, std::size_t capacity, Envelope& came) override;
   std::optional<Ticket> start_reduce(const Reduction& reduction, void* x, std::size_t n) override;
-  std::optional<Ticket> start_all_to_all(const void* out, std::span<const Stretch> to, void* in,
-                                         std::span<const Stretch> from) override;
+  std::optional<Ticket> start_all_to_all(const void* out, std::span<const ByteRange> to, void* in,
+                                         std::span<const ByteRange> from) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override;
   Neighbourhood neighbourhood() override;

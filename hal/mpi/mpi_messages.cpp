@@ -214,17 +214,17 @@ void MpiBackend::take(void* buffer) {
   ++taken_;
 }
 
-// A short one is received without a look before. Of a long one senders are told that it need not be copied.
-bool MpiBackend::receive_soon(int type, void* buffer, std::size_t room, Envelope& came) {
+// A short one is received without a look before. Senders of a long one learn that it need not be copied.
+bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, Envelope& came) {
   if (peeked_ || tag(type) == wide_tag_ || mpi_waits_well()) return false;
-  if (room >= kLong || caught_.bytes() == nullptr) {
+  if (capacity >= kLong || caught_.bytes() == nullptr) {
     if (!peek()) bells_->await(type);
     return false;
   }
   MPI_Status status;
   if (!catch_soon(type, status)) return false;
   const std::size_t length = length_of(status);
-  if (length > room) {
+  if (length > capacity) {
     peeked_ = Envelope{status.MPI_SOURCE, type, length};
     opened_ = pool_.copy(*peeked_, caught_.bytes());
     caught_.trim(length);
