@@ -1,7 +1,5 @@
 // Places on made-up machines, and binding on this one.
 #include <sched.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <set>
