@@ -86,6 +86,7 @@ MpiBackend::MpiBackend(int host_rank, MPI_Comm ranks) : all_(ranks_by_id(host_ra
   rank_ = rank_in(all_);
   wide_tag_ = highest_tag();
   last_tag_ = wide_tag_ - 2 - nodes_;
+  longest_plain_ = INT_MAX - sizeof(std::int32_t);  // for a type may follow
   sent_to_.resize(nodes_ + 1);
   pending_.reserve(kUsuallyPending);
   look_around();

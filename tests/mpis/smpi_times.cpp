@@ -49,7 +49,7 @@ void exchange(const char* what, mars::hal::Route route, std::size_t bytes) {
   std::vector<mars::hal::Parcel> parcels;
   for (int node = 0; node < numnodes(); ++node) parcels.push_back({node, data});
   mars::hal::CrystalRouter router;
-  const mars::hal::Cube all{0, static_cast<int>(numnodes())};
+  const mars::hal::Group all{0, static_cast<int>(numnodes())};
   measure(what, static_cast<long>(bytes), 1, [&] { router.exchange(all, parcels, route); });
 }
 
