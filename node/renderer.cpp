@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hal/collectives/group_sum.h"
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"

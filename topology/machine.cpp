@@ -140,7 +140,6 @@ Machine Machine::synthetic(const std::string& description) {
 
 int Machine::cores() const { return count(topology_.get(), unit(topology_.get())); }
 int Machine::processors() const { return count(topology_.get(), HWLOC_OBJ_PU); }
-int Machine::numa_domains() const { return std::max(1, count(topology_.get(), HWLOC_OBJ_NUMANODE)); }
 std::uint64_t Machine::memory() const { return hwloc_get_root_obj(topology_.get())->total_memory; }
 
 // How much lies between a core and the one before: less the more they share.
@@ -188,7 +187,7 @@ Seat Machine::seat(const Place& place) const {
   return seat_of(topology_.get(), processors.get());
 }
 
-void Machine::bind(const Place& place, int flags) const {
+void Machine::bind_thread(const Place& place) const {
   const Bitmap numbers = make_bitmap();
   hwloc_bitmap_set_range(numbers.get(), place.first, place.first + place.count - 1);
   if (place.first < 0 || place.count < 1 || place.first + place.count > cores()) {
@@ -196,13 +195,10 @@ void Machine::bind(const Place& place, int flags) const {
                              std::to_string(cores()) + " of the machine's cores");
   }
   const Bitmap processors = processors_of(topology_.get(), place);
-  if (hwloc_set_cpubind(topology_.get(), processors.get(), flags) != 0) {
+  if (hwloc_set_cpubind(topology_.get(), processors.get(), HWLOC_CPUBIND_THREAD) != 0) {
     fail("cannot bind to " + list(numbers.get()));
   }
 }
-
-void Machine::bind_thread(const Place& place) const { bind(place, HWLOC_CPUBIND_THREAD); }
-void Machine::bind_process(const Place& place) const { bind(place, HWLOC_CPUBIND_PROCESS); }
 
 Binding Machine::binding() {
   const Machine whole = load_here();

@@ -43,8 +43,7 @@ class Machine {
 
   int cores() const;             // whole cores; processors where the machine does not tell its cores
   int processors() const;        // hardware threads
-  int numa_domains() const;      // at least 1
-  std::uint64_t memory() const;  // bytes, of these NUMA domains; 0: unknown
+  std::uint64_t memory() const;  // bytes, of their NUMA domains; 0: unknown
 
   // The cores of process `k` of `n` whose node ids begin at `first_id`: runs of neighbouring cores in order
   // of k, cut first where the ids differ in the highest bit and there at the machine's widest gap (package,
@@ -56,9 +55,8 @@ class Machine {
   // What a process bound to `place` shares with others.
   Seat seat(const Place& place) const;
 
-  // Binds the calling thread, or the whole calling process, to a place.
+  // Binds the calling thread to a place.
   void bind_thread(const Place& place) const;
-  void bind_process(const Place& place) const;
 
   // Of the calling thread.
   static Binding binding();
@@ -66,7 +64,6 @@ class Machine {
  private:
   explicit Machine(hwloc_topology* topology);
   static Machine load_here();  // not restricted to the affinity
-  void bind(const Place& place, int flags) const;
   int gap(int core) const;
   int cut(const Place& cores, int left, int right) const;
 

@@ -1,6 +1,5 @@
 #include "topology/memory_limit.h"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -56,15 +55,7 @@ std::uint64_t group_limit(const fs::path& root) {
   return least;
 }
 
-std::uint64_t own_limit(__rlimit_resource resource) {
-  rlimit limit{};
-  if (getrlimit(resource, &limit) != 0) return 0;
-  return limit.rlim_cur == RLIM_INFINITY ? 0 : limit.rlim_cur;
-}
-
 }  // namespace
-
-ProcessMemory process_limit() { return {own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA)}; }
 
 // The first and the sixth number of statm, in pages.
 ProcessMemory process_memory(const fs::path& root) {

@@ -6,18 +6,9 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "hal/failure/process_limit.h"
+
 namespace mars::topology {
-
-// Bytes of one process, as ulimit counts them.
-struct ProcessMemory {
-  std::uint64_t addresses = 0;  // ulimit -v: also those that were only set aside
-  std::uint64_t data = 0;       // ulimit -d: memory that may be written
-
-  bool operator==(const ProcessMemory&) const = default;
-};
-
-// The limits of the calling process; 0: none. Takes no memory: for telling that there is none.
-ProcessMemory process_limit();
 
 // What the calling process has; sanitizers take terabytes of addresses. 0 where /proc cannot be read.
 ProcessMemory process_memory(const std::filesystem::path& root = "/");

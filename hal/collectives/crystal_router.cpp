@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "hal/collectives/dimension_exchange.h"
+#include "hal/collectives/reduction.h"
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
-#include "hal/collectives/reduction.h"
 
 namespace mars::hal {
 namespace {
@@ -39,17 +39,17 @@ template <class Visit>
 void CrystalRouter::visit(const Load& load, const Visit& visit) {
   for (std::size_t at = 0; at < load.size;) {
     Head head;
-    std::memcpy(&head, load.room.data() + at, sizeof head);
-    visit(head, load.room.data() + at + sizeof head);
+    std::memcpy(&head, load.buffer.data() + at, sizeof head);
+    visit(head, load.buffer.data() + at + sizeof head);
     at += head.whole();
   }
 }
 
 void CrystalRouter::add(Load& load, const Head& head, const std::byte* bytes) {
   const std::size_t end = load.size + head.whole();
-  if (load.room.size() < end) load.room.resize(std::max(end, 2 * load.room.size()));
-  std::memcpy(load.room.data() + load.size, &head, sizeof head);
-  if (head.bytes > 0) std::memcpy(load.room.data() + load.size + sizeof head, bytes, head.bytes);
+  if (load.buffer.size() < end) load.buffer.resize(std::max(end, 2 * load.buffer.size()));
+  std::memcpy(load.buffer.data() + load.size, &head, sizeof head);
+  if (head.bytes > 0) std::memcpy(load.buffer.data() + load.size + sizeof head, bytes, head.bytes);
   load.size = end;
 }
 
@@ -59,15 +59,15 @@ void CrystalRouter::split(const Load& from, Load& wanted, Load& others, const Wa
   visit(from, [&](const Head& head, const std::byte* bytes) { add(is_wanted(head) ? wanted : others, head, bytes); });
 }
 
-void CrystalRouter::send(int to, const Load& load) { process().send_internal(to, load.room.data(), load.size); }
+void CrystalRouter::send(int to, const Load& load) { process().send_internal(to, load.buffer.data(), load.size); }
 
 Ticket CrystalRouter::start(int to, const Load& load) {
-  return process().start_internal(to, load.room.data(), load.size);
+  return process().start_internal(to, load.buffer.data(), load.size);
 }
 
 // Behind what is there.
 void CrystalRouter::receive(int from, Load& load) {
-  load.size += process().receive_internal(kCall, from, load.room, load.size);
+  load.size += process().receive_internal(kCall, from, load.buffer, load.size);
 }
 
 void CrystalRouter::by_crystal(const Group& group) {
@@ -130,18 +130,18 @@ bool CrystalRouter::by_network(const Group& group) {
   }
   // By receiver.
   out_.size = sent;
-  if (out_.room.size() < sent) out_.room.resize(sent);
+  if (out_.buffer.size() < sent) out_.buffer.resize(sent);
   std::vector<std::size_t>& places = lengths_;
   for (std::size_t i = 0; i < count; ++i) places[i] = to_[i].offset;
   visit(held_, [&](const Head& head, const std::byte* bytes) {
-    std::byte* place = out_.room.data() + std::exchange(places[static_cast<std::size_t>(head.to)],
+    std::byte* place = out_.buffer.data() + std::exchange(places[static_cast<std::size_t>(head.to)],
                                                         places[static_cast<std::size_t>(head.to)] + head.whole());
     std::memcpy(place, &head, sizeof head);
     if (head.bytes > 0) std::memcpy(place + sizeof head, bytes, head.bytes);
   });
-  if (held_.room.size() < received) held_.room.resize(received);
+  if (held_.buffer.size() < received) held_.buffer.resize(received);
   held_.size = received;
-  return process().all_to_all(out_.room.data(), to_, held_.room.data(), from_);
+  return process().all_to_all(out_.buffer.data(), to_, held_.buffer.data(), from_);
 }
 
 std::span<const Parcel> CrystalRouter::sorted() {
@@ -159,8 +159,8 @@ std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<co
     check(group.first <= parcel.node && parcel.node < group.first + group.count, "a parcel is for a node of the group");
     add(held_, {me, parcel.node, parcel.bytes.size()}, parcel.bytes.data());
   }
-  if (route == Route::automatic && process().collectives() == Collectives::network) route = Route::network;
-  if (route == Route::automatic && process().collectives() == Collectives::cube) route = Route::crystal;
+  if (route == Route::automatic && process().collectives() == CollectiveMethod::network) route = Route::network;
+  if (route == Route::automatic && process().collectives() == CollectiveMethod::cube) route = Route::crystal;
   if (route == Route::automatic && group.count >= kFewNodes) {
     auto most = static_cast<unsigned long>(held_.size), work = 0ul;
     reduce(membership, operation<unsigned long, higher>, &most, 1, &work);

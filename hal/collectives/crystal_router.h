@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/messages/backend.h"
 #include "hal/collectives/group.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 
@@ -40,7 +40,7 @@ class CrystalRouter {
  private:
   // Records one behind the other: each a head and its bytes.
   struct Load {
-    std::vector<std::byte> room;
+    std::vector<std::byte> buffer;
     std::size_t size = 0;
   };
   struct Head;
@@ -61,7 +61,7 @@ class CrystalRouter {
 
   Load held_, next_, out_;
   std::vector<Load> loads_;  // by position
-  std::vector<Stretch> to_, from_;
+  std::vector<ByteRange> to_, from_;
   std::vector<std::size_t> lengths_;
   std::vector<Ticket> tickets_;
   std::vector<Parcel> parcels_;

@@ -2,9 +2,9 @@
 
 #include <bit>
 
-#include "hal/messages/arguments.h"
 #include "hal/failure/failure.h"
-#include "hal/nx/nx_errno.h"
+#include "hal/messages/arguments.h"
+#include "hal/messages/call_failure.h"
 #include "hal/messages/process.h"
 
 namespace mars::hal {
@@ -22,7 +22,7 @@ DimensionExchange::DimensionExchange(const char* call, const Group& group)
   const Backend& backend = process_.backend();
   const int rank = backend.rank();
   if (rank == backend.host())
-    process_.fail(call, EQNODE, "the host takes no part in collectives", "call it on nodes only");
+    process_.fail(call, kNoSuchNode, "the host takes no part in collectives", "call it on nodes only");
   check(0 <= group.first && 0 < group.count && group.first + group.count <= backend.nodes(), "a group lies within the nodes");
   position_ = rank - group.first;
   check(0 <= position_ && position_ < group.count, "a node takes part in its own group");
@@ -58,8 +58,8 @@ void DimensionExchange::check_came(int from, std::size_t came, std::size_t bytes
   if (came == bytes) return;
   const char* remedy = "all nodes call the same collectives in the same order with the same lengths";
   if (came == spoilt_length(bytes))
-    return spoil(EQLEN, std::string("another node's ") + call_ + " failed", remedy);
-  spoil(EQLEN,
+    return spoil(kBadLength, std::string("another node's ") + call_ + " failed", remedy);
+  spoil(kBadLength,
         rank_name(group_.first + from, process_.backend().host()) + " gave " + bytes_text(came) + " where " +
             bytes_text(bytes) + " belong",
         remedy);

@@ -5,7 +5,7 @@
 namespace mars::hal {
 namespace {
 
-// Bytes from which on sharing the work is worth twice the messages: docs/messages.md tells how it was found.
+// Bytes from which on sharing the work is worth twice the messages: docs/messages.md has the measurements.
 constexpr std::size_t kShared = 64 * 1024;
 
 struct Vectors {
@@ -45,16 +45,16 @@ struct Part {
 // Halves across each bit, so that each corner has one part of the result; and back, so that all have all.
 void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::size_t n) {
   const int me = exchange.position();
-  Part whole[32];  // of which a step keeps a half, by step
+  Part whole[32];  // of which a step leaves a half, by step
   whole[0] = {0, n};
   int step = 0;
   for (int bit = 1; bit < exchange.corners(); bit <<= 1, ++step) {
     const bool upper = (me & bit) != 0;
-    const Part keep = whole[step].half(upper), give = whole[step].half(!upper);
-    exchange.swap(me ^ bit, vectors.mine(give.first), vectors.bytes(give.size()), vectors.theirs(keep.first),
-                  vectors.bytes(keep.size()));
-    if (!exchange.spoilt()) vectors.merge(keep.first, keep.size(), !upper);
-    whole[step + 1] = keep;
+    const Part own = whole[step].half(upper), give = whole[step].half(!upper);
+    exchange.swap(me ^ bit, vectors.mine(give.first), vectors.bytes(give.size()), vectors.theirs(own.first),
+                  vectors.bytes(own.size()));
+    if (!exchange.spoilt()) vectors.merge(own.first, own.size(), !upper);
+    whole[step + 1] = own;
   }
   if (exchange.spoilt()) return;  // as all know by now
   for (int bit = exchange.corners() >> 1; bit > 0; bit >>= 1) {
@@ -70,7 +70,7 @@ void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::
 
 bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x, std::size_t n) {
   Process& self = process();
-  if (self.collectives() != Collectives::network || exchange.spoilt()) return false;
+  if (self.collectives() != CollectiveMethod::network || exchange.spoilt()) return false;
   return exchange.count() == self.backend().nodes() && self.reduce(reduction, x, n);
 }
 

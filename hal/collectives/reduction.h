@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "hal/messages/backend.h"
-#include "hal/collectives/group.h"
 #include "hal/collectives/dimension_exchange.h"
+#include "hal/messages/backend.h"
 
 namespace mars::hal {
 

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "topology/memory_limit.h"
+#include "hal/failure/process_limit.h"
 
 namespace mars {
 namespace {
 
 // As a shell takes it, in kB; "": none.
 std::string own_limit() {
-  const topology::ProcessMemory limit = topology::process_limit();
+  const ProcessMemory limit = process_limit();
   if (limit.addresses != 0) return "ulimit -v " + std::to_string(limit.addresses >> 10);
   if (limit.data != 0) return "ulimit -d " + std::to_string(limit.data >> 10);
   return "";

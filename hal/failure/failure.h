@@ -1,4 +1,4 @@
-// How anything that is the user's or the world's fault is told: what went wrong, where, and what to do
+// How anything that is the user's or the world's fault is reported: what went wrong, where, and what to do
 // about it. Caught once, at the top of each program and each thread, which reports it by explain.h. Our own bugs are
 // `check`s, which stay on in a release. Depends on nothing: everything may use it.
 #pragma once

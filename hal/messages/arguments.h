@@ -1,14 +1,13 @@
-// What NX calls may be given, by the rules of nx/nx_messages.h. Each check throws the process's CallFailure.
+// What NX calls may be given, by the rules of nx/nx_messages.h. Each check throws the caller's CallFailure.
 #pragma once
 
 #include <cstddef>
 #include <string>
 
-#include "hal/messages/matching.h"
+#include "hal/messages/caller.h"
+#include "hal/messages/selection.h"
 
 namespace mars::hal {
-
-class Progress;
 
 // Ranks [first, last), without the sender if it is one of several.
 struct Receivers {
@@ -28,15 +27,15 @@ struct Outgoing {
 };
 
 // Where a receive's message goes.
-struct Room {
-  void* buffer;
+struct ReceiveBuffer {
+  void* data;
   std::size_t capacity;
 };
 
-Outgoing check_send(const Progress& process, const char* call, long type, const void* buffer, long length,
+Outgoing check_send(const Caller& caller, const char* call, long type, const void* buffer, long length,
                     long node, long pid);
-Selection check_selection(const Progress& process, const char* call, long typesel, long node, long pid);
-Room check_room(const Progress& process, const char* call, void* buffer, long length);
+Selection check_selection(const Caller& caller, const char* call, long typesel, long node, long pid);
+ReceiveBuffer check_receive_buffer(const Caller& caller, const char* call, void* buffer, long length);
 
 // "1 byte", "7 bytes".
 std::string bytes_text(std::size_t bytes);

@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-#include "hal/messages/shared_memory.h"
+#include "hal/messages/neighbourhood.h"
 
 namespace mars::hal {
 
@@ -23,7 +23,7 @@ struct Envelope {
 };
 
 // Where one node's bytes are in a buffer of all nodes' bytes.
-struct Stretch {
+struct ByteRange {
   std::size_t offset = 0;
   std::size_t length = 0;
 };
@@ -70,20 +70,20 @@ class Backend {
 
   // The next arrived message, if there is one; the same until it is taken.
   virtual std::optional<Envelope> peek() = 0;
-  // Takes the message that peek told of into `buffer`, which is at least its length.
+  // Takes the message that peek returned into `buffer`, which is at least its length.
   virtual void take(void* buffer) = 0;
 
-  // For one who waits for a message of just this type, and to whom peek has nothing to tell: waits some
-  // microseconds and takes it if it comes and fits `room`: true, and `came` is its envelope. Meanwhile other
+  // For one who waits for a message of just this type, and for whom peek has nothing: waits some
+  // microseconds and takes it if it comes and is at most `capacity` long: true, and `came` is its envelope. Meanwhile other
   // messages may be overtaken.
-  virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*room*/, Envelope& /*came*/) { return false; }
+  virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*capacity*/, Envelope& /*came*/) { return false; }
 
   // Collectives of all nodes by the network's own means, where it has them: done when sent(ticket). Buffers stay
-  // untouched and arrays unread by others until then. In place, element by element; and to each node a stretch of
+  // untouched and arrays unread by others until then. In place, element by element; and to each node a range of
   // `out`, from each one of `in`.
   virtual std::optional<Ticket> start_reduce(const Reduction& /*reduction*/, void* /*x*/, std::size_t /*n*/) { return {}; }
-  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const Stretch> /*to*/, void* /*in*/,
-                                                 std::span<const Stretch> /*from*/) {
+  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const ByteRange> /*to*/, void* /*in*/,
+                                                 std::span<const ByteRange> /*from*/) {
     return {};
   }
 
@@ -103,7 +103,7 @@ class Backend {
   // have come here, and no message is on its way to or from this one. Nothing is sent after the first call.
   virtual bool finish() = 0;
 
-  // Ends all ranks at once, telling `reason`. Never waits for any of them.
+  // Ends all ranks at once and prints `reason`. Never waits for any of them.
   [[noreturn]] virtual void abort(const std::string& reason) = 0;
 };
 

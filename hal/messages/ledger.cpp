@@ -1,7 +1,5 @@
 #include "hal/messages/ledger.h"
 
-#include "hal/nx/nx_messages.h"
-
 namespace mars::hal {
 
 std::uint32_t Ledger::sent(const Envelope& to, double begin) {
@@ -23,6 +21,6 @@ void Ledger::waited(const Envelope& came, double begin) {
   if (recorder_ != nullptr) recorder_->message(Event::Kind::waited, begin, came, 0);
 }
 
-double Ledger::begin() const { return recorder_ == nullptr ? 0 : dclock(); }
+double Ledger::begin() const { return recorder_ == nullptr ? 0 : recorder_->now(); }
 
 }  // namespace mars::hal

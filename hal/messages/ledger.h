@@ -1,4 +1,4 @@
-// What one process counts of its messages, and what it tells its recorder (recorder.h), if somebody records it.
+// What one process counts of its messages, and, where somebody records it (recorder.h), the events of them.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hal/messages/backend.h"
-#include "hal/messages/recorder.h"
+#include "hal/messages/events.h"
 
 namespace mars::hal {
 
@@ -35,8 +35,8 @@ class Ledger {
   double begin() const;
 
   const Traffic& traffic() const { return traffic_; }
-  Recorder* recorder() const { return recorder_; }
-  void record(Recorder* recorder) { recorder_ = recorder; }
+  EventBuffer* recorder() const { return recorder_; }
+  void record(EventBuffer* recorder) { recorder_ = recorder; }
 
  private:
   struct Numbers {
@@ -47,7 +47,7 @@ class Ledger {
   int host_;
   std::vector<Numbers> numbers_;  // by rank
   Traffic traffic_;
-  Recorder* recorder_ = nullptr;
+  EventBuffer* recorder_ = nullptr;
 };
 
 }  // namespace mars::hal

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "hal/messages/requests.h"
-
 namespace mars::hal {
 
 // From the end: what is given up was often posted last.

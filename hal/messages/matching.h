@@ -6,23 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/messages/backend.h"
 #include "hal/messages/message_pool.h"
-#include "hal/messages/message_types.h"
+#include "hal/messages/requests.h"
+#include "hal/messages/selection.h"
 
 namespace mars::hal {
-
-struct Request;
-
-// What a receive or probe asks for.
-struct Selection {
-  std::int32_t typesel = -1;
-  int from = -1;  // -1: any rank
-
-  bool selects(const Envelope& envelope) const {
-    return hal::selects(typesel, envelope.type) && (from == -1 || from == envelope.from);
-  }
-};
 
 class Matching {
  public:
@@ -35,7 +23,7 @@ class Matching {
   // Numbers what arrives, for its place among what waits.
   std::uint64_t next_arrival() { return ++arrivals_; }
   // By the message's `arrival`.
-  void keep(Message* message) { waiting_.insert(message); }
+  void queue(Message* message) { waiting_.insert(message); }
   // The first message that waits and is selected, or nullptr.
   Message* find(const Selection& selection) const {
     return waiting_.find([&](const Envelope& envelope) { return selection.selects(envelope); });

@@ -1,5 +1,5 @@
 // Buffers for messages on their way, used again and again so that steady traffic allocates nothing: a
-// pool keeps what it ever allocated, in classes of size 2^k, until it is destroyed. A pool, its lists and its
+// pool retains what it ever allocated, in classes of size 2^k, until it is destroyed. A pool, its lists and its
 // messages belong to one thread at a time.
 #pragma once
 
@@ -13,12 +13,12 @@
 
 namespace mars::hal {
 
-// An envelope with room for its bytes behind it.
+// An envelope, and behind it as many bytes as it says or more.
 struct alignas(64) Message {
   Message* next = nullptr;  // in the list it is in
   Envelope envelope;
   int size_class = 0;
-  std::uint32_t number = 0;   // among all from its sender, where a receiver keeps it
+  std::uint32_t number = 0;   // among all from its sender, where a receiver stores it
   std::uint64_t arrival = 0;  // among all of the receiver's
 
   std::byte* bytes() { return reinterpret_cast<std::byte*>(this + 1); }
@@ -56,7 +56,7 @@ class MessagePool {
   // Has some of every usual size: how many are needed at once varies with timing, and so would come late.
   MessagePool();
 
-  // A message with `envelope` and room for its length; give it back by release. Throws std::bad_alloc.
+  // A message with `envelope` and as many bytes; give it back by release. Throws std::bad_alloc.
   Message* acquire(const Envelope& envelope);
   // Likewise, with a copy of the bytes at `data`.
   Message* copy(const Envelope& envelope, const void* data);

@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "hal/messages/call_failure.h"
-#include "hal/nx/cfs.h"
-#include "hal/nx/nx_errno.h"
 
 namespace mars::hal {
 namespace {
@@ -42,17 +40,10 @@ Process::~Process() { bound_process = nullptr; }
 
 void Process::serve_this_thread() { bound_process = this; }
 
-Files& Process::files() {
-  if (!files_) files_ = std::make_unique<Files>(*this);
-  return *files_;
-}
-
-void Process::end_files() { files_.reset(); }
-
 Request& Process::known_request(const char* call, long mid) {
   Request* request = requests_.find(mid);
   if (request == nullptr) {
-    fail(call, EQMID, "there is no message id " + std::to_string(mid),
+    fail(call, kNoSuchId, "there is no message id " + std::to_string(mid),
          "an id is free after its msgwait, its msgcancel, or its msgdone that was 1");
   }
   return *request;
@@ -66,22 +57,22 @@ void Process::csend(long type, const void* buffer, long length, long node, long 
 
 void Process::crecv(long typesel, void* buffer, long length) {
   const Selection selection = check_selection(*this, "crecv", typesel, -1, -1);
-  receive_now("crecv", selection, check_room(*this, "crecv", buffer, length), nullptr);
+  receive_now("crecv", selection, check_receive_buffer(*this, "crecv", buffer, length), nullptr);
 }
 
 void Process::crecvx(long typesel, void* buffer, long length, long node, long pid, long* info) {
   const Selection selection = check_selection(*this, "crecvx", typesel, node, pid);
-  receive_now("crecvx", selection, check_room(*this, "crecvx", buffer, length), info);
+  receive_now("crecvx", selection, check_receive_buffer(*this, "crecvx", buffer, length), info);
 }
 
 long Process::csendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
                         long in_length) {
   const Outgoing message = check_send(*this, "csendrecv", type, out, out_length, node, pid);
   const Selection selection = check_selection(*this, "csendrecv", typesel, -1, -1);
-  const Room room = check_room(*this, "csendrecv", in, in_length);
+  const ReceiveBuffer into = check_receive_buffer(*this, "csendrecv", in, in_length);
   attend();
   Request& answer = checked("csendrecv", requests_.acquire("csendrecv"));
-  start_receive(selection, room, answer);
+  start_receive(selection, into, answer);
   try {
     send_now("csendrecv", message);
   } catch (...) {
@@ -102,27 +93,27 @@ long Process::isend(long type, const void* buffer, long length, long node, long 
 
 long Process::irecv(long typesel, void* buffer, long length) {
   const Selection selection = check_selection(*this, "irecv", typesel, -1, -1);
-  const Room room = check_room(*this, "irecv", buffer, length);
+  const ReceiveBuffer into = check_receive_buffer(*this, "irecv", buffer, length);
   attend();
   Request& request = checked("irecv", requests_.acquire_id("irecv"));
-  start_receive(selection, room, request);
+  start_receive(selection, into, request);
   return request.mid();
 }
 
 long Process::irecvx(long typesel, void* buffer, long length, long node, long pid, long* info) {
   const Selection selection = check_selection(*this, "irecvx", typesel, node, pid);
-  const Room room = check_room(*this, "irecvx", buffer, length);
+  const ReceiveBuffer into = check_receive_buffer(*this, "irecvx", buffer, length);
   attend();
   Request& request = checked("irecvx", requests_.acquire_id("irecvx"));
   request.info = info;
-  start_receive(selection, room, request);
+  start_receive(selection, into, request);
   return request.mid();
 }
 
 // One request for both, done when both are.
-void Process::start_exchange(const Outgoing& message, const Selection& selection, const Room& room,
+void Process::start_exchange(const Outgoing& message, const Selection& selection, const ReceiveBuffer& into,
                              Request& answer) {
-  start_receive(selection, room, answer);
+  start_receive(selection, into, answer);
   try {
     Request& sending = checked(answer.call, requests_.acquire(answer.call));
     start_send(message, sending);
@@ -137,10 +128,10 @@ long Process::isendrecv(long type, const void* out, long out_length, long node, 
                         long in_length) {
   const Outgoing message = check_send(*this, "isendrecv", type, out, out_length, node, pid);
   const Selection selection = check_selection(*this, "isendrecv", typesel, -1, -1);
-  const Room room = check_room(*this, "isendrecv", in, in_length);
+  const ReceiveBuffer into = check_receive_buffer(*this, "isendrecv", in, in_length);
   attend();
   Request& answer = checked("isendrecv", requests_.acquire_id("isendrecv"));
-  start_exchange(message, selection, room, answer);
+  start_exchange(message, selection, into, answer);
   return answer.mid();
 }
 
@@ -169,7 +160,7 @@ long Process::msgmerge(long mid1, long mid2) {
   if (mid1 == -1 || mid2 == -1) return mid1 == -1 ? mid2 : mid1;
   Request* last = &known_request("msgmerge", mid1);
   Request& second = known_request("msgmerge", mid2);
-  if (last == &second) fail("msgmerge", EQMID, "both message ids are " + std::to_string(mid1), "give two");
+  if (last == &second) fail("msgmerge", kNoSuchId, "both message ids are " + std::to_string(mid1), "give two");
   while (last->also != nullptr) last = last->also;
   last->also = &second;
   requests_.forget_id(second);
@@ -222,9 +213,9 @@ void Process::hrecv(long typesel, void* buffer, long length, long node, long pid
   const char* call = handler.extended != nullptr ? "hrecvx" : "hrecv";
   check_handler(call, handler);
   const Selection selection = check_selection(*this, call, typesel, node, pid);
-  const Room room = check_room(*this, call, buffer, length);
+  const ReceiveBuffer into = check_receive_buffer(*this, call, buffer, length);
   Request& request = checked(call, requests_.acquire(call));
-  start_receive(selection, room, request);
+  start_receive(selection, into, request);
   leave_to(handler, request);
 }
 
@@ -233,15 +224,15 @@ void Process::hsendrecv(long type, const void* out, long out_length, long node, 
   check_handler("hsendrecv", handler);
   const Outgoing message = check_send(*this, "hsendrecv", type, out, out_length, node, pid);
   const Selection selection = check_selection(*this, "hsendrecv", typesel, -1, -1);
-  const Room room = check_room(*this, "hsendrecv", in, in_length);
+  const ReceiveBuffer into = check_receive_buffer(*this, "hsendrecv", in, in_length);
   Request& answer = checked("hsendrecv", requests_.acquire("hsendrecv"));
-  start_exchange(message, selection, room, answer);
+  start_exchange(message, selection, into, answer);
   leave_to(handler, answer);
 }
 
 void Process::check_handler(const char* call, const Handler& handler) const {
   if (handler) return;
-  fail(call, EQPBUF, "the handler is a null pointer", "give a function");
+  fail(call, kNullBuffer, "the handler is a null pointer", "give a function");
 }
 
 bool Process::masktrap(bool masked) {
@@ -256,7 +247,7 @@ void Process::flick() {
 }
 
 // Only who is strict compares counts with others. What the program before has sent is counted as its own.
-void Process::meet_anew(int rank) {
+void Process::reset_peer(int rank) {
   if (!rendezvous_.strict()) return;
   while (arrive()) {
   }
@@ -272,13 +263,13 @@ void Process::send_internal(int to, const void* data, std::size_t length) {
 }
 
 // Returns how many bytes came; where they are too many, their message is then `too_long`.
-std::size_t Process::receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long) {
+std::size_t Process::receive_internal(const char* call, const Selection& selection, const ReceiveBuffer& into, Message*& too_long) {
   const Envelope before = info_;
   try {
-    receive_now(call, selection, room, nullptr);
+    receive_now(call, selection, into, nullptr);
   } catch (const CallFailure& failure) {
     too_long = matching_.find(selection);
-    if (failure.code != EQMSGLONG || too_long == nullptr) throw;
+    if (failure.code != kMessageTooLong || too_long == nullptr) throw;
     info_ = too_long->envelope;
   }
   const std::size_t came = info_.length;
@@ -296,13 +287,13 @@ std::size_t Process::receive_internal(const char* call, int from, void* data, st
   return came;
 }
 
-std::size_t Process::receive_internal(const char* call, int from, std::vector<std::byte>& room, std::size_t at) {
+std::size_t Process::receive_internal(const char* call, int from, std::vector<std::byte>& buffer, std::size_t at) {
   Message* too_long = nullptr;
   const Selection selection{kFirstInternalType + from, from};
-  const std::size_t came = receive_internal(call, selection, {room.data() + at, room.size() - at}, too_long);
+  const std::size_t came = receive_internal(call, selection, {buffer.data() + at, buffer.size() - at}, too_long);
   if (too_long != nullptr) {
-    room.resize(at + 2 * came);
-    receive_internal(call, from, room.data() + at, came);
+    buffer.resize(at + 2 * came);
+    receive_internal(call, from, buffer.data() + at, came);
   }
   return came;
 }
@@ -321,7 +312,7 @@ bool Process::reduce(const Reduction& reduction, void* x, std::size_t n) {
   return ticket.has_value();
 }
 
-bool Process::all_to_all(const void* out, std::span<const Stretch> to, void* in, std::span<const Stretch> from) {
+bool Process::all_to_all(const void* out, std::span<const ByteRange> to, void* in, std::span<const ByteRange> from) {
   const std::optional<Ticket> ticket = backend_.start_all_to_all(out, to, in, from);
   if (ticket) wait_sent(*ticket);
   return ticket.has_value();

@@ -1,4 +1,4 @@
-// One rank's message passing: the semantics of NX (nx/) over any backend. A process belongs to the thread
+// One rank's message passing: the semantics of NX (hal/nx/) over any backend. A process belongs to the thread
 // that made it, and the NX calls of that thread are calls on it; so ranks may be threads or processes. All
 // progress happens inside calls: a message waits in the backend until a call looks, and then goes straight
 // into the buffer of the receive that it matches, or into the queue of messages that wait. Once warm, nothing
@@ -10,15 +10,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "hal/messages/collectives.h"
+#include "hal/messages/collective_method.h"
 #include "hal/messages/progress.h"
 
 namespace mars::hal {
-
-class Files;
 
 class Process : public Progress {
  public:
@@ -65,50 +63,54 @@ class Process : public Progress {
   void serve_this_thread();
 
   // Sends of more than 100 bytes are done only when received: rendezvous.h. Before the first message.
-  void be_strict(std::chrono::milliseconds patience) { rendezvous_.be_strict(patience); }
+  void set_strict(std::chrono::milliseconds patience) { rendezvous_.set_strict(patience); }
 
   // Another program is about to run as `rank`, and counts its messages from the first.
-  void meet_anew(int rank);
+  void reset_peer(int rank);
 
   // For collectives, which are named `call`: one internal message from node to node. How many bytes came is
   // returned; more than `length` are thrown away.
   void send_internal(int to, const void* data, std::size_t length);
   std::size_t receive_internal(const char* call, int from, void* data, std::size_t length);
-  // Likewise, behind the first `at` bytes of `room`, which grows as needed.
-  std::size_t receive_internal(const char* call, int from, std::vector<std::byte>& room, std::size_t at);
+  // Likewise, behind the first `at` bytes of `buffer`, which grows as needed.
+  std::size_t receive_internal(const char* call, int from, std::vector<std::byte>& buffer, std::size_t at);
   // As send_internal, but `data` stays untouched until wait_sent.
   Ticket start_internal(int to, const void* data, std::size_t length);
   using Progress::wait_sent;
 
   // What the collectives of this process use; the same on all nodes.
-  void collectives_by(Collectives means) { collectives_ = means; }
-  Collectives collectives() const { return collectives_; }
+  void set_collectives(CollectiveMethod method) { collectives_ = method; }
+  CollectiveMethod collectives() const { return collectives_; }
 
   // By the network's own means, see backend.h; false where it has none.
   bool reduce(const Reduction& reduction, void* x, std::size_t n);
-  bool all_to_all(const void* out, std::span<const Stretch> to, void* in, std::span<const Stretch> from);
+  bool all_to_all(const void* out, std::span<const ByteRange> to, void* in, std::span<const ByteRange> from);
 
   // The orderly end: waits for all ranks, throws away what nobody received.
   void finish();
 
-  // Made with the first call for them (files.h); their end is that of all transfers.
-  Files& files();
-  void end_files();
+  // What a layer above has for this process alone. It ends with the process, or when another takes its place.
+  class Extension {
+   public:
+    virtual ~Extension() = default;
+  };
+  Extension* extension() const { return extension_.get(); }
+  void extend(std::unique_ptr<Extension> extension) { extension_ = std::move(extension); }
 
   const Traffic& traffic() const { return ledger_.traffic(); }
 
   // Whoever records this process, or nullptr; set by the Recorder.
-  Recorder* recorder() const { return ledger_.recorder(); }
-  void record(Recorder* recorder) { ledger_.record(recorder); }
+  EventBuffer* recorder() const { return ledger_.recorder(); }
+  void record(EventBuffer* recorder) { ledger_.record(recorder); }
 
  private:
-  void start_exchange(const Outgoing& message, const Selection& selection, const Room& room, Request& answer);
+  void start_exchange(const Outgoing& message, const Selection& selection, const ReceiveBuffer& into, Request& answer);
   Request& known_request(const char* call, long mid);
   void check_handler(const char* call, const Handler& handler) const;
-  std::size_t receive_internal(const char* call, const Selection& selection, const Room& room, Message*& too_long);
+  std::size_t receive_internal(const char* call, const Selection& selection, const ReceiveBuffer& into, Message*& too_long);
 
-  Collectives collectives_ = Collectives::automatic;
-  std::unique_ptr<Files> files_;
+  CollectiveMethod collectives_ = CollectiveMethod::automatic;
+  std::unique_ptr<Extension> extension_;
   bool led_ = false;
 };
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "hal/messages/call_failure.h"
-#include "hal/nx/nx_errno.h"
 
 namespace mars::hal {
 namespace {
@@ -20,41 +19,33 @@ void describe(const Envelope& envelope, long* info) {
 
 }  // namespace
 
-std::string rank_name(int rank, int host) {
-  return rank == host ? "the host" : "node " + std::to_string(rank);
-}
-
 Progress::Progress(Backend& backend)
-    : backend_(backend), acknowledgement_(kFirstInternalType + backend.nodes()), ledger_(backend.host()) {}
-
-void Progress::fail(const char* call, int code, const std::string& what, const std::string& remedy) const {
-  throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
-}
+    : Caller(backend), acknowledgement_(kFirstInternalType + backend.nodes()), ledger_(backend.host()) {}
 
 Request& Progress::checked(const char* call, Request* request) const {
   if (request == nullptr) {
-    fail(call, EQNOMID, "all " + std::to_string(kMessageIds) + " message ids are in use",
+    fail(call, kNoFreeId, "all " + std::to_string(kMessageIds) + " message ids are in use",
          "free them by msgwait, or msgdone until it is 1");
   }
   return *request;
 }
 
-void Progress::receive_now(const char* call, const Selection& selection, const Room& room, long* info) {
+void Progress::receive_now(const char* call, const Selection& selection, const ReceiveBuffer& into, long* info) {
   attend();
-  if (receive_soon(selection, room, info)) return;
+  if (receive_soon(selection, into, info)) return;
   Request& request = checked(call, requests_.acquire(call));
   request.info = info;
-  start_receive(selection, room, request);
+  start_receive(selection, into, request);
   wait_or_cancel(request);
 }
 
 // The quick way, where nobody can tell that other messages are overtaken.
-bool Progress::receive_soon(const Selection& selection, const Room& room, long* info) {
+bool Progress::receive_soon(const Selection& selection, const ReceiveBuffer& into, long* info) {
   if (selection.typesel < 0 || type_class(selection.typesel) == TypeClass::force) return false;
   if (!matching_.none_posted() || matching_.find(selection) != nullptr) return false;
   if (selection.from != -1 && type_class(selection.typesel) == TypeClass::ordinary) return false;
   if (ledger_.recorder() != nullptr || rendezvous_.strict()) return false;
-  if (!backend_.receive_soon(selection.typesel, room.buffer, room.capacity, info_)) return false;
+  if (!backend_.receive_soon(selection.typesel, into.data, into.capacity, info_)) return false;
   overtaken_ = true;
   ledger_.taken(info_, 0);
   describe(info_, info);
@@ -72,15 +63,15 @@ void Progress::settle_overtaken() {
 }
 
 // Done at once if its message is here already.
-void Progress::start_receive(const Selection& selection, const Room& room, Request& request) {
+void Progress::start_receive(const Selection& selection, const ReceiveBuffer& into, Request& request) {
   if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) settle_overtaken();
   request.selection = selection;
-  request.buffer = room.buffer;
-  request.capacity = room.capacity;
+  request.buffer = into.data;
+  request.capacity = into.capacity;
   request.state = Request::State::receiving;
   Message* message = matching_.find(selection);
   if (message == nullptr) return matching_.post(request);
-  if (message->envelope.length > room.capacity) return mark_too_long(request, message->envelope);
+  if (message->envelope.length > into.capacity) return mark_too_long(request, message->envelope);
   matching_.remove(message);
   deliver(message, request);
 }
@@ -92,7 +83,7 @@ void Progress::mark_too_long(Request& request, const Envelope& envelope) {
 }
 
 void Progress::fail_too_long(const Request& request) const {
-  fail(request.call, EQMSGLONG,
+  fail(request.call, kMessageTooLong,
        "a message of " + bytes_text(request.envelope.length) + ", type " +
            std::to_string(request.envelope.type) + ", from " +
            rank_name(request.envelope.from, backend_.host()) + " does not fit a receive of " +
@@ -120,12 +111,12 @@ bool Progress::done_alone(Request& request) {
 
 void Progress::wait(Request& head) try {
   const double begin = ledger_.begin();
-  rendezvous_.news();
+  rendezvous_.end_silence();
   bool idle = false;
   for (int turn = 0; !done(head);) {
     if (pass(turn)) continue;
     idle = true;
-    if (rendezvous_.strict()) rendezvous_.tell_silence(*this, head);
+    if (rendezvous_.strict()) rendezvous_.report_silence(*this, head);
   }
   if (idle) {
     ledger_.waited(head.state == Request::State::received ? head.envelope : Envelope{-1, -1, 0}, begin);
@@ -135,7 +126,7 @@ void Progress::wait(Request& head) try {
   throw;
 } catch (...) {
   // Whoever ends a job that stands still does not know who waits for whom.
-  if (rendezvous_.strict() && head.state != Request::State::free) rendezvous_.tell_wait(*this, head);
+  if (rendezvous_.strict() && head.state != Request::State::free) rendezvous_.report_wait(*this, head);
   throw;
 }
 
@@ -161,12 +152,12 @@ bool Progress::pass(int& turn) {
 // Ends a done request and those merged with it. Its info is that of its first receive.
 void Progress::conclude(Request& head) {
   const Request* failed = nullptr;
-  const Request* told = nullptr;
+  bool any_received = false;
   for (const Request* each = &head; each != nullptr; each = each->also) {
     if (each->state == Request::State::too_long) failed = each;
     if (each->state != Request::State::received) continue;
-    if (told == nullptr) info_ = each->envelope;
-    told = each;
+    if (!any_received) info_ = each->envelope;
+    any_received = true;
     describe(each->envelope, each->info);
   }
   if (failed == nullptr) return release(head);
@@ -204,7 +195,7 @@ void Progress::give_back(const Request& request) {
   } else if (type_class(message->envelope.type) == TypeClass::force) {
     pool_.release(message);
   } else {
-    matching_.keep(message);
+    matching_.queue(message);
   }
 }
 
@@ -238,14 +229,14 @@ void Progress::call_handler(Request& head) {
   if (!handler) return release(head);
   const Envelope before = info_;
   conclude(head);
-  const Handlers::Running running(handlers_);
+  const HandlerQueue::Running running(handlers_);
   handler(envelope);
   info_ = before;
 }
 
 void Progress::probe(const char* call, const Selection& selection, long* info) {
   if (selection.typesel >= 0 && type_class(selection.typesel) == TypeClass::force) {
-    fail(call, EQTYPE, "no force message ever waits to be found", "post a receive for it");
+    fail(call, kBadType, "no force message ever waits to be found", "post a receive for it");
   }
   Request waiting;
   waiting.call = call;
@@ -253,12 +244,12 @@ void Progress::probe(const char* call, const Selection& selection, long* info) {
   waiting.selection = selection;
   attend();
   const double begin = ledger_.begin();
-  rendezvous_.news();
+  rendezvous_.end_silence();
   int turn = 0;
   while (!look(selection)) {
     if (handlers_.any() && call_handlers()) continue;
     backend_.idle(turn++, kSleep);
-    if (rendezvous_.strict()) rendezvous_.tell_silence(*this, waiting);
+    if (rendezvous_.strict()) rendezvous_.report_silence(*this, waiting);
   }
   if (turn > 0) ledger_.waited(info_, begin);
   describe(info_, info);
@@ -271,15 +262,15 @@ bool Progress::probe_once(const Selection& selection, long* info) {
   return true;
 }
 
-bool Progress::tell_of(const Message* message) {
+bool Progress::found(const Message* message) {
   if (message != nullptr) info_ = message->envelope;
   return message != nullptr;
 }
 
 // Leaves a message that it finds in the backend, so that the receive after a probe takes it from there.
 bool Progress::look(const Selection& selection) {
-  if (tell_of(matching_.find(selection))) return true;
-  // One look a turn: what arrived between two would be kept, and then be received before what was told of.
+  if (found(matching_.find(selection))) return true;
+  // One look a turn: what arrived between two would be stored, and then be received before what was found.
   bool settled = false;
   while (const std::optional<Envelope> next = backend_.peek()) {
     if (selection.selects(*next) && type_class(next->type) == TypeClass::ordinary &&
@@ -291,7 +282,7 @@ bool Progress::look(const Selection& selection) {
     settle(*next);
     settled = true;
   }
-  return settled && tell_of(matching_.find(selection));
+  return settled && found(matching_.find(selection));
 }
 
 // Takes the next arrived message to where it belongs; false if there is none.
@@ -303,7 +294,7 @@ bool Progress::arrive() {
 
 void Progress::settle(const Envelope& next) {
   quiet_turns_ = 0;
-  rendezvous_.news();
+  rendezvous_.end_silence();
   if (next.type == acknowledgement_) {
     std::uint32_t number = 0;
     take(next, &number);
@@ -313,7 +304,7 @@ void Progress::settle(const Envelope& next) {
   } else if (type_class(next.type) == TypeClass::force) {
     discard(next);
   } else {
-    keep(next);
+    store(next);
   }
 }
 
@@ -347,11 +338,11 @@ void Progress::deliver(Message* message, Request& request) {
   acknowledge(request.envelope, request.number);
 }
 
-void Progress::keep(const Envelope& envelope) {
+void Progress::store(const Envelope& envelope) {
   Message* message = pool_.acquire(envelope);
   message->number = take(envelope, message->bytes());
   message->arrival = matching_.next_arrival();
-  matching_.keep(message);
+  matching_.queue(message);
 }
 
 void Progress::discard(const Envelope& envelope) {

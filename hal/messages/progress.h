@@ -4,11 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
 #include "hal/messages/arguments.h"
 #include "hal/messages/backend.h"
-#include "hal/messages/handlers.h"
+#include "hal/messages/caller.h"
+#include "hal/messages/handler_queue.h"
 #include "hal/messages/ledger.h"
 #include "hal/messages/matching.h"
 #include "hal/messages/message_pool.h"
@@ -17,20 +17,12 @@
 
 namespace mars::hal {
 
-class Progress {
+class Progress : public Caller {
  public:
-  // `backend` outlives it.
   explicit Progress(Backend& backend);
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   // Calls the handlers that are due; what else has arrived goes where it belongs.
   void attend();
-
-  // Throws this process's CallFailure: "node 3, csend: ..."; `code` is one of nx_errno.h.
-  [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) const;
-
-  Backend& backend() const { return backend_; }
 
  protected:
   ~Progress() = default;
@@ -40,10 +32,10 @@ class Progress {
   void send_copies(const Outgoing& message, Request* strict);
   void wait_sent(Ticket ticket);
   void start_send(const Outgoing& message, Request& request);
-  void receive_now(const char* call, const Selection& selection, const Room& room, long* info);
-  bool receive_soon(const Selection& selection, const Room& room, long* info);
+  void receive_now(const char* call, const Selection& selection, const ReceiveBuffer& into, long* info);
+  bool receive_soon(const Selection& selection, const ReceiveBuffer& into, long* info);
   void settle_overtaken();
-  void start_receive(const Selection& selection, const Room& room, Request& request);
+  void start_receive(const Selection& selection, const ReceiveBuffer& into, Request& request);
   void probe(const char* call, const Selection& selection, long* info);
   bool probe_once(const Selection& selection, long* info);
 
@@ -67,31 +59,27 @@ class Progress {
 
   // What has arrived.
   bool look(const Selection& selection);
-  bool tell_of(const Message* message);
+  bool found(const Message* message);
   bool arrive();
   void settle(const Envelope& next);
   Request* claim(const Envelope& envelope);
   void receive_into(Request& request, const Envelope& envelope);
   void deliver(Message* message, Request& request);
-  void keep(const Envelope& envelope);
+  void store(const Envelope& envelope);
   void discard(const Envelope& envelope);
   std::uint32_t take(const Envelope& envelope, void* buffer);
   void acknowledge(const Envelope& envelope, std::uint32_t number);
 
-  Backend& backend_;
   const int acknowledgement_;  // the type of internal messages that say: received
   MessagePool pool_;
   Matching matching_;
   RequestTable requests_;
-  Handlers handlers_;
+  HandlerQueue handlers_;
   Rendezvous rendezvous_;
   Envelope info_;
   Ledger ledger_;
   bool overtaken_ = false;  // messages may wait that came before one that was received
   int quiet_turns_ = 0;  // flicks since anything arrived
 };
-
-// "node 3" or "the host".
-std::string rank_name(int rank, int host);
 
 }  // namespace mars::hal

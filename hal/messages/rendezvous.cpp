@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hal/messages/arguments.h"
-#include "hal/messages/progress.h"
 
 namespace mars::hal {
 
@@ -29,11 +28,11 @@ void Rendezvous::forget(const Request& request) {
 
 void Rendezvous::begin_silence() {
   quiet_since_ = std::chrono::steady_clock::now();
-  told_ = false;
+  reported_ = false;
 }
 
-std::string Rendezvous::awaited(const Progress& process, const Request& request) const {
-  const auto name = [&](int rank) { return rank_name(rank, process.backend().host()); };
+std::string Rendezvous::awaited(const Caller& caller, const Request& request) const {
+  const auto name = [&](int rank) { return rank_name(rank, caller.backend().host()); };
   const int type = request.selection.typesel;
   if (request.state == Request::State::receiving) {
     if (type >= kFirstInternalType && type_class(type) == TypeClass::reserved)
@@ -47,16 +46,16 @@ std::string Rendezvous::awaited(const Progress& process, const Request& request)
          std::to_string(request.envelope.type);
 }
 
-void Rendezvous::tell_silence(const Progress& process, const Request& request) {
-  if (std::chrono::steady_clock::now() - quiet_since_ >= *patience_) tell_wait(process, request);
+void Rendezvous::report_silence(const Caller& caller, const Request& request) {
+  if (std::chrono::steady_clock::now() - quiet_since_ >= *patience_) report_wait(caller, request);
 }
 
-void Rendezvous::tell_wait(const Progress& process, const Request& request) {
-  if (std::exchange(told_, true)) return;
+void Rendezvous::report_wait(const Caller& caller, const Request& request) {
+  if (std::exchange(reported_, true)) return;
   const std::chrono::duration<double> silence = std::chrono::steady_clock::now() - quiet_since_;
-  const std::string me = rank_name(process.backend().rank(), process.backend().host());
+  const std::string me = rank_name(caller.backend().rank(), caller.backend().host());
   std::fprintf(stderr, "%s has waited %.1f s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
-               me.c_str(), silence.count(), request.call, awaited(process, request).c_str(), kBuffered);
+               me.c_str(), silence.count(), request.call, awaited(caller, request).c_str(), kBuffered);
 }
 
 }  // namespace mars::hal

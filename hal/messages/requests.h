@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hal/messages/backend.h"
-#include "hal/messages/handlers.h"
-#include "hal/messages/matching.h"
+#include "hal/messages/handler.h"
+#include "hal/messages/selection.h"
 
 namespace mars::hal {
 

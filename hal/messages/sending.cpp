@@ -46,7 +46,7 @@ void Progress::start_send(const Outgoing& message, Request& request) try {
   throw;
 }
 
-// Tells a strict sender that its message has been received.
+// Informs a strict sender that its message has been received.
 void Progress::acknowledge(const Envelope& envelope, std::uint32_t number) {
   if (!rendezvous_.concerns(envelope.type, envelope.length)) return;
   const double begin = ledger_.begin();

@@ -26,7 +26,7 @@ constexpr std::array<Setting, 7> kTable = {{
      "it is where its program is another than the others'"},
     {"MARS_NX_MEMORY", "MiB that messages under way between processes of mars-nx may take",
      "half of the machine's memory"},
-    {"MARS_NX_STRICT", "yes or no: NX messages over 100 bytes are not buffered; long waits are told",
+    {"MARS_NX_STRICT", "yes or no: NX messages over 100 bytes are not buffered; long waits are reported",
      "all messages are buffered"},
     {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512",
      "the widest the processor has"},
@@ -60,10 +60,10 @@ std::string parse_simd(const std::string& text) {
                 "set it to sse2, sse4, avx2 or avx512, or unset it");
 }
 
-Collectives parse_collectives(const std::string& text) {
-  if (text == "cube") return Collectives::cube;
-  if (text == "mpi") return Collectives::network;
-  if (text == "auto") return Collectives::automatic;
+CollectiveMethod parse_collectives(const std::string& text) {
+  if (text == "cube") return CollectiveMethod::cube;
+  if (text == "mpi") return CollectiveMethod::network;
+  if (text == "auto") return CollectiveMethod::automatic;
   throw Failure("\"" + text + "\" is no way of global operations", "environment variable MARS_NX_COLLECTIVES",
                 "set it to cube, mpi or auto, or unset it");
 }

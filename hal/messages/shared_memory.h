@@ -6,25 +6,17 @@
 #include <memory>
 #include <span>
 
-namespace mars::hal {
+#include "hal/messages/neighbourhood.h"
 
-// The nodes of this node's machine.
-struct Neighbourhood {
-  int machine = 0;      // lowest node id on it
-  int index = 0;        // of this node among them, in order of node id
-  int count = 1;        // of them
-  int rank = 0;         // of this node for whoever started it (MPI's)
-  bool placed = false;  // whoever started them gave them processors of their own: do not bind them again
-};
+namespace mars::hal {
 
 // Of the calling node.
 Neighbourhood neighbourhood();
 
 // `bytes` bytes (aligned to 64, with anything in them) that all nodes of one machine see; the machine gives pages as
-// they are first touched. Making and destroying one are
-// collective: all nodes of the machine do it at the same point of their work, with the same `bytes`. Who
-// writes what, and when others may read it, is the users' affair (messages and gsync order it). Throws a Failure on all
-// of them when the machine cannot give that much.
+// they are first touched. Making and destroying one are collective: all nodes of the machine do it at the same point
+// of their work, with the same `bytes`. Who writes what, and when others may read it, is the users' affair (messages and
+// gsync order it). Throws a Failure on all of them when the machine cannot give that much.
 class SharedMemory {
  public:
   explicit SharedMemory(std::size_t bytes);

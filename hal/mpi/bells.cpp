@@ -26,8 +26,8 @@ Bells::Bells(MPI_Comm here, MPI_Comm all) {
   int unit = 0;
   succeed(MPI_Win_shared_query(window_, 0, &size, &unit, &block), "MPI_Win_shared_query");
   // Mapped at pages, so that every rank skips the same few bytes.
-  std::size_t room = static_cast<std::size_t>(size);
-  std::align(alignof(Bell), count * sizeof(Bell), block, room);
+  std::size_t left = static_cast<std::size_t>(size);
+  std::align(alignof(Bell), count * sizeof(Bell), block, left);
   Bell* bells = static_cast<Bell*>(block);  // by rank in `here`
   mine_ = new (bells + index) Bell{};
 

@@ -34,7 +34,7 @@ class Bells {
   // looked since it armed the bell.
   void sleep(std::chrono::microseconds longest);
 
-  // Tells that this rank waits for a message of `type` and nothing else; kNothing: for none.
+  // Says that this rank waits for a message of `type` and nothing else; kNothing: for none.
   static constexpr std::int32_t kNothing = -1;
   void await(std::int32_t type);
   // True once for one sender, where rank `id` awaits just this type: its message is received at once.

@@ -1,4 +1,4 @@
-// What the ranks of a job of C programs tell each other beside their messages: that a node may begin, that one
+// What the ranks of a job of C programs send each other beside their messages: that a node may begin, that one
 // has ended, that one is to end, and whether anything still moves when one has ended with an error.
 #pragma once
 
@@ -20,7 +20,7 @@ class Control {
   Control(const Control&) = delete;
   Control& operator=(const Control&) = delete;
 
-  void tell_end(int host, int code) { send(host, {Note::ended, code, 0}); }
+  void report_end(int host, int code) { send(host, {Note::ended, code, 0}); }
   void kill(int id) { send(id, {Note::kill, 0, 0}); }
   // The one word to each node that waits to begin: whether it does.
   void start(int id, bool begins) { send(id, {Note::start, begins, 0}); }
@@ -30,9 +30,9 @@ class Control {
   void look(bool waits, std::uint64_t taken);
 
   bool killed() const { return killed_; }
-  // Whether this node begins, once it has been told.
+  // Whether this node begins, once that is known.
   std::optional<bool> begins() const { return begins_; }
-  // With which code a node has ended, once it has told.
+  // With which code a node has ended, once it has reported that.
   std::optional<int> ended(int id) const { return ended_[static_cast<std::size_t>(id)]; }
 
   // From now on asks, with each look, whether anything still moves; true when nothing has for some seconds.

@@ -18,11 +18,11 @@
 #include <mpi.h>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/mpi/control.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
-#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {
@@ -51,7 +51,7 @@ void wait(MPI_Request& request) {
 
 class MpiWorld;
 
-// The messages of a rank that also looks for what the job has to tell it. The host's first message is when nodes
+// The messages of a rank that also looks for what the job has for it. The host's first message is when nodes
 // begin at the latest.
 class JoinedBackend : public MpiBackend {
  public:
@@ -89,7 +89,7 @@ class MpiWorld final : public World {
   Status status(int node) override;
   void wait_for_end() override;
 
-  // Takes in what the job has to tell; does not return where this rank is to end.
+  // Takes in what the job has for this rank; does not return where this rank is to end.
   void look(bool waits);
 
  private:
@@ -293,7 +293,7 @@ void MpiWorld::leave(int code) {
     backend();
     if (is_host()) dismiss();
     left_ = code;
-    if (has_host_ && !is_host()) control_->tell_end(backend_->host(), code);
+    if (has_host_ && !is_host()) control_->report_end(backend_->host(), code);
     if (code > 0) control_->watch();
     process().finish();
   }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "hal/nx/world.h"
+#include "hal/messages/world.h"
 
 namespace mars::hal {
 

@@ -39,7 +39,7 @@ Affinity affinity(MPI_Comm comm) {
   return all;
 }
 
-// MPI tells it of MPI_COMM_WORLD only.
+// MPI knows it of MPI_COMM_WORLD only.
 int highest_tag() {
   int* highest = nullptr;
   int known = 0;
@@ -86,6 +86,7 @@ MpiBackend::MpiBackend(int host_rank, MPI_Comm ranks) : all_(ranks_by_id(host_ra
   rank_ = rank_in(all_);
   wide_tag_ = highest_tag();
   last_tag_ = wide_tag_ - 2 - nodes_;
+  longest_plain_ = INT_MAX - sizeof(std::int32_t);  // for a type may follow
   sent_to_.resize(nodes_ + 1);
   pending_.reserve(kUsuallyPending);
   look_around();
@@ -145,19 +146,19 @@ void MpiBackend::check_shared_space(std::size_t bytes) {
 std::shared_ptr<std::byte> MpiBackend::share(std::size_t bytes) {
   check(rank_ != host(), "the host takes no part in shared memory");
   meet_neighbours();
-  const std::size_t room = bytes + kAlignment;
-  check_shared_space(room);
+  const std::size_t whole = bytes + kAlignment;
+  check_shared_space(whole);
   MPI_Win window = MPI_WIN_NULL;
   void* block = nullptr;
   const bool leads = neighbourhood_.index == 0;
-  succeed(MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(room) : 0, 1, MPI_INFO_NULL, machine_, &block,
+  succeed(MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(whole) : 0, 1, MPI_INFO_NULL, machine_, &block,
                                   &window),
           "MPI_Win_allocate_shared");
   MPI_Aint size = 0;
   int unit = 0;
   succeed(MPI_Win_shared_query(window, 0, &size, &unit, &block), "MPI_Win_shared_query");
   // Windows are mapped at pages, so every node skips the same few bytes.
-  std::size_t left = room;
+  std::size_t left = whole;
   std::align(kAlignment, bytes, block, left);
   meet_neighbours();
   return {static_cast<std::byte*>(block), [this, window](std::byte*) { release_window(window); }};

@@ -34,10 +34,10 @@ class MpiBackend : public Backend {
   bool sent(Ticket ticket) override;
   std::optional<Envelope> peek() override;
   void take(void* buffer) override;
-  bool receive_soon(int type, void* buffer, std::size_t room, Envelope& came) override;
+  bool receive_soon(int type, void* buffer, std::size_t capacity, Envelope& came) override;
   std::optional<Ticket> start_reduce(const Reduction& reduction, void* x, std::size_t n) override;
-  std::optional<Ticket> start_all_to_all(const void* out, std::span<const Stretch> to, void* in,
-                                         std::span<const Stretch> from) override;
+  std::optional<Ticket> start_all_to_all(const void* out, std::span<const ByteRange> to, void* in,
+                                         std::span<const ByteRange> from) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override;
   Neighbourhood neighbourhood() override;
@@ -48,6 +48,9 @@ class MpiBackend : public Backend {
   // Messages that this rank has received.
   std::uint64_t taken() const { return taken_; }
 
+  // Announces messages that are longer than that, and not only those that MPI could not carry otherwise: for tests.
+  void announce_beyond(std::size_t length) { longest_plain_ = length; }
+
  private:
   // A copy on its way.
   struct Pending {
@@ -57,15 +60,20 @@ class MpiBackend : public Backend {
   enum class Ending { not_yet, counting, leaving, ended };
 
   void look_around();
-  void check_length(int type, std::size_t length) const;
+  bool plain(const void* data, std::size_t length) const;
   MPI_Request isend(int to, int type, const void* data, std::size_t length);
+  MPI_Request isend_plain(int to, int tag, const void* data, std::size_t length);
+  void announce(int to, int type, std::size_t length);
   Message* with_type(std::int32_t type, const void* data, std::size_t length);
+  void open(const Envelope& whole, int tag);
   Envelope open_wide(const Envelope& whole);
   void receive(void* buffer, const Envelope& envelope, int tag);
+  void receive_body(void* buffer, const Envelope& envelope);
   void reclaim_some();
   Ticket ticket_for(MPI_Request request);
   Ticket ticket_of_collective(MPI_Request request);
   void send_copy(int to, int type, Message* copy);
+  void release_when_sent(MPI_Request request, Message* copy);
   bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   bool catch_soon(int type, MPI_Status& status);
   bool give_up(MPI_Request& request, MPI_Status& status);
@@ -85,6 +93,7 @@ class MpiBackend : public Backend {
   int rank_ = 0;      // id of this rank
   int last_tag_ = 0;  // the tags up to it are types; those of internal types come after
   int wide_tag_ = 0;  // of messages whose type is larger than last_tag_
+  std::size_t longest_plain_ = 0;  // messages that are longer are announced
   bool oversubscribed_ = false;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
   Neighbourhood neighbourhood_;
@@ -98,6 +107,7 @@ class MpiBackend : public Backend {
   std::vector<std::byte> operands_;   // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
   std::optional<Envelope> peeked_;
   Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
+  bool announced_ = false;     // the peeked message's bytes are still to be received
   Overflow caught_;            // where messages come whose length is not known before
 
   std::vector<std::int64_t> sent_to_;  // messages, by id

@@ -20,7 +20,7 @@ int size_of(MPI_Comm comm);
 // Of the calling process.
 int rank_in(MPI_Comm comm);
 
-// Tells `reason` on standard error and ends all ranks with exit code 1, waiting for none.
+// Prints `reason` on standard error and ends all ranks with exit code 1, waiting for none.
 [[noreturn]] void abort_job(const std::string& reason);
 
 }  // namespace mars::hal

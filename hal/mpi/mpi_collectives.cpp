@@ -33,9 +33,9 @@ MPI_Op operation(Reduction::Rule rule) {
   return MPI_OP_NULL;
 }
 
-bool fits(std::span<const Stretch> stretches) {
-  return std::all_of(stretches.begin(), stretches.end(),
-                     [](const Stretch& each) { return each.offset + each.length <= INT_MAX; });
+bool fits(std::span<const ByteRange> ranges) {
+  return std::all_of(ranges.begin(), ranges.end(),
+                     [](const ByteRange& each) { return each.offset + each.length <= INT_MAX; });
 }
 
 }  // namespace
@@ -59,15 +59,15 @@ std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void*
   return ticket_of_collective(request);
 }
 
-std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const Stretch> to, void* in,
-                                                   std::span<const Stretch> from) {
+std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const ByteRange> to, void* in,
+                                                   std::span<const ByteRange> from) {
   if (!fits(to) || !fits(from))
     throw Failure("an exchange of more bytes than MPI carries at once", "node " + std::to_string(rank_),
                   "exchange less than 2 GB at once, or set MARS_NX_COLLECTIVES to cube");
   counts_.clear();
-  for (const std::span<const Stretch> stretches : {to, from}) {
-    for (const Stretch& each : stretches) counts_.push_back(static_cast<int>(each.length));
-    for (const Stretch& each : stretches) counts_.push_back(static_cast<int>(each.offset));
+  for (const std::span<const ByteRange> ranges : {to, from}) {
+    for (const ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.length));
+    for (const ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.offset));
   }
   const int* counts = counts_.data();
   const std::size_t n = to.size();

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <climits>
 #include <cstring>
-#include <string>
+#include <utility>
 
-#include "hal/messages/call_failure.h"
 #include "hal/messages/message_types.h"
+#include "hal/mpi/announcement.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
-#include "hal/nx/nx_errno.h"
 
 namespace mars::hal {
 namespace {
@@ -32,12 +31,6 @@ std::size_t length_of(const MPI_Status& status) {
   return static_cast<std::size_t>(length);
 }
 
-// Apart from the call that it ends, which is the quicker for it.
-[[noreturn]] void fail_length(std::size_t length) {
-  throw CallFailure(EQLEN, "a message of " + std::to_string(length) + " bytes is longer than MPI carries", "",
-                    "send at most 2147483647 bytes at once");
-}
-
 }  // namespace
 
 // An MPI need not have tags as large as types are. Internal types have the highest but one that it has; others
@@ -52,19 +45,35 @@ int MpiBackend::type(int tag) const {
   return tag <= last_tag_ ? tag : kFirstInternalType + (tag - last_tag_ - 1);
 }
 
-// Before anything is copied.
-void MpiBackend::check_length(int type, std::size_t length) const {
-  const std::size_t behind = tag(type) == wide_tag_ ? sizeof(std::int32_t) : 0;
-  if (length + behind > INT_MAX) fail_length(length);
+// Whether such a message goes as it is.
+bool MpiBackend::plain(const void* data, std::size_t length) const {
+  return length <= longest_plain_ && !Announcement::read(data, length);
 }
 
+// A message that needs no type behind it.
 MPI_Request MpiBackend::isend(int to, int type, const void* data, std::size_t length) {
+  if (plain(data, length)) return isend_plain(to, tag(type), data, length);
+  announce(to, type, length);
+  const BytesType bytes(length);
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag(type), all_, &request),
-          "MPI_Isend");
+  succeed(MPI_Isend(data, 1, bytes.get(), to, tag(type), all_, &request), "MPI_Isend");
+  bells_->ring(to);
+  return request;
+}
+
+MPI_Request MpiBackend::isend_plain(int to, int tag, const void* data, std::size_t length) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Isend(data, static_cast<int>(length), MPI_BYTE, to, tag, all_, &request), "MPI_Isend");
   ++sent_to_[to];
   bells_->ring(to);
   return request;
+}
+
+void MpiBackend::announce(int to, int type, std::size_t length) {
+  const Announcement announcement = Announcement::of(length);
+  Message* copy = tag(type) == wide_tag_ ? with_type(type, &announcement, sizeof announcement)
+                                         : pool_.copy({rank_, type, sizeof announcement}, &announcement);
+  release_when_sent(isend_plain(to, tag(type), copy->bytes(), copy->envelope.length), copy);
 }
 
 // With the bell armed, two looks: see peek. Of what is done already SMPI says nothing.
@@ -82,12 +91,16 @@ void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
 }
 
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
-  check_length(type, length);
-  send_copy(to, type, tag(type) == wide_tag_ ? with_type(type, data, length) : pool_.copy({rank_, type, length}, data));
+  if (tag(type) != wide_tag_ || !plain(data, length)) return send_copy(to, type, pool_.copy({rank_, type, length}, data));
+  Message* copy = with_type(type, data, length);
+  release_when_sent(isend_plain(to, wide_tag_, copy->bytes(), copy->envelope.length), copy);
 }
 
 void MpiBackend::send_copy(int to, int type, Message* copy) {
-  MPI_Request request = isend(to, type, copy->bytes(), copy->envelope.length);
+  release_when_sent(isend(to, type, copy->bytes(), copy->envelope.length), copy);
+}
+
+void MpiBackend::release_when_sent(MPI_Request request, Message* copy) {
   if (test(request)) {
     pool_.release(copy);
   } else {
@@ -102,7 +115,6 @@ std::optional<Ticket> MpiBackend::send_or_start(int to, int type, const void* da
     send(to, type, data, length);
     return std::nullopt;
   }
-  check_length(type, length);
   Message* copy = pool_.acquire({rank_, type, length});
   for (std::size_t done = 0; done < length; done += kCopiedAtOnce) {
     if (bells_->claim(to, type)) {
@@ -142,10 +154,7 @@ void MpiBackend::reclaim_some() {
 }
 
 Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
-  if (tag(type) != wide_tag_) {
-    check_length(type, length);
-    return ticket_for(isend(to, type, data, length));
-  }
+  if (tag(type) != wide_tag_ || !plain(data, length)) return ticket_for(isend(to, type, data, length));
   send(to, type, data, length);
   return ticket_for(MPI_REQUEST_NULL);
 }
@@ -180,13 +189,27 @@ std::optional<Envelope> MpiBackend::peek() {
   if (arrived == 0) return std::nullopt;
   bells_->await(Bells::kNothing);
   peeked_ = Envelope{status.MPI_SOURCE, type(status.MPI_TAG), length_of(status)};
-  if (status.MPI_TAG == wide_tag_) peeked_ = open_wide(*peeked_);
+  if (status.MPI_TAG == wide_tag_)
+    peeked_ = open_wide(*peeked_);
+  else if (peeked_->length == sizeof(Announcement))
+    open(*peeked_, status.MPI_TAG);
+  if (opened_ != nullptr) {
+    if (const auto length = Announcement::read(opened_->bytes(), peeked_->length)) {
+      peeked_->length = *length;
+      announced_ = true;
+      pool_.release(std::exchange(opened_, nullptr));
+    }
+  }
   return peeked_;
 }
 
-Envelope MpiBackend::open_wide(const Envelope& whole) {
+void MpiBackend::open(const Envelope& whole, int tag) {
   opened_ = pool_.acquire(whole);
-  receive(opened_->bytes(), whole, wide_tag_);
+  receive(opened_->bytes(), whole, tag);
+}
+
+Envelope MpiBackend::open_wide(const Envelope& whole) {
+  open(whole, wide_tag_);
   std::int32_t type = 0;
   const std::size_t length = whole.length - sizeof type;
   std::memcpy(&type, opened_->bytes() + length, sizeof type);
@@ -202,8 +225,19 @@ void MpiBackend::receive(void* buffer, const Envelope& envelope, int tag) {
   if (envelope.length >= kLong) bells_->ring(envelope.from);
 }
 
+// The next of its tag, for its sender has sent it right behind the announcement, and nobody has looked since.
+void MpiBackend::receive_body(void* buffer, const Envelope& envelope) {
+  const BytesType bytes(envelope.length);
+  MPI_Request request = MPI_REQUEST_NULL;
+  succeed(MPI_Irecv(buffer, 1, bytes.get(), envelope.from, tag(envelope.type), all_, &request), "MPI_Irecv");
+  wait(request);
+  bells_->ring(envelope.from);
+}
+
 void MpiBackend::take(void* buffer) {
-  if (opened_ == nullptr) {
+  if (std::exchange(announced_, false)) {
+    receive_body(buffer, *peeked_);
+  } else if (opened_ == nullptr) {
     receive(buffer, *peeked_, tag(peeked_->type));
   } else {
     if (peeked_->length > 0) std::memcpy(buffer, opened_->bytes(), peeked_->length);
@@ -214,17 +248,22 @@ void MpiBackend::take(void* buffer) {
   ++taken_;
 }
 
-// A short one is received without a look before. Of a long one senders are told that it need not be copied.
-bool MpiBackend::receive_soon(int type, void* buffer, std::size_t room, Envelope& came) {
+// A short one is received without a look before. Senders of a long one learn that it need not be copied.
+bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, Envelope& came) {
   if (peeked_ || tag(type) == wide_tag_ || mpi_waits_well()) return false;
-  if (room >= kLong || caught_.bytes() == nullptr) {
+  if (capacity >= kLong || caught_.bytes() == nullptr) {
     if (!peek()) bells_->await(type);
     return false;
   }
   MPI_Status status;
   if (!catch_soon(type, status)) return false;
   const std::size_t length = length_of(status);
-  if (length > room) {
+  if (const auto announced = Announcement::read(caught_.bytes(), length)) {
+    peeked_ = Envelope{status.MPI_SOURCE, type, *announced};
+    announced_ = true;
+    return false;
+  }
+  if (length > capacity) {
     peeked_ = Envelope{status.MPI_SOURCE, type, length};
     opened_ = pool_.copy(*peeked_, caught_.bytes());
     caught_.trim(length);

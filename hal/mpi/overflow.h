@@ -1,4 +1,4 @@
-// Room for a message of any length that MPI carries, so that a receive can be posted before the length is known and
+// A buffer for any message that is not announced (announcement.h), so that a receive can be posted before the length is known and
 // still never cuts. It is address space: memory is taken only as far as messages reach.
 #pragma once
 

@@ -11,10 +11,10 @@
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
-#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {
@@ -46,16 +46,16 @@ std::optional<Failure> misfit(const Roles& roles) {
                  "", "start it as: mpirun -n 1 mars-host ... : -n 8 mars-node");
 }
 
-void tell(const std::string& reason) { std::fprintf(stderr, "mars: %s\n", reason.c_str()); }
+void print(const std::string& reason) { std::fprintf(stderr, "mars: %s\n", reason.c_str()); }
 
 // `name` becomes the rank's name as soon as it is known.
 int run_rank(Role role, const std::function<int()>& body, std::string& name) {
   int rank = 0;
   succeed(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
   const Roles roles = gather_roles(role, rank);
-  // All ranks come to the same verdict: each ends by itself, and one tells.
+  // All ranks come to the same verdict: each ends by itself, and one prints it.
   if (const std::optional<Failure> problem = misfit(roles)) {
-    if (rank == 0) tell(problem->what());
+    if (rank == 0) print(problem->what());
     return 1;
   }
   MpiBackend backend(roles.host_rank);

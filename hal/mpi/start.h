@@ -16,7 +16,7 @@ enum class Role {
 
 // Runs `body` as this rank; NX calls work in it, on the calling thread. Returns the exit code of the program:
 // body's own, once all ranks' bodies have returned, or 1 when the roles do not fit. If body throws, its
-// failure is told on standard error and all ranks are ended, with exit code 1.
+// failure is printed on standard error and all ranks are ended, with exit code 1.
 int run_mpi(int& argc, char**& argv, Role role, const std::function<int(int argc, char** argv)>& body);
 
 }  // namespace mars::hal

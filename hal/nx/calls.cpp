@@ -1,8 +1,8 @@
 #include "hal/nx/nx_messages.h"
 
+#include "hal/messages/process.h"
 #include "hal/nx/guard.h"
 #include "hal/nx/pid.h"
-#include "hal/messages/process.h"
 #include "topology/hypercube.h"
 
 using mars::hal::plain;

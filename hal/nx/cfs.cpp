@@ -13,9 +13,8 @@
 #include <system_error>
 #include <utility>
 
-#include "hal/collectives/group.h"
+#include "hal/collectives/group_sum.h"
 #include "hal/nx/nx_errno.h"
-#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {
@@ -89,7 +88,7 @@ void Files::fail(const char* call, int code) const {
 Files::Shared* Files::find(int fd) {
   const auto at = shared_.find(fd);
   if (at == shared_.end()) return nullptr;
-  // A file that is closed keeps its mode, so that the other nodes learn of the failure.
+  // The mode of a file that is closed stays, so that the other nodes learn of the failure.
   if (marked(fd) || ::fcntl(fd, F_GETFL) < 0) return &at->second;
   shared_.erase(at);
   return nullptr;
@@ -344,5 +343,13 @@ std::unique_ptr<FilesPointer> Files::share_pointer(const char* call, int fd) {
   if (one_machine) pointer->forget_name();
   return pointer;
 }
+
+// The only extension of a process.
+Files& files_of(Process& process) {
+  if (process.extension() == nullptr) process.extend(std::make_unique<Files>(process));
+  return static_cast<Files&>(*process.extension());
+}
+
+void end_files(Process& process) { process.extend(nullptr); }
 
 }  // namespace mars::hal

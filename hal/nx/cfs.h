@@ -13,14 +13,13 @@
 #include <optional>
 #include <vector>
 
+#include "hal/messages/process.h"
 #include "hal/nx/files_pointer.h"
 #include "hal/nx/files_worker.h"
 
 namespace mars::hal {
 
-class Process;
-
-class Files {
+class Files : public Process::Extension {
  public:
   explicit Files(Process& process) : process_(process) {}
 
@@ -44,7 +43,7 @@ class Files {
   struct Shared {
     int mode = 0;
     std::unique_ptr<FilesPointer> pointer;  // mode 1
-    std::optional<long> record;             // mode 3: how long all stretches are, once it is settled
+    std::optional<long> record;             // mode 3: how long all transfers are, once it is settled
   };
   // What one node says of a call that all make together.
   struct Word {
@@ -60,7 +59,7 @@ class Files {
   long moved(const char* call, const Transferred& came) const;
 
   std::unique_ptr<FilesPointer> share_pointer(const char* call, int fd);
-  // Each node's word, in their order; fails on all nodes where one tells of an error, or of another place.
+  // Each node's word, in their order; fails on all nodes where one has an error, or is at another place.
   std::vector<Word> agree(const char* call, const Word& mine) const;
 
   Shared* find(int fd);  // nullptr: mode 0
@@ -73,5 +72,10 @@ class Files {
   FilesWorker worker_;
   std::map<int, Shared> shared_;  // by descriptor
 };
+
+// The files of `process`, made with the first call for them; they end with the process, or by end_files, which waits
+// for all transfers.
+Files& files_of(Process& process);
+void end_files(Process& process);
 
 }  // namespace mars::hal

@@ -3,14 +3,14 @@
 #include <cerrno>
 #include <cstdint>
 
+#include "hal/messages/process.h"
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_files.h"
-#include "hal/messages/process.h"
 
 namespace mars::hal {
 namespace {
 
-Files& files() { return process().files(); }
+Files& files() { return files_of(process()); }
 
 off_t place_of(const char* call, const esize_t& size) {
   const bool fits =

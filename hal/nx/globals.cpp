@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "hal/messages/arguments.h"
 #include "hal/collectives/gathering.h"
-#include "hal/nx/guard.h"
-#include "hal/messages/process.h"
 #include "hal/collectives/reduction.h"
+#include "hal/messages/arguments.h"
+#include "hal/messages/process.h"
+#include "hal/nx/guard.h"
 
 namespace mars::hal {
 namespace {
@@ -79,8 +79,8 @@ void operate_all(void* x, long xlen, void* work, nx_operation fn) {
 // Used again by each call, so that steady use allocates nothing.
 struct Scratch {
   struct Part {
-    long length;  // of what the node gives
-    long room;    // for what it gets
+    long length;    // of what the node gives
+    long capacity;  // for what it gets
   };
   std::vector<Part> parts;
   std::vector<std::size_t> offsets;
@@ -122,7 +122,7 @@ void concatenate_known(const void* x, const long* xlens, void* y) {
   concatenate(exchange, x, offsets, y);
 }
 
-// All nodes know all lengths and rooms before they go on, and so fail together.
+// All nodes know all lengths and capacities before they go on, and so fail together.
 void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   DimensionExchange exchange("gcol", all_nodes());
   check_buffer(exchange, x, xlen);
@@ -139,10 +139,10 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   const auto& offsets = add_up(exchange, [&parts](std::size_t i) { return parts[i].length; });
   const long all = static_cast<long>(offsets.back());
   for (std::size_t node = 0; node < parts.size(); ++node) {
-    if (all <= parts[node].room) continue;
+    if (all <= parts[node].capacity) continue;
     process().fail("gcol", EQMSGLONG,
                    "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
-                       std::to_string(parts[node].room) + " that node " + std::to_string(node) + " has room for",
+                       std::to_string(parts[node].capacity) + " that node " + std::to_string(node) + " has room for",
                    "give a buffer for the bytes of all nodes");
   }
   concatenate(exchange, x, offsets, y);

@@ -9,6 +9,10 @@
 namespace mars::hal {
 namespace {
 
+// One list of errors: its numbers here, its names for C in nx_errno.h.
+static_assert(kMessageTooLong == EQMSGLONG && kBadType == EQTYPE && kNoSuchNode == EQNODE && kNoSuchPid == EQPID &&
+              kBadLength == EQLEN && kNoSuchId == EQMID && kNoFreeId == EQNOMID && kNullBuffer == EQPBUF);
+
 EndProgram end_program = nullptr;
 
 thread_local std::string last_failure;
@@ -36,6 +40,6 @@ long fail_by_errno(const CallFailure& failure) {
 }  // namespace mars::hal
 
 extern "C" void nx_perror(const char* text) {
-  const std::string& told = mars::hal::last_failure;
-  std::fprintf(stderr, "%s: %s\n", text, told.empty() ? "no call has failed" : told.c_str());
+  const std::string& reason = mars::hal::last_failure;
+  std::fprintf(stderr, "%s: %s\n", text, reason.empty() ? "no call has failed" : reason.c_str());
 }

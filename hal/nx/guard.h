@@ -7,18 +7,18 @@
 #include <type_traits>
 
 #include "hal/messages/call_failure.h"
-#include "hal/messages/call_lock.h"
+#include "hal/nx/call_lock.h"
 
 namespace mars::hal {
 
-// From now on a plain call that fails tells `end` why; `end` ends this program and all other ranks and never
+// From now on a plain call that fails calls `end` with the reason; `end` ends this program and all other ranks and never
 // returns. For C programs, set before their first call; without it plain calls throw.
 using EndProgram = void (*)(const std::string& reason);
 void end_program_on_failure(EndProgram end);
 
 // For the exception at hand, in a catch clause: ends the program, or throws it again.
 [[noreturn]] void fail_plainly();
-// Keeps the text for nx_perror, sets errno, returns -1.
+// Stores the text for nx_perror, sets errno, returns -1.
 long fail_by_errno(const CallFailure& failure);
 
 template <class Call>

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-/* Prints `text`, and what the last failed twin of this process had to tell, to standard error. */
+/* Prints `text`, and why the last twin of this process failed, to standard error. */
 void nx_perror(const char* text);
 
 #ifdef __cplusplus

@@ -5,12 +5,12 @@
  *
  * Modes of a file:
  * 0  every node has a pointer of its own, the one that read(2), write(2) and lseek(2) move;
- * 1  all nodes share one pointer, first come, first served: what each reads or writes is a stretch of its own.
+ * 1  all nodes share one pointer, first come, first served: what each reads or writes is a range of its own.
  *    Nobody waits for what another node does. Where nodes run on several machines, the pointer lies in a small
  *    hidden file beside the shared one: its folder must be writable, and the file system have locks;
- * 2  all nodes share one pointer and call together: their stretches lie in order of the nodes, each as long as its
+ * 2  all nodes share one pointer and call together: their ranges lie in order of the nodes, each as long as its
  *    node says;
- * 3  as 2, but all stretches are equally long, for good: the first call after setiomode says how long. Nobody waits
+ * 3  as 2, but all ranges are equally long, for good: the first call after setiomode says how long. Nobody waits
  *    for anybody after that, and a call with another length fails on the node that makes it. */
 #pragma once
 

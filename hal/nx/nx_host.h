@@ -33,7 +33,7 @@ void load(const char* file, long node, long pid);
 
 /* Waits until the programs loaded on `node` have ended. */
 void waitall(long node, long pid);
-/* Waits until one of them has, and tells which; each is told once. *ccode is the exit code, or minus the number of the
+/* Waits until one of them has, and returns which; each end is reported once. *ccode is the exit code, or minus the number of the
  * signal of which it died. */
 void waitone(long node, long pid, long* cnode, long* cpid, long* ccode);
 

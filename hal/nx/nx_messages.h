@@ -18,7 +18,7 @@ extern "C" {
 /* Sends; returns when `buf` may be used again, not when it was received: messages are buffered, so that all
  * may send before they receive. (With the setting MARS_NX_STRICT a send of more than 100 bytes is done only when
  * its message has been received, for finding programs that rely on buffers; whoever then waits in silence for
- * 5 s, or until the job is ended, tells for whom.) node -1: to all other nodes, of the host to all nodes. */
+ * 5 s, or until the job is ended, prints for whom.) node -1: to all other nodes, of the host to all nodes. */
 void csend(long type, const void* buf, long len, long node, long pid);
 /* Waits for a message that `typesel` selects and receives it. typesel, of which 32 bits count: >= 0 that type;
  * -1 any ordinary type; another negative is a set of bits: bit k (0..29) selects type k, bit 30 every type from

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "hal/nx/guard.h"
 #include "hal/messages/process.h"
+#include "hal/nx/guard.h"
 
 using mars::hal::plain;
 using mars::hal::process;

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <exception>
 
-#include "hal/messages/call_lock.h"
 #include "hal/failure/explain.h"
+#include "hal/nx/call_lock.h"
 #include "hal/nx/guard.h"
 
 namespace mars::hal {
@@ -13,12 +13,6 @@ namespace {
 constexpr std::chrono::microseconds kRest{500};
 
 }  // namespace
-
-void CallLock::need(std::mutex* mutex) {
-  if (depth_ > 0 && mutex_ != nullptr) mutex_->unlock();
-  mutex_ = mutex;
-  if (depth_ > 0 && mutex_ != nullptr) mutex_->lock();
-}
 
 ProgressThread::ProgressThread(Process& process) : process_(process) {
   CallLock::need(&calls_);

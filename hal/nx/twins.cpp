@@ -1,8 +1,8 @@
 // The twins of calls.cpp.
+#include "hal/messages/process.h"
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/pid.h"
-#include "hal/messages/process.h"
 #include "topology/hypercube.h"
 
 using mars::hal::process;

@@ -74,7 +74,7 @@ void Heap::release(Offset offset) {
 Offset Heap::carve(std::uint32_t size_class) {
   const std::uint64_t size = block_size(size_class);
   const std::uint64_t count = size_class > kLastSmall ? 1 : std::max<std::uint64_t>(1, kSlab / size);
-  if (slot_.carved + count * size > segment_.header().heap_room) fail_full();
+  if (slot_.carved + count * size > segment_.header().heap_capacity) fail_full();
   if (size_class <= kLastSmall) reserve(count * size);
   for (std::uint64_t i = 0; i < count; ++i) {
     const Offset offset = segment_.heap(index_) + slot_.carved;

@@ -14,7 +14,7 @@ class Heap {
   // Rank `index`'s; what a process that had this rank before has left in use stays so until it is given back.
   Heap(const Segment& segment, int index);
 
-  // A block with room for `length` bytes and its length set. Throws Failure when the messages under way take
+  // A block of at least `length` bytes and its length set. Throws Failure when the messages under way take
   // all the memory that they may.
   Offset acquire(std::size_t length);
 

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "hal/messages/process.h"
+#include "hal/messages/caller.h"
 
 namespace mars::hal {
 namespace {
@@ -238,11 +238,11 @@ void Job::look_for_standstill() {
   note_failure(reason);
 }
 
-// What ends the others is told once.
+// What ends the others is reported once.
 void Job::note_failure(const std::string& reason) {
   code_ = std::max(code_, 1);
   if (segment_.stopped()) return;
-  plan_.tell(reason);
+  plan_.report(reason);
   segment_.stop(reason);
 }
 

@@ -1,5 +1,5 @@
 // The process that starts the ranks of a job over shared memory (segment.h) and sees them to their end: it
-// alone forks, waits for and kills them, tells the others of one that dies, and leaves nothing behind. The
+// alone forks, waits for and kills them, stops the others when one dies, and leaves nothing behind. The
 // host asks it, through a socket, to load and to kill nodes.
 #pragma once
 
@@ -29,7 +29,7 @@ struct JobPlan {
   // host asked to be loaded, "" where it did not ask.
   std::function<int(const Place& place, const std::string& file)> become;
   // A line about what went wrong.
-  std::function<void(const std::string& line)> tell;
+  std::function<void(const std::string& line)> report;
 };
 
 class Job {

@@ -1,4 +1,4 @@
-// What a process of a job over shared memory is told by the one that started it, and what its host may ask.
+// What a process of a job over shared memory gets from the one that started it, and what its host may ask.
 #pragma once
 
 #include <cstdint>

@@ -122,7 +122,7 @@ void ProcessesWorld::load(const std::string& file, int node) {
   if (status(node).state == State::running)
     throw Failure("node " + std::to_string(node) + " still runs another program", "",
                   "wait for its end or kill it first");
-  process().meet_anew(node);
+  process().reset_peer(node);
   const int error = ask(Asking::What::load, node, program);
   if (error != 0) throw Failure(std::strerror(error), file, "");
 }

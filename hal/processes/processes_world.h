@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "hal/nx/world.h"
+#include "hal/messages/world.h"
 #include "hal/processes/place.h"
 #include "hal/processes/processes_backend.h"
 #include "hal/processes/segment.h"

@@ -10,7 +10,7 @@
 namespace mars::hal {
 namespace {
 
-void tell(const std::string& line) {
+void print(const std::string& line) {
   std::fprintf(stderr, "mars: %s\n", line.c_str());
   std::fflush(stderr);
 }
@@ -29,7 +29,7 @@ int run_rank(const Place& place, const std::function<int()>& body) {
     return code;
   } catch (const std::exception& failure) {
     const std::string reason = reason_of(failure);
-    if (!segment.stopped()) tell(reason);
+    if (!segment.stopped()) print(reason);
     segment.stop(reason);
     slot.life = Life::left;
     return 1;
@@ -47,7 +47,7 @@ int run_processes(int nodes, const std::function<int()>& host_body, const std::f
   plan.become = [&](const Place& place, const std::string&) {
     return run_rank(place, place.index == nodes ? host_body : node_body);
   };
-  plan.tell = tell;
+  plan.report = print;
   return Job(plan).run();
 }
 

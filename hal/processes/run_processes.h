@@ -8,7 +8,7 @@
 namespace mars::hal {
 
 // Runs `host_body` and on each of `nodes` nodes `node_body`, each in a process of its own in which NX calls
-// work, and returns the worst exit code that they return. If one throws or dies, the reason is told on
+// work, and returns the worst exit code that they return. If one throws or dies, the reason is printed on
 // standard error and all end. The caller has no other child processes. Messages under way take at most
 // `limit` bytes.
 int run_processes(int nodes, const std::function<int()>& host_body, const std::function<int()>& node_body,

@@ -19,9 +19,9 @@ static_assert(std::atomic<Offset>::is_always_lock_free, "processes share these")
 
 constexpr std::size_t kPage = 1 << 16;
 // A heap has more addresses than it may use memory: blocks are rounded up, and may have given theirs back.
-constexpr std::uint64_t kLeastRoom = 1 << 26;
-constexpr std::uint64_t kAllRoom = std::uint64_t{1} << 45;
-constexpr std::size_t kSharedRoom = std::size_t{1} << 40;  // addresses, of which few are ever used
+constexpr std::uint64_t kLeastCapacity = 1 << 26;
+constexpr std::uint64_t kAllAddresses = std::uint64_t{1} << 45;
+constexpr std::size_t kSharedAddresses = std::size_t{1} << 40;  // addresses, of which few are ever used
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
@@ -37,8 +37,8 @@ Failure no_memory(const std::string& what) {
 Segment::Segment(int nodes, bool host, std::uint64_t limit)
     : descriptor_(memfd_create("mars-nx", MFD_CLOEXEC)) {
   const int slots = nodes + host;
-  const std::size_t room = whole_pages(std::min<std::uint64_t>(8 * limit + kLeastRoom, kAllRoom / slots));
-  const std::size_t size = front_size(slots) + slots * room + kSharedRoom;
+  const std::size_t capacity = whole_pages(std::min<std::uint64_t>(8 * limit + kLeastCapacity, kAllAddresses / slots));
+  const std::size_t size = front_size(slots) + slots * capacity + kSharedAddresses;
   if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0)
     throw no_memory(std::strerror(errno));
   mapped_ = front_size(slots);
@@ -46,17 +46,17 @@ Segment::Segment(int nodes, bool host, std::uint64_t limit)
   header().nodes = nodes;
   header().has_host = host;
   header().cube = nodes;
-  header().heap_room = room;
+  header().heap_capacity = capacity;
   header().limit = limit;
   munmap(base_, mapped_);
-  mapped_ = size - kSharedRoom;
+  mapped_ = size - kSharedAddresses;
   map();
 }
 
 Segment::Segment(int descriptor) : descriptor_(descriptor) {
   struct stat file = {};
   if (fstat(descriptor, &file) != 0) throw no_memory(std::strerror(errno));
-  mapped_ = static_cast<std::size_t>(file.st_size) - kSharedRoom;
+  mapped_ = static_cast<std::size_t>(file.st_size) - kSharedAddresses;
   map();
 }
 
@@ -95,7 +95,7 @@ void Segment::sleep(Slot& slot, std::int64_t nanoseconds) {
   futex(slot.asleep, FUTEX_WAIT, 1, &timeout);
 }
 
-// What it is waked for was written before; the sleeper looks for it after it has written `asleep`: one sees
+// What it is woken for was written before; the sleeper looks for it after it has written `asleep`: one sees
 // the other.
 void Segment::wake(Slot& slot) {
   if (slot.asleep.load() == 1 && slot.asleep.exchange(0) == 1) futex(slot.asleep, FUTEX_WAKE, 1, nullptr);

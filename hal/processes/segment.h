@@ -26,7 +26,7 @@ struct alignas(64) Block {
   std::uint64_t touched;  // bytes of it that have taken memory
   std::int32_t type;
   std::uint32_t from;
-  std::uint32_t size_class;  // room for 2^size_class bytes
+  std::uint32_t size_class;  // 2^size_class bytes
   State state;               // changed by the heap's owner alone
   std::uint32_t sent;        // the job's age then
 
@@ -53,7 +53,7 @@ enum class Waiting : std::uint32_t {
 
 struct alignas(64) Slot {
   BlockStack arrived;                 // messages to this rank
-  std::atomic<std::uint32_t> asleep;  // 1: waits on this word (a futex), to be waked by whoever makes it 0
+  std::atomic<std::uint32_t> asleep;  // 1: waits on this word (a futex), to be woken by whoever makes it 0
   std::atomic<Waiting> waiting;
   alignas(64) BlockStack returned;   // blocks of this rank's heap
   alignas(64) Offset carved;         // bytes of its heap that are blocks; changed by the owner alone
@@ -80,11 +80,11 @@ struct alignas(64) Header {
   std::int32_t has_host;
   std::atomic<std::int32_t> cube;       // of which the first so many are the cube
   std::atomic<std::uint32_t> age;       // begins and ends of processes so far
-  std::uint64_t heap_room;              // addresses that each heap has
+  std::uint64_t heap_capacity;              // addresses that each heap has
   std::uint64_t limit;                  // bytes that messages under way may take in all heaps
   std::atomic<std::uint64_t> used;      // of these
   std::atomic<std::int32_t> finished;   // ranks that have come to their orderly end
-  std::atomic<std::uint32_t> stopped;   // 1: by nobody yet told why; 2: `reason` can be read
+  std::atomic<std::uint32_t> stopped;   // 1: by nobody who has said why yet; 2: `reason` can be read
   std::atomic<std::uint32_t> stopping;  // whoever adds first writes the reason
   char reason[1000];
   Share shares[kShares];
@@ -105,11 +105,11 @@ class Segment {
   int nodes() const { return header().nodes; }
   int slots() const { return header().nodes + header().has_host; }
   Slot& slot(int index) const { return slots_[index]; }
-  Offset heap(int index) const { return heaps_ + index * header().heap_room; }
+  Offset heap(int index) const { return heaps_ + index * header().heap_capacity; }
   Block& block(Offset offset) const { return *reinterpret_cast<Block*>(base_ + offset); }
   // Whose heap it is in.
-  int owner(Offset block) const { return static_cast<int>((block - heaps_) / header().heap_room); }
-  Offset shared_memory() const { return heaps_ + slots() * header().heap_room; }
+  int owner(Offset block) const { return static_cast<int>((block - heaps_) / header().heap_capacity); }
+  Offset shared_memory() const { return heaps_ + slots() * header().heap_capacity; }
   int descriptor() const { return descriptor_; }
 
   void push(BlockStack& stack, Offset block) const;
@@ -123,7 +123,7 @@ class Segment {
   static void wake(Slot& slot);
   void wake_all() const;
 
-  // Ends the messages of all ranks, whose next call tells `reason`; the first reason is kept.
+  // Ends the messages of all ranks, whose next call fails for `reason`; the first reason counts.
   void stop(const std::string& reason) const;
   bool stopped() const { return header().stopped.load(std::memory_order_relaxed) != 0; }
   std::string reason() const;

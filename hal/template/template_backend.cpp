@@ -23,8 +23,8 @@ void TemplateBackend::send(int to, int type, const void* data, std::size_t lengt
   arrived_.push(pool_.copy({rank(), type, length}, data));
 }
 
-// With many ranks: where the transport takes bytes from where they lie, begin that, and keep what tells of
-// its end under the ticket. Copying is always allowed.
+// With many ranks: where the transport takes bytes from where they lie, begin that, and remember under the ticket how
+// its end shows. Copying is always allowed.
 Ticket TemplateBackend::start_send(int to, int type, const void* data, std::size_t length) {
   send(to, type, data, length);
   return 0;
@@ -33,7 +33,7 @@ Ticket TemplateBackend::start_send(int to, int type, const void* data, std::size
 // With many ranks: move the transport on a little, for nothing else may; true once, then the ticket is free.
 bool TemplateBackend::sent(Ticket) { return true; }
 
-// With many ranks: take what the transport has brought, from each sender in the order sent, and tell of the
+// With many ranks: take what the transport has brought, from each sender in the order sent, and return the
 // first. The same until it is taken.
 std::optional<Envelope> TemplateBackend::peek() {
   if (arrived_.empty()) return std::nullopt;
@@ -66,7 +66,7 @@ std::shared_ptr<std::byte> TemplateBackend::share(std::size_t bytes) {
   }
 }
 
-// With many ranks: tell all that this one has come to its end and how many messages it sent to each; true when
+// With many ranks: inform all that this one has come to its end and how many messages it sent to each; true when
 // all have come, and as many messages have arrived here as were sent to this rank.
 bool TemplateBackend::finish() { return arrived_.empty(); }
 

@@ -66,10 +66,10 @@ class ThreadsWorld {
   int nodes() const { return static_cast<int>(ranks_.size()) - 1; }
   ThreadsBackend& rank(int rank) { return *ranks_[rank]; }
 
-  // Ends all waits; the first reason is kept.
+  // Ends all waits; the first reason counts.
   void stop(std::exception_ptr reason);
   std::exception_ptr failure() const;
-  // Throws the reason once stopped: so whoever tells of it on the host's thread tells what happened.
+  // Throws the reason once stopped: so what the host's thread reports is what happened.
   void check_running() const;
 
   // Counts a rank that has come to its end; true when all have.

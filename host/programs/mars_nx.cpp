@@ -124,7 +124,7 @@ int run_processes(const RunOptions& options, const NxPrograms& programs, std::ui
     const fs::path& program = host ? programs.host : file.empty() ? programs.node : fs::path(file);
     return become_program(program, options.arguments, plan.host ? host : place.index == 0);
   };
-  plan.tell = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
+  plan.report = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
   return hal::Job(plan).run();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
+#include "hal/failure/process_limit.h"
 #include "hal/messages/settings.h"
 #include "hal/messages/shared_memory.h"
 #include "node/firmware.h"
@@ -34,7 +35,7 @@ void check_memory_limit(std::uint32_t nodes) {
   // each thread, of nodes and sinks, until 16 or more share.
   constexpr std::uint64_t kMiB = std::uint64_t{1} << 20, kHost = 320 * kMiB, kNode = 128 * kMiB;
   constexpr std::uint32_t kMost = 16;
-  const std::uint64_t limit = topology::process_limit().addresses;
+  const std::uint64_t limit = process_limit().addresses;
   const std::uint64_t least = kHost + kNode * std::min(nodes, kMost);
   if (limit == 0 || limit >= least) return;
   throw Failure("the limit of " + std::to_string(limit >> 10) + " kB of addresses is too small for " +

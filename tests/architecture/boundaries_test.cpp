@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -70,22 +71,43 @@ TEST(Boundaries, GetenvInOneSettingsFile) {
   EXPECT_EQ(files, Files{"hal/messages/settings.cpp"});
 }
 
-TEST(Boundaries, TopologyDependsOnNothing) {
-  expect_includes("topology/", [](const std::string& i) { return begins(i, "topology/"); });
+// In hal/ and topology/ each folder knows only itself and these.
+TEST(Boundaries, HalRunsOneWay) {
+  const std::vector<std::string> messages = {"hal/failure/", "topology/", "hal/messages/"};
+  const std::map<std::string, std::vector<std::string>> known = {
+      {"hal/failure/", {}},
+      {"topology/", {"hal/failure/"}},
+      {"hal/messages/", {"hal/failure/", "topology/"}},
+      {"hal/collectives/", messages},
+      {"hal/nx/", {"hal/failure/", "topology/", "hal/messages/", "hal/collectives/"}},
+      // Transports know messages, not what is made of them.
+      {"hal/mpi/", messages},
+      {"hal/processes/", messages},
+      {"hal/threads/", messages},
+      {"hal/template/", messages},
+      // What makes other people's programs ranks stands above the transports.
+      {"hal/program/", {"hal/failure/", "hal/messages/", "hal/nx/", "hal/mpi/", "hal/processes/"}},
+      {"hal/fortran/", {"hal/nx/nx_"}},
+  };
+  for (const auto& [folder, others] : known)
+    expect_includes(folder, [&](const std::string& include) {
+      return begins(include, folder) || std::any_of(others.begin(), others.end(), [&](const std::string& other) { return begins(include, other); });
+    });
+  for (const auto& entry : fs::directory_iterator(fs::path(MARS_SOURCE_DIR) / "hal")) {
+    const bool has_rule = known.count("hal/" + entry.path().filename().string() + "/") != 0;
+    EXPECT_TRUE(has_rule || !entry.is_directory()) << entry.path() << " has no rule here";
+  }
 }
 
-TEST(Boundaries, FailureDependsOnNothing) {
-  expect_includes("hal/failure/failure.", [](const std::string& i) { return i == "hal/failure/failure.h"; });
-}
-
-TEST(Boundaries, HalDependsOnTopologyAlone) {
-  expect_includes("hal/", [](const std::string& i) { return begins(i, "hal/") || begins(i, "topology/"); });
+// The transports and what chooses between them.
+bool is_transport(const std::string& include) {
+  const std::vector<std::string> folders = {"hal/mpi/", "hal/processes/", "hal/threads/", "hal/template/", "hal/program/"};
+  return std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) { return begins(include, folder); });
 }
 
 TEST(Boundaries, NodeDependsOnHalAlone) {
   expect_includes("node/", [](const std::string& i) {
-    const bool backend = begins(i, "hal/mpi/") || begins(i, "hal/threads/") || i == "hal/messages/settings.h";
-    return begins(i, "node/") || (begins(i, "hal/") && !backend);
+    return begins(i, "node/") || (begins(i, "hal/") && !is_transport(i) && i != "hal/messages/settings.h");
   });
 }
 
@@ -94,14 +116,15 @@ TEST(Boundaries, NodeOpensNoFileAndPrintsNothing) {
   for (const std::string& file : files_including(world)) EXPECT_FALSE(begins(file, "node/")) << file;
 }
 
-// Of the node, the host knows the protocol, the film and pure shape; only programs link both sides.
+// Of the node, the host knows the protocol, the film and pure shape; only programs link both sides, and
+// choose a transport.
 TEST(Boundaries, HostAndNodeShareTheProtocol) {
   const Files shared = {"node/wire/protocol.h", "node/wire/film.h", "node/shape/bezier.h", "node/shape/dice.h"};
   for (const Source& source : sources()) {
     if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;
     for (const std::string& include : source.includes) {
       EXPECT_TRUE(!begins(include, "node/") || shared.count(include)) << source.path << " includes " << include;
-      EXPECT_FALSE(begins(include, "hal/mpi/") || begins(include, "hal/threads/")) << source.path;
+      EXPECT_FALSE(is_transport(include)) << source.path << " includes " << include;
     }
   }
 }

@@ -1,6 +1,5 @@
 // A rank of jobs that must end with a failure, quickly (mpi_faults_test.cpp): argument 1 says how, or 1 the
 // way and 2 the moment (faults/faults.h).
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -40,19 +39,6 @@ void message_too_long() {
   wait_for_ever();
 }
 
-// The bytes are never touched.
-void longer_than_mpi() {
-  char byte = 0;
-  if (mynode() == 0) isend(1, &byte, INT32_MAX + 1L, 1, 0);
-  wait_for_ever();
-}
-
-void copy_longer_than_mpi() {
-  char byte = 0;
-  if (mynode() == 0) csend(1, &byte, INT32_MAX + 1L, 1, 0);
-  wait_for_ever();
-}
-
 void too_much_shared_memory() {
   if (mynode() != myhost()) SharedMemory(std::size_t{1} << 50);
   wait_for_ever();
@@ -75,8 +61,6 @@ int run(int argc, char** argv) {
       {"node_throws_sharing_memory", node_throws_sharing_memory},
       {"host_throws", host_throws},
       {"message_too_long", message_too_long},
-      {"longer_than_mpi", longer_than_mpi},
-      {"copy_longer_than_mpi", copy_longer_than_mpi},
       {"too_much_shared_memory", too_much_shared_memory},
       {"leaves_messages", leaves_messages},
   };

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/collectives/group.h"
+#include "hal/collectives/group_sum.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"

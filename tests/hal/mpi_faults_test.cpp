@@ -75,10 +75,6 @@ TEST(MpiFaults, AMessageIsTooLong) {
       run_ranks(3, "message_too_long"),
       "mars: node 1, crecv: a message of 200 bytes, type 1, from node 0 does not fit a receive of 100 bytes");
 }
-TEST(MpiFaults, AMessageIsLongerThanMpiCarries) {
-  for (const char* fault : {"longer_than_mpi", "copy_longer_than_mpi"})
-    expect_fault(run_ranks(3, fault), "a message of 2147483648 bytes is longer than MPI carries");
-}
 TEST(MpiFaults, TheMachineCannotShareThatMuch) {
   const Outcome outcome = run_ranks(3, "too_much_shared_memory");
   EXPECT_NE(outcome.code, 0);

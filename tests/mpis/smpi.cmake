@@ -1,7 +1,7 @@
 # Programs of simulated ranks are libraries that smpirun loads: cluster/platforms/simulate starts them.
 foreach(program rules times)
   add_library(smpi_${program} MODULE smpi_${program}.cpp)
-  target_link_libraries(smpi_${program} PRIVATE mars_hal_smpi)
+  target_link_libraries(smpi_${program} PRIVATE mars_nx_calls mars_hal_smpi)
   target_link_options(smpi_${program} PRIVATE -Wl,--no-undefined)
 endforeach()
 target_link_libraries(smpi_rules PRIVATE mars_nx_rules)

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "hal/failure/failure.h"
+#include "hal/failure/process_limit.h"
 #include "hal/messages/settings.h"
 #include "host/content/document/shell_word.h"
 #include "host/shell/launch/environment.h"
@@ -166,7 +167,7 @@ Surroundings look_around(const std::string& path, Ask ask) {
           ask == Ask::programs && !may_copy(),
           !remote_shell,
           settings_in_use(),
-          topology::process_limit().addresses,
+          process_limit().addresses,
           own_environment()};
 }
 

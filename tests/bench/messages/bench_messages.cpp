@@ -109,16 +109,16 @@ void wait_idly() {
 }
 
 void sums() {
-  for (const auto& [means, name] : {std::pair{hal::Collectives::cube, "gdsum "}, {hal::Collectives::network, "gdsum by MPI "}})
+  for (const auto& [means, name] : {std::pair{hal::CollectiveMethod::cube, "gdsum "}, {hal::CollectiveMethod::network, "gdsum by MPI "}})
     for (const Size& size : {Size{"1", 1, 1000}, Size{"2160", 2160, 100}, Size{"100000", 100'000, 4}}) {
       std::vector<double> x(size.bytes), work(size.bytes);
       const int count = std::max(2, size.count / static_cast<int>(numnodes() / 2));
-      hal::process().collectives_by(means);
+      hal::process().set_collectives(means);
       compare((name + std::string(size.name)).c_str(), count, 1, [&] { raw_sum(x.data(), 1); },
               [&] { gdsum(x.data(), static_cast<long>(size.bytes), work.data()); },
               [&] { raw_sum(x.data(), size.bytes); });
     }
-  hal::process().collectives_by(hal::Collectives::automatic);
+  hal::process().set_collectives(hal::CollectiveMethod::automatic);
 }
 
 int run(int, char**) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/collectives/group.h"
+#include "hal/collectives/group_sum.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
@@ -16,7 +16,7 @@
 namespace mars::hal::conformance {
 namespace {
 
-// The order that hal/collectives/group.h promises, done by one; merge(a, b) leaves its result in a.
+// The order that hal/collectives/group_sum.h promises, done by one; merge(a, b) leaves its result in a.
 template <class T, class Merge>
 T in_order(std::vector<T> values, const Merge& merge) {
   const std::size_t corners = std::bit_floor(values.size());
@@ -47,7 +47,7 @@ void sum_in(const Group& group) {
   expect_equal(high[1], -*std::min_element(all.begin(), all.end()));
 }
 
-RULE(parts_of_the_machine_sum, "group_sum and group_high work in any run of nodes, in the order that group.h promises",
+RULE(parts_of_the_machine_sum, "group_sum and group_high work in any run of nodes, in the order that group_sum.h promises",
      "another order would give other bits") {
   if (is_host()) return;
   const int nodes = static_cast<int>(numnodes());

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/messages/collectives.h"
+#include "hal/messages/collective_method.h"
 #include "hal/collectives/crystal_router.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
@@ -61,8 +61,8 @@ RULE(parcels_by_every_route, "parcels come by sender, and of each sender in its 
   const Group all = {0, static_cast<int>(numnodes())};
   CrystalRouter router;
   for (const Route route : kRoutes) expect_parcels(router.exchange(all, parcels, route));
-  for (const Collectives means : {Collectives::network, Collectives::cube, Collectives::automatic}) {
-    process().collectives_by(means);
+  for (const CollectiveMethod means : {CollectiveMethod::network, CollectiveMethod::cube, CollectiveMethod::automatic}) {
+    process().set_collectives(means);
     expect_parcels(router.exchange(all, parcels));
   }
 }

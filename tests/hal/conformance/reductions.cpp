@@ -1,7 +1,7 @@
 // Every reduction by name, gopf, and gsendx.
 #include <vector>
 
-#include "hal/messages/collectives.h"
+#include "hal/messages/collective_method.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
@@ -139,13 +139,13 @@ RULE(truths, "gland, glor and glxor take what is not 0 for true and give 0 or 1"
 
 RULE(reductions_by_the_network, "all of them give the same where MARS_NX_COLLECTIVES=mpi has the network reduce by itself",
      "not one is another operation of the network's") {
-  process().collectives_by(Collectives::network);
+  process().set_collectives(CollectiveMethod::network);
   reduce_doubles();
   reduce_floats();
   reduce_longs();
   reduce_bits();
   reduce_truths();
-  process().collectives_by(Collectives::automatic);
+  process().set_collectives(CollectiveMethod::automatic);
 }
 
 struct Peak {

@@ -24,7 +24,7 @@ void run_strictly(int nodes, const std::function<void()>& host, const std::funct
                   milliseconds patience = milliseconds(60'000)) {
   const auto strictly = [patience](const std::function<void()>& body) {
     return [patience, body] {
-      process().be_strict(patience);
+      process().set_strict(patience);
       body();
     };
   };

@@ -1,5 +1,5 @@
 // Fortran's entry points of nx_host.h.
-#include "hal/nx/fortran.h"
+#include "hal/fortran/fortran.h"
 #include "hal/nx/nx_host.h"
 
 using namespace mars::hal::fortran;

@@ -6,44 +6,44 @@
 #include <memory>
 #include <mutex>
 
-#include "hal/nx/fortran.h"
+#include "hal/fortran/fortran.h"
 
 using namespace mars::hal::fortran;
 
 namespace {
 
-// What a call has told of a message in longs, for a caller with INTEGERs.
-class Telling {
+// What a call says of a message in longs, for a caller with INTEGERs.
+class MessageInfo {
  public:
-  explicit Telling(Integer info[8]) : info_(info) { std::copy_n(info, 8, told_); }
-  long* told() { return told_; }
-  void pass_on() const { std::transform(told_, told_ + 8, info_, narrow); }
+  explicit MessageInfo(Integer info[8]) : info_(info) { std::copy_n(info, 8, longs_); }
+  long* longs() { return longs_; }
+  void pass_on() const { std::transform(longs_, longs_ + 8, info_, narrow); }
 
  private:
   Integer* info_;
-  long told_[8];
+  long longs_[8];
 };
 
 // Of receives under way, by id; and those that go on without one.
-std::multimap<long, std::unique_ptr<Telling>> tellings;
-std::multimap<long, std::unique_ptr<Telling>> ignored;
+std::multimap<long, std::unique_ptr<MessageInfo>> infos;
+std::multimap<long, std::unique_ptr<MessageInfo>> ignored;
 std::mutex mutex;
 
 void pass_on(long mid) {
   const std::lock_guard lock(mutex);
-  const auto [first, last] = tellings.equal_range(mid);
+  const auto [first, last] = infos.equal_range(mid);
   std::for_each(first, last, [](const auto& entry) { entry.second->pass_on(); });
-  tellings.erase(first, last);
+  infos.erase(first, last);
 }
 
 // Hands what belongs to `mid` to another id, in `to`.
-void move_on(long mid, long other, std::multimap<long, std::unique_ptr<Telling>>& to) {
-  if (mid == other && &to == &tellings) return;
+void move_on(long mid, long other, std::multimap<long, std::unique_ptr<MessageInfo>>& to) {
+  if (mid == other && &to == &infos) return;
   const std::lock_guard lock(mutex);
-  for (auto at = tellings.find(mid); at != tellings.end(); at = tellings.find(mid)) {
-    auto telling = tellings.extract(at);
-    telling.key() = other;
-    to.insert(std::move(telling));
+  for (auto at = infos.find(mid); at != infos.end(); at = infos.find(mid)) {
+    auto message_info = infos.extract(at);
+    message_info.key() = other;
+    to.insert(std::move(message_info));
   }
 }
 
@@ -72,27 +72,27 @@ extern "C" {
 
 void crecvx_(const Integer* typesel, void* buf, const Integer* len, const Integer* node, const Integer* ptype,
              Integer info[8]) {
-  Telling telling(info);
-  crecvx(*typesel, buf, *len, *node, *ptype, telling.told());
-  telling.pass_on();
+  MessageInfo message_info(info);
+  crecvx(*typesel, buf, *len, *node, *ptype, message_info.longs());
+  message_info.pass_on();
 }
 Integer irecvx_(const Integer* typesel, void* buf, const Integer* len, const Integer* node,
                 const Integer* ptype, Integer info[8]) {
-  auto telling = std::make_unique<Telling>(info);
-  const long mid = irecvx(*typesel, buf, *len, *node, *ptype, telling->told());
+  auto message_info = std::make_unique<MessageInfo>(info);
+  const long mid = irecvx(*typesel, buf, *len, *node, *ptype, message_info->longs());
   const std::lock_guard lock(mutex);
-  tellings.emplace(mid, std::move(telling));
+  infos.emplace(mid, std::move(message_info));
   return narrow(mid);
 }
 void cprobex_(const Integer* typesel, const Integer* node, const Integer* ptype, Integer info[8]) {
-  Telling telling(info);
-  cprobex(*typesel, *node, *ptype, telling.told());
-  telling.pass_on();
+  MessageInfo message_info(info);
+  cprobex(*typesel, *node, *ptype, message_info.longs());
+  message_info.pass_on();
 }
 Integer iprobex_(const Integer* typesel, const Integer* node, const Integer* ptype, Integer info[8]) {
-  Telling telling(info);
-  const long found = iprobex(*typesel, *node, *ptype, telling.told());
-  telling.pass_on();
+  MessageInfo message_info(info);
+  const long found = iprobex(*typesel, *node, *ptype, message_info.longs());
+  message_info.pass_on();
   return narrow(found);
 }
 
@@ -108,12 +108,12 @@ Integer msgdone_(const Integer* mid) {
 void msgcancel_(const Integer* mid) {
   msgcancel(*mid);
   const std::lock_guard lock(mutex);
-  tellings.erase(*mid);
+  infos.erase(*mid);
 }
 Integer msgmerge_(const Integer* mid1, const Integer* mid2) {
   const long merged = msgmerge(*mid1, *mid2);
-  move_on(*mid1, merged, tellings);
-  move_on(*mid2, merged, tellings);
+  move_on(*mid1, merged, infos);
+  move_on(*mid2, merged, infos);
   return narrow(merged);
 }
 void msgignore_(const Integer* mid) {

@@ -2,15 +2,15 @@
 // first NX call, or its end, connects it, and exit() takes it out in order. Linked into libmars-nx only.
 #pragma once
 
-#include "hal/nx/world.h"
 #include "hal/messages/process.h"
+#include "hal/messages/world.h"
 
 namespace mars::hal {
 
 // The calling program's job; connects it. A Failure on any thread but the first that called.
 World& world();
 
-// The next message call makes the program's process anew, with nothing sent or received: after the cube has
+// The next message call makes a new process for the program, with nothing sent or received: after the cube has
 // changed.
 void renew_process();
 

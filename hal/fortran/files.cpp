@@ -1,6 +1,6 @@
 // Fortran's entry points of nx_files.h. A file is a unit of OPEN, where gfortran's library is there to tell
 // which descriptor that is; else it is a descriptor.
-#include "hal/nx/fortran.h"
+#include "hal/fortran/fortran.h"
 #include "hal/nx/nx_files.h"
 
 using namespace mars::hal::fortran;

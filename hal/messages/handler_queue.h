@@ -1,4 +1,4 @@
-// Handlers: what hsend, hrecv and hsendrecv call when their request is done. They run inside of the process's
+// The handlers (handler.h) of requests under way and done. They run inside of the process's
 // message calls (or between them, see progress_thread.h), one at a time and in the order in which the requests
 // were done: while one runs, or while they are masked, those that are due wait.
 #pragma once
@@ -6,22 +6,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "hal/messages/requests.h"
+
 namespace mars::hal {
 
-struct Request;
-struct Envelope;
-
-// Either of two forms, or none.
-struct Handler {
-  void (*plain)(long type, long length, long node, long pid) = nullptr;
-  void (*extended)(long type, long length, long node, long pid, long parameter) = nullptr;
-  long parameter = 0;  // of the extended form
-
-  explicit operator bool() const { return plain != nullptr || extended != nullptr; }
-  void operator()(const Envelope& envelope) const;
-};
-
-class Handlers {
+class HandlerQueue {
  public:
   // There is a request that nobody waits for.
   bool any() const { return !waiting_.empty() || !due_.empty(); }
@@ -48,13 +37,13 @@ class Handlers {
   // While one lives, a handler runs.
   class Running {
    public:
-    explicit Running(Handlers& handlers) : handlers_(handlers) { handlers_.running_ = true; }
+    explicit Running(HandlerQueue& handlers) : handlers_(handlers) { handlers_.running_ = true; }
     ~Running() { handlers_.running_ = false; }
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;
 
    private:
-    Handlers& handlers_;
+    HandlerQueue& handlers_;
   };
 
  private:

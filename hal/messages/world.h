@@ -1,4 +1,4 @@
-// The job that a C program belongs to, as program.h and the host's calls (nx_host.h) need it: made of forked
+// The job that a C program belongs to, as hal/program/ needs it: made of forked
 // processes (hal/processes/), of MPI's ranks (hal/mpi/), or of one node alone.
 #pragma once
 
@@ -17,11 +17,11 @@ class World {
   virtual bool is_host() const = 0;
   // The orderly end of this rank, whose program ends with `code`; messages it has sent can still be received.
   virtual void leave(int code) = 0;
-  // Ends this rank, and every other at its next call; tells `reason` unless it is another rank's failure,
-  // already told.
+  // Ends this rank, and every other at its next call; prints `reason` unless it is another rank's failure,
+  // which that rank prints.
   [[noreturn]] virtual void fail(const std::string& reason) = 0;
 
-  // For the host. Failures tell what and the remedy; the caller says where.
+  // For the host. Failures say what and the remedy; the caller adds where.
 
   // How many nodes there are, of which the first backend().nodes() are the cube.
   virtual int all_nodes() const = 0;

@@ -11,7 +11,7 @@
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_host.h"
 #include "hal/nx/pid.h"
-#include "hal/nx/program.h"
+#include "hal/program/program.h"
 
 namespace mars::hal {
 namespace {
@@ -20,13 +20,13 @@ struct HeldCube {
   bool held = false;
   std::string name;
   std::string type;
-  std::vector<bool> told;  // by node: waitone or waitall has told of its end
+  std::vector<bool> reported;  // by node: waitone or waitall has reported its end
 };
 HeldCube cube;
 
-std::vector<bool>::reference told(int node) {
-  if (cube.told.empty()) cube.told.resize(static_cast<std::size_t>(world().all_nodes()));
-  return cube.told[static_cast<std::size_t>(node)];
+std::vector<bool>::reference reported(int node) {
+  if (cube.reported.empty()) cube.reported.resize(static_cast<std::size_t>(world().all_nodes()));
+  return cube.reported[static_cast<std::size_t>(node)];
 }
 
 [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) {
@@ -115,7 +115,7 @@ void attach_cube(const char* call, const char* name) {
 void kill_all() {
   world().kill(-1);
   renew_process();
-  cube.told.clear();
+  cube.reported.clear();
 }
 
 void release_cube(const char* call, const char* name) {
@@ -141,21 +141,21 @@ void load_nodes(const char* call, const char* file, long node, long pid) {
   const Nodes nodes = check_nodes(call, node, pid);
   for (int each = nodes.first; each < nodes.last; ++each) {
     on_world(call, ENOENT, [&] { world().load(file, each); });
-    told(each) = false;
+    reported(each) = false;
   }
 }
 
-// The first of them that has ended and was not told of yet, or -1; fails where none ever will.
+// The first of them that has ended and was not reported yet, or -1; fails where none ever will.
 int ended_one(const char* call, const Nodes& nodes) {
   bool some = false;
   for (int node = nodes.first; node < nodes.last; ++node) {
     const World::State state = world().status(node).state;
-    if (told(node) || state == World::State::nothing) continue;
+    if (reported(node) || state == World::State::nothing) continue;
     if (state == World::State::ended) return node;
     some = true;
   }
   if (!some)
-    fail(call, ECHILD, "nothing runs there that could end", "load a program first; each end is told once");
+    fail(call, ECHILD, "nothing runs there that could end", "load a program first; each end is reported once");
   return -1;
 }
 
@@ -163,7 +163,7 @@ int wait_one(const char* call, const Nodes& nodes) {
   world().begin();
   int node = -1;
   while ((node = ended_one(call, nodes)) < 0) world().wait_for_end();
-  told(node) = true;
+  reported(node) = true;
   return node;
 }
 
@@ -173,7 +173,7 @@ void wait_all(const char* call, long node, long pid) {
   world().begin();
   for (int each = nodes.first; each < nodes.last; ++each) {
     while (world().status(each).state == World::State::running) world().wait_for_end();
-    told(each) = true;
+    reported(each) = true;
   }
 }
 
@@ -194,7 +194,7 @@ void kill_nodes(const char* call, long node, long pid, bool flush) {
   for (int each = nodes.first; each < nodes.last; ++each) world().kill(each);
 }
 
-long tell_cubes(const char* call, cubetable* table, long slots) {
+long list_cubes(const char* call, cubetable* table, long slots) {
   if (!cube.held) return 0;
   if (slots > 0 && table == nullptr)
     fail(call, EQPBUF, "the table is a null pointer", "give room for the cubes");
@@ -242,7 +242,7 @@ void killcube(long node, long pid) {
   plain([&] { kill_nodes("killcube", node, pid, true); });
 }
 long cubeinfo(cubetable table[], long slots, long) {
-  return plain([&] { return tell_cubes("cubeinfo", table, slots); });
+  return plain([&] { return list_cubes("cubeinfo", table, slots); });
 }
 
 long _getcube(const char* name, const char* cubetype, const char*, long) {
@@ -273,7 +273,7 @@ long _killcube(long node, long pid) {
   return twin([&] { kill_nodes("killcube", node, pid, true); });
 }
 long _cubeinfo(cubetable table[], long slots, long) {
-  return twin([&] { return tell_cubes("cubeinfo", table, slots); });
+  return twin([&] { return list_cubes("cubeinfo", table, slots); });
 }
 
 }  // extern "C"

@@ -1,7 +1,7 @@
 // Fortran's entry points of nx_global.h.
 #include <algorithm>
 
-#include "hal/nx/fortran.h"
+#include "hal/fortran/fortran.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 

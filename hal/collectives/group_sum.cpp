@@ -1,9 +1,9 @@
-#include "hal/collectives/group.h"
+#include "hal/collectives/group_sum.h"
 
 #include <functional>
 
-#include "hal/failure/failure.h"
 #include "hal/collectives/reduction.h"
+#include "hal/failure/failure.h"
 
 namespace mars::hal {
 namespace {

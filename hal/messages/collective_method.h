@@ -3,7 +3,7 @@
 
 namespace mars::hal {
 
-enum class Collectives {
+enum class CollectiveMethod {
   automatic,  // what was measured to be quicker: docs/messages.md
   cube,       // messages across the dimensions of the cube
   network,    // the network's own, where the backend has them

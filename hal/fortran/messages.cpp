@@ -1,5 +1,5 @@
 // Fortran's entry points of nx_messages.h.
-#include "hal/nx/fortran.h"
+#include "hal/fortran/fortran.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/nx_paragon.h"
 

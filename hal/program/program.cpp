@@ -1,4 +1,4 @@
-#include "hal/nx/program.h"
+#include "hal/program/program.h"
 
 #include <unistd.h>
 
@@ -11,10 +11,11 @@
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
-#include "hal/nx/guard.h"
-#include "hal/processes/processes_world.h"
-#include "hal/nx/progress_thread.h"
 #include "hal/messages/settings.h"
+#include "hal/nx/cfs.h"
+#include "hal/nx/guard.h"
+#include "hal/nx/progress_thread.h"
+#include "hal/processes/processes_world.h"
 #ifdef MARS_NX_MPI
 #include "hal/mpi/join.h"
 #endif
@@ -22,7 +23,7 @@
 namespace mars::hal {
 namespace {
 
-// After which a strict program tells what it waits for.
+// After which a strict program reports what it waits for.
 constexpr std::chrono::seconds kPatience{5};
 
 struct Program {
@@ -55,7 +56,7 @@ void leave(int code, void*) try {
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
   program().progress.reset();
-  if (program().process) program().process->end_files();
+  if (program().process) end_files(*program().process);
   program().world->leave(code);
 } catch (const std::exception& failure) {
   end(reason_of(failure));
@@ -77,8 +78,8 @@ Process& find_process() {
   if (!program().process) {
     const Settings settings = read_settings();
     program().process.emplace(backend);
-    program().process->collectives_by(settings.nx_collectives);
-    if (settings.nx_strict) program().process->be_strict(kPatience);
+    program().process->set_collectives(settings.nx_collectives);
+    if (settings.nx_strict) program().process->set_strict(kPatience);
     if (settings.nx_handler_thread) program().progress.emplace(*program().process);
   }
   return *program().process;
@@ -86,7 +87,7 @@ Process& find_process() {
 
 // Before main, so that it is the last that exit calls.
 [[gnu::constructor]] void prepare() {
-  // Each line is told as it is written, and is not lost with a process that is killed.
+  // Each line is printed as it is written, and is not lost with a process that is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   program().id = getpid();
   find_process_by(find_process);

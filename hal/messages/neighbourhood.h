@@ -1,0 +1,15 @@
+// Which nodes are on one machine.
+#pragma once
+
+namespace mars::hal {
+
+// The nodes of one node's machine.
+struct Neighbourhood {
+  int machine = 0;      // lowest node id on it
+  int index = 0;        // of this node among them, in order of node id
+  int count = 1;        // of them
+  int rank = 0;         // of this node for whoever started it (MPI's)
+  bool placed = false;  // whoever started them gave them processors of their own: do not bind them again
+};
+
+}  // namespace mars::hal
