@@ -3,22 +3,23 @@
 
 #include <gtest/gtest.h>
 
-#include <string_view>
 #include <vector>
 
-#include "node/simd/kernels.h"
+#include "node/simd/instruction_set.h"
 
 namespace mars::test {
 
-inline constexpr const char* kSets[] = {"sse2", "sse4", "avx2", "avx512"};
+inline constexpr node::InstructionSet kSets[] = {node::InstructionSet::sse2, node::InstructionSet::sse4,
+                                                 node::InstructionSet::avx2, node::InstructionSet::avx512};
 
-// The kernels of all that this CPU runs, the narrowest first.
-inline std::vector<const node::Kernels*> kernels_here() {
-  std::vector<const node::Kernels*> here;
-  for (const char* set : kSets) {
-    const node::Kernels& kernels = node::best_kernels(set);
-    if (kernels.name == std::string_view(set)) here.push_back(&kernels);
-  }
+// Whether this CPU runs it.
+inline bool is_here(node::InstructionSet set) { return node::best_instruction_set(node::name_of(set)) == set; }
+
+// All that this CPU runs, the narrowest first.
+inline std::vector<node::InstructionSet> sets_here() {
+  std::vector<node::InstructionSet> here;
+  for (const node::InstructionSet set : kSets)
+    if (is_here(set)) here.push_back(set);
   return here;
 }
 
@@ -26,15 +27,14 @@ inline std::vector<const node::Kernels*> kernels_here() {
 // its body, which would not begin.
 inline void skip_sets_not_here() {
   if (testing::Test::IsSkipped()) return;
-  for (const char* set : kSets)
-    if (node::best_kernels(set).name != std::string_view(set))
-      GTEST_SKIP() << "not on " << set << ", which this CPU lacks";
+  for (const node::InstructionSet set : kSets)
+    if (!is_here(set)) GTEST_SKIP() << "not on " << node::name_of(set) << ", which this CPU lacks";
 }
 
-// For a test's body: kernels_here(), of which it says when they are not all.
-inline std::vector<const node::Kernels*> all_kernels() {
+// For a test's body: sets_here(), of which it says when they are not all.
+inline std::vector<node::InstructionSet> all_sets() {
   skip_sets_not_here();
-  return kernels_here();
+  return sets_here();
 }
 
 }  // namespace mars::test
