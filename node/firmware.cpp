@@ -10,7 +10,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/shared_memory.h"
 #include "node/wire/film.h"
-#include "node/simd/kernels.h"
+#include "node/simd/instruction_set.h"
 #include "node/wire/protocol.h"
 #include "node/renderer.h"
 
@@ -36,13 +36,13 @@ class Firmware {
   void render();
   void tell_time() const;
 
-  const Kernels& kernels_;
+  InstructionSet instruction_set_;
   std::optional<hal::SharedMemory> film_block_;
   std::optional<Renderer> renderer_;
   std::vector<std::byte> command_;  // Load or Render and what follows it
 };
 
-Firmware::Firmware(const NodeIdentity& identity) : kernels_(best_kernels(identity.simd)) {
+Firmware::Firmware(const NodeIdentity& identity) : instruction_set_(best_instruction_set(identity.simd)) {
   Hello hello{};
   hello.node = static_cast<std::int32_t>(mynode());
   hello.machine = hal::neighbourhood().machine;
@@ -51,7 +51,7 @@ Firmware::Firmware(const NodeIdentity& identity) : kernels_(best_kernels(identit
   hello.memory = identity.memory;
   copy_text(identity.host, hello.host);
   copy_text(identity.binding, hello.binding);
-  copy_text(kernels_.name, hello.simd);
+  copy_text(name_of(instruction_set_), hello.simd);
   csend(kHello, &hello, sizeof hello, myhost(), 0);
 }
 
@@ -85,7 +85,7 @@ void Firmware::load() {
   if (machine.index == 0) crecv(kFilmBlock, block.data(), static_cast<long>(block.size()));
   gsync();
   const FilmView film(block, "film", true);
-  renderer_.emplace(film, load, std::span(machines, static_cast<std::size_t>(numnodes())), kernels_);
+  renderer_.emplace(film, load, std::span(machines, static_cast<std::size_t>(numnodes())), instruction_set_);
   command_.resize(sizeof(Render) + film.settings().frames * sizeof(std::uint32_t));
   csend(kLoaded, nullptr, 0, myhost(), 0);
 }

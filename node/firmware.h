@@ -13,7 +13,7 @@ struct NodeIdentity {
   std::string binding;   // processors it is bound to, as text; "" if free
   std::array<std::int32_t, 5> seat;  // as in Hello
   std::uint64_t memory;  // bytes it may use for one frame's triangles and edge boxes
-  std::string simd;      // widest instruction set allowed, "" for any (best_kernels)
+  std::string simd;      // widest instruction set allowed, "" for any (best_instruction_set)
 };
 
 // Runs the calling HAL process as a node. Returns when the host says stop; a failure is first told to the host.

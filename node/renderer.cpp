@@ -24,19 +24,18 @@ LineRange part_of(const LineRange& range, std::uint32_t number, std::uint32_t pa
 std::uint64_t overhead(std::uint64_t lines, std::uint64_t nodes) { return 24 * lines + 512 * nodes + 4096; }
 
 // Bytes of edge boxes that travel with their triangles, at most; and of those that lie in their lines.
-constexpr std::uint64_t kTravelling = sizeof(Triangle) + sizeof(Crossing);
+constexpr std::uint64_t kTravelling = sizeof(Triangle) + sizeof(UnsortedEdgeBox);
 constexpr std::uint64_t kInLine = sizeof(EdgeBox);
 
 }  // namespace
 
 Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines,
-                   const Kernels& kernels)
+                   InstructionSet set)
     : scene_(film),
-      kernels_(kernels),
       mapping_(load.mapping),
-      polygon_maker_(kernels),
+      tessellator_(set),
       arena_(load.memory),
-      z_buffer_(kernels, scene_.width()),
+      z_buffer_(set, scene_.width()),
       czb_(machines, load.groups, scene_.width(), scene_.height()),
       exchange_(static_cast<int>(numnodes()), film.settings().height),
       outbox_(film.settings().width, load.credits),
@@ -59,7 +58,7 @@ void Renderer::render(const Render& command, std::span<const std::uint32_t> fram
   };
   command_ = command;
   scene_.set_interval(command.interval);
-  lines_of_movers_ = scene_.lines_of_movers(inbetweens);
+  moving_line_bounds_ = scene_.moving_line_bounds(inbetweens);
   std::fill(draws_.begin(), draws_.end(), std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[artist(k)] = 1;
 
@@ -89,7 +88,7 @@ void Renderer::draw_frame(FrameKind kind, const hal::Group& group) {
   strip_ = {};
   strip_.kind = kind;
   arena_.clear();
-  arena_.forget_fullest();
+  arena_.reset_peak();
 
   std::fill(wanted_lines_.begin(), wanted_lines_.end(), std::uint8_t{1});
   Polygons own = make_polygons(group);
@@ -127,13 +126,13 @@ Polygons Renderer::make_polygons(const hal::Group& group) {
   SetUps out(arena_.rest(), line_counts_, wanted_lines_);
   strip_.work.patches = strip_.work.vertices = 0;
   const Scatter scatter{static_cast<std::uint32_t>(mynode() - group.first), static_cast<std::uint32_t>(group.count)};
-  if (strip_.kind == FrameKind::keyframe) polygon_maker_.make(scene_, Part::stationary, scatter, out, strip_.work);
-  const std::size_t stationary = out.crossings().size();
-  polygon_maker_.make(scene_, Part::moving, scatter, out, strip_.work);
+  if (strip_.kind == FrameKind::keyframe) tessellator_.make(scene_, Part::stationary, scatter, out, strip_.work);
+  const std::size_t stationary = out.boxes().size();
+  tessellator_.make(scene_, Part::moving, scatter, out, strip_.work);
   made_ = {out.touching, out.edge_boxes, out.all_stored()};
-  const auto crossings = out.crossings();
-  arena_.keep(out.triangles().size_bytes(), crossings.size_bytes());
-  return {out.first, crossings.last(stationary), crossings.first(crossings.size() - stationary)};
+  const auto boxes = out.boxes();
+  arena_.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
+  return {out.first, boxes.last(stationary), boxes.first(boxes.size() - stationary)};
 }
 
 // Prefix sum, then global sum of EBC; with it travels each node's memory for its own triangles.
@@ -146,7 +145,7 @@ void Renderer::sum_counts(const hal::Group& group) {
   std::fill(sums.begin() + static_cast<std::ptrdiff_t>(lines), sums.end(), 0.0);
   const std::uint64_t sent = group.count > 1 ? made_.edge_boxes * kTravelling : 0;
   sums[lines + static_cast<std::size_t>(mynode() - group.first)] =
-      static_cast<double>(made_.triangles * sizeof(Triangle) + made_.edge_boxes * sizeof(Crossing) + sent);
+      static_cast<double>(made_.triangles * sizeof(Triangle) + made_.edge_boxes * sizeof(UnsortedEdgeBox) + sent);
   if (group.count > 1) hal::group_sum(group, sums, std::span(work_).first(sums.size()));
   for (std::size_t line = 0; line < lines; ++line) ebc_[line + 1] = static_cast<std::uint64_t>(sums[line]);
   strip_.edge_box_total = ebc_[lines];
@@ -190,7 +189,7 @@ std::uint64_t Renderer::memory_for(const hal::Group& group, std::uint32_t passes
     }
     const LineRange part = part_of(home, pass, passes);
     const std::uint64_t boxes = ebc_[part.last] - ebc_[part.first];
-    const std::uint64_t own = std::min(own_boxes, made_.triangles) * sizeof(Triangle) + own_boxes * sizeof(Crossing);
+    const std::uint64_t own = std::min(own_boxes, made_.triangles) * sizeof(Triangle) + own_boxes * sizeof(UnsortedEdgeBox);
     const std::uint64_t travelling = nodes > 1 ? (own_boxes + boxes) * kTravelling : 0;
     most = std::max(most, own + travelling + boxes * kInLine);
   }
@@ -234,9 +233,9 @@ std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, 
   while (line < boxes.lines.last && !out.full()) {
     const LineRange part{line, std::min(line + StripBuffer::kLines, boxes.lines.last)};
     if (strip_.kind == FrameKind::keyframe)
-      z_buffer_.draw_keyframe(boxes, part, look, lines_of_movers_, czb_, out);
+      z_buffer_.draw_keyframe(boxes, part, look, moving_line_bounds_, czb_, out);
     else
-      z_buffer_.draw_inbetween(boxes, part, look, lines_of_movers_, czb_, out);
+      z_buffer_.draw_inbetween(boxes, part, look, moving_line_bounds_, czb_, out);
     line = part.last;
   }
   return line;
@@ -246,7 +245,7 @@ void Renderer::finish_pass(const hal::Group& group, bool last) {
   exchange_.finish();
   clock(Phase::exchange);
   if (!last || strip_.kind != FrameKind::keyframe || group.count == 1) return;
-  exchange_.depth_lines(group, homes_, lines_of_movers_, draws_, czb_);
+  exchange_.depth_lines(group, homes_, moving_line_bounds_, draws_, czb_);
   clock(Phase::depth);
 }
 
@@ -259,7 +258,7 @@ void Renderer::send_strip(const hal::Group& group, const LineRange& lines, bool 
   strip_.last = last ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;
-  strip_.work.memory = arena_.fullest();
+  strip_.work.memory = arena_.peak();
   strip_.work.bytes_to_nodes = hal::traffic().to_nodes.bytes - sent_before_;
   outbox_.send(strip_);
   ++strip_.number;

@@ -12,11 +12,13 @@
 #include "node/raster/arena.h"
 #include "node/raster/czb.h"
 #include "node/group/exchange.h"
+#include "node/group/mapping.h"
 #include "node/group/outbox.h"
-#include "node/polygons.h"
+#include "node/tessellator.h"
 #include "node/raster/scanline.h"
 #include "node/geometry/scene.h"
 #include "node/tracer.h"
+
 
 namespace mars::node {
 
@@ -28,7 +30,7 @@ inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,
 class Renderer {
  public:
   // `machines`: each node's. Collective over a machine's nodes.
-  Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines, const Kernels& kernels);
+  Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines, InstructionSet set);
 
   // Draws the caller's share of `frames` (see Render) and sends it.
   void render(const Render& command, std::span<const std::uint32_t> frames);
@@ -62,9 +64,8 @@ class Renderer {
 
   std::optional<Tracer> tracer_;
   Scene scene_;
-  const Kernels& kernels_;
   Mapping mapping_;
-  PolygonMaker polygon_maker_;
+  Tessellator tessellator_;
   Arena arena_;
   ZBuffer z_buffer_;
   Czb czb_;
@@ -73,7 +74,7 @@ class Renderer {
 
   std::uint32_t frame_ = 0;
   Render command_{};
-  LineRange lines_of_movers_;               // in the interval's inbetweens
+  LineRange moving_line_bounds_;               // in the interval's inbetweens
   std::vector<std::uint8_t> draws_;         // which of the group's nodes draw inbetweens of the interval
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<double> sums_, work_;         // EBC as it is summed, then each node's memory for its own triangles

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "node/simd/kernels.h"
+#include "node/shape/vertices.h"
 
 namespace mars::node {
 

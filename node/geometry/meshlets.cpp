@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node/simd/vector_slack.h"
+
 namespace mars::node {
 namespace {
 
-constexpr int kMostBatches = static_cast<int>((kMeshletTriangles + kExamined - 1) / kExamined);
+constexpr int kMostBatches = static_cast<int>((kMeshletTriangles + kBatchTriangles - 1) / kBatchTriangles);
 static_assert(kMeshSlack >= kVectorSlack);
 
 const float (*vectors(const std::array<float, 3>* first))[3] { return reinterpret_cast<const float(*)[3]>(first); }
@@ -41,8 +43,8 @@ bool unseen(const EyeMatrix& matrix, const Meshlet& meshlet, const Projection& p
   return unseen(corners, 8, projection, width, height);
 }
 
-MeshletPlacer::MeshletPlacer(const Kernels& kernels)
-    : Surface(kernels, static_cast<int>(kMeshletVertices), static_cast<int>(kMeshletTriangles), kMostBatches) {}
+MeshletPlacer::MeshletPlacer(InstructionSet set)
+    : Surface(set, static_cast<int>(kMeshletVertices), static_cast<int>(kMeshletTriangles), kMostBatches) {}
 
 void MeshletPlacer::place(const EyeMap& map, const FilmView& film, const Meshlet& meshlet,
                           const Projection& projection) {

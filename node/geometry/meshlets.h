@@ -2,8 +2,8 @@
 #pragma once
 
 #include "node/shape/bezier.h"
-#include "node/wire/film.h"
 #include "node/shape/surface.h"
+#include "node/wire/film.h"
 
 namespace mars::node {
 
@@ -14,7 +14,7 @@ bool unseen(const EyeMatrix& matrix, const Meshlet& meshlet, const Projection& p
 
 class MeshletPlacer : public Surface {
  public:
-  explicit MeshletPlacer(const Kernels& kernels);
+  explicit MeshletPlacer(InstructionSet set);
 
   // Becomes the surface of `meshlet`, until the next call.
   void place(const EyeMap& map, const FilmView& film, const Meshlet& meshlet, const Projection& projection);

@@ -76,11 +76,11 @@ EyeMatrix Scene::matrix(std::size_t segment) const {
   return eye_matrix(film_.camera_at(frame_).world_to_eye, film_.matrix_at(film_.segments()[segment], frame_));
 }
 
-std::uint32_t Scene::look(std::size_t segment) const {
+std::uint32_t Scene::material(std::size_t segment) const {
   return film_.value_at(film_.segments()[segment].look, frame_);
 }
 
-LineRange Scene::lines_of_movers(std::span<const std::uint32_t> frames) const {
+LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames) const {
   LineRange lines{film_.settings().height, 0};
   for (const std::uint32_t frame : frames)
     for (const std::uint32_t segment : movers_) {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "node/geometry/eye_light.h"
+#include "node/geometry/line_range.h"
 #include "node/shape/bezier.h"
 #include "node/wire/film.h"
-#include "node/simd/kernels.h"
-#include "node/group/mapping.h"
 
 namespace mars::node {
 
@@ -30,10 +30,10 @@ class Scene {
   // Number of the segment's first patch or meshlet among all of the film.
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
   EyeMatrix matrix(std::size_t segment) const;
-  std::uint32_t look(std::size_t segment) const;
+  std::uint32_t material(std::size_t segment) const;
 
   // Lines that the interval's moving parts can touch at any of `frames`; a bound, never too small.
-  LineRange lines_of_movers(std::span<const std::uint32_t> frames) const;
+  LineRange moving_line_bounds(std::span<const std::uint32_t> frames) const;
 
  private:
   // Corners of the box round a shape's control points and vertices.

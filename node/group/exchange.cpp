@@ -11,16 +11,11 @@
 namespace mars::node {
 namespace {
 
-LineRange overlap(const LineRange& a, const LineRange& b) {
-  const std::uint32_t first = std::max(a.first, b.first), last = std::min(a.last, b.last);
-  return {first, std::max(first, last)};
-}
-
-// visit(crossing) for all own crossings in the order of polygon numbers: those that stand still, then the others.
+// visit(unsorted) for all own edge boxes in the order of polygon numbers: those that stand still, then the others.
 template <typename Visit>
 void visit_all(const Polygons& polygons, const Visit& visit) {
-  for (const auto& crossings : {polygons.stationary, polygons.moving})
-    for (auto next = crossings.rbegin(); next != crossings.rend(); ++next) visit(*next);
+  for (const auto& boxes : {polygons.stationary, polygons.moving})
+    for (auto next = boxes.rbegin(); next != boxes.rend(); ++next) visit(*next);
 }
 
 template <typename T>
@@ -42,9 +37,9 @@ void Exchange::send_triangles(const hal::Group& group, const Polygons& own, std:
     const auto on_home = [&](const auto& lines) { return lines.subspan(homes[home].first, homes[home].count()); };
     std::ranges::fill(on_home(std::span(home_of_)), static_cast<std::uint32_t>(home));
     const auto counts = on_home(line_counts);
-    const std::size_t crossings = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-    // Room for the most triangles that as many edge boxes can have; less is filled.
-    parcels_[home] = {arena.take<Triangle>(crossings), arena.take<Crossing>(crossings), 0, crossings, kNoTriangle};
+    const std::size_t boxes = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    // As many triangles as so many edge boxes can have; less is filled.
+    parcels_[home] = {arena.take<Triangle>(boxes), arena.take<UnsortedEdgeBox>(boxes), 0, boxes, kNoTriangle};
   }
   fill_parcels(own, static_cast<std::uint32_t>(self));
   for (std::size_t i = 1; i < homes.size(); ++i) {
@@ -53,19 +48,19 @@ void Exchange::send_triangles(const hal::Group& group, const Polygons& own, std:
     const long node = group.first + static_cast<long>(index);
     const auto triangles = parcel.triangles.first(parcel.triangle_count);
     pending_.push_back(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
-    pending_.push_back(isend(crossings_from(mynode()), parcel.crossings.data(), bytes_of(parcel.crossings), node, 0));
+    pending_.push_back(isend(edge_boxes_from(mynode()), parcel.boxes.data(), bytes_of(parcel.boxes), node, 0));
   }
 }
 
-// As a node has its own: triangles in order and numbered anew, crossings from the last to the first.
+// As a node has its own: triangles in order and numbered from 0, edge boxes from the last to the first.
 void Exchange::fill_parcels(const Polygons& own, std::uint32_t self) {
-  visit_all(own, [&](const Crossing& crossing) {
-    const std::uint32_t home = home_of_[crossing.line];
+  visit_all(own, [&](const UnsortedEdgeBox& unsorted) {
+    const std::uint32_t home = home_of_[unsorted.line];
     if (home == self) return;
     Parcel& parcel = parcels_[home];
-    if (std::exchange(parcel.met, crossing.box.triangle) != crossing.box.triangle)
-      parcel.triangles[parcel.triangle_count++] = own.triangles[crossing.box.triangle];
-    Crossing& copy = parcel.crossings[--parcel.crossing_count] = crossing;
+    if (std::exchange(parcel.met, unsorted.box.triangle) != unsorted.box.triangle)
+      parcel.triangles[parcel.triangle_count++] = own.triangles[unsorted.box.triangle];
+    UnsortedEdgeBox& copy = parcel.boxes[--parcel.box_count] = unsorted;
     copy.box.triangle = static_cast<std::uint32_t>(parcel.triangle_count - 1);
   });
 }
@@ -76,13 +71,13 @@ Polygons Exchange::receive_triangles(const hal::Group& group, int number, Arena&
   cprobe(triangles_from(node));
   const auto triangles = arena.take<Triangle>(static_cast<std::size_t>(infocount()) / sizeof(Triangle));
   crecv(triangles_from(node), triangles.data(), bytes_of(triangles));
-  cprobe(crossings_from(node));
-  const auto crossings = arena.take<Crossing>(static_cast<std::size_t>(infocount()) / sizeof(Crossing));
-  crecv(crossings_from(node), crossings.data(), bytes_of(crossings));
+  cprobe(edge_boxes_from(node));
+  const auto boxes = arena.take<UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(UnsortedEdgeBox));
+  crecv(edge_boxes_from(node), boxes.data(), bytes_of(boxes));
   const auto stationary =
-      std::partition_point(crossings.begin(), crossings.end(), [](const Crossing& c) { return c.moving == 1; });
-  const auto moving = static_cast<std::size_t>(stationary - crossings.begin());
-  return {triangles.data(), crossings.subspan(moving), crossings.first(moving)};
+      std::partition_point(boxes.begin(), boxes.end(), [](const UnsortedEdgeBox& c) { return c.moving == 1; });
+  const auto moving = static_cast<std::size_t>(stationary - boxes.begin());
+  return {triangles.data(), boxes.subspan(moving), boxes.first(moving)};
 }
 
 // A machine's first node of the group, its head, collects what the others write or send there, then tells all who wait.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hal/collectives/group.h"
+#include "node/geometry/line_range.h"
 #include "node/raster/arena.h"
-#include "node/group/mapping.h"
 #include "node/raster/scanline.h"
 
 namespace mars::node {
@@ -36,10 +36,10 @@ class Exchange {
   // What goes to one home.
   struct Parcel {
     std::span<Triangle> triangles;
-    std::span<Crossing> crossings;
+    std::span<UnsortedEdgeBox> boxes;
     std::size_t triangle_count = 0;   // filled from the front
-    std::size_t crossing_count = 0;   // not filled yet, from the back
-    std::uint32_t met = kNoTriangle;  // the triangle last seen to go there: a triangle's crossings follow each other
+    std::size_t box_count = 0;   // not filled yet, from the back
+    std::uint32_t met = kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
   };
 
   void fill_parcels(const Polygons& own, std::uint32_t self);

@@ -4,21 +4,11 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "node/geometry/line_range.h"
 #include "node/wire/protocol.h"
 
 namespace mars::node {
-
-// Lines [first, last); may be empty.
-struct LineRange {
-  std::uint32_t first = 0;
-  std::uint32_t last = 0;
-
-  std::uint32_t count() const { return last - first; }
-  bool has(std::uint32_t line) const { return first <= line && line < last; }
-  bool operator==(const LineRange&) const = default;
-};
 
 // `ebc`: lines + 1 running totals, ebc[0] = 0 and ebc[i] = edge boxes on lines [0, i).
 // `ranges`: as many as the group has nodes; set to tile [0, lines) in order.

@@ -20,16 +20,16 @@ class Arena {
   std::span<T> take(std::size_t count) {
     return {reinterpret_cast<T*>(take_bytes(count * sizeof(T))), count};
   }
-  // All that is not taken: whoever does not know how much it needs fills it from both ends and then keeps that
+  // All that is not taken: a caller that does not know how much it needs fills it from both ends and then takes that
   // many bytes at the front and at the back.
   std::span<std::byte> rest() const { return block_.bytes().subspan(front_, back_ - front_); }
-  void keep(std::size_t at_front, std::size_t at_back);
+  void take_ends(std::size_t at_front, std::size_t at_back);
 
   void clear() { front_ = 0, back_ = size_; }
 
   std::size_t size() const { return size_; }
-  std::size_t fullest() const { return fullest_; }  // most bytes in use since forget_fullest()
-  void forget_fullest() { fullest_ = used(); }
+  std::size_t peak() const { return peak_; }  // most bytes in use since reset_peak()
+  void reset_peak() { peak_ = used(); }
 
  private:
   // Items begin on multiples of this: a cache line.
@@ -42,7 +42,7 @@ class Arena {
   std::size_t size_ = 0;
   std::size_t front_ = 0;
   std::size_t back_ = 0;
-  std::size_t fullest_ = 0;
+  std::size_t peak_ = 0;
 };
 
 }  // namespace mars::node

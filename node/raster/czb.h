@@ -13,7 +13,7 @@
 
 #include "hal/messages/private_memory.h"
 #include "hal/messages/shared_memory.h"
-#include "node/group/mapping.h"
+#include "node/geometry/line_range.h"
 
 namespace mars::node {
 

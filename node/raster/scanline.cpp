@@ -5,6 +5,7 @@
 #include "hal/failure/failure.h"
 
 namespace mars::node {
+
 std::span<const EdgeBox> LineBoxes::stationary(std::uint32_t line) const {
   const std::size_t i = line - lines.first;
   const std::uint64_t begin = i == 0 ? 0 : end[i - 1];
@@ -37,12 +38,12 @@ LineFiller::LineFiller(const LineRange& lines, std::span<const std::uint64_t> eb
 
 void LineFiller::add(const Polygons& polygons) {
   const auto first_triangle = static_cast<std::uint32_t>(polygons.triangles - first_);
-  // For each crossing of these lines its box and its line's number among them.
-  const auto for_each = [this, first_triangle](std::span<const Crossing> crossings, const auto& put) {
+  // put(line, box) for each edge box of these lines, `line` its line's number among them.
+  const auto for_each = [this, first_triangle](std::span<const UnsortedEdgeBox> all, const auto& put) {
     const std::uint32_t first = lines_.first, count = lines_.count();
-    for (const Crossing crossing : crossings) {
-      const std::uint32_t line = crossing.line - first;
-      const EdgeBox box{first_triangle + crossing.box.triangle, crossing.box.first, crossing.box.last};
+    for (const UnsortedEdgeBox unsorted : all) {
+      const std::uint32_t line = unsorted.line - first;
+      const EdgeBox box{first_triangle + unsorted.box.triangle, unsorted.box.first, unsorted.box.last};
       if (line < count) put(line, box);
     }
   };
@@ -61,8 +62,9 @@ LineBoxes LineFiller::finish() const {
   return {lines_, boxes_, end_, stationary_};
 }
 
-ZBuffer::ZBuffer(const Kernels& kernels, std::int32_t width)
-    : kernels_(kernels),
+ZBuffer::ZBuffer(InstructionSet set, std::int32_t width)
+    : kernels_(raster_kernels(set)),
+      shading_kernels_(shading_kernels(set)),
       width_(static_cast<std::size_t>(width)),
       depths_((width_ - 1) / kVectorSlack + 2),
       ids_(depths_.size()) {
@@ -70,24 +72,24 @@ ZBuffer::ZBuffer(const Kernels& kernels, std::int32_t width)
 }
 
 void ZBuffer::draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading,
-                            const LineRange& kept, Czb& czb, StripBuffer& out) {
+                            const LineRange& czb_lines, Czb& czb, StripBuffer& out) {
   for (std::uint32_t line = part.first; line < part.last; ++line) {
     const auto stationary = boxes.stationary(line), moving = boxes.moving(line);
-    if (stationary.empty() && moving.empty() && !kept.has(line)) continue;
+    if (stationary.empty() && moving.empty() && !czb_lines.has(line)) continue;
     std::fill_n(depth(), width_, 0.0f);
     draw(stationary, shading, line, out.constant());
-    if (kept.has(line)) std::copy_n(depth(), width_, czb.lines({line, line + 1}).data());
+    if (czb_lines.has(line)) std::copy_n(depth(), width_, czb.lines({line, line + 1}).data());
     // MZB starts as CZB: nearer than it is nearer than both, and of equals what stands still was there first.
     draw(moving, shading, line, out.moving());
   }
 }
 
 void ZBuffer::draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading,
-                             const LineRange& kept, Czb& czb, StripBuffer& out) {
+                             const LineRange& czb_lines, Czb& czb, StripBuffer& out) {
   for (std::uint32_t line = part.first; line < part.last; ++line) {
     const auto moving = boxes.moving(line);
     if (moving.empty()) continue;
-    check(kept.has(line), "moving parts stay on the lines that were foreseen");
+    check(czb_lines.has(line), "moving parts stay on the lines that were foreseen");
     std::uint32_t first = moving[0].first, last = moving[0].last;
     for (const EdgeBox& box : moving) {
       first = std::min<std::uint32_t>(first, box.first);
@@ -104,7 +106,7 @@ void ZBuffer::draw(std::span<const EdgeBox> boxes, const Shading& shading, std::
   if (boxes.empty()) return;
   const Extent extent = kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
                                       depth(), ids());
-  out.added(kernels_.shade(shading, ids(), line, extent, out.next_run(), out.next_pixel()));
+  out.added(shading_kernels_.shade(shading, ids(), line, extent, out.next_run(), out.next_pixel()));
   std::fill(ids() + extent.first, ids() + extent.last, kNoTriangle);
 }
 

@@ -6,19 +6,21 @@
 #include <span>
 #include <vector>
 
+#include "node/geometry/line_range.h"
 #include "node/raster/arena.h"
 #include "node/raster/czb.h"
-#include "node/simd/kernels.h"
-#include "node/group/mapping.h"
+#include "node/raster/kernels.h"
 #include "node/raster/strip_buffer.h"
+#include "node/shading/kernels.h"
+#include "node/simd/vector_slack.h"
 
 namespace mars::node {
 
 // One sender's part of a frame's triangles.
 struct Polygons {
   const Triangle* triangles;
-  std::span<const Crossing> stationary;
-  std::span<const Crossing> moving;
+  std::span<const UnsortedEdgeBox> stationary;
+  std::span<const UnsortedEdgeBox> moving;
 };
 
 // Edge boxes of lines [lines.first, lines.last): line by line the stationary ones, then the moving ones.
@@ -33,8 +35,8 @@ struct LineBoxes {
   bool any_stationary() const;
 };
 
-// Puts edge boxes into their lines: a counting sort whose offsets are EBC's running totals (mapping.h). Senders may be
-// added in any order; crossings of other lines are left out.
+// Puts edge boxes into their lines: a counting sort whose offsets are EBC's running totals. Senders may be
+// added in any order; edge boxes of other lines are left out.
 class LineFiller {
  public:
   // Boxes will name triangles by their distance from `first`. Takes its arrays from `arena`.
@@ -56,14 +58,14 @@ class LineFiller {
 // The z-buffer of the line that is being drawn, small enough for a core's first cache.
 class ZBuffer {
  public:
-  ZBuffer(const Kernels& kernels, std::int32_t width);
+  ZBuffer(InstructionSet set, std::int32_t width);
 
   // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB).
-  // CZB of `kept` lines goes to `czb`.
-  void draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& kept,
+  // CZB of `czb_lines` goes to `czb`.
+  void draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& czb_lines,
                      Czb& czb, StripBuffer& out);
-  // Draws moving parts of these lines against `czb`, whose `kept` lines have all of them, and each other.
-  void draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& kept,
+  // Draws moving parts of these lines against `czb`, whose `czb_lines` have all of them, and each other.
+  void draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& czb_lines,
                       Czb& czb, StripBuffer& out);
 
  private:
@@ -80,7 +82,8 @@ class ZBuffer {
   float* depth() { return depths_.front().samples; }
   std::uint32_t* ids() { return ids_.front().samples; }
 
-  const Kernels& kernels_;
+  const RasterKernels& kernels_;
+  const ShadingKernels& shading_kernels_;
   std::size_t width_;
   std::vector<Depths> depths_;  // kVectorSlack samples more than a line
   std::vector<Ids> ids_;        // likewise; kNoTriangle between lines

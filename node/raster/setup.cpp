@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "node/geometry/clip.h"
+#include "node/raster/outline.h"
+#include "node/simd/vector_slack.h"
 
 namespace mars::node {
 namespace {
@@ -13,18 +15,17 @@ namespace {
 // Cut vertices lie on the planes but for rounding: they pass a projection this much wider.
 constexpr float kSlack = 1.001f;
 
-// Counts the edge boxes and stores them if there is room for the triangle too; whether there were any and they were
-// stored.
-bool cross(const Outline& outline, bool moving, SetUps& out) {
+// Counts the edge boxes and stores them if the triangle fits too; whether there were any and they were stored.
+bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
   const std::int32_t first = outline.first_row, last = std::max(first, outline.last_row);
-  const bool room = out.room() >= sizeof(Triangle) + static_cast<std::size_t>(last - first) * sizeof(Crossing);
+  const bool fits = out.bytes_left() >= sizeof(Triangle) + static_cast<std::size_t>(last - first) * sizeof(UnsortedEdgeBox);
   const auto number = static_cast<std::uint32_t>(out.next - out.first);
   std::uint32_t boxes = 0;
   for (std::int32_t row = first; row < last; ++row) {
     const Outline::Columns columns = outline.columns(row);
     if (columns.first >= columns.last || out.wanted_lines[row] == 0) continue;
-    if (room)
-      *--out.crossing = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
+    if (fits)
+      *--out.last_box = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
                          static_cast<std::uint16_t>(row),
                          moving};
     ++out.line_counts[row];
@@ -32,13 +33,13 @@ bool cross(const Outline& outline, bool moving, SetUps& out) {
   }
   out.edge_boxes += boxes;
   out.touching += boxes > 0;
-  return room && boxes > 0;
+  return fits && boxes > 0;
 }
 
 // Memory that a batch does not exceed in a picture of so many lines.
-std::size_t most_bytes(const Examined& e, std::int32_t height) {
+std::size_t most_bytes(const Classified& e, std::int32_t height) {
   const std::int32_t rows = e.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
-  return kExamined * (sizeof(Triangle) + static_cast<std::size_t>(rows) * sizeof(Crossing));
+  return kBatchTriangles * (sizeof(Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
 }
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
@@ -97,27 +98,31 @@ struct FewVertices {
 SetUps::SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts,
                std::span<const std::uint8_t> wanted_lines) {
   first = next = reinterpret_cast<Triangle*>(memory.data());
-  crossing = end = reinterpret_cast<Crossing*>(memory.data() + memory.size());
+  last_box = end = reinterpret_cast<UnsortedEdgeBox*>(memory.data() + memory.size());
   this->line_counts = line_counts.data();
   this->wanted_lines = wanted_lines.data();
 }
 
-std::size_t SetUps::room() const {
-  return static_cast<std::size_t>(reinterpret_cast<std::byte*>(crossing) - reinterpret_cast<std::byte*>(next));
+std::size_t SetUps::bytes_left() const {
+  return static_cast<std::size_t>(reinterpret_cast<std::byte*>(last_box) - reinterpret_cast<std::byte*>(next));
 }
 
-SetUp::SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height)
-    : kernels_(kernels), projection_(projection), width_(width), height_(height) {}
+SetUp::SetUp(InstructionSet set, const Projection& projection, std::int32_t width, std::int32_t height)
+    : shape_kernels_(shape_kernels(set)),
+      kernels_(raster_kernels(set)),
+      projection_(projection),
+      width_(width),
+      height_(height) {}
 
 void SetUp::add(const Surface& surface, const PatchIdentity& identity, SetUps& out) {
   if (surface.reaches_outside()) return add_plainly(surface, identity, out);
   const Vertices& v = surface.vertices();
   const Triangles& triangles = surface.triangles();
-  const Examination task{width_, height_, identity.one_sided, identity.mirrored};
+  const ClassifyTask task{width_, height_, identity.one_sided, identity.mirrored};
   for (const Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
-    kernels_.examine(task, v, triangles, batch, examined_);
-    if (out.room() < most_bytes(examined_, height_)) examined_.undecided |= std::exchange(examined_.decided, 0u);
-    if ((examined_.decided | examined_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
+    kernels_.classify(task, v, triangles, batch, classified_);
+    if (out.bytes_left() < most_bytes(classified_, height_)) classified_.undecided |= std::exchange(classified_.decided, 0u);
+    if ((classified_.decided | classified_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
   }
 }
 
@@ -125,20 +130,20 @@ void SetUp::add(const Surface& surface, const PatchIdentity& identity, SetUps& o
 void SetUp::add_batch(const Vertices& v, const Triangles& triangles, const Batch& batch,
                       const PatchIdentity& identity, SetUps& out) const {
   constexpr std::uint32_t kAll = 0xffffffffu;
-  const auto keep = [&](std::uint32_t lanes) {
+  const auto emit = [&](std::uint32_t lanes) {
     const SetUpSpace before = out;
-    kernels_.keep(v, triangles, batch, examined_, lanes, identity, out);
+    kernels_.emit(v, triangles, batch, classified_, lanes, identity, out);
     out.touching += static_cast<std::uint64_t>(out.next - before.next);
-    out.edge_boxes += static_cast<std::uint64_t>(before.crossing - out.crossing);
+    out.edge_boxes += static_cast<std::uint64_t>(before.last_box - out.last_box);
   };
   std::uint32_t rest = kAll;
-  for (std::uint32_t left = examined_.undecided; left != 0; left &= left - 1) {
+  for (std::uint32_t left = classified_.undecided; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    keep(rest & ~(kAll << lane));
+    emit(rest & ~(kAll << lane));
     add_whole(v, triangles[batch.first + static_cast<std::uint32_t>(lane)], std::nullopt, identity, out);
     rest = kAll << lane;
   }
-  keep(rest);
+  emit(rest);
 }
 
 void SetUp::add_plainly(const Surface& surface, const PatchIdentity& identity, SetUps& out) const {
@@ -175,7 +180,7 @@ void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const PatchId
   wider.near /= kSlack;
   wider.far *= kSlack;
   wider.guard *= kSlack;
-  kernels_.project(wider, few.view(), polygon.count);
+  shape_kernels_.project(wider, few.view(), polygon.count);
   const bool faces = faces_eye(v, corners);
   for (std::uint32_t i = 1; static_cast<int>(i) + 1 < polygon.count; ++i) {
     const bool whole = few.flags[0] + few.flags[i] + few.flags[i + 1] == 0;  // not where numbers overflowed
@@ -198,11 +203,11 @@ void SetUp::add_whole(const Vertices& v, const Corner3& corners, std::optional<b
   const bool faces = known ? *known : sure ? area < 0 : faces_eye(v, corners);
   if (identity.one_sided && faces == identity.mirrored) return;
   const Outline outline(t, width_, height_);
-  if (!cross(outline, identity.moving, out)) return;
+  if (!add_boxes(outline, identity.moving, out)) return;
   const ScreenShape shape{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
                           static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0]),
                           1.0f / static_cast<float>(area),     faces};
-  kernels_.set(v, corners, shape, identity, *out.next++);
+  kernels_.set_up_planes(v, corners, shape, identity, *out.next++);
 }
 
 }  // namespace mars::node

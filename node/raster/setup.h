@@ -2,7 +2,7 @@
 // guard band far outside the picture; a shared edge is cut at the same place by both its triangles), with
 // their plane equations and edge boxes. Those that touch no sample are dropped.
 //
-// Sixteen at a time where they are small and surely turned one way (kernels.h, examine); the rest one by one.
+// Sixteen at a time where they are small and surely turned one way (kernels.h, classify); the rest one by one.
 // Both decide the same, bit for bit.
 #pragma once
 
@@ -10,30 +10,31 @@
 #include <optional>
 #include <span>
 
+#include "node/raster/classified.h"
+#include "node/raster/kernels.h"
 #include "node/shape/surface.h"
-#include "node/raster/edge_boxes.h"
 
 namespace mars::node {
 
 // Set-ups and their edge boxes in one piece of memory: triangles from its front (aligned to a cache line), their
-// crossings from its end towards the front. What no longer fits is still counted.
+// edge boxes from its end towards the front. What no longer fits is still counted.
 struct SetUps : SetUpSpace {
   SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts, std::span<const std::uint8_t> wanted_lines);
 
   std::span<const Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
   // The latest first.
-  std::span<const Crossing> crossings() const { return {crossing, static_cast<std::size_t>(end - crossing)}; }
-  bool all_stored() const { return crossings().size() == edge_boxes; }
-  std::size_t room() const;  // bytes left
+  std::span<const UnsortedEdgeBox> boxes() const { return {last_box, static_cast<std::size_t>(end - last_box)}; }
+  bool all_stored() const { return boxes().size() == edge_boxes; }
+  std::size_t bytes_left() const;
 
-  Crossing* end;
+  UnsortedEdgeBox* end;
   std::uint64_t touching = 0;  // triangles with an edge box, stored or not
   std::uint64_t edge_boxes = 0;
 };
 
 class SetUp {
  public:
-  SetUp(const Kernels& kernels, const Projection& projection, std::int32_t width, std::int32_t height);
+  SetUp(InstructionSet set, const Projection& projection, std::int32_t width, std::int32_t height);
 
   void add(const Surface& surface, const PatchIdentity& identity, SetUps& out);
   // The same without the sixteen at a time: the plain twin.
@@ -49,11 +50,12 @@ class SetUp {
   void add_batch(const Vertices& vertices, const Triangles& triangles, const Batch& batch,
                  const PatchIdentity& identity, SetUps& out) const;
 
-  const Kernels& kernels_;
+  const ShapeKernels& shape_kernels_;
+  const RasterKernels& kernels_;
   Projection projection_;
   std::int32_t width_;
   std::int32_t height_;
-  Examined examined_;
+  Classified classified_;
 };
 
 }  // namespace mars::node

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "node/simd/vector_slack.h"
+
 namespace mars::node {
 namespace {
 
@@ -21,15 +23,15 @@ void StripBuffer::Layer::added(const Shaded& shaded) {
 }
 
 StripBuffer::StripBuffer(std::size_t width)
-    : room_(kPixels + kLines * width + kVectorSlack),
-      message_(sizeof(Strip) + 2 * room_ * (sizeof(std::uint32_t) + sizeof(Run))),
-      runs_(2 * room_ * sizeof(Run)) {}
+    : capacity_(kPixels + kLines * width + kVectorSlack),
+      message_(sizeof(Strip) + 2 * capacity_ * (sizeof(std::uint32_t) + sizeof(Run))),
+      runs_(2 * capacity_ * sizeof(Run)) {}
 
 void StripBuffer::clear(bool constant) {
   auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(Strip));
   auto* runs = reinterpret_cast<Run*>(runs_.bytes().data());
   constant_ = {pixels, runs};
-  moving_ = constant ? Layer(pixels + room_, runs + room_) : Layer(pixels, runs);
+  moving_ = constant ? Layer(pixels + capacity_, runs + capacity_) : Layer(pixels, runs);
 }
 
 std::span<const std::byte> StripBuffer::finish(Strip& header) {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "hal/messages/private_memory.h"
-#include "node/simd/kernels.h"
+#include "node/shading/shading.h"
 #include "node/wire/protocol.h"
 
 namespace mars::node {
@@ -55,7 +55,7 @@ class StripBuffer {
   std::span<const std::byte> finish(Strip& header);
 
  private:
-  std::size_t room_;  // pixels, and runs, of one layer
+  std::size_t capacity_;  // pixels, and runs, of one layer
   hal::PrivateMemory message_;
   hal::PrivateMemory runs_;
   Layer constant_;

@@ -4,17 +4,13 @@
 
 #include <cstdint>
 
+#include "node/geometry/eye_light.h"
+#include "node/geometry/triangle.h"
+#include "node/shape/vertices.h"
 #include "node/wire/film_parts.h"
 #include "node/wire/protocol.h"
-#include "node/shape/vertices.h"
 
 namespace mars::node {
-
-struct EyeLight {
-  bool point;       // else directional
-  float vector[3];  // eye space: the light's place, or the unit direction to it
-  float color[3];
-};
 
 struct Shading {
   const Triangle* triangles;

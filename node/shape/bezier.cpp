@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "node/simd/vector_slack.h"
+
 namespace mars::node {
 namespace {
 
@@ -76,7 +78,7 @@ int whole_steps(float rate) {
 int steps(float bound) { return whole_steps(std::sqrt(bound / (8 * kTolerance))); }
 
 // Places near the patch's borders and between.
-SurveyWeights survey_weights() {
+CurvatureWeights curvature_weights() {
   constexpr double kPlaces[] = {1.0 / 16, 3.0 / 8, 5.0 / 8, 15.0 / 16};
   // Bernstein polynomials and their first and second derivatives.
   const auto polynomials = [](double t) {
@@ -85,11 +87,11 @@ SurveyWeights survey_weights() {
                                                  {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t},
                                                  {6 * s, 6 * t - 12 * s, 6 * s - 12 * t, 6 * t}}};
   };
-  constexpr int kOrder[SurveyWeights::kKinds][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
-  SurveyWeights out;
+  constexpr int kOrder[CurvatureWeights::kKinds][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
+  CurvatureWeights out;
   for (std::size_t place = 0; place < 16; ++place) {
     const auto along_u = polynomials(kPlaces[place % 4]), along_v = polynomials(kPlaces[place / 4]);
-    for (std::size_t kind = 0; kind < SurveyWeights::kKinds; ++kind)
+    for (std::size_t kind = 0; kind < CurvatureWeights::kKinds; ++kind)
       for (std::size_t i = 0; i < 16; ++i)
         out.weight[kind][i][place] = static_cast<float>(along_u[static_cast<std::size_t>(kOrder[kind][0])][i % 4] *
                                                         along_v[static_cast<std::size_t>(kOrder[kind][1])][i / 4]);
@@ -182,10 +184,10 @@ int edge_rate(const Curve& curve, const Projection& projection) {
                             std::sqrt(across) * projection.scale / (depth * depth)));
 }
 
-Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& projection, int fixed) {
+Rates rates(const ShapeKernels& kernels, const EyePatch& patch, const Projection& projection, int fixed) {
   if (fixed > 0) return {fixed, fixed, {fixed, fixed, fixed, fixed}};
-  static const SurveyWeights weights = survey_weights();
-  const Fineness inside = kernels.survey(weights, patch.point, projection);
+  static const CurvatureWeights weights = curvature_weights();
+  const Fineness inside = kernels.estimate_curvature(weights, patch.point, projection);
   Rates out{whole_steps(inside.u), whole_steps(inside.v), {}};
   for (const Side side : {Side::bottom, Side::right, Side::top, Side::left}) {
     const Curve curve = edge(patch, side).curve;

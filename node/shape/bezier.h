@@ -2,8 +2,8 @@
 // message, no film, no picture. Rates are numbers of steps.
 #pragma once
 
-#include "node/wire/film.h"
-#include "node/simd/kernels.h"
+#include "node/shape/kernels.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::node {
 
@@ -60,7 +60,7 @@ int edge_rate(const Curve& curve, const Projection& projection);
 // is seen, and how its normal turns, at sixteen places. A side that is one point is as fine as the inside, for
 // its normals differ, and no other patch's edge can come apart from it; rows towards it are as many, for between
 // two of its normals shading breaks.
-Rates rates(const Kernels& kernels, const EyePatch& patch, const Projection& projection, int fixed);
+Rates rates(const ShapeKernels& kernels, const EyePatch& patch, const Projection& projection, int fixed);
 
 // Whether the patch surely leaves no mark on a picture of width x height: its hull lies outside.
 bool unseen(const EyePatch& patch, const Projection& projection, float width, float height);

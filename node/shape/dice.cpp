@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1);
 constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate;
-constexpr int kMostBatches = 2 * kMaxRate * (kMaxRate / static_cast<int>(kExamined) + 1) + 4 * kMaxRate;
+constexpr int kMostBatches = 2 * kMaxRate * (kMaxRate / static_cast<int>(kBatchTriangles) + 1) + 4 * kMaxRate;
 constexpr Side kSides[] = {Side::bottom, Side::right, Side::top, Side::left};
 
 void subtract(const float* a, const float* b, float* out) {
@@ -60,7 +60,7 @@ Row side_row(const EyePatch& patch, Side side) {
 
 }  // namespace
 
-Dicer::Dicer(const Kernels& kernels) : Surface(kernels, kMostVertices, kMostTriangles, kMostBatches) {}
+Dicer::Dicer(InstructionSet set) : Surface(set, kMostVertices, kMostTriangles, kMostBatches) {}
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
   const Rates wanted = rates(kernels_, patch, projection, fixed_rate);
@@ -175,7 +175,7 @@ void Dicer::triangulate() {
 // Row by row the lower triangles of its quads, then the upper ones: each row's are consecutive. Rows so short that most
 // of a batch would lie idle share theirs.
 void Dicer::fill_inside() {
-  const bool long_rows = columns_ - 1 > static_cast<int>(kExamined) / 2;
+  const bool long_rows = columns_ - 1 > static_cast<int>(kBatchTriangles) / 2;
   for (int j = 0; j + 1 < rows_; ++j) {
     const int first = j * columns_, last = first + columns_ - 1;
     for (int a = first; a < last; ++a) add(a, a + 1, a + columns_ + 1);

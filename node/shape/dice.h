@@ -12,7 +12,7 @@ namespace mars::node {
 
 class Dicer : public Surface {
  public:
-  explicit Dicer(const Kernels& kernels);
+  explicit Dicer(InstructionSet set);
 
   // Becomes the surface of `patch`, until the next call.
   void dice(const EyePatch& patch, const Projection& projection, int fixed_rate);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "node/simd/vector_slack.h"
+
 namespace mars::node {
 
-Surface::Surface(const Kernels& kernels, int most_vertices, int most_triangles, int most_batches)
-    : kernels_(kernels), stride_(static_cast<std::uint32_t>(most_triangles + kVectorSlack)) {
+Surface::Surface(InstructionSet set, int most_vertices, int most_triangles, int most_batches)
+    : kernels_(shape_kernels(set)), stride_(static_cast<std::uint32_t>(most_triangles + kVectorSlack)) {
   const std::size_t vertices = static_cast<std::size_t>(most_vertices + kVectorSlack);
   numbers_.reset(new float[6 * vertices]);
   places_.reset(new std::int32_t[2 * vertices]);
@@ -28,7 +30,7 @@ Surface::Surface(const Kernels& kernels, int most_vertices, int most_triangles, 
 void Surface::end_batches(bool consecutive) {
   std::uint32_t first = triangles_.batch_count == 0 ? 0 : batches_[triangles_.batch_count - 1].last;
   while (first < triangles_.count) {
-    const std::uint32_t last = std::min(first + kExamined, triangles_.count);
+    const std::uint32_t last = std::min(first + kBatchTriangles, triangles_.count);
     batches_[triangles_.batch_count++] = {first, last, consecutive};
     first = last;
   }

@@ -1,11 +1,11 @@
 // What set-up takes: a diced patch (dice.h) or a meshlet (meshlets.h) in eye space, its vertices projected, its
-// triangles in batches. Made anew for each, in memory that is kept.
+// triangles in batches. Made again for each, in the same memory.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "node/simd/kernels.h"
+#include "node/shape/kernels.h"
 
 namespace mars::node {
 
@@ -18,7 +18,7 @@ class Surface {
   bool reaches_outside() const { return reaches_outside_; }  // whether any vertex is outside
 
  protected:
-  Surface(const Kernels& kernels, int most_vertices, int most_triangles, int most_batches);
+  Surface(InstructionSet set, int most_vertices, int most_triangles, int most_batches);
 
   void project(const Projection& projection) {
     reaches_outside_ = kernels_.project(projection, vertices_, vertex_count_);
@@ -34,7 +34,7 @@ class Surface {
   // Cuts the triangles added since the last time into batches.
   void end_batches(bool consecutive);
 
-  const Kernels& kernels_;
+  const ShapeKernels& kernels_;
   Vertices vertices_;
   int vertex_count_ = 0;
 

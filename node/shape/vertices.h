@@ -1,12 +1,19 @@
 // Vertices and triangles in eye space and on the screen, and what kernels make them from: patches and meshes. Plain
 // structs only: kernels of several instruction sets share them (kernels.h).
+//
+// Screen places are snapped to 1/256 pixel; sample (column, row) lies at (256 column + 128, 256 row + 128).
 #pragma once
 
 #include <cstdint>
 
-#include "node/raster/triangle.h"
-
 namespace mars::node {
+
+inline constexpr std::int32_t kSubpixels = 256;
+inline constexpr std::int32_t kSampleOffset = kSubpixels / 2;
+
+// What a sample takes from a triangle: 1 / w, w the distance along the view axis (greater is nearer), and the
+// eye space normal / w, turned to the eye.
+enum Value { kDepth, kNormalX, kNormalY, kNormalZ, kValues };
 
 // Bernstein polynomials at i / rate, i = 0..rate: four cubic ones, and three quadratic ones for slopes.
 struct Basis {
@@ -25,7 +32,7 @@ struct Row {
 };
 
 // What weighs a patch's 16 control points at each of 16 places of it: for the place itself and its derivatives.
-struct SurveyWeights {
+struct CurvatureWeights {
   enum Kind { kPlace, kU, kV, kUU, kUV, kVV, kKinds };
   alignas(64) float weight[kKinds][16][16];  // [control point][place]
 };
@@ -61,11 +68,6 @@ struct Projection {
   float corner;  // cosine of the angle between the view axis and the picture's corner
 };
 
-// Kernels work on whole vectors: every array of vertices, of triangles' corners and of pixels has room for this many
-// items more than are asked for, which may be written (with anything) or read; corners there must be numbers of
-// vertices. So has a line's depth and ids; there what lies behind the line is read, and written back as it was.
-inline constexpr int kVectorSlack = 16;
-
 // Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then
 // what projection adds: values, screen place, and whether the vertex is on the screen's plane at all.
 struct Vertices {
@@ -82,9 +84,9 @@ struct Corner3 {
   std::uint32_t a, b, c;
 };
 
-inline constexpr std::uint32_t kExamined = 16;  // triangles at most in a batch
+inline constexpr std::uint32_t kBatchTriangles = 16;  // at most
 
-// Triangles [first, last), which are examined together. `consecutive`: each corner's numbers go up by one.
+// Triangles [first, last), which are classified together. `consecutive`: each corner's numbers go up by one.
 struct Batch {
   std::uint32_t first;
   std::uint32_t last;

@@ -32,7 +32,7 @@ enum MessageType : long {
 // Types of what nodes send each other say from whom, for NX receives by type alone. They are low: an MPI need
 // not carry high ones.
 constexpr long triangles_from(long node) { return 32 + 3 * node; }
-constexpr long crossings_from(long node) { return 33 + 3 * node; }
+constexpr long edge_boxes_from(long node) { return 33 + 3 * node; }
 constexpr long depth_lines_from(long node) { return 34 + 3 * node; }
 
 // The NX type selector for any of several types below 30.
@@ -67,15 +67,20 @@ struct Load {
 };
 
 // Frames of one interval for one group: the first is rendered by all its nodes as the keyframe, the others go
-// whole to single nodes; inbetween number k of the film (first_inbetween counts those before) to the group's
-// node k mod count. Followed by frame_count frame numbers (uint32), ascending.
+// whole to single nodes (contributor_of_inbetween). Followed by frame_count frame numbers (uint32), ascending.
 struct Render {
   std::uint32_t interval;
   std::int32_t group_first;
   std::int32_t group_count;
   std::uint32_t frame_count;
-  std::uint64_t first_inbetween;
+  std::uint64_t first_inbetween;  // the film's inbetweens before this command's
 };
+
+// The node that draws the command's inbetween number `k`, from 0: all inbetweens of the film go round.
+constexpr std::int32_t contributor_of_inbetween(const Render& render, std::uint64_t k) {
+  const std::uint64_t number = render.first_inbetween + k;
+  return render.group_first + static_cast<std::int32_t>(number % static_cast<std::uint64_t>(render.group_count));
+}
 
 // Gives back `count` strips' credit.
 struct Credit {

@@ -154,19 +154,65 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
     }
 }
 
+// Of node/, each room knows only those before it; firmware, renderer and tessellator know them all.
+TEST(Boundaries, NodesRoomsStandOnOneAnother) {
+  std::vector<std::string> known;
+  for (const char* room : {"wire", "simd", "shape", "geometry", "shading", "raster", "group"}) {
+    known.push_back("node/" + std::string(room) + "/");
+    expect_includes(known.back(), [&](const std::string& include) {
+      return !begins(include, "node/") ||
+             std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
+    });
+  }
+}
+
+// What a file of ours includes, and what that includes, and so on.
+Files reached_from(const Source& file) {
+  Files reached;
+  std::vector<std::string> left = file.includes;
+  while (!left.empty()) {
+    const std::string next = left.back();
+    left.pop_back();
+    if (!reached.insert(next).second) continue;
+    for (const Source& source : sources())
+      if (source.path == next) left.insert(left.end(), source.includes.begin(), source.includes.end());
+  }
+  return reached;
+}
+
+TEST(Boundaries, NoHeaderOfTheNodeIncludesItself) {
+  int seen = 0;
+  for (const Source& source : sources()) {
+    if (!begins(source.path, "node/")) continue;
+    ++seen;
+    EXPECT_EQ(reached_from(source).count(source.path), 0u) << source.path;
+  }
+  EXPECT_GT(seen, 40) << "nothing to scan: the test is broken";
+}
+
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide
 // CPU's copy of an inline function for all.
 TEST(Boundaries, KernelsIncludeLittle) {
-  const Files allowed = {"bit", "cstddef", "cstring", "hwy/highway.h", "node/simd/kernels.h", "node/simd/simd.h"};
+  const Files plain = {"node/geometry/eye_light.h", "node/geometry/triangle.h", "node/raster/classified.h",
+                       "node/raster/edge_box.h",    "node/raster/kernels.h",    "node/shading/kernels.h",
+                       "node/shading/shading.h",    "node/shape/kernels.h",     "node/shape/vertices.h",
+                       "node/simd/vector_slack.h",  "node/simd/vectors.h",      "node/wire/film_parts.h",
+                       "node/wire/protocol.h"};
+  const Files standard = {"array", "bit", "cstddef", "cstdint", "cstring"};
+  const std::regex kernels("^node/(\\w+/)+kernels/"), functions("^node/\\w+/kernels/functions\\.h$");
   int seen = 0;
   for (const Source& source : sources()) {
-    if (!begins(source.path, "node/simd/kernels/")) continue;
+    if (!std::regex_search(source.path, kernels)) continue;
     ++seen;
-    for (const std::string& include : source.includes)
-      EXPECT_TRUE(allowed.count(include)) << source.path << " includes " << include;
+    for (const std::string& include : reached_from(source))
+      EXPECT_TRUE(plain.count(include) || standard.count(include) || include == "hwy/highway.h" ||
+                  std::regex_search(include, functions))
+          << source.path << " needs " << include;
   }
-  EXPECT_GT(seen, 5) << "nothing to scan: the test is broken";
-  expect_within(files_including(std::regex("^hwy/")), "node/simd/kernels/");
+  EXPECT_GT(seen, 10) << "nothing to scan: the test is broken";
+  expect_within(files_including(std::regex("^hwy/")), "node/simd/vectors.h");
+  for (const std::string& file : files_including(std::regex("^node/simd/vectors\\.h$")))
+    EXPECT_TRUE(std::regex_search(file, functions)) << file << " includes vectors";
 }
 
 // Frames are exact: only the peers of a benchmark, other people's renderers in our harness, may be built otherwise.

@@ -137,12 +137,12 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
   const Reference reference = draw_reference(FilmBlock(film_).view(), 0);
   std::map<std::pair<int, int>, std::uint64_t> triangles, boxes;
   for (const PlainTriangle& t : reference.triangles) {
-    const auto crossings = plain_crossings(t.corners, static_cast<std::int32_t>(film_.settings.width),
+    const auto covered = plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
                                            static_cast<std::int32_t>(film_.settings.height));
     const int from = static_cast<int>(t.record.patch) % nodes;
     for (int to = 0; to < nodes; ++to) {
       const Strip& home = homes[static_cast<std::size_t>(to)];
-      const auto there = std::count_if(crossings.begin(), crossings.end(), [&](const node::Crossing& c) {
+      const auto there = std::count_if(covered.begin(), covered.end(), [&](const node::UnsortedEdgeBox& c) {
         return c.line >= home.first_line && c.line < home.last_line;
       });
       boxes[{from, to}] += static_cast<std::uint64_t>(there);
@@ -156,7 +156,7 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
       const auto bytes = [&](long type) { return counted.counts.sent({.from = from, .to = to, .type = type}).bytes; };
       const auto expected = triangles[{from, to}], expected_boxes = boxes[{from, to}];
       EXPECT_EQ(bytes(node::triangles_from(from)), expected * sizeof(node::Triangle)) << from << " to " << to;
-      EXPECT_EQ(bytes(node::crossings_from(from)), expected_boxes * sizeof(node::Crossing)) << from << " to " << to;
+      EXPECT_EQ(bytes(node::edge_boxes_from(from)), expected_boxes * sizeof(node::UnsortedEdgeBox)) << from << " to " << to;
       most = std::max(most, expected);
     }
   EXPECT_TRUE(nodes == 1 || most > 100);
@@ -168,16 +168,16 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   run_counted(film_, {nodes}, counted);
   std::uint64_t moving_patches = 0;
   for (const std::uint32_t s : film_.moving) moving_patches += film_.shapes[film_.segments[s].shape].size();
-  std::set<std::int32_t> artists;
+  std::set<std::int32_t> contributors;
   const auto inbetweens = of_kind(counted, FrameKind::inbetween);
   EXPECT_EQ(inbetweens.size(), kFrames - 1u);
   for (const Strip& strip : inbetweens) {
     EXPECT_EQ(strip.work.bytes_to_nodes, 0u);
     EXPECT_GT(strip.work.patches, 0u);
     EXPECT_LE(strip.work.patches, moving_patches);
-    artists.insert(strip.node);
+    contributors.insert(strip.node);
   }
-  EXPECT_EQ(artists.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
+  EXPECT_EQ(contributors.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
   // All triangles that nodes gave each other are the keyframe's: one message for each pair.
   std::uint64_t triangles = 0;
   for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = node::triangles_from(from)}).messages;
@@ -233,19 +233,19 @@ TEST(Division, EveryGroupGetsAUnit) {
   RunOptions options;
   options.nodes = 4;
   options.farm.groups = 4;
-  std::set<std::int32_t> artists;
-  for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) artists.insert(strip.node);
-  EXPECT_EQ(artists.size(), 4u);
+  std::set<std::int32_t> contributors;
+  for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) contributors.insert(strip.node);
+  EXPECT_EQ(contributors.size(), 4u);
 }
 
 // CZB lines travel only where moving parts can be seen, once to each machine with nodes that draw inbetweens; on one
 // machine not at all.
 TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   FilmMaker maker(200, 200, 2);
-  const std::uint32_t look = maker.add_material(kClay);
+  const std::uint32_t material = maker.add_material(kClay);
   const std::uint32_t box = maker.add_shape(crowd(8, 8, 1, 1).patches);
-  maker.add_segment(box, look, {placed({-2, -2, -2}, 4)});
-  maker.add_segment(box, look, {placed({-0.2, -4, -1.4}, 0.4), placed({0, -4, -1.4}, 0.4)});
+  maker.add_segment(box, material, {placed({-2, -2, -2}, 4)});
+  maker.add_segment(box, material, {placed({-0.2, -4, -1.4}, 0.4), placed({0, -4, -1.4}, 0.4)});
   maker.set_cameras({looking({0, -9, 0}, {0, 0, 0}, 40)});
   const node::FilmData film = maker.make();
   std::map<int, std::uint64_t> bytes, written;  // by nodes a machine

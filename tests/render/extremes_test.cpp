@@ -21,8 +21,8 @@ struct Body {
 
 node::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vector<Body>& bodies, const node::Camera& camera) {
   FilmMaker maker(width, height, 1);
-  const std::uint32_t look = maker.add_material(kClay);
-  for (const Body& body : bodies) maker.add_segment(maker.add_shape(body.patches), look, {body.matrix});
+  const std::uint32_t material = maker.add_material(kClay);
+  for (const Body& body : bodies) maker.add_segment(maker.add_shape(body.patches), material, {body.matrix});
   maker.add_light({0, {0, -0.6f, 0.8f}, {1, 1, 1}});
   maker.set_cameras({camera});
   return maker.make();

@@ -20,14 +20,14 @@ Vec3 unit(const Vec3& a) {
 }
 
 // A flat ball, which one meshlet does not hold, and a smooth one that moves, is squeezed, and is seen from outside only.
-void add_meshes(FilmMaker& maker, std::uint32_t still_look, std::uint32_t moving_look, std::uint32_t frames) {
-  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(9, 0))), still_look, {placed({0.4, -4, 0.2}, 1.7, 0.2)});
+void add_meshes(FilmMaker& maker, std::uint32_t still_material, std::uint32_t moving_material, std::uint32_t frames) {
+  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(9, 0))), still_material, {placed({0.4, -4, 0.2}, 1.7, 0.2)});
   std::vector<node::Matrix> motion;
   for (std::uint32_t f = 0; f < frames; ++f) {
     motion.push_back(placed({-3.4 + 0.19 * f, -3.6, 0.4 + 0.05 * f}, 2, 0.21 * f));
     for (auto& row : motion.back().m) row[1] *= 0.6;
   }
-  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(14, 180))), moving_look, motion);
+  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(14, 180))), moving_material, motion);
 }
 
 void add_crowd(FilmMaker& maker, bool moving) {
@@ -35,18 +35,18 @@ void add_crowd(FilmMaker& maker, bool moving) {
   const std::uint32_t shapes[] = {maker.add_shape(host::make_teapot(1.077)), maker.add_shape(host::make_sphere()),
                                   maker.add_shape(host::make_torus(0.15)),   maker.add_shape(host::make_box()),
                                   maker.add_shape(host::make_cone(0)),       maker.add_shape(host::make_cylinder())};
-  const std::uint32_t looks[] = {
+  const std::uint32_t materials[] = {
       maker.add_material(kClay), maker.add_material({{0.2f, 0.6f, 0.3f}, 0.2f, 0.7f, 0.1f, 2.5f, 2}),
       maker.add_material({{0.3f, 0.4f, 0.9f}, 0.1f, 0.6f, 0.9f, 200, 1})};
-  maker.add_segment(shapes[3], looks[1], {placed({-6, -6, -12}, 12)});  // ground: the upper side of a box
+  maker.add_segment(shapes[3], materials[1], {placed({-6, -6, -12}, 12)});  // ground: the upper side of a box
   for (std::uint32_t i = 0; i < 9; ++i) {
     const Vec3 place{(i % 3) * 2.2 - 3, (i / 3) * 2.2 - 3, 0.1 * i};
     std::vector<node::Matrix> motion;
     for (std::uint32_t f = 0; f < (i % 4 == 1 ? frames : 1); ++f)
       motion.push_back(placed({place[0] + 0.21 * f, place[1] + 0.07 * f, place[2]}, 2.4, 0.3 * i + 0.17 * f));
-    maker.add_segment(shapes[i % 6], looks[i % 3], motion);
+    maker.add_segment(shapes[i % 6], materials[i % 3], motion);
   }
-  add_meshes(maker, looks[0], looks[2], frames);
+  add_meshes(maker, materials[0], materials[2], frames);
 }
 
 void add_lights(FilmMaker& maker) {
@@ -202,13 +202,13 @@ node::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t f
 node::FilmData ties(std::uint32_t width, std::uint32_t height) {
   FilmMaker maker(width, height, 3);
   const std::uint32_t box = maker.add_shape(host::make_box());
-  const std::uint32_t looks[] = {maker.add_material(kClay), maker.add_material({{0, 0.7f, 0}, 0.3f, 0.6f, 0, 1, 2}),
+  const std::uint32_t materials[] = {maker.add_material(kClay), maker.add_material({{0, 0.7f, 0}, 0.3f, 0.6f, 0, 1, 2}),
                                  maker.add_material({{0, 0, 0.9f}, 0.3f, 0.6f, 0, 1, 2})};
   const node::Matrix here = placed({-0.5, -0.5, -0.5}, 1, 0.4), apart = placed({0.2, -0.5, -0.5}, 1, 0.4);
-  maker.add_segment(box, looks[0], {apart, here, here});
-  maker.add_segment(box, looks[1], {here});
-  maker.add_segment(box, looks[2], {apart, apart, here});
-  maker.add_segment(box, looks[0], {here});
+  maker.add_segment(box, materials[0], {apart, here, here});
+  maker.add_segment(box, materials[1], {here});
+  maker.add_segment(box, materials[2], {apart, apart, here});
+  maker.add_segment(box, materials[0], {here});
   add_lights(maker);
   maker.set_cameras({looking({1, -3, 1.6}, {0, 0, 0}, 40)});
   return maker.make();

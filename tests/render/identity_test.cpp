@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "tests/hal/machines_backend.h"
-#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 
@@ -89,11 +89,11 @@ TEST_P(Identity, AnyBlockSize) {
 }
 
 TEST_P(Identity, AnyInstructionSet) {
-  for (const node::Kernels* kernels : all_kernels()) {
+  for (const node::InstructionSet set : all_sets()) {
     RunOptions options;
     options.nodes = 2;
-    options.simd = kernels->name;
-    expect_as_from_scratch(options, kernels->name);
+    options.simd = node::name_of(set);
+    expect_as_from_scratch(options, node::name_of(set));
   }
 }
 

@@ -31,7 +31,7 @@ Pixels draw(FilmMaker& maker, int nodes = 2) {
 // Each patch's dicing in eye space as a meshlet, which an eye at the origin leaves where it is.
 host::Meshlets diced(const std::vector<node::Patch>& patches, const node::Matrix& matrix) {
   host::Meshlets out;
-  node::Dicer dicer(node::best_kernels(""));
+  node::Dicer dicer(node::best_instruction_set(""));
   const node::Projection projection{300, {160, 120}, 0.1f, 100, 32768, 0.8f};
   for (const node::Patch& patch : patches) {
     dicer.dice(node::to_eye(node::eye_matrix(kAsItIs, matrix), patch), projection, kRate);

@@ -30,8 +30,8 @@ auto order(const Reference& reference, std::size_t triangle) {
 }
 
 struct Surfaces {
-  node::Dicer dicer{node::best_kernels("sse2")};
-  node::MeshletPlacer placer{node::best_kernels("sse2")};
+  node::Dicer dicer{node::best_instruction_set("sse2")};
+  node::MeshletPlacer placer{node::best_instruction_set("sse2")};
 };
 
 // The triangles of all patches and meshlets of the segment, seen or not.
@@ -39,9 +39,9 @@ void add_segment(const node::Scene& scene, std::size_t segment, Surfaces& surfac
   const node::FilmView& film = scene.film();
   const node::Shape& shape = film.shapes()[film.segments()[segment].shape];
   const node::EyeMatrix matrix = scene.matrix(segment);
-  const std::uint32_t look = scene.look(segment);
-  node::PatchIdentity identity{scene.first_patch(segment), look, node::mirrors(matrix),
-                               film.materials()[look].sides == 1, scene.moves(segment)};
+  const std::uint32_t material = scene.material(segment);
+  node::PatchIdentity identity{scene.first_patch(segment), material, node::mirrors(matrix),
+                               film.materials()[material].sides == 1, scene.moves(segment)};
   const auto add = [&](const node::Surface& surface) {
     const auto made = plain_set_up(surface, scene.projection(), identity);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
@@ -110,7 +110,7 @@ Color shade_reference(const node::FilmView& film, std::uint32_t frame, const Ref
   const node::Projection& p = scene.projection();
   const double dx = (column + 0.5 - p.center[0]) / p.scale, dy = (row + 0.5 - p.center[1]) / p.scale;
   const Vec eye = unit({-dx, dy, 1});
-  const node::Material& m = film.materials()[t.look];
+  const node::Material& m = film.materials()[t.material];
   Color color{};
   for (int c = 0; c < 3; ++c) color.channel[c] = m.ambient * m.color[static_cast<std::size_t>(c)];
   for (const node::EyeLight& light : scene.lights()) {

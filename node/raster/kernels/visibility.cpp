@@ -1,5 +1,5 @@
 // Which triangle a line's samples show.
-#include "node/simd/simd.h"
+#include "node/raster/kernels/functions.h"
 
 namespace mars::node::MARS_SET {
 namespace {

@@ -6,7 +6,7 @@
 // so |e| is never taken, and one root and one division do for n and e.
 #include <cstring>
 
-#include "node/simd/simd.h"
+#include "node/shading/kernels/functions.h"
 
 namespace mars::node::MARS_SET {
 namespace {
@@ -29,23 +29,23 @@ Sample load(const float* values) {
   return out;
 }
 
-// From sample `first` of a block on.
+// From sample `first` of a block on, until the next.
 struct Stretch {
   std::uint32_t first;
-  std::uint32_t look;
+  std::uint32_t material;
 };
 
 // Samples of one line that show something, close together, and what becomes of them.
 constexpr std::uint32_t kBlock = 256;
-constexpr std::uint32_t kRoom = kBlock + kVectorSlack;
+constexpr std::uint32_t kCapacity = kBlock + kVectorSlack;
 struct Block {
-  alignas(64) float values[kRoom][kValues];
-  alignas(64) float column[kRoom];
-  alignas(64) float facing[kRoom];  // of one light: N.L
-  alignas(64) float square[kRoom];  // and (R.V)^2; 0 where it is not to be seen
-  alignas(64) float color[3][kRoom];
-  Stretch looks[kBlock];
-  std::uint32_t look_count = 0;
+  alignas(64) float values[kCapacity][kValues];
+  alignas(64) float column[kCapacity];
+  alignas(64) float facing[kCapacity];  // of one light: N.L
+  alignas(64) float square[kCapacity];  // and (R.V)^2; 0 where it is not to be seen
+  alignas(64) float color[3][kCapacity];
+  Stretch stretches[kBlock];
+  std::uint32_t stretch_count = 0;
   std::uint32_t count = 0;
 };
 
@@ -63,7 +63,7 @@ std::uint32_t find(bool something, const std::uint32_t* ids, std::uint32_t colum
   return column < last ? column : last;
 }
 
-// Adds `count` samples from `column` on, none of them a gap, and as many as there is room for. Whether neighbours show
+// Adds `count` samples from `column` on, none of them a gap, and as many as fit. Whether neighbours show
 // the same triangle is not asked: the answer costs more than the planes of a sample.
 void interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint32_t line, std::uint32_t column,
                  std::uint32_t count, Block& block) {
@@ -72,12 +72,13 @@ void interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint3
   const Places step = {kSubpixels, 0, 0, 0};
   const std::uint32_t* id = ids + column;
   float(*values)[kValues] = block.values + block.count;
-  std::uint32_t look = block.look_count > 0 ? block.looks[block.look_count - 1].look : ~triangles[*id].look;
+  std::uint32_t material =
+      block.stretch_count > 0 ? block.stretches[block.stretch_count - 1].material : ~triangles[*id].material;
   for (const std::uint32_t* end = id + count; id != end; ++id, ++values, sample += step) {
     const Triangle& t = triangles[*id];
-    if (t.look != look) {
-      look = t.look;
-      block.looks[block.look_count++] = {static_cast<std::uint32_t>(values - block.values), look};
+    if (t.material != material) {
+      material = t.material;
+      block.stretches[block.stretch_count++] = {static_cast<std::uint32_t>(values - block.values), material};
     }
     Places first;
     std::memcpy(&first, &t.first_x, sizeof first);
@@ -141,11 +142,11 @@ Floats raise(Floats square, float exponent) {
   return power;
 }
 
-// Materials of a vector's samples, colours in levels.
-struct Looks {
+// Materials of a vector's samples, one a lane, colours in levels.
+struct MaterialLanes {
   Floats ambient[3], diffuse[3], specular;
 
-  explicit Looks(const Material& m) : specular(constant(255.0f * m.specular)) {
+  explicit MaterialLanes(const Material& m) : specular(constant(255.0f * m.specular)) {
     for (std::size_t c = 0; c < 3; ++c) {
       const float own = 255.0f * m.color[c];
       ambient[c] = constant(m.ambient * own);
@@ -153,7 +154,7 @@ struct Looks {
     }
   }
   // Where `mask` says, those of `other`.
-  void change(hn::Mask<FloatTag> mask, const Looks& other) {
+  void change(hn::Mask<FloatTag> mask, const MaterialLanes& other) {
     for (int c = 0; c < 3; ++c) {
       ambient[c] = hn::IfThenElse(mask, other.ambient[c], ambient[c]);
       diffuse[c] = hn::IfThenElse(mask, other.diffuse[c], diffuse[c]);
@@ -166,9 +167,9 @@ struct Looks {
 class Materials {
  public:
   Materials(const Material* materials, const Block& block)
-      : materials_(materials), block_(block), looks_(material(0)) {}
+      : materials_(materials), block_(block), lanes_(material(0)) {}
 
-  const Looks& looks() const { return looks_; }
+  const MaterialLanes& lanes() const { return lanes_; }
 
   // Goes on to the vector at sample k.
   void move_to(std::uint32_t k) {
@@ -176,8 +177,8 @@ class Materials {
     at_ = k;
     if (next_first() == k) ++last_;
     first_ = last_;
-    looks_ = Looks(material(first_));
-    for (; next_first() < k + kLanes; ++last_) looks_.change(since(last_ + 1), Looks(material(last_ + 1)));
+    lanes_ = MaterialLanes(material(first_));
+    for (; next_first() < k + kLanes; ++last_) lanes_.change(since(last_ + 1), MaterialLanes(material(last_ + 1)));
   }
 
   // The light mirrored to the eye, from (R.V)^2.
@@ -191,16 +192,16 @@ class Materials {
   }
 
  private:
-  const Material& material(std::uint32_t stretch) const { return materials_[block_.looks[stretch].look]; }
-  std::uint32_t next_first() const { return last_ + 1 < block_.look_count ? block_.looks[last_ + 1].first : ~0u; }
+  const Material& material(std::uint32_t stretch) const { return materials_[block_.stretches[stretch].material]; }
+  std::uint32_t next_first() const { return last_ + 1 < block_.stretch_count ? block_.stretches[last_ + 1].first : ~0u; }
   // The vector's samples from a stretch's first on.
   hn::Mask<FloatTag> since(std::uint32_t stretch) const {
-    return hn::Not(hn::FirstN(kFloats, block_.looks[stretch].first - at_));
+    return hn::Not(hn::FirstN(kFloats, block_.stretches[stretch].first - at_));
   }
 
   const Material* materials_;
   const Block& block_;
-  Looks looks_;
+  MaterialLanes lanes_;
   std::uint32_t at_ = 0;
   std::uint32_t first_ = 0;  // stretches of the vector
   std::uint32_t last_ = 0;
@@ -225,13 +226,13 @@ void add_light(const Material* all, const EyeLight& light, bool first, bool last
   Materials materials(all, block);
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
     materials.move_to(k);
-    const Looks& looks = materials.looks();
+    const MaterialLanes& lanes = materials.lanes();
     const Floats facing = hn::Load(kFloats, block.facing + k);
-    const Floats mirrored = hn::Mul(looks.specular, materials.highlight(hn::Load(kFloats, block.square + k)));
+    const Floats mirrored = hn::Mul(lanes.specular, materials.highlight(hn::Load(kFloats, block.square + k)));
     Floats color[3];
     for (int c = 0; c < 3; ++c) {
-      const Floats before = first ? looks.ambient[c] : hn::Load(kFloats, block.color[c] + k);
-      color[c] = hn::Add(before, hn::Mul(hn::Add(hn::Mul(looks.diffuse[c], facing), mirrored), shines[c]));
+      const Floats before = first ? lanes.ambient[c] : hn::Load(kFloats, block.color[c] + k);
+      color[c] = hn::Add(before, hn::Mul(hn::Add(hn::Mul(lanes.diffuse[c], facing), mirrored), shines[c]));
     }
     if (last)
       hn::StoreU(pack(color), kInts, reinterpret_cast<std::int32_t*>(pixels + k));
@@ -260,7 +261,7 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
     if (block.count == 0) return;
     shade_block(shading, line, block, pixels + done.pixels);
     done.pixels += block.count;
-    block.count = block.look_count = 0;
+    block.count = block.stretch_count = 0;
   };
   const std::uint32_t last = extent.last;
   for (std::uint32_t first = find(true, ids, extent.first, last); first < last;) {
@@ -268,8 +269,8 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
     runs[done.runs++] = {line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(end - first)};
     for (std::uint32_t column = first; column < end;) {
       if (block.count == kBlock) flush();
-      const std::uint32_t room = kBlock - block.count;
-      const std::uint32_t count = end - column < room ? end - column : room;
+      const std::uint32_t capacity = kBlock - block.count;
+      const std::uint32_t count = end - column < capacity ? end - column : capacity;
       interpolate(shading.triangles, ids, line, column, count, block);
       column += count;
     }

@@ -1,7 +1,7 @@
 // Points and normals of a patch or a mesh, and where they lie on the screen.
 #include <cstring>
 
-#include "node/simd/simd.h"
+#include "node/shape/kernels/functions.h"
 
 namespace mars::node::MARS_SET {
 namespace {

@@ -2,10 +2,11 @@
 // compiler, which makes one version for each instruction set with the options of the kernels.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <string_view>
 
-#include "node/simd/kernels.h"
+#include "node/shading/shading.h"
+#include "node/simd/instruction_set.h"
 
 namespace mars::bench {
 
@@ -33,7 +34,6 @@ struct Bare {
   void (*copy_depths)(const float* from, const Piece* pieces, std::size_t count, float* depth);
 };
 
-// By the name of a set of kernels.
-const Bare& bare_for(std::string_view name);
+const Bare& bare_for(node::InstructionSet set);
 
 }  // namespace mars::bench

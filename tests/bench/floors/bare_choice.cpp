@@ -7,8 +7,13 @@ extern const Bare bare_sse4;
 extern const Bare bare_avx2;
 extern const Bare bare_avx512;
 
-const Bare& bare_for(std::string_view name) {
-  return name == "avx512" ? bare_avx512 : name == "avx2" ? bare_avx2 : name == "sse4" ? bare_sse4 : bare_sse2;
+const Bare& bare_for(node::InstructionSet set) {
+  switch (set) {
+    case node::InstructionSet::avx512: return bare_avx512;
+    case node::InstructionSet::avx2: return bare_avx2;
+    case node::InstructionSet::sse4: return bare_sse4;
+    default: return bare_sse2;
+  }
 }
 
 }  // namespace mars::bench

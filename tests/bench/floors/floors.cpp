@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
-#include "node/polygons.h"
+#include "node/tessellator.h"
 #include "tests/bench/floors/bare.h"
 #include "tests/bench/floors/workload.h"
 
@@ -31,13 +31,13 @@ double seconds(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// One scene with one set of kernels; every step says how many seconds it took.
+// One scene with the kernels of one instruction set; every step says how many seconds it took.
 class Bench {
  public:
-  Bench(Workload& workload, const node::Kernels& kernels)
+  Bench(Workload& workload, node::InstructionSet set)
       : work_(workload),
-        kernels_(kernels),
-        bare_(bare_for(kernels.name)),
+        instruction_set_(set),
+        bare_(bare_for(set)),
         depth_(workload.width() + node::kVectorSlack),
         ids_(depth_.size(), node::kNoTriangle),
         depths_(workload.pixels()),
@@ -68,6 +68,8 @@ class Bench {
     double shade = 0;
   };
   Scanlines scanlines() {
+    const node::RasterKernels& raster = node::raster_kernels(instruction_set_);
+    const node::ShadingKernels& shading = node::shading_kernels(instruction_set_);
     Scanlines spent;
     std::uint64_t pixels = 0, runs = 0;
     for (std::uint32_t line = 0; line < work_.height(); ++line) {
@@ -76,12 +78,12 @@ class Bench {
       std::fill(depth_.begin(), depth_.end(), 0.0f);
       node::Extent extent{};
       spent.draw += seconds([&] {
-        extent = kernels_.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
+        extent = raster.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
                                depth_.data(), ids_.data());
       });
       node::Shaded done{};
       spent.shade += seconds([&] {
-        done = kernels_.shade(work_.shading(), ids_.data(), line, extent, runs_.data() + runs, pixels_.data() + pixels);
+        done = shading.shade(work_.shading(), ids_.data(), line, extent, runs_.data() + runs, pixels_.data() + pixels);
       });
       pixels += done.pixels;
       runs += done.runs;
@@ -91,11 +93,11 @@ class Bench {
   }
 
   double dice() {
-    node::Dicer dicer(kernels_);
+    node::Dicer dicer(instruction_set_);
     return seconds([&] { work_.dice(dicer); });
   }
   double dice_and_set_up() {
-    return seconds([&] { work_.make(kernels_); });
+    return seconds([&] { work_.make(instruction_set_); });
   }
   double fill() {
     return seconds([&] { work_.fill(); });
@@ -103,7 +105,7 @@ class Bench {
 
  private:
   Workload& work_;
-  const node::Kernels& kernels_;
+  node::InstructionSet instruction_set_;
   const Bare& bare_;
   std::vector<float> depth_;  // of one line
   std::vector<std::uint32_t> ids_;
@@ -187,20 +189,20 @@ void print(const std::vector<Case>& cases, const Best& best) {
     const double copies = ns(one, "copies"), planes = ns(one, "planes"), draw = ns(one, "draw");
     print_row(one.name, {copies / 1e6, planes / 1e6, draw / 1e6, draw / copies, draw / planes, draw / boxes});
   }
-  std::puts("\nOther steps, ns a    vertex    examined        kept  box filled");
+  std::puts("\nOther steps, ns a    vertex  classified     emitted  box filled");
   for (const Case& one : cases) {
     const node::WorkCounts& counts = one.work->counts();
     const double dice = ns(one, "dice"), set_up = ns(one, "make") - dice;
-    print_row(one.name, {dice / static_cast<double>(counts.vertices), set_up / static_cast<double>(one.work->examined()),
+    print_row(one.name, {dice / static_cast<double>(counts.vertices), set_up / static_cast<double>(one.work->classified()),
                          set_up / static_cast<double>(counts.triangles),
                          ns(one, "fill") / static_cast<double>(one.work->boxes().boxes.size())});
   }
 }
 
 void print_counts(const Workload& work, const std::string& name) {
-  std::printf("%s: %llu vertices, %llu triangles examined, %llu kept, %zu edge boxes, %zu visible pieces, %llu pixels\n",
+  std::printf("%s: %llu vertices, %llu triangles classified, %llu emitted, %zu edge boxes, %zu visible pieces, %llu pixels\n",
               name.c_str(), static_cast<unsigned long long>(work.counts().vertices),
-              static_cast<unsigned long long>(work.examined()), static_cast<unsigned long long>(work.counts().triangles),
+              static_cast<unsigned long long>(work.classified()), static_cast<unsigned long long>(work.counts().triangles),
               work.boxes().boxes.size(), work.pieces().size(), static_cast<unsigned long long>(work.pixels()));
 }
 
@@ -221,9 +223,9 @@ int run(int argc, char** argv) {
     workloads.push_back(std::make_unique<Workload>(film));
     print_counts(*workloads.back(), film.stem().string());
     for (const char* limit : {"avx512", "avx2", "sse4", "sse2"}) {
-      const node::Kernels& kernels = node::best_kernels(limit);
-      if (kernels.name != std::string(limit)) continue;  // this CPU has it not
-      cases.push_back({film.stem().string() + '/' + limit, std::make_unique<Bench>(*workloads.back(), kernels),
+      const node::InstructionSet set = node::best_instruction_set(limit);
+      if (node::name_of(set) != std::string(limit)) continue;  // this CPU has it not
+      cases.push_back({film.stem().string() + '/' + limit, std::make_unique<Bench>(*workloads.back(), set),
                        workloads.back().get()});
     }
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "node/polygons.h"
+#include "node/tessellator.h"
 
 namespace mars::bench {
 namespace {
@@ -22,17 +22,17 @@ Workload::Workload(const std::filesystem::path& film)
       wanted_(line_counts_.size(), 1) {
   scene_.set_interval(0);
   scene_.set_frame(0);
-  const node::Kernels& kernels = node::best_kernels("");
-  make(kernels);
+  const node::InstructionSet set = node::best_instruction_set("");
+  make(set);
   for (std::size_t line = 0; line < line_counts_.size(); ++line) ebc_[line + 1] = ebc_[line] + line_counts_[line];
   fill();
-  node::Dicer dicer(kernels);
+  node::Dicer dicer(set);
   dice(dicer);
   find_pieces();
 }
 
 void Workload::dice(node::Dicer& dicer) {
-  examined_ = 0;
+  classified_ = 0;
   const int rate = static_cast<int>(view_.settings().dice);
   for (std::size_t s = 0; s < view_.segments().size(); ++s) {
     const node::Shape& shape = view_.shapes()[view_.segments()[s].shape];
@@ -41,21 +41,21 @@ void Workload::dice(node::Dicer& dicer) {
       const node::EyePatch patch = node::to_eye(matrix, view_.patches()[shape.first_patch + i]);
       if (node::unseen(patch, scene_.projection(), static_cast<float>(width()), static_cast<float>(height()))) continue;
       dicer.dice(patch, scene_.projection(), rate);
-      examined_ += dicer.triangles().count;
+      classified_ += dicer.triangles().count;
     }
   }
 }
 
-void Workload::make(const node::Kernels& kernels) {
+void Workload::make(node::InstructionSet set) {
   made_.clear();
   std::fill(line_counts_.begin(), line_counts_.end(), 0u);
   counts_ = {};
   node::SetUps made(made_.rest(), line_counts_, wanted_);
-  node::PolygonMaker maker(kernels);
-  maker.make(scene_, node::Part::stationary, {}, made, counts_);
-  maker.make(scene_, node::Part::moving, {}, made, counts_);
+  node::Tessellator tessellator(set);
+  tessellator.make(scene_, node::Part::stationary, {}, made, counts_);
+  tessellator.make(scene_, node::Part::moving, {}, made, counts_);
   counts_.triangles = made.touching;
-  polygons_ = {made.first, made.crossings(), {}};
+  polygons_ = {made.first, made.boxes(), {}};
   shading_ = {made.first, view_.materials().data(), scene_.lights().data(),
               static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }
@@ -68,14 +68,15 @@ void Workload::fill() {
 }
 
 void Workload::find_pieces() {
+  const node::RasterKernels& kernels = node::raster_kernels(node::best_instruction_set(""));
   std::vector<float> depth(width() + node::kVectorSlack);
   std::vector<std::uint32_t> ids(depth.size());
   for (std::uint32_t line = 0; line < height(); ++line) {
     std::fill(depth.begin(), depth.end(), 0.0f);
     std::fill(ids.begin(), ids.end(), node::kNoTriangle);
     const auto boxes = boxes_.stationary(line);
-    node::best_kernels("").draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
-                                depth.data(), ids.data());
+    kernels.draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth.data(),
+                 ids.data());
     for (std::uint32_t first = 0, last; first < width(); first = last) {
       for (last = first + 1; last < width() && ids[last] == ids[first];) ++last;
       if (ids[first] == node::kNoTriangle) continue;

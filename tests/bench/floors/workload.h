@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "host/content/film/compile.h"
-#include "node/raster/arena.h"
-#include "node/shape/dice.h"
-#include "node/raster/scanline.h"
 #include "node/geometry/scene.h"
+#include "node/raster/arena.h"
+#include "node/raster/scanline.h"
+#include "node/shape/dice.h"
 #include "tests/bench/floors/bare.h"
 
 namespace mars::bench {
@@ -22,11 +22,11 @@ class Workload {
 
   // The steps again: patches to vertices; these to triangles and edge boxes; those into their lines.
   void dice(node::Dicer& dicer);
-  void make(const node::Kernels& kernels);
+  void make(node::InstructionSet set);
   void fill();
 
   const node::WorkCounts& counts() const { return counts_; }  // vertices; triangles that touch a sample
-  std::uint64_t examined() const { return examined_; }        // triangles of all diced patches
+  std::uint64_t classified() const { return classified_; }        // triangles of all diced patches
   const node::Shading& shading() const { return shading_; }
   const node::LineBoxes& boxes() const { return boxes_; }
   std::uint32_t width() const { return static_cast<std::uint32_t>(scene_.width()); }
@@ -49,7 +49,7 @@ class Workload {
   node::LineBoxes boxes_{};
   node::Shading shading_{};
   node::WorkCounts counts_{};
-  std::uint64_t examined_ = 0;
+  std::uint64_t classified_ = 0;
   std::vector<Piece> pieces_;
   std::uint64_t pixels_ = 0;
 };

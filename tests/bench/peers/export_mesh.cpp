@@ -76,7 +76,7 @@ void add_patch(const node::Dicer& diced, MeshPatch part, Mesh& mesh) {
 
 void add_segments(const node::Scene& scene, bool moving, Mesh& mesh) {
   const node::FilmView& film = scene.film();
-  node::Dicer dicer(node::best_kernels(""));
+  node::Dicer dicer(node::best_instruction_set(""));
   for (std::uint32_t s = 0; s < film.segments().size(); ++s) {
     if (scene.moves(s) != moving) continue;
     const node::EyeMatrix matrix = scene.matrix(s);

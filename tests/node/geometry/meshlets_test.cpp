@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
@@ -77,8 +77,8 @@ EyeMatrix random_matrix(Random& random, double scale) {
 
 TEST(Meshlets, PlacesAreThoseOfAPatchsPointsBitForBit) {
   Random random(1);
-  for (const node::Kernels* kernels : all_kernels()) {
-    node::MeshletPlacer placer(*kernels);
+  for (const node::InstructionSet set : all_sets()) {
+    node::MeshletPlacer placer(set);
     for (const std::uint32_t triangles : {1u, 5u, 6u, 64u}) {
       const OneMeshlet mesh(random, triangles);
       const node::FilmView film = mesh.view();
@@ -90,7 +90,7 @@ TEST(Meshlets, PlacesAreThoseOfAPatchsPointsBitForBit) {
         float expected[3];
         node::to_eye(matrix, film.mesh_places()[k], expected);
         for (int axis = 0; axis < 3; ++axis)
-          ASSERT_EQ(std::memcmp(&placer.vertices().place[axis][k], &expected[axis], sizeof(float)), 0) << kernels->name;
+          ASSERT_EQ(std::memcmp(&placer.vertices().place[axis][k], &expected[axis], sizeof(float)), 0) << node::name_of(set);
       }
     }
   }
@@ -102,14 +102,14 @@ TEST(Meshlets, EveryInstructionSetGivesTheSameNormals) {
     const OneMeshlet mesh(random, 21);
     const node::FilmView film = mesh.view();
     const node::EyeMap map = node::eye_map(random_matrix(random, std::pow(10, random.real(-6, 6))));
-    node::MeshletPlacer plain(*all_kernels().front());
+    node::MeshletPlacer plain(all_sets().front());
     plain.place(map, film, film.meshlets()[0], kView);
-    for (const node::Kernels* kernels : all_kernels()) {
-      node::MeshletPlacer placer(*kernels);
+    for (const node::InstructionSet set : all_sets()) {
+      node::MeshletPlacer placer(set);
       placer.place(map, film, film.meshlets()[0], kView);
       for (int axis = 0; axis < 3; ++axis)
         EXPECT_EQ(std::memcmp(placer.vertices().normal[axis], plain.vertices().normal[axis], 63 * sizeof(float)), 0)
-            << kernels->name;
+            << node::name_of(set);
     }
   }
 }
@@ -123,7 +123,7 @@ TEST(Meshlets, NormalsFollowTheirSurfaceThroughStretchShearAndMirror) {
     const node::FilmView film = mesh.view();
     const EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-5, 5)));
     mirrored += node::mirrors(matrix);
-    node::MeshletPlacer placer(node::best_kernels(""));
+    node::MeshletPlacer placer(node::best_instruction_set(""));
     placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
     const node::Vertices& v = placer.vertices();
     const auto place = [&](std::size_t k) { return Float3{v.place[0][k], v.place[1][k], v.place[2][k]}; };
@@ -147,7 +147,7 @@ TEST(Meshlets, WithoutANormalThereIsNone) {
   data.mesh_normals.assign(7, {0, 0, 0});
   const auto block = node::pack(data);
   const node::FilmView film(block, "film");
-  node::MeshletPlacer placer(node::best_kernels(""));
+  node::MeshletPlacer placer(node::best_instruction_set(""));
   for (const float scale : {1.0f, 0.0f}) {
     const EyeMatrix matrix{{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, -5}}};
     placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
@@ -166,10 +166,10 @@ TEST(Meshlets, OnlyTheUnseenAreDropped) {
     EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-1, 1)));
     matrix.m[0][3] += static_cast<float>(random.real(-3, 3));
     matrix.m[2][3] += static_cast<float>(random.real(-3, 3));
-    node::MeshletPlacer placer(node::best_kernels(""));
+    node::MeshletPlacer placer(node::best_instruction_set(""));
     placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
     std::size_t boxes = 0;
-    for (const PlainTriangle& t : plain_set_up(placer, kView, identity)) boxes += plain_crossings(t.corners, 320, 180).size();
+    for (const PlainTriangle& t : plain_set_up(placer, kView, identity)) boxes += plain_edge_boxes(t.corners, 320, 180).size();
     const bool unseen = node::unseen(matrix, film.meshlets()[0], kView, 320, 180);
     EXPECT_TRUE(!unseen || boxes == 0) << "trial " << trial;
     dropped += unseen;
@@ -190,15 +190,15 @@ TEST(Meshlets, AreSetUpAlikeEitherWay) {
     const node::FilmView film = mesh.view();
     const EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-1.5, 1.5)));
     const node::PatchIdentity identity{7, 1, node::mirrors(matrix), trial % 2 == 1, false};
-    for (const node::Kernels* kernels : all_kernels()) {
-      node::MeshletPlacer placer(*kernels);
+    for (const node::InstructionSet set : all_sets()) {
+      node::MeshletPlacer placer(set);
       placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
       const Picture picture{kView, 320, 180};
-      const Made one = set_up(*kernels, picture, placer, identity), other = set_up(*kernels, picture, placer, identity, Way::plainly);
+      const Made one = set_up(set, picture, placer, identity), other = set_up(set, picture, placer, identity, Way::plainly);
       ASSERT_EQ(one.triangles.size(), other.triangles.size());
-      ASSERT_EQ(one.crossings.size(), other.crossings.size());
+      ASSERT_EQ(one.boxes.size(), other.boxes.size());
       EXPECT_EQ(std::memcmp(one.triangles.data(), other.triangles.data(), one.triangles.size() * sizeof one.triangles[0]), 0);
-      EXPECT_EQ(std::memcmp(one.crossings.data(), other.crossings.data(), one.crossings.size() * sizeof one.crossings[0]), 0);
+      EXPECT_EQ(std::memcmp(one.boxes.data(), other.boxes.data(), one.boxes.size() * sizeof one.boxes[0]), 0);
       boxes += one.edge_boxes;
     }
   }

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "node/simd/kernels.h"
-#include "tests/node/simd/kernel_sets.h"
+#include "node/raster/kernels.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
 namespace mars::test {
@@ -15,7 +15,6 @@ namespace {
 
 using node::EdgeBox;
 using node::Extent;
-using node::Kernels;
 using node::Triangle;
 
 constexpr std::uint32_t kLine = 7;
@@ -101,13 +100,13 @@ TEST(Draw, IsAPlainZBuffer) {
       first = std::min<std::uint32_t>(first, box.first);
       last = std::max<std::uint32_t>(last, box.last);
     }
-    for (const Kernels* kernels : all_kernels()) {
+    for (const node::InstructionSet set : all_sets()) {
       Line line = before;
       const auto count = static_cast<std::uint32_t>(boxes.boxes.size());
-      const Extent extent = kernels->draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, line.depth.data(),
+      const Extent extent = node::raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, line.depth.data(),
                                           line.ids.data());
       EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids)
-          << kernels->name << ' ' << trial;
+          << node::name_of(set) << ' ' << trial;
       EXPECT_EQ(extent.last, last);
       EXPECT_EQ(extent.first, first);
     }

@@ -95,7 +95,7 @@ void add(const PlainVertex (&t)[3], std::optional<bool> known, const node::Patch
   made.record.first_x = t[0].x;
   made.record.first_y = t[0].y;
   made.record.patch = identity.patch;
-  made.record.look = identity.look;
+  made.record.material = identity.material;
   made.index = index;
   out.push_back(made);
 }
@@ -153,11 +153,11 @@ bool covers(const node::Corners& t, std::int32_t column, std::int32_t row) {
   return true;
 }
 
-std::vector<node::Crossing> plain_crossings(const node::Corners& t, std::int32_t width, std::int32_t height) {
+std::vector<node::UnsortedEdgeBox> plain_edge_boxes(const node::Corners& t, std::int32_t width, std::int32_t height) {
   const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const std::int32_t first = std::max(left / 256 - 1, 0), last = std::min(right / 256 + 1, width);
-  std::vector<node::Crossing> out;
+  std::vector<node::UnsortedEdgeBox> out;
   for (std::int32_t row = std::max(top / 256 - 1, 0); row < std::min(bottom / 256 + 1, height); ++row) {
     std::int32_t begin = first;
     while (begin < last && !covers(t, begin, row)) ++begin;

@@ -29,6 +29,6 @@ std::int64_t area(const node::Corners& corners);
 bool covers(const node::Corners& corners, std::int32_t column, std::int32_t row);
 
 // The boxes of the samples of a picture that the triangle covers, from the top.
-std::vector<node::Crossing> plain_crossings(const node::Corners& corners, std::int32_t width, std::int32_t height);
+std::vector<node::UnsortedEdgeBox> plain_edge_boxes(const node::Corners& corners, std::int32_t width, std::int32_t height);
 
 }  // namespace mars::test

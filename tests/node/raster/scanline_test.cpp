@@ -1,4 +1,4 @@
-// Edge boxes into their lines: crossings of several senders against a plain search for each line and part.
+// Edge boxes into their lines: edge boxes of several senders against a plain search for each line and part.
 #include "node/raster/scanline.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace mars::test {
 namespace {
 
-using node::Crossing;
+using node::UnsortedEdgeBox;
 using node::EdgeBox;
 using node::LineRange;
 using node::Triangle;
@@ -24,7 +24,7 @@ constexpr std::size_t kMostTriangles = 200;  // 30 patches of at most six
 // All triangles of a frame as their senders' set-ups leave them.
 struct Sent {
   std::vector<Triangle> triangles;
-  std::vector<std::vector<Crossing>> crossings;  // of each sender: moving ones, then stationary ones
+  std::vector<std::vector<UnsortedEdgeBox>> boxes;  // of each sender: moving ones, then stationary ones
   std::vector<node::Polygons> senders;
   std::vector<std::uint64_t> ebc = std::vector<std::uint64_t>(kLines + 1);
 };
@@ -32,28 +32,28 @@ struct Sent {
 // Patches are scattered over the senders; those below `moving_from` stand still.
 Sent random_frame(Random& random, std::uint32_t senders, std::uint32_t patches, std::uint32_t moving_from) {
   Sent sent;
-  sent.crossings.resize(senders);
+  sent.boxes.resize(senders);
   sent.triangles.resize(kMostTriangles);
   std::uint32_t number = 0;
   for (std::uint32_t sender = 0; sender < senders; ++sender) {
     const std::uint32_t first = number;
-    auto& crossings = sent.crossings[sender];
+    auto& boxes = sent.boxes[sender];
     std::size_t stationary = 0;
     for (std::uint32_t patch = sender; patch < patches; patch += senders) {
       for (int triangle = random.whole(0, 6); triangle > 0; --triangle, ++number) {
         const auto line = static_cast<std::uint32_t>(random.whole(0, kLines - 1));
         for (std::uint32_t l = line; l < std::min(line + static_cast<std::uint32_t>(random.whole(1, 5)), kLines); ++l) {
           const auto column = static_cast<std::uint16_t>(random.whole(0, 999));
-          crossings.push_back({{number - first, column, static_cast<std::uint16_t>(column + random.whole(1, 9))},
+          boxes.push_back({{number - first, column, static_cast<std::uint16_t>(column + random.whole(1, 9))},
                                static_cast<std::uint16_t>(l),
                                patch >= moving_from});
           ++sent.ebc[l + 1];
         }
       }
-      if (patch < moving_from) stationary = crossings.size();
+      if (patch < moving_from) stationary = boxes.size();
     }
-    std::reverse(crossings.begin(), crossings.end());
-    const std::span all(crossings);
+    std::reverse(boxes.begin(), boxes.end());
+    const std::span all(boxes);
     sent.senders.push_back(
         {sent.triangles.data() + first, all.last(stationary), all.first(all.size() - stationary)});
   }
@@ -68,7 +68,7 @@ std::multiset<Box> expected_on(const Sent& sent, std::uint32_t line, bool moving
   std::multiset<Box> boxes;
   for (const node::Polygons& sender : sent.senders)
     for (const auto& part : {sender.stationary, sender.moving})
-      for (const Crossing& c : part)
+      for (const UnsortedEdgeBox& c : part)
         if (c.line == line && (c.moving != 0) == moving)
           boxes.emplace(static_cast<std::uint32_t>(sender.triangles - sent.triangles.data()) + c.box.triangle, c.box.first,
                         c.box.last);

@@ -37,7 +37,7 @@ class GuardedMemory {
 
 }  // namespace
 
-Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Surface& surface,
+Made set_up(node::InstructionSet set, const Picture& picture, const node::Surface& surface,
             const node::PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines,
             std::size_t bytes) {
   GuardedMemory memory(bytes);
@@ -45,14 +45,14 @@ Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Su
   made.line_counts.resize(static_cast<std::size_t>(picture.height));
   const std::vector<std::uint8_t> all(made.line_counts.size(), 1);
   node::SetUps out(memory.inside(), made.line_counts, wanted_lines.empty() ? all : wanted_lines);
-  node::SetUp set_up(kernels, picture.projection, picture.width, picture.height);
+  node::SetUp set_up(set, picture.projection, picture.width, picture.height);
   if (way == Way::at_a_time)
     set_up.add(surface, identity, out);
   else
     set_up.add_plainly(surface, identity, out);
-  EXPECT_TRUE(memory.intact()) << kernels.name;
+  EXPECT_TRUE(memory.intact()) << node::name_of(set);
   made.triangles.assign(out.triangles().begin(), out.triangles().end());
-  made.crossings.assign(out.crossings().rbegin(), out.crossings().rend());
+  made.boxes.assign(out.boxes().rbegin(), out.boxes().rend());
   made.touching = out.touching;
   made.edge_boxes = out.edge_boxes;
   made.all_stored = out.all_stored();

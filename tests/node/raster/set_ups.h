@@ -10,7 +10,7 @@ namespace mars::test {
 
 struct Made {
   std::vector<node::Triangle> triangles;
-  std::vector<node::Crossing> crossings;  // the first first
+  std::vector<node::UnsortedEdgeBox> boxes;  // the first first
   std::vector<std::uint32_t> line_counts;
   std::uint64_t touching = 0;
   std::uint64_t edge_boxes = 0;
@@ -26,7 +26,7 @@ struct Picture {
 };
 
 // `bytes` of memory. Fails the test where anything outside it is written.
-Made set_up(const node::Kernels& kernels, const Picture& picture, const node::Surface& surface,
+Made set_up(node::InstructionSet set, const Picture& picture, const node::Surface& surface,
             const node::PatchIdentity& identity, Way way = Way::at_a_time,
             const std::vector<std::uint8_t>& wanted_lines = {}, std::size_t bytes = 1 << 24);
 

@@ -39,10 +39,10 @@ class SetUpTest : public testing::Test {
   Kept set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
               const node::Projection& view = kView) {
     dicer.dice(patch, view, rate);
-    Kept kept{test::set_up(kernels, {view, kWidth, kHeight}, dicer, identity), {}, {}};
+    Kept kept{test::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
     EXPECT_TRUE(kept.all_stored);
     for (const PlainTriangle& plain : plain_set_up(dicer, view, identity)) {
-      if (plain_crossings(plain.corners, kWidth, kHeight).empty()) continue;
+      if (plain_edge_boxes(plain.corners, kWidth, kHeight).empty()) continue;
       kept.corners.push_back(plain.corners);
       kept.indices.push_back(plain.index);
     }
@@ -50,8 +50,8 @@ class SetUpTest : public testing::Test {
     return kept;
   }
 
-  const node::Kernels& kernels = node::best_kernels("");
-  Dicer dicer{kernels};
+  const node::InstructionSet set = node::best_instruction_set("");
+  Dicer dicer{set};
 };
 
 // A square before the eye, outside turned to it.
@@ -75,8 +75,8 @@ double covered(const Kept& kept) {
 // How often samples of a line are covered, all together.
 int samples_on(const Made& made, std::int32_t line) {
   int samples = 0;
-  for (const node::Crossing& crossing : made.crossings)
-    if (crossing.line == line) samples += crossing.box.last - crossing.box.first;
+  for (const node::UnsortedEdgeBox& unsorted : made.boxes)
+    if (unsorted.line == line) samples += unsorted.box.last - unsorted.box.first;
   return samples;
 }
 
@@ -85,7 +85,7 @@ TEST_F(SetUpTest, CarriesWhatThePatchIs) {
   ASSERT_EQ(kept.triangles.size(), 18u);
   for (std::uint32_t k = 0; k < 18; ++k) {
     EXPECT_EQ(kept.triangles[k].patch, 5u);
-    EXPECT_EQ(kept.triangles[k].look, 3u);
+    EXPECT_EQ(kept.triangles[k].material, 3u);
     EXPECT_EQ(kept.indices[k], k);
   }
   EXPECT_NEAR(covered(kept), 240 * 240, 2);  // 2 units of 480 / 4 pixels
@@ -207,22 +207,22 @@ TEST_F(SetUpTest, CountsEdgeBoxes) {
 }
 
 std::size_t bytes_of(const Made& made) {
-  return made.triangles.size() * sizeof(Triangle) + made.crossings.size() * sizeof(node::Crossing);
+  return made.triangles.size() * sizeof(Triangle) + made.boxes.size() * sizeof(node::UnsortedEdgeBox);
 }
 
-// A triangle with its crossings.
+// A triangle with its edge boxes.
 struct Whole {
   Triangle triangle;
-  std::vector<node::Crossing> crossings;
+  std::vector<node::UnsortedEdgeBox> boxes;
 };
 std::vector<Whole> by_triangle(const Made& made) {
   std::vector<Whole> out;
   for (const Triangle& t : made.triangles) out.push_back({t, {}});
-  for (const node::Crossing& crossing : made.crossings) out.at(crossing.box.triangle).crossings.push_back(crossing);
+  for (const node::UnsortedEdgeBox& unsorted : made.boxes) out.at(unsorted.box.triangle).boxes.push_back(unsorted);
   return out;
 }
 
-bool same_but_for_number(const node::Crossing& a, const node::Crossing& b) {
+bool same_but_for_number(const node::UnsortedEdgeBox& a, const node::UnsortedEdgeBox& b) {
   return a.box.first == b.box.first && a.box.last == b.box.last && a.line == b.line && a.moving == b.moving;
 }
 
@@ -233,22 +233,22 @@ struct Shortage {
 };
 
 // Counts go on, what is stored is stored whole, and nothing is written elsewhere.
-void expect_counted(const node::Kernels& kernels, const Dicer& dicer, const Made& all, std::size_t bytes, Way way, Shortage& out) {
+void expect_counted(node::InstructionSet set, const Dicer& dicer, const Made& all, std::size_t bytes, Way way, Shortage& out) {
   SCOPED_TRACE(std::to_string(bytes) + (way == Way::plainly ? " bytes, plainly" : " bytes, at a time"));
-  const Made some = test::set_up(kernels, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
+  const Made some = test::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
   ASSERT_EQ(some.touching, all.touching);
   ASSERT_EQ(some.edge_boxes, all.edge_boxes);
   ASSERT_EQ(some.line_counts, all.line_counts);
-  ASSERT_EQ(some.all_stored, some.crossings.size() == all.crossings.size());
+  ASSERT_EQ(some.all_stored, some.boxes.size() == all.boxes.size());
   ASSERT_LE(bytes_of(some), bytes);
   ASSERT_TRUE(bytes >= bytes_of(all) || !some.all_stored);
-  ASSERT_TRUE(bytes < bytes_of(all) + kHeight * sizeof(node::Crossing) + sizeof(Triangle) || some.all_stored);
+  ASSERT_TRUE(bytes < bytes_of(all) + kHeight * sizeof(node::UnsortedEdgeBox) + sizeof(Triangle) || some.all_stored);
   const auto whole = by_triangle(all);
   auto next = whole.begin();  // what is stored is some of all triangles, in order
   for (const Whole& one : by_triangle(some)) {
     while (next != whole.end() && std::memcmp(&next->triangle, &one.triangle, sizeof(Triangle)) != 0) ++next;
     ASSERT_NE(next, whole.end());
-    ASSERT_TRUE(std::equal(one.crossings.begin(), one.crossings.end(), next->crossings.begin(), next->crossings.end(),
+    ASSERT_TRUE(std::equal(one.boxes.begin(), one.boxes.end(), next->boxes.begin(), next->boxes.end(),
                            same_but_for_number));
     ++next;
   }
@@ -257,11 +257,11 @@ void expect_counted(const node::Kernels& kernels, const Dicer& dicer, const Made
 }
 
 // Batches in which decided triangles follow undecided ones.
-int mixed_batches(const node::Kernels& kernels, const Dicer& dicer) {
+int mixed_batches(node::InstructionSet set, const Dicer& dicer) {
   int mixed = 0;
-  node::Examined e;
+  node::Classified e;
   for (std::uint32_t b = 0; b < dicer.triangles().batch_count; ++b) {
-    kernels.examine({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(), dicer.triangles().batches[b], e);
+    node::raster_kernels(set).classify({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(), dicer.triangles().batches[b], e);
     mixed += e.undecided != 0 && e.decided > (e.undecided & -e.undecided);
   }
   return mixed;
@@ -275,15 +275,15 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
     return Vec3{0.3 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.2 * (i == 1 || i == 2)};
   });
   dicer.dice(wedge, kView, 0);
-  EXPECT_GT(mixed_batches(kernels, dicer), 0);
+  EXPECT_GT(mixed_batches(set, dicer), 0);
   for (const EyePatch& patch : {sphere_octant({0, 0, -4}, 1), ground, swapped(ground), wedge, turned(wedge)})
     for (const int rate : {0, 2, 9}) {
       const Kept all = set_up(patch, rate);
       Shortage shortage;
-      const std::size_t most = bytes_of(all) + kHeight * sizeof(node::Crossing) + sizeof(Triangle);
+      const std::size_t most = bytes_of(all) + kHeight * sizeof(node::UnsortedEdgeBox) + sizeof(Triangle);
       for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 1600))
         for (const Way way : {Way::at_a_time, Way::plainly}) {
-          expect_counted(kernels, dicer, all, bytes, way, shortage);
+          expect_counted(set, dicer, all, bytes, way, shortage);
           if (HasFailure()) return;
         }
       EXPECT_GT(shortage.partly_stored, 100);
@@ -299,40 +299,40 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
   std::vector<std::uint32_t> counts(kHeight);
   for (const Whole& one : by_triangle(all)) {
     Whole kept{one.triangle, {}};
-    for (const node::Crossing& crossing : one.crossings)
-      if (wanted[crossing.line]) kept.crossings.push_back(crossing);
-    for (const node::Crossing& crossing : kept.crossings) ++counts[crossing.line];
-    if (!kept.crossings.empty()) expected.push_back(kept);
+    for (const node::UnsortedEdgeBox& unsorted : one.boxes)
+      if (wanted[unsorted.line]) kept.boxes.push_back(unsorted);
+    for (const node::UnsortedEdgeBox& unsorted : kept.boxes) ++counts[unsorted.line];
+    if (!kept.boxes.empty()) expected.push_back(kept);
   }
   EXPECT_LT(expected.size(), all.triangles.size());
   EXPECT_GT(expected.size(), 0u);
   for (const Way way : {Way::at_a_time, Way::plainly}) {
-    const Made some = test::set_up(kernels, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, wanted);
+    const Made some = test::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, wanted);
     EXPECT_TRUE(some.all_stored);
     EXPECT_EQ(some.touching, expected.size());
-    EXPECT_EQ(some.edge_boxes, some.crossings.size());
+    EXPECT_EQ(some.edge_boxes, some.boxes.size());
     EXPECT_EQ(some.line_counts, counts);
     const auto found = by_triangle(some);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
       EXPECT_EQ(std::memcmp(&found[k].triangle, &expected[k].triangle, sizeof(Triangle)), 0);
-      EXPECT_TRUE(std::equal(found[k].crossings.begin(), found[k].crossings.end(), expected[k].crossings.begin(),
-                             expected[k].crossings.end(), same_but_for_number));
+      EXPECT_TRUE(std::equal(found[k].boxes.begin(), found[k].boxes.end(), expected[k].boxes.begin(),
+                             expected[k].boxes.end(), same_but_for_number));
     }
   }
 }
 
-// Crossings say whose they are, line after line, and whether it moves.
-TEST_F(SetUpTest, CrossingsFollowTheirTriangles) {
+// Edge boxes say whose they are, line after line, and whether it moves.
+TEST_F(SetUpTest, EdgeBoxesFollowTheirTriangles) {
   for (const bool moving : {false, true}) {
     const Kept kept = set_up(square(1, 4), 5, {5, 3, false, false, moving});
-    ASSERT_EQ(kept.crossings.size(), kept.edge_boxes);
-    for (std::size_t k = 0; k < kept.crossings.size(); ++k) {
-      const node::Crossing& here = kept.crossings[k];
+    ASSERT_EQ(kept.boxes.size(), kept.edge_boxes);
+    for (std::size_t k = 0; k < kept.boxes.size(); ++k) {
+      const node::UnsortedEdgeBox& here = kept.boxes[k];
       EXPECT_EQ(here.moving, moving);
       ASSERT_LT(here.box.triangle, kept.triangles.size());
       if (k == 0) continue;
-      const node::Crossing& before = kept.crossings[k - 1];
+      const node::UnsortedEdgeBox& before = kept.boxes[k - 1];
       if (here.box.triangle == before.box.triangle)
         EXPECT_GT(here.line, before.line);
       else

@@ -1,5 +1,5 @@
 // Set-up sixteen at a time, set-up one by one and the tests' plain set-up make the same of a patch: triangles and
-// crossings in the same order with the same bits, from every instruction set.
+// edge boxes in the same order with the same bits, from every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "node/shape/dice.h"
-#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
@@ -33,19 +33,19 @@ Made expected_of(const std::vector<PlainTriangle>& plain, bool moving, int* turn
   Made out;
   out.line_counts.resize(kHeight);
   for (const PlainTriangle& t : plain) {
-    auto crossings = plain_crossings(t.corners, kWidth, kHeight);
-    if (crossings.empty()) continue;
+    auto boxes = plain_edge_boxes(t.corners, kWidth, kHeight);
+    if (boxes.empty()) continue;
     if (turned_over) *turned_over += t.faces != (area(t.corners) < 0);
-    for (node::Crossing& crossing : crossings) {
-      crossing.box.triangle = static_cast<std::uint32_t>(out.triangles.size());
-      crossing.moving = moving;
-      ++out.line_counts[crossing.line];
-      out.crossings.push_back(crossing);
+    for (node::UnsortedEdgeBox& unsorted : boxes) {
+      unsorted.box.triangle = static_cast<std::uint32_t>(out.triangles.size());
+      unsorted.moving = moving;
+      ++out.line_counts[unsorted.line];
+      out.boxes.push_back(unsorted);
     }
     out.triangles.push_back(t.record);
   }
   out.touching = out.triangles.size();
-  out.edge_boxes = out.crossings.size();
+  out.edge_boxes = out.boxes.size();
   return out;
 }
 
@@ -63,15 +63,15 @@ struct Paths {
   int edge_boxes = 0;
   int turned_over = 0;  // by snapping, of those that cover samples
 
-  void count(const node::Kernels& kernels, const Dicer& diced, const PatchIdentity& identity) {
+  void count(node::InstructionSet set, const Dicer& diced, const PatchIdentity& identity) {
     if (diced.reaches_outside()) {
       clipped += static_cast<int>(diced.triangles().count);
       return;
     }
-    node::Examined e;
+    node::Classified e;
     for (std::uint32_t b = 0; b < diced.triangles().batch_count; ++b) {
       const node::Batch& batch = diced.triangles().batches[b];
-      kernels.examine({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(), diced.triangles(),
+      node::raster_kernels(set).classify({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(), diced.triangles(),
                       batch, e);
       decided += std::popcount(e.decided);
       undecided += std::popcount(e.undecided);
@@ -83,24 +83,24 @@ struct Paths {
 class SetUpTwins : public testing::Test {
  protected:
   SetUpTwins() {
-    for (const node::Kernels* kernels : kernels_here()) dicers.push_back({kernels, Dicer(*kernels)});
+    for (const node::InstructionSet set : sets_here()) dicers.push_back({set, Dicer(set)});
   }
   void TearDown() override { skip_sets_not_here(); }
 
   void expect_same(const EyePatch& patch, int rate, const PatchIdentity& identity) {
     Made expected;
-    for (auto& [kernels, dicer] : dicers) {
+    for (auto& [set, dicer] : dicers) {
       dicer.dice(patch, kPicture.projection, rate);
-      if (kernels == dicers[0].first) {
+      if (set == dicers[0].first) {
         expected = expected_of(plain_set_up(dicer, kPicture.projection, identity), identity.moving, &paths.turned_over);
-        paths.count(*kernels, dicer, identity);
+        paths.count(set, dicer, identity);
         paths.edge_boxes += static_cast<int>(expected.edge_boxes);
       }
       for (const Way way : {Way::at_a_time, Way::plainly}) {
-        SCOPED_TRACE(std::string(kernels->name) + (way == Way::plainly ? ", plainly" : ", at a time"));
-        const Made made = set_up(*kernels, kPicture, dicer, identity, way);
+        SCOPED_TRACE(std::string(node::name_of(set)) + (way == Way::plainly ? ", plainly" : ", at a time"));
+        const Made made = set_up(set, kPicture, dicer, identity, way);
         ASSERT_TRUE(same_bits(made.triangles, expected.triangles));
-        ASSERT_TRUE(same_bits(made.crossings, expected.crossings));
+        ASSERT_TRUE(same_bits(made.boxes, expected.boxes));
         ASSERT_EQ(made.line_counts, expected.line_counts);
         ASSERT_EQ(made.touching, expected.touching);
         ASSERT_EQ(made.edge_boxes, expected.edge_boxes);
@@ -109,7 +109,7 @@ class SetUpTwins : public testing::Test {
     }
   }
 
-  std::vector<std::pair<const node::Kernels*, Dicer>> dicers;
+  std::vector<std::pair<node::InstructionSet, Dicer>> dicers;
   Paths paths;
 };
 

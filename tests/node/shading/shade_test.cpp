@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "node/simd/kernels.h"
-#include "tests/node/simd/kernel_sets.h"
+#include "node/shading/kernels.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
 namespace mars::test {
@@ -39,7 +39,7 @@ struct Result {
 };
 
 // Behind the line and behind the pixels there is the room that kernels may use, and no more.
-Result shade(const Scenery& scenery, const node::Kernels& kernels, Extent extent) {
+Result shade(const Scenery& scenery, node::InstructionSet set, Extent extent) {
   constexpr std::uint32_t kUntouched = 0xabcdef01;
   std::vector<std::uint32_t> ids = scenery.ids;
   ids.resize(ids.size() + node::kVectorSlack, 0);
@@ -50,7 +50,7 @@ Result shade(const Scenery& scenery, const node::Kernels& kernels, Extent extent
   Result result{std::vector<node::Run>(ids.size()),
                 std::vector<std::uint32_t>(shown + node::kVectorSlack + 1, kUntouched)};
   const node::Shaded done =
-      kernels.shade(scenery.shading(), ids.data(), scenery.line, extent, result.runs.data(), result.pixels.data());
+      node::shading_kernels(set).shade(scenery.shading(), ids.data(), scenery.line, extent, result.runs.data(), result.pixels.data());
   EXPECT_EQ(done.pixels, shown);
   EXPECT_EQ(result.pixels.back(), kUntouched);
   result.runs.resize(done.runs);
@@ -59,7 +59,7 @@ Result shade(const Scenery& scenery, const node::Kernels& kernels, Extent extent
 }
 
 Result shade_all(const Scenery& scenery, const char* limit = "") {
-  return shade(scenery, node::best_kernels(limit), {0, static_cast<std::uint32_t>(scenery.ids.size())});
+  return shade(scenery, node::best_instruction_set(limit), {0, static_cast<std::uint32_t>(scenery.ids.size())});
 }
 
 void set_plane(Triangle& t, node::Value value, float at_first, float per_x, float per_y) {
@@ -69,7 +69,7 @@ void set_plane(Triangle& t, node::Value value, float at_first, float per_x, floa
 }
 
 // A triangle's planes about depth 1 / w, normals that vary along the line.
-Triangle random_triangle(Random& random, std::size_t looks) {
+Triangle random_triangle(Random& random, std::size_t materials) {
   Triangle t{};
   t.first_x = random.whole(0, 640 * 256);
   t.first_y = random.whole(80 * 256, 120 * 256);
@@ -79,7 +79,7 @@ Triangle random_triangle(Random& random, std::size_t looks) {
               static_cast<float>(random.real(-4e-6, 4e-6)));
   if (random.whole(0, 9) == 0)
     for (const node::Value value : {node::kNormalX, node::kNormalY, node::kNormalZ}) set_plane(t, value, 0, 0, 0);
-  t.look = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(looks) - 1));
+  t.material = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(materials) - 1));
   return t;
 }
 
@@ -94,7 +94,7 @@ node::EyeLight random_light(Random& random) {
   return light;
 }
 
-// Pieces of a triangle or of a gap have up to 400 samples, in some sceneries only one or two; looks change within
+// Pieces of a triangle or of a gap have up to 400 samples, in some sceneries only one or two; materials change within
 // vectors, and with them exponents or not.
 Scenery random_scenery(Random& random, int width) {
   Scenery scenery;
@@ -129,7 +129,7 @@ Vec3 unit(const Vec3& a) {
 // Phong's sum over the lights, 0..255.
 Vec3 phong(const Scenery& scenery, std::uint32_t column) {
   const Triangle& t = scenery.triangles[scenery.ids[column]];
-  const node::Material& m = scenery.materials[t.look];
+  const node::Material& m = scenery.materials[t.material];
   const double dx = 256.0 * column + 128 - t.first_x, dy = 256.0 * scenery.line + 128 - t.first_y;
   const Vec3 normal = unit({at(t, node::kNormalX, dx, dy), at(t, node::kNormalY, dx, dy), at(t, node::kNormalZ, dx, dy)});
   const double w = 1 / at(t, node::kDepth, dx, dy);
@@ -177,14 +177,14 @@ TEST(Shade, GivesTheSameBitsEverywhere) {
   for (int trial = 0; trial < 150; ++trial) {
     const Scenery scenery = random_scenery(random, random.whole(1, 900));
     const Result narrow = shade_all(scenery, "sse2");
-    for (const node::Kernels* kernels : all_kernels()) {
-      const Result wide = shade_all(scenery, kernels->name);
-      EXPECT_EQ(wide.pixels, narrow.pixels) << kernels->name << ", trial " << trial;
+    for (const node::InstructionSet set : all_sets()) {
+      const Result wide = shade_all(scenery, node::name_of(set));
+      EXPECT_EQ(wide.pixels, narrow.pixels) << node::name_of(set) << ", trial " << trial;
     }
   }
 }
 
-// Whole batches, looks that change within them, and exact multiples of a batch.
+// Whole batches, materials that change within them, and exact multiples of a batch.
 TEST(Shade, RunsAreWhatIsWithoutGaps) {
   Random random(62);
   for (int trial = 0; trial < 300; ++trial) {
@@ -203,7 +203,7 @@ TEST(Shade, RunsAreWhatIsWithoutGaps) {
       ++expected.back().count;
       ++pixels;
     }
-    const Result result = shade(scenery, node::best_kernels(""), extent);
+    const Result result = shade(scenery, node::best_instruction_set(""), extent);
     EXPECT_EQ(result.pixels.size(), pixels);
     ASSERT_EQ(result.runs.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -224,7 +224,7 @@ TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
     for (std::uint32_t first = 0; first < 700;) {
       const std::uint32_t last =
           std::min<std::uint32_t>(700, first + static_cast<std::uint32_t>(random.whole(1, 300)));
-      const Result part = shade(scenery, node::best_kernels(""), {first, last});
+      const Result part = shade(scenery, node::best_instruction_set(""), {first, last});
       pieces.insert(pieces.end(), part.pixels.begin(), part.pixels.end());
       first = last;
     }
@@ -235,7 +235,7 @@ TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
 TEST(Shade, NothingToShade) {
   Random random(64);
   Scenery scenery = random_scenery(random, 20);
-  EXPECT_TRUE(shade(scenery, node::best_kernels(""), {0xffffffff, 0}).pixels.empty());
+  EXPECT_TRUE(shade(scenery, node::best_instruction_set(""), {0xffffffff, 0}).pixels.empty());
   std::fill(scenery.ids.begin(), scenery.ids.end(), kGap);
   EXPECT_TRUE(shade_all(scenery).runs.empty());
 }
@@ -246,7 +246,7 @@ TEST(Shade, AmbientAndWhite) {
   scenery.materials = {{{1, 0.5f, 0}, 0.2f, 1, 1, 10, 2}, {{1, 1, 1}, 3, 1, 1, 10, 2}};
   scenery.triangles.resize(2);
   for (Triangle& t : scenery.triangles) set_plane(t, node::kDepth, 1, 0, 0);
-  scenery.triangles[1].look = 1;
+  scenery.triangles[1].material = 1;
   scenery.lights = {{false, {0, 0, 1}, {1, 1, 1}}};
   scenery.ids = {0, 1};
   EXPECT_EQ(shade_all(scenery).pixels, (std::vector<std::uint32_t>{51 | 26 << 8, 0xffffff}));

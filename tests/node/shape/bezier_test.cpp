@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
 namespace mars::test {
@@ -20,7 +20,7 @@ using node::EyePatch;
 using node::Projection;
 using node::Side;
 
-const node::Kernels& kernels = node::best_kernels("");
+const node::ShapeKernels& kernels = node::shape_kernels(node::best_instruction_set(""));
 
 bool same_bits(const Curve& a, const Curve& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
@@ -252,7 +252,7 @@ TEST(Bezier, RatesAreTheSameEverywhere) {
   const Projection view = projection(640, 480, 2);
   for (int trial = 0; trial < 3000; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, random.real(-20, 1)}, std::pow(10, random.real(-3, 1)));
-    const node::Rates expected = node::rates(node::best_kernels("sse2"), patch, view, 0);
+    const node::Rates expected = node::rates(node::shape_kernels(node::InstructionSet::sse2), patch, view, 0);
     for (const node::Kernels* set : all_kernels())
       ASSERT_EQ(node::rates(*set, patch, view, 0), expected) << set->name << ' ' << trial;
   }

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "node/shape/bezier.h"
-#include "node/simd/kernels.h"
+
 
 namespace mars::test {
 

@@ -21,7 +21,7 @@ std::uint64_t walk(const FilmView& film) {
   std::uint64_t sum = film.patch_instances();
   const std::uint32_t last = film.settings().frames - 1;
   node::Scene scene(film);
-  static node::MeshletPlacer placer(node::best_kernels(""));
+  static node::MeshletPlacer placer(node::best_instruction_set(""));
   for (std::uint32_t i = 0; i < film.intervals().size(); ++i) {
     scene.set_interval(i);
     for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {

@@ -125,7 +125,7 @@ TEST_P(Library, HasUnitNormalsOnTheOutsideOfEveryDicedFace) {
   const glm::vec3 size = box / std::max({box.x, box.y, box.z});
   const node::EyeMatrix away{{{size.x, 0, 0, 0}, {0, size.y, 0, 0}, {0, 0, size.z, -2}}};
   const node::Projection view{1000, {500, 500}, 0.1f, 100, 8000, 0.5f};
-  node::Dicer dicer(node::best_kernels(""));
+  node::Dicer dicer(node::best_instruction_set(""));
   for (const node::Patch& patch : patches_) {
     dicer.dice(node::to_eye(away, patch), view, 8);
     for (std::uint32_t number = 0; number < dicer.triangles().count; ++number) {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "node/simd/simd.h"
+#include "node/raster/kernels/functions.h"
 
 namespace mars::node::MARS_SET {
 namespace {
@@ -18,16 +18,16 @@ Float4 load(const float* four) {
 }
 
 // An edge box in two moves: columns are first | last << 16.
-void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_moving, Crossing* out) {
+void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_moving, UnsortedEdgeBox* out) {
   const std::uint32_t words[] = {number, columns, line_and_moving};
-  static_assert(offsetof(Crossing, line) == 8 && offsetof(Crossing, moving) == 10 && sizeof words == sizeof *out);
+  static_assert(offsetof(UnsortedEdgeBox, line) == 8 && offsetof(UnsortedEdgeBox, moving) == 10 && sizeof words == sizeof *out);
   std::memcpy(out, words, sizeof words);
 }
 
 }  // namespace
 
-void set(const Vertices& v, const Corner3& corners, const ScreenShape& shape, const PatchIdentity& identity,
-         Triangle& out) {
+void set_up_planes(const Vertices& v, const Corner3& corners, const ScreenShape& shape,
+                   const PatchIdentity& identity, Triangle& out) {
   const float sign = shape.faces ? 1.0f : -1.0f;
   const Float4 turned = {1, sign, sign, sign};
   const Float4 first = turned * load(v.values[corners.a]);
@@ -40,31 +40,31 @@ void set(const Vertices& v, const Corner3& corners, const ScreenShape& shape, co
   out.first_x = v.x[corners.a];
   out.first_y = v.y[corners.a];
   out.patch = identity.patch;
-  out.look = identity.look;
+  out.material = identity.material;
 }
 
-void keep(const Vertices& v, const Triangles& triangles, const Batch& batch, const Examined& e, std::uint32_t lanes,
+void emit(const Vertices& v, const Triangles& triangles, const Batch& batch, const Classified& e, std::uint32_t lanes,
           const PatchIdentity& identity, SetUpSpace& out) {
   SetUpSpace space = out;
   for (std::uint32_t left = lanes & e.decided; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
-    const Crossing* const before = space.crossing;
+    const UnsortedEdgeBox* const before = space.last_box;
     const auto number = static_cast<std::uint32_t>(space.next - space.first);
     const auto first_row = static_cast<std::uint32_t>(e.first_row[lane]);
     const auto rows = static_cast<std::uint32_t>(e.last_row[lane]) - first_row;
     const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
     for (std::uint32_t r = 0; r < rows; ++r) {
       const std::uint32_t row = first_row + r, columns = e.columns[r][lane];
-      const bool kept = (columns != 0) & (space.wanted_lines[row] != 0);
-      put(number, columns, row | moving, space.crossing - 1);
-      space.crossing -= kept;
-      space.line_counts[row] += kept;
+      const bool wanted = (columns != 0) & (space.wanted_lines[row] != 0);
+      put(number, columns, row | moving, space.last_box - 1);
+      space.last_box -= wanted;
+      space.line_counts[row] += wanted;
     }
-    if (space.crossing == before) continue;
+    if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;
-    set(v, {triangles.a[k], triangles.b[k], triangles.c[k]},
-        {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane], e.inverse[lane], (e.faces >> lane & 1) != 0}, identity,
-        *space.next++);
+    set_up_planes(v, {triangles.a[k], triangles.b[k], triangles.c[k]},
+                  {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane], e.inverse[lane], (e.faces >> lane & 1) != 0},
+                  identity, *space.next++);
   }
   out = space;
 }

@@ -1,6 +1,6 @@
 // Which samples a triangle covers: Outline against a plain test with edge functions in 64-bit integers, and
 // meshes that must cover every sample once.
-#include "node/raster/edge_boxes.h"
+#include "node/raster/outline.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
-#include "node/polygons.h"
+#include "node/tessellator.h"
 
 namespace mars::node {
 
-PolygonMaker::PolygonMaker(const Kernels& kernels) : kernels_(kernels), dicer_(kernels), placer_(kernels) {}
+Tessellator::Tessellator(InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set) {}
 
-void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work) {
+void Tessellator::make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work) {
   const FilmView& film = scene.film();
-  SetUp set_up(kernels_, scene.projection(), scene.width(), scene.height());
+  SetUp set_up(instruction_set_, scene.projection(), scene.width(), scene.height());
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   const int fixed_rate = static_cast<int>(film.settings().dice);
-  const auto keep = [&](const Surface& surface, PatchIdentity& identity, std::uint32_t number) {
+  const auto add = [&](const Surface& surface, PatchIdentity& identity, std::uint32_t number) {
     identity.patch = number;
     set_up.add(surface, identity, out);
     ++work.patches;
@@ -22,13 +22,14 @@ void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, S
     std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
     if (i >= shape.size()) continue;
     const EyeMatrix matrix = scene.matrix(s);
-    const std::uint32_t look = scene.look(s);
-    PatchIdentity identity{0, look, mirrors(matrix), film.materials()[look].sides == 1, part == Part::moving};
+    const std::uint32_t material = scene.material(s);
+    PatchIdentity identity{0, material, mirrors(matrix), film.materials()[material].sides == 1,
+                           part == Part::moving};
     for (; i < shape.patch_count; i += scatter.count) {
       const EyePatch patch = to_eye(matrix, film.patches()[shape.first_patch + i]);
       if (unseen(patch, scene.projection(), width, height)) continue;
       dicer_.dice(patch, scene.projection(), fixed_rate);
-      keep(dicer_, identity, first + static_cast<std::uint32_t>(i));
+      add(dicer_, identity, first + static_cast<std::uint32_t>(i));
     }
     if (i >= shape.size()) continue;
     const EyeMap map = eye_map(matrix);
@@ -36,7 +37,7 @@ void PolygonMaker::make(const Scene& scene, Part part, const Scatter& scatter, S
       const Meshlet& meshlet = film.meshlets()[shape.first_meshlet + i - shape.patch_count];
       if (unseen(matrix, meshlet, scene.projection(), width, height)) continue;
       placer_.place(map, film, meshlet, scene.projection());
-      keep(placer_, identity, first + static_cast<std::uint32_t>(i));
+      add(placer_, identity, first + static_cast<std::uint32_t>(i));
     }
   }
 }

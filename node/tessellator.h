@@ -18,16 +18,16 @@ struct Scatter {
   std::uint32_t count = 1;
 };
 
-class PolygonMaker {
+class Tessellator {
  public:
-  explicit PolygonMaker(const Kernels& kernels);
+  explicit Tessellator(InstructionSet set);
 
   // Triangles of `part`'s patches and meshlets at the scene's frame, in the order of polygon numbers. Counts what it did
   // into `work`.
   void make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work);
 
  private:
-  const Kernels& kernels_;
+  InstructionSet instruction_set_;
   Dicer dicer_;
   MeshletPlacer placer_;
 };

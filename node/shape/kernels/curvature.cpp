@@ -1,5 +1,5 @@
 // How a patch bends, as it is seen, at sixteen places.
-#include "node/simd/simd.h"
+#include "node/shape/kernels/functions.h"
 
 namespace mars::node::MARS_SET {
 namespace {
@@ -35,15 +35,15 @@ Floats ratio(Floats a, Floats b) { return hn::IfThenElseZero(hn::Gt(b, hn::Zero(
 
 }  // namespace
 
-Fineness survey(const SurveyWeights& weights, const float (*points)[3], const Projection& projection) {
+Fineness estimate_curvature(const CurvatureWeights& weights, const float (*points)[3], const Projection& projection) {
   Floats most_u = hn::Zero(kFloats), most_v = hn::Zero(kFloats);
   for (int place = 0; place < 16; place += kLanes) {
-    const auto at = [&](SurveyWeights::Kind kind) { return blend(weights.weight[kind], place, points); };
-    const Vector p = at(SurveyWeights::kPlace), u = at(SurveyWeights::kU), v = at(SurveyWeights::kV);
+    const auto at = [&](CurvatureWeights::Kind kind) { return blend(weights.weight[kind], place, points); };
+    const Vector p = at(CurvatureWeights::kPlace), u = at(CurvatureWeights::kU), v = at(CurvatureWeights::kV);
     const Vector n = cross(u, v);
     const Floats unit = ratio(constant(1), hn::Sqrt(dot(n, n)));
-    const auto bend = [&](SurveyWeights::Kind kind) { return hn::Mul(hn::Abs(dot(n, at(kind))), unit); };
-    const Floats uu = bend(SurveyWeights::kUU), uv = bend(SurveyWeights::kUV), vv = bend(SurveyWeights::kVV);
+    const auto bend = [&](CurvatureWeights::Kind kind) { return hn::Mul(hn::Abs(dot(n, at(kind))), unit); };
+    const Floats uu = bend(CurvatureWeights::kUU), uv = bend(CurvatureWeights::kUV), vv = bend(CurvatureWeights::kVV);
     const Floats length_u = hn::Sqrt(dot(u, u)), length_v = hn::Sqrt(dot(v, v));
 
     const Floats toward = hn::Mul(dot(n, p), unit);

@@ -1,9 +1,11 @@
-// Triangles on their way to set-ups: examined sixteen at a time, and where the set-ups go. Plain structs only: kernels of
-// several instruction sets share them (kernels.h).
+// Triangles on their way to set-ups: classified sixteen at a time, and where the set-ups go. Plain structs only: kernels
+// of several instruction sets share them (kernels.h).
 #pragma once
 
 #include <cstdint>
 
+#include "node/geometry/triangle.h"
+#include "node/raster/edge_box.h"
 #include "node/shape/vertices.h"
 
 namespace mars::node {
@@ -12,7 +14,7 @@ namespace mars::node {
 inline constexpr int kThin = 4;
 
 // What is asked of triangles whose vertices are all on the screen's plane.
-struct Examination {
+struct ClassifyTask {
   std::int32_t width;
   std::int32_t height;
   bool one_sided;  // those whose outside is turned away are dropped
@@ -24,25 +26,25 @@ inline constexpr std::int32_t kMostExtent = 96;  // pixels; larger triangles are
 // A batch's triangles in one of three states: decided, with the columns they cover row by row, at least one;
 // undecided, where they are larger than kMostExtent or may have been turned over; or dropped: turned away or
 // between samples.
-struct Examined {
+struct Classified {
   std::uint32_t decided;    // one bit a triangle
   std::uint32_t undecided;
   std::uint32_t faces;      // the side from which a, b, c run counter-clockwise is turned to the eye
-  alignas(64) std::int32_t first_row[kExamined];
-  alignas(64) std::int32_t last_row[kExamined];
-  alignas(64) std::uint32_t columns[kMostExtent][kExamined];  // of row first_row + r at [r]: first | last << 16, or 0
+  alignas(64) std::int32_t first_row[kBatchTriangles];
+  alignas(64) std::int32_t last_row[kBatchTriangles];
+  alignas(64) std::uint32_t columns[kMostExtent][kBatchTriangles];  // of row first_row + r at [r]: first | last << 16, or 0
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
-  alignas(64) float x1[kExamined];
-  alignas(64) float y1[kExamined];
-  alignas(64) float x2[kExamined];
-  alignas(64) float y2[kExamined];
-  alignas(64) float inverse[kExamined];
+  alignas(64) float x1[kBatchTriangles];
+  alignas(64) float y1[kBatchTriangles];
+  alignas(64) float x2[kBatchTriangles];
+  alignas(64) float y2[kBatchTriangles];
+  alignas(64) float inverse[kBatchTriangles];
 };
 
 // What a patch's or a meshlet's triangles have in common.
 struct PatchIdentity {
   std::uint32_t patch;
-  std::uint32_t look;
+  std::uint32_t material;
   bool mirrored;   // its matrix turns shapes inside out
   bool one_sided;  // triangles seen from inside are dropped
   bool moving;
@@ -56,13 +58,13 @@ struct ScreenShape {
   bool faces;
 };
 
-// Where set-ups go: triangles forward from `next`, their crossings backward from `crossing`.
+// Where set-ups go: triangles forward from `next`, their edge boxes backward from `last_box`.
 struct SetUpSpace {
-  Triangle* first;     // the frame's triangles count from here
+  Triangle* first;  // the frame's triangles count from here
   Triangle* next;
-  Crossing* crossing;  // the one stored last
+  UnsortedEdgeBox* last_box;         // the one stored last
   std::uint32_t* line_counts;        // edge boxes a line, of all that is added
-  const std::uint8_t* wanted_lines;  // 1: edge boxes there are kept and counted
+  const std::uint8_t* wanted_lines;  // 1: edge boxes there are stored and counted
 };
 
 }  // namespace mars::node

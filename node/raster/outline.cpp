@@ -1,4 +1,4 @@
-#include "node/raster/edge_boxes.h"
+#include "node/raster/outline.h"
 
 #include <algorithm>
 #include <utility>

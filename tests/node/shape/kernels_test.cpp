@@ -1,6 +1,6 @@
-// The inner loops: the same bits from every instruction set, and what they compute against plain loops in
+// The inner loops of shape: the same bits from every instruction set, and what they compute against plain loops in
 // double precision.
-#include "node/simd/kernels.h"
+#include "node/shape/kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -8,18 +8,15 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <vector>
 
-#include "hal/failure/failure.h"
 #include "node/shape/bezier.h"
-#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
 namespace mars::test {
 namespace {
 
-using node::Kernels;
 
 // Bits of all kinds: NaNs, infinities, numbers.
 float garbage(Random& random) { return std::bit_cast<float>(random.bits()); }
@@ -104,12 +101,6 @@ node::Row random_row(Random& random) {
   return row;
 }
 
-TEST(Kernels, AreChosenByName) {
-  EXPECT_EQ(std::string_view(node::best_kernels("sse2").name), "sse2");
-  EXPECT_EQ(&node::best_kernels(""), &node::best_kernels("avx512"));
-  EXPECT_THROW(node::best_kernels("mmx"), Failure);
-}
-
 // Tables of a basis of their own, with garbage in their slack.
 struct LitteredBasis {
   LitteredBasis(int rate, Random& random) {
@@ -127,7 +118,7 @@ struct LitteredBasis {
 };
 
 // With normals, without any, and without those at the ends only.
-TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
+TEST(ShapeKernels, EvaluateGivesTheSameBitsEverywhere) {
   Random random(50);
   int complete = 0, incomplete = 0;
   for (int trial = 0; trial < 600; ++trial) {
@@ -138,15 +129,15 @@ TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
     if (trial % 7 == 1) std::memset(row.slope[2 * random.whole(0, 1)], 0, sizeof row.slope[0]);
     const LitteredBasis littered(rate, random);
     std::vector<VertexMemory> results;
-    for (const Kernels* kernels : all_kernels())
+    for (const node::InstructionSet set : all_sets())
       for (const node::Basis& basis : {node::basis(rate), littered.basis}) {
         VertexMemory memory(offset + last - first);
-        const bool all = kernels->evaluate(row, basis, first, last, memory.view(), offset);
+        const bool all = node::shape_kernels(set).evaluate(row, basis, first, last, memory.view(), offset);
         results.push_back(memory);
-        EXPECT_TRUE(memory.guards_intact()) << kernels->name << ", trial " << trial;
-        EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
+        EXPECT_TRUE(memory.guards_intact()) << node::name_of(set) << ", trial " << trial;
+        EXPECT_TRUE(memory.same(results[0])) << node::name_of(set) << ", trial " << trial;
         for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
-        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << kernels->name << ", trial " << trial;
+        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << node::name_of(set) << ", trial " << trial;
         if (results.size() == 1) (all ? complete : incomplete) += last > first;
       }
   }
@@ -154,13 +145,13 @@ TEST(Kernels, EvaluateGivesTheSameBitsEverywhere) {
   EXPECT_GT(incomplete, 70);
 }
 
-TEST(Kernels, EvaluateGivesPointsAndUnitNormals) {
+TEST(ShapeKernels, EvaluateGivesPointsAndUnitNormals) {
   Random random(51);
   for (int trial = 0; trial < 200; ++trial) {
     const node::Row row = random_row(random);
     const int rate = random.whole(1, 40);
     VertexMemory memory(rate + 1);
-    node::best_kernels("").evaluate(row, node::basis(rate), 0, rate + 1, memory.view(), 0);
+    node::shape_kernels(node::best_instruction_set("")).evaluate(row, node::basis(rate), 0, rate + 1, memory.view(), 0);
     node::Curve curve{}, cross_curve{};
     std::memcpy(curve.point, row.point, sizeof curve.point);
     std::memcpy(cross_curve.point, row.cross, sizeof cross_curve.point);
@@ -193,7 +184,7 @@ VertexMemory random_places(Random& random, int count) {
   return memory;
 }
 
-TEST(Kernels, ProjectGivesTheSameBitsEverywhere) {
+TEST(ShapeKernels, ProjectGivesTheSameBitsEverywhere) {
   Random random(52);
   const node::Projection view = projection(639, 481, 2, 0.1, 500);
   int any = 0, none = 0;
@@ -207,14 +198,14 @@ TEST(Kernels, ProjectGivesTheSameBitsEverywhere) {
       }
     std::vector<VertexMemory> results;
     std::vector<bool> reaches;
-    for (const Kernels* kernels : all_kernels())
+    for (const node::InstructionSet set : all_sets())
       for (const bool littered : {false, true}) {
         VertexMemory memory = places;
         if (littered) memory.litter(random);
-        reaches.push_back(kernels->project(view, memory.view(), count));
+        reaches.push_back(node::shape_kernels(set).project(view, memory.view(), count));
         results.push_back(memory);
-        EXPECT_TRUE(memory.guards_intact()) << kernels->name << ", trial " << trial;
-        EXPECT_TRUE(memory.same(results[0])) << kernels->name << ", trial " << trial;
+        EXPECT_TRUE(memory.guards_intact()) << node::name_of(set) << ", trial " << trial;
+        EXPECT_TRUE(memory.same(results[0])) << node::name_of(set) << ", trial " << trial;
         EXPECT_EQ(reaches.back(), std::count(memory.flags.begin(), memory.flags.begin() + count, 1) > 0);
       }
     any += reaches[0];
@@ -224,11 +215,11 @@ TEST(Kernels, ProjectGivesTheSameBitsEverywhere) {
   EXPECT_GT(none, 50);
 }
 
-TEST(Kernels, ProjectSnapsToTheNearestSubpixel) {
+TEST(ShapeKernels, ProjectSnapsToTheNearestSubpixel) {
   Random random(53);
   const node::Projection view = projection(639, 481, 2, 0.1, 500);
   VertexMemory memory = random_places(random, 5000);
-  node::best_kernels("").project(view, memory.view(), 5000);
+  node::shape_kernels(node::best_instruction_set("")).project(view, memory.view(), 5000);
   const node::Vertices v = memory.view();
   int inside = 0;
   for (int k = 0; k < 5000; ++k) {

@@ -4,9 +4,15 @@
 
 #include <cstdint>
 
-#include "node/raster/triangle.h"
+#include "node/shape/vertices.h"
 
 namespace mars::node {
+
+// Screen places of a triangle's vertices.
+struct Corners {
+  std::int32_t x[3];
+  std::int32_t y[3];
+};
 
 class Outline {
  public:

@@ -1,6 +1,6 @@
 // Sixteen triangles at a time: which way they face, which samples they cover. In 32-bit integers, exact for
 // triangles no larger than kMostExtent: places relative to the triangle stay below 2^15, sums of products below 2^31.
-#include "node/simd/simd.h"
+#include "node/raster/kernels/functions.h"
 
 namespace mars::node::MARS_SET {
 namespace {
@@ -69,7 +69,7 @@ Triangle3 load(const Vertices& v, const Triangles& triangles, std::uint32_t at, 
 
 // Columns of those that `may` cover samples, row by row; which of them do.
 Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may, std::int32_t width,
-                 std::uint32_t lane, Examined& out) {
+                 std::uint32_t lane, Classified& out) {
   order(t.a, t.b);
   order(t.b, t.c);
   order(t.a, t.b);
@@ -102,8 +102,8 @@ Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may
 
 }  // namespace
 
-void examine(const Examination& task, const Vertices& v, const Triangles& triangles, const Batch& batch,
-             Examined& out) {
+void classify(const ClassifyTask& task, const Vertices& v, const Triangles& triangles, const Batch& batch,
+             Classified& out) {
   out.decided = out.undecided = out.faces = 0;
   const std::uint32_t count = batch.last - batch.first;
   for (std::uint32_t lane = 0; lane < count; lane += kLanes) {

@@ -1,4 +1,4 @@
-// The examining kernel of every instruction set against 64-bit integers: which of sixteen triangles are decided, and
+// The classifying kernel of every instruction set against 64-bit integers: which of sixteen triangles are decided, and
 // their columns row by row.
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "tests/node/simd/kernel_sets.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 
@@ -16,9 +16,9 @@ namespace mars::test {
 namespace {
 
 using node::Corners;
-using node::Examination;
-using node::Examined;
-using node::kExamined;
+using node::ClassifyTask;
+using node::Classified;
+using node::kBatchTriangles;
 
 // A batch of triangles and what lies around it in the arrays, which must not matter.
 class Batch16 {
@@ -31,9 +31,9 @@ class Batch16 {
         std::swap(numbers[k], numbers[static_cast<std::size_t>(random.whole(0, static_cast<std::int32_t>(k)))]);
     first_ = static_cast<std::uint32_t>(random.whole(0, 20));
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      corners_[corner].assign(first_ + kExamined + node::kVectorSlack, 0);
-      for (std::size_t k = 0; k < kExamined; ++k) {
-        const std::uint32_t number = numbers[corner * kExamined + k];
+      corners_[corner].assign(first_ + kBatchTriangles + node::kVectorSlack, 0);
+      for (std::size_t k = 0; k < kBatchTriangles; ++k) {
+        const std::uint32_t number = numbers[corner * kBatchTriangles + k];
         corners_[corner][first_ + k] = number;
         x_[number] = triangles[k].x[corner];
         y_[number] = triangles[k].y[corner];
@@ -42,20 +42,20 @@ class Batch16 {
   }
 
   // The first `count` of the sixteen.
-  Examined examine(const node::Kernels& kernels, const Examination& task, std::uint32_t count) {
+  Classified classify(node::InstructionSet set, const ClassifyTask& task, std::uint32_t count) {
     node::Vertices vertices{};
     vertices.x = x_;
     vertices.y = y_;
     const node::Batch batch{first_, first_ + count, consecutive_};
     const node::Triangles triangles{
         corners_[0].data(), corners_[1].data(), corners_[2].data(), first_ + count, &batch, 1};
-    Examined out;
-    kernels.examine(task, vertices, triangles, batch, out);
+    Classified out;
+    node::raster_kernels(set).classify(task, vertices, triangles, batch, out);
     return out;
   }
 
  private:
-  static constexpr std::size_t kVertices = 3 * kExamined;
+  static constexpr std::size_t kVertices = 3 * kBatchTriangles;
   bool consecutive_;
   std::uint32_t first_;
   std::vector<std::uint32_t> corners_[3];
@@ -64,7 +64,7 @@ class Batch16 {
 
 enum State { kDropped, kDecided, kUndecided, kStates };
 
-State state_of(const Examined& e, std::uint32_t lane) {
+State state_of(const Classified& e, std::uint32_t lane) {
   EXPECT_EQ(e.decided & e.undecided, 0u);
   return e.decided >> lane & 1 ? kDecided : e.undecided >> lane & 1 ? kUndecided : kDropped;
 }
@@ -82,7 +82,7 @@ std::int64_t above_thin(const Corners& t) {
                                     std::abs(t.y[2] - t.y[0]));
 }
 
-bool right_state(State state, const Corners& t, const Examination& task, bool covers_any) {
+bool right_state(State state, const Corners& t, const ClassifyTask& task, bool covers_any) {
   if (small(t) && above_thin(t) > 0) {
     const bool seen = !task.one_sided || (area(t) < 0) != task.mirrored;
     return state == (seen && covers_any ? kDecided : kDropped);
@@ -91,14 +91,14 @@ bool right_state(State state, const Corners& t, const Examination& task, bool co
   return covers_any ? state == kUndecided : state != kDecided;
 }
 
-// Whether a decided triangle's columns are these crossings and nothing else, and its numbers those of its corners.
-bool right_columns(const Examined& e, std::uint32_t lane, const Corners& t,
-                   const std::vector<node::Crossing>& crossings) {
-  auto next = crossings.begin();
+// Whether a decided triangle's columns are these edge boxes and nothing else, and its numbers those of its corners.
+bool right_columns(const Classified& e, std::uint32_t lane, const Corners& t,
+                   const std::vector<node::UnsortedEdgeBox>& boxes) {
+  auto next = boxes.begin();
   for (std::int32_t row = e.first_row[lane]; row < e.last_row[lane]; ++row) {
     const std::uint32_t columns = e.columns[row - e.first_row[lane]][lane];
     if (columns == 0) continue;
-    if (next == crossings.end() || next->line != row ||
+    if (next == boxes.end() || next->line != row ||
         (next->box.first | static_cast<std::uint32_t>(next->box.last) << 16) != columns)
       return false;
     ++next;
@@ -107,7 +107,7 @@ bool right_columns(const Examined& e, std::uint32_t lane, const Corners& t,
   const float expected[] = {static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
                             static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0]),
                             1.0f / static_cast<float>(area(t))};
-  return next == crossings.end() && std::equal(numbers, numbers + 5, expected) &&
+  return next == boxes.end() && std::equal(numbers, numbers + 5, expected) &&
          (e.faces >> lane & 1) == (area(t) < 0 ? 1u : 0u);
 }
 
@@ -116,29 +116,29 @@ struct Tally {
 };
 
 // All kernels, on batches that are consecutive or not.
-void expect_right(const std::vector<Corners>& triangles, const Examination& task, std::uint32_t count, Random& random,
+void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& task, std::uint32_t count, Random& random,
                   Tally& tally) {
-  std::vector<std::vector<node::Crossing>> crossings;
-  for (const Corners& t : triangles) crossings.push_back(plain_crossings(t, task.width, task.height));
+  std::vector<std::vector<node::UnsortedEdgeBox>> boxes;
+  for (const Corners& t : triangles) boxes.push_back(plain_edge_boxes(t, task.width, task.height));
   Batch16 batch(triangles, random.whole(0, 1) == 1, random);
-  for (const node::Kernels* kernels : all_kernels()) {
-    const Examined e = batch.examine(*kernels, task, count);
-    for (std::uint32_t lane = 0; lane < kExamined; ++lane) {
+  for (const node::InstructionSet set : all_sets()) {
+    const Classified e = batch.classify(set, task, count);
+    for (std::uint32_t lane = 0; lane < kBatchTriangles; ++lane) {
       const Corners& t = triangles[lane];
       const State state = state_of(e, lane);
       const bool right = lane >= count ? state == kDropped
-                                       : right_state(state, t, task, !crossings[lane].empty()) &&
-                                             (state != kDecided || right_columns(e, lane, t, crossings[lane]));
-      ASSERT_TRUE(right) << kernels->name << ", lane " << lane << " of " << count << ", state " << state << ": "
+                                       : right_state(state, t, task, !boxes[lane].empty()) &&
+                                             (state != kDecided || right_columns(e, lane, t, boxes[lane]));
+      ASSERT_TRUE(right) << node::name_of(set) << ", lane " << lane << " of " << count << ", state " << state << ": "
                          << t.x[0] << ',' << t.y[0] << ' ' << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2]
                          << " in " << task.width << " x " << task.height;
-      tally.states[state] += kernels->name == std::string_view("sse2") && lane < count;
+      tally.states[state] += set == node::InstructionSet::sse2 && lane < count;
     }
   }
 }
 
 // Where and how large: mostly in the picture or over its borders, corners often on samples or pixels' borders.
-Corners random_triangle(Random& random, const Examination& task) {
+Corners random_triangle(Random& random, const ClassifyTask& task) {
   const std::int32_t size = static_cast<std::int32_t>(std::exp2(random.real(2, 14.2)));
   const auto middle = [&](std::int32_t samples) {
     if (random.whole(0, 50) == 0) return random.whole(-8400000, 8400000);
@@ -175,16 +175,16 @@ Corners random_triangle(Random& random, const Examination& task) {
   return t;
 }
 
-TEST(Examine, AMillionTrianglesAsIn64Bits) {
+TEST(Classify, AMillionTrianglesAsIn64Bits) {
   Random random(70);
   Tally tally;
   constexpr std::int32_t kPictures[][2] = {{100, 80}, {100, 80}, {3, 2}, {7, 300}, {16384, 16384}};
   for (int trial = 0; trial < 100000; ++trial) {
     const auto& [width, height] = kPictures[trial % 5];
-    const Examination task{width, height, random.whole(0, 2) == 0, random.whole(0, 1) == 1};
-    std::vector<Corners> triangles(kExamined);
+    const ClassifyTask task{width, height, random.whole(0, 2) == 0, random.whole(0, 1) == 1};
+    std::vector<Corners> triangles(kBatchTriangles);
     for (Corners& t : triangles) t = random_triangle(random, task);
-    const std::uint32_t count = random.whole(0, 2) ? kExamined : static_cast<std::uint32_t>(random.whole(1, 15));
+    const std::uint32_t count = random.whole(0, 2) ? kBatchTriangles : static_cast<std::uint32_t>(random.whole(1, 15));
     expect_right(triangles, task, count, random, tally);
     if (HasFatalFailure()) return;
   }
@@ -195,13 +195,13 @@ TEST(Examine, AMillionTrianglesAsIn64Bits) {
 }
 
 // One 1/256 pixel about what is still small, and about what is thin.
-TEST(Examine, TheBordersOfWhatIsDecided) {
+TEST(Classify, TheBordersOfWhatIsDecided) {
   Random random(71);
   Tally tally;
   int just_small = 0, just_large = 0, just_thin = 0, just_sure = 0;
   for (int trial = 0; trial < 4000; ++trial) {
-    const Examination task{100, 80, false, false};
-    std::vector<Corners> triangles(kExamined);
+    const ClassifyTask task{100, 80, false, false};
+    std::vector<Corners> triangles(kBatchTriangles);
     for (Corners& t : triangles) {
       const std::int32_t x = random.whole(-9000, 17000), y = random.whole(-9000, 12000);
       if (random.whole(0, 1)) {
@@ -216,7 +216,7 @@ TEST(Examine, TheBordersOfWhatIsDecided) {
       }
       if (random.whole(0, 1)) std::swap_ranges(t.x, t.x + 3, t.y);
     }
-    expect_right(triangles, task, kExamined, random, tally);
+    expect_right(triangles, task, kBatchTriangles, random, tally);
     if (HasFatalFailure()) return;
   }
   for (const int count : {just_small, just_large, just_thin, just_sure}) EXPECT_GT(count, 1000);

@@ -1,0 +1,24 @@
+// A stretch of a picture's scanlines.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace mars::node {
+
+// Lines [first, last); may be empty.
+struct LineRange {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+
+  std::uint32_t count() const { return last - first; }
+  bool has(std::uint32_t line) const { return first <= line && line < last; }
+  bool operator==(const LineRange&) const = default;
+};
+
+inline LineRange overlap(const LineRange& a, const LineRange& b) {
+  const std::uint32_t first = std::max(a.first, b.first), last = std::min(a.last, b.last);
+  return {first, std::max(first, last)};
+}
+
+}  // namespace mars::node

@@ -1,0 +1,22 @@
+// The inner loops of shading, each written once and compiled for several instruction sets (kernels/); the bits are the
+// same for all of them. Plain structs and pointers only, as in shape/kernels.h.
+#pragma once
+
+#include <cstdint>
+
+#include "node/shading/shading.h"
+
+namespace mars::node {
+
+enum class InstructionSet;
+
+struct ShadingKernels {
+  // Shades the samples of line `line` within `extent` whose id is not kNoTriangle, their runs to `runs` and
+  // their pixels to `pixels`; says how many of each.
+  Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+                  std::uint32_t* pixels);
+};
+
+const ShadingKernels& shading_kernels(InstructionSet set);
+
+}  // namespace mars::node

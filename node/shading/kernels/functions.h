@@ -1,0 +1,12 @@
+// The kernels of this folder, each defined in a file of its own and compiled for one instruction set at a time.
+#pragma once
+
+#include "node/simd/vectors.h"
+#include "node/shading/kernels.h"
+
+namespace mars::node::MARS_SET {
+
+Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+             std::uint32_t* pixels);
+
+}  // namespace mars::node::MARS_SET

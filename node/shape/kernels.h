@@ -1,0 +1,29 @@
+// The inner loops of shape, each written once and compiled for several instruction sets (kernels/); the bits are the
+// same for all of them. Plain structs and pointers only: nothing inline may be shared with code that is compiled for a
+// lesser CPU. Arrays have room for kVectorSlack more than is asked for.
+#pragma once
+
+#include "node/shape/vertices.h"
+
+namespace mars::node {
+
+enum class InstructionSet;
+
+struct ShapeKernels {
+  // How a patch's inside bends, as it is seen: see rates (bezier.h).
+  Fineness (*estimate_curvature)(const CurvatureWeights& weights, const float (*points)[3],
+                                 const Projection& projection);
+
+  // Vertices first..last - 1 of `row` at first/rate.. into out[at..]. Whether all have a normal.
+  bool (*evaluate)(const Row& row, const Basis& basis, int first, int last, const Vertices& out, int at);
+
+  // Vertices 0..count - 1 of a mesh, their normals of unit length or 0. Of both lists kVectorSlack more are read.
+  void (*move)(const EyeMap& map, const float (*places)[3], const float (*normals)[3], int count, const Vertices& out);
+
+  // Whether any of the vertices is outside.
+  bool (*project)(const Projection& projection, const Vertices& vertices, int count);
+};
+
+const ShapeKernels& shape_kernels(InstructionSet set);
+
+}  // namespace mars::node

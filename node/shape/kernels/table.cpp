@@ -1,0 +1,8 @@
+#include "node/shape/kernels/functions.h"
+
+namespace mars::node::MARS_SET {
+
+extern const ShapeKernels shape_kernels;
+const ShapeKernels shape_kernels = {estimate_curvature, evaluate, move, project};
+
+}  // namespace mars::node::MARS_SET
