@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "host/shell/options/render_options.h"
-#include "host/preview/key_press.h"
+#include "host/images/picture_size.h"
 #include "host/images/png_file.h"
+#include "host/preview/key_press.h"
 
 namespace mars::host {
 

@@ -14,18 +14,13 @@
 
 #include "host/content/animator/film.h"
 #include "host/content/film/compile.h"
+#include "host/preview/lines.h"
 #include "node/wire/film.h"
 
 namespace mars::host {
 
 enum class As { stick, vertices, prisms, surface };
 inline constexpr std::size_t kOfLines = 3;  // representations before `surface`, which the renderer draws
-
-struct Lines {
-  std::vector<float> points;         // x, y, z of each
-  std::vector<std::uint32_t> ends;   // two points a line
-  std::uint32_t dots = 0;            // so many points, from the first, are marked: joints, control vertices
-};
 
 // One instance of lines: numbers of `lines`, and tracks over `changes` of numbers of `matrices` and `colors`.
 struct Part {

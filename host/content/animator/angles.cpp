@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "host/content/animator/rotation.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLocked = 1e-9;  // cosine of the second turn below which the first and third are one turn
 
 double excess(const Limits& limits, double angle) {

@@ -6,7 +6,6 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/edit.h"
-#include "host/content/animator/pose.h"
 #include "host/content/animator/side_effects.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"

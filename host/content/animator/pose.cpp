@@ -4,7 +4,6 @@
 #include <set>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/angles.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
@@ -61,13 +60,6 @@ Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::ui
   return written(numbers);
 }
 
-// "-170 degrees about y is beyond its limits -150 to 0".
-std::string beyond_limits(const Limits& limits, int axis, double angle) {
-  const std::string text = shown(angle) + " degrees about " + "xyz"[axis];
-  return limits.free() ? text + " is beyond its limits " + shown(limits.lower) + " to " + shown(limits.upper)
-                       : text + ", where it is locked at " + shown(limits.lower);
-}
-
 // Refuses an axis that an earlier wish has set; `set` are the parts and axes of those.
 void refuse_twice(const Wish& wish, const std::string& text, std::set<std::pair<std::string, int>>& set) {
   for (int axis = 0; axis < 3; ++axis)
@@ -104,21 +96,6 @@ Wish Wish::read(const std::string& text, const Thing& thing) {
                   "'" + text + "'", remedy);
   for (std::size_t i = 0; i < needed; ++i) wish.numbers[axis + i] = numbers[i];
   return wish;
-}
-
-glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
-                         Remarks& remarks) {
-  const glm::dvec3 nearest = clamped(joint, pose);
-  if (largest_excess(joint, pose) <= kAngleRounding) return nearest;
-  const std::string name = thing + ", joint '" + joint.name + "'";
-  if (beyond == Beyond::refused)
-    throw Failure(*broken_limit(joint, pose), name,
-                  "--clamp takes the nearest allowed, or widen the limits in its model");
-  for (int axis = 0; axis < 3; ++axis)
-    if (excess_of(joint, pose)[axis] > kAngleRounding)
-      remarks.push_back(name + ": " + beyond_limits(joint.limits[axis], axis, pose[axis]) + ": keyed as " +
-                        shown(nearest[axis]));
-  return nearest;
 }
 
 Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "host/content/animator/film.h"
-#include "host/content/film/compile.h"
+#include "host/content/film/compiled_film.h"
 #include "node/wire/film.h"
 
 namespace mars::host {

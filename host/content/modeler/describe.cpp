@@ -162,8 +162,7 @@ std::string materials_of(const Model& model) {
 }  // namespace
 
 double skew_of(const Joint& joint) {
-  constexpr double kPi = 3.14159265358979323846;
-  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / kPi;
+  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / std::numbers::pi;
   return std::abs(angle - 90) < kSquare ? 0 : angle;
 }
 

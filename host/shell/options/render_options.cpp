@@ -1,12 +1,12 @@
 #include "host/shell/options/render_options.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <functional>
 #include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/numbers.h"
 #include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
 
@@ -52,11 +52,6 @@ void read(const std::string& text, std::string& value) { value = text; }
 
 void read(const std::string& text, FrameSet& value) { value = FrameSet(text); }
 
-bool read_number(std::string_view text, std::uint32_t& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 void read(const std::string& text, std::optional<PictureSize>& value) { value = read_picture_size(text); }
 
 // A number of at least one.
@@ -70,7 +65,10 @@ void read_count(const std::string& text, const Count& count, RenderOptions& opti
   std::uint32_t& value = options.*count.member;
   if (count.may_be_auto && text == "auto") {
     value = 0;
-  } else if (!read_number(text, value) || value < 1 || value > count.most) {
+    return;
+  }
+  value = number_in<std::uint32_t>(text).value_or(0);
+  if (value < 1 || value > count.most) {
     throw Failure("'" + text + "' is not a number from 1 to " + std::to_string(count.most) +
                       (count.may_be_auto ? " or auto" : ""),
                   "", "");
@@ -226,20 +224,6 @@ void check_together(const RenderOptions& options) {
 }  // namespace
 
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
-
-PictureSize read_picture_size(const std::string& text) {
-  const std::size_t cross = std::min(text.find('x'), text.size());
-  PictureSize size{};
-  const bool numbers = cross < text.size() &&
-                       read_number(std::string_view(text).substr(0, cross), size.width) &&
-                       read_number(std::string_view(text).substr(cross + 1), size.height);
-  if (!numbers) throw Failure("'" + text + "' is not a size", "", "write width and height like 960x540");
-  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > node::kMaxSide) {
-    throw Failure(
-        "'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "", "");
-  }
-  return size;
-}
 
 void add_render_options(CLI::App& app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {

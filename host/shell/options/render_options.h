@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/content/film/frame_set.h"
+#include "host/images/picture_size.h"
 #include "node/wire/protocol.h"
 
 namespace CLI {
@@ -23,16 +24,6 @@ inline constexpr const char* kTrialFilm = ":trial";
 enum class Backend { automatic, mpi, threads };
 enum class Intervals { automatic, keyframes };
 enum class SinkKind { png, none };
-
-struct PictureSize {
-  std::uint32_t width;  // pixels, 1..node::kMaxSide
-  std::uint32_t height;
-
-  bool operator==(const PictureSize&) const = default;
-};
-
-// From "960x540". Throws Failure where that is no size.
-PictureSize read_picture_size(const std::string& text);
 
 struct RenderOptions {
   std::string film;         // FILM.json or FILM.mars

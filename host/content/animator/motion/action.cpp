@@ -1,10 +1,6 @@
 #include "host/content/animator/motion/action.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <set>
-#include <sstream>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/gesture.h"
@@ -99,65 +95,6 @@ ActorKey all_of(std::span<const ActorKey> keys) {
 
 std::size_t Parameter::count() const {
   return 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
-}
-
-void Wishes::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
-  throw Failure("'" + std::string(name) + "' " + what, where_, remedy);
-}
-
-double Wishes::parsed(std::string_view name, const std::string& text, Range range) const {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
-  if (value < range.lowest || value > range.highest)
-    refuse(name, "is " + text, "give a number from " + shown(range.lowest) + " to " + shown(range.highest));
-  return value;
-}
-
-std::optional<double> Wishes::number(std::string_view name, Range range) const {
-  const auto found = values_.find(std::string(name));
-  if (found == values_.end()) return std::nullopt;
-  return parsed(name, found->second.at(0), range);
-}
-
-double Wishes::number(std::string_view name, double otherwise, Range range) const {
-  return number(name, range).value_or(otherwise);
-}
-
-std::uint32_t Wishes::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
-  const double value = number(name, otherwise, {1, double(highest)});
-  if (value != std::floor(value)) refuse(name, "is " + shown(value), "give a whole number");
-  return static_cast<std::uint32_t>(value);
-}
-
-std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
-  const auto found = values_.find(std::string(name));
-  if (found == values_.end()) return std::nullopt;
-  glm::dvec3 vector(0);
-  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i)
-    vector[int(i)] = parsed(name, found->second[i], {});
-  return vector;
-}
-
-std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
-                           std::span<const std::string_view> choices) const {
-  const auto found = values_.find(std::string(name));
-  if (found == values_.end()) return otherwise;
-  const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
-  if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
-  std::string all;
-  for (const std::string_view each : choices) all += (all.empty() ? "" : ", ") + std::string(each);
-  refuse(name, "is '" + found->second.at(0) + "'",
-         did_you_mean(found->second.at(0), choices, "one of " + all));
-}
-
-std::uint32_t Scene::last_after(double frames) const {
-  const double last = at + std::ceil(frames);
-  if (last < node::kMostFrames) return static_cast<std::uint32_t>(last);
-  throw Failure("would end at frame " + shown(last), who(),
-                "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) +
-                    " frames");
 }
 
 std::span<const Action> actions() { return kActions; }
