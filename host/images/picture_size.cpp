@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/numbers.h"
+#include "host/content/document/text.h"
 #include "node/wire/film.h"
 
 namespace mars::host {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
+#include "host/content/document/text.h"
 #include "host/preview/terminal_picture.h"
 #include "host/preview/text_lines.h"
 
@@ -104,9 +104,8 @@ class Player {
   }
 
   std::string status(std::uint32_t now) const {
-    char numbers[120];
-    std::snprintf(numbers, sizeof numbers, " %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
-                  pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
+    const std::string numbers = formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
+                                          pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
     return cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit"),
                   terminal_.cells().width);
   }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "host/content/animator/rotation.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLocked = 1e-9;  // cosine of the second turn below which the first and third are one turn
 
 double excess(const Limits& limits, double angle) {

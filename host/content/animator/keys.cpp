@@ -146,8 +146,7 @@ void split_way(Track& track, std::uint32_t frame, Json value) {
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const Thing& thing = chosen.thing;
   const Tracks before = tracks_of(*thing.json);
-  std::string gave_way;
-  for (const std::string& part : put_tracks(*thing.json, tracks)) gave_way += (gave_way.empty() ? "" : ", ") + part;
+  const std::string gave_way = joined(put_tracks(*thing.json, tracks));
   Remarks remarks;
   if (!gave_way.empty())
     remarks.push_back(thing.name + ": a key has one ease; that of what else is keyed there rules " + gave_way);

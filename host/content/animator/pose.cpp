@@ -1,6 +1,5 @@
 #include "host/content/animator/pose.h"
 
-#include <charconv>
 #include <set>
 
 #include "hal/failure/failure.h"
@@ -25,12 +24,11 @@ std::string remedy_for(const std::string& part, const Json& now) {
 }
 
 double number_of(std::string_view digits, const std::string& text, const std::string& remedy) {
-  double number = 0;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size() || !(number >= -kFarthest && number <= kFarthest))
+  const auto number = number_in<double>(digits);
+  if (!number || !(*number >= -kFarthest && *number <= kFarthest))
     throw Failure("has '" + std::string(digits) + "' where a number belongs", "'" + text + "'", remedy);
-  return number;
+  return *number;
 }
 
 std::vector<double> numbers_of(const std::string& list, const std::string& text, const std::string& remedy) {
@@ -92,8 +90,7 @@ Wish Wish::read(const std::string& text, const Thing& thing) {
   const bool three = now.is_array();
   const std::size_t needed = with_axis || !three ? 1 : 3;
   if (numbers.size() != needed || (with_axis && !three))
-    throw Failure("has " + std::to_string(numbers.size()) + (numbers.size() == 1 ? " number" : " numbers"),
-                  "'" + text + "'", remedy);
+    throw Failure("has " + counted(numbers.size(), "number"), "'" + text + "'", remedy);
   for (std::size_t i = 0; i < needed; ++i) wish.numbers[axis + i] = numbers[i];
   return wish;
 }

@@ -120,7 +120,5 @@ Document read_document(const std::filesystem::path& path);
 // One that `name` names: where it cannot be read, the place of `name` is told, too.
 Document read_document(const Element& name, const std::filesystem::path& path);
 
-// A name from a file as messages show it: the beginning of a long one, and "...".
-std::string shortened(std::string_view name);
 
 }  // namespace mars::host

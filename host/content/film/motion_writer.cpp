@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <thread>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "topology/memory_limit.h"
 
 namespace mars::host {
@@ -97,11 +97,7 @@ std::uint64_t memory_here() {
   return limit == 0 ? bytes : std::min(bytes, limit);
 }
 
-std::string gigabytes(std::uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f GB", double(bytes) / 1e9);
-  return text;
-}
+std::string gigabytes(std::uint64_t bytes) { return formatted("%.1f GB", double(bytes) / 1e9); }
 
 class MotionWriter {
  public:

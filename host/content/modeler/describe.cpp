@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "host/content/document/fields.h"
 #include "host/content/modeler/frames.h"
@@ -14,13 +14,6 @@ namespace {
 constexpr double kSquare = 1e-3;  // degrees from a right angle that are rounding
 
 using Row = std::vector<std::string>;
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[100];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 double without_rounding(double number) { return std::abs(number) < 1e-9 ? 0 : number; }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <numbers>
 
 namespace mars::host {
 namespace {
 
 using std::numbers::pi;
-
 
 // Pulls a sine or cosine towards +-1.
 double squared(double value, double by) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 
+#include "host/content/document/text.h"
 #include "host/shell/launch/text_reader.h"
 
 namespace mars::host {
@@ -17,10 +17,6 @@ constexpr std::uint64_t kLittleShared = 64 * kMiB;     // what containers get un
 constexpr std::uint64_t kLeastShared = 16 * kMiB;
 constexpr std::uint64_t kSharedByANode = 4 * kMiB;     // Open MPI's segment for messages
 constexpr std::uint64_t kLittleTemporary = 16 * kMiB;  // free
-
-std::string counted(std::uint64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -76,21 +72,19 @@ Finding check_mpi(const Facts& facts) {
 Finding check_programs(const Facts& facts) {
   const char* about = "programs";
   const Programs& programs = facts.programs;
-  std::string lacking;
+  std::vector<std::string> lacking;
   for (const auto& [name, there] : {std::pair{"mars-host", programs.host.has_value()},
                                     std::pair{"mars-node", programs.node.has_value()},
                                     std::pair{"mars-threads", programs.threads.has_value()}}) {
-    if (!there) lacking += (lacking.empty() ? "" : ", ") + std::string(name);
+    if (!there) lacking.emplace_back(name);
   }
   if (!lacking.empty()) {
     const bool needed = programs.mpirun || !programs.threads;
-    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + lacking,
+    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + joined(lacking),
             "build MARS where MPI is installed, and keep its programs in one folder"};
   }
   if (!facts.lacking.empty()) {
-    std::string names;
-    for (const std::string& name : facts.lacking) names += (names.empty() ? "" : ", ") + name;
-    return {State::trouble, about, "mars-node lacks libraries: " + names,
+    return {State::trouble, about, "mars-node lacks libraries: " + joined(facts.lacking),
             "load the MPI that MARS was built with (module load ...), or install it on this machine"};
   }
   const auto folder = programs.node->parent_path();
@@ -235,15 +229,10 @@ void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
 }  // namespace
 
 std::string bytes_text(std::uint64_t bytes) {
-  char text[40];
-  if (bytes >= 10 * 1024 * kMiB) {
-    std::snprintf(text, sizeof text, "%.0f GiB", static_cast<double>(bytes) / (1024.0 * kMiB));
-  } else if (bytes >= 1024 * kMiB) {
-    std::snprintf(text, sizeof text, "%.1f GiB", static_cast<double>(bytes) / (1024.0 * kMiB));
-  } else {
-    std::snprintf(text, sizeof text, "%.0f MiB", static_cast<double>(bytes) / kMiB);
-  }
-  return text;
+  const double mebibytes = static_cast<double>(bytes) / kMiB;
+  if (bytes >= 10 * 1024 * kMiB) return formatted("%.0f GiB", mebibytes / 1024);
+  if (bytes >= 1024 * kMiB) return formatted("%.1f GiB", mebibytes / 1024);
+  return formatted("%.0f MiB", mebibytes);
 }
 
 std::vector<Finding> check_machine(const Facts& facts) {
@@ -267,12 +256,10 @@ Finding check_start(const Trial& trial) {
     const std::string found = failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem;
     return {State::trouble, "a start", found, failure.remedy + (failure.remedy.empty() ? "" : "\n") + trial.command};
   }
-  char seconds[40];
-  std::snprintf(seconds, sizeof seconds, "%.1f", trial.boot_seconds);
   const Booted& booted = trial.booted;
   return {State::good, "a start",
           counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") + " (" +
-              booted.backend + ") booted in " + seconds + " s, rendered " + counted(trial.frames, "frame"),
+              booted.backend + ") booted in " + formatted("%.1f", trial.boot_seconds) + " s, rendered " + counted(trial.frames, "frame"),
           ""};
 }
 

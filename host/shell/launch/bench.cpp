@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/shell/launch/exec.h"
 
 namespace mars::host {
@@ -35,9 +36,7 @@ std::string list_benchmarks(const fs::path& program) {
 void run_benchmark(const fs::path& program, const std::string& name, const std::vector<std::string>& words) {
   const std::vector<std::string> names = names_in(folder_of(program));
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + known);
+    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + joined(names));
   }
   Command command{{}, {folder_of(program) / name / "run"}};
   command.words.insert(command.words.end(), words.begin(), words.end());

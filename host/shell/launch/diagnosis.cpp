@@ -10,6 +10,7 @@
 #include <iterator>
 #include <set>
 
+#include "host/content/document/text.h"
 #include "host/shell/launch/mpi_words.h"
 #include "host/shell/launch/text_reader.h"
 
@@ -95,9 +96,7 @@ std::string without_port(const std::string& address) { return address.substr(0, 
 std::string machines_of(const Booted& booted) {
   std::set<std::string> names;
   for (const Booted::Node& node : booted.nodes) names.insert(node.host);
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : " or ") + name;
-  return list;
+  return joined(names, " or ");
 }
 
 // Which machine was lost, if the words tell of such a loss. Open MPI has three ways to say it:

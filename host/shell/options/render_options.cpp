@@ -1,12 +1,13 @@
 #include "host/shell/options/render_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/numbers.h"
+#include "host/content/document/text.h"
 #include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
 
@@ -37,15 +38,10 @@ constexpr std::array kWords<node::Mapping>{"greedy", "optimal"};
 template <typename Enumeration>
 requires std::is_enum_v<Enumeration>
 void read(const std::string& text, Enumeration& value) {
-  std::string words;
-  for (std::size_t i = 0; i < kWords<Enumeration>.size(); ++i) {
-    if (text == kWords<Enumeration>[i]) {
-      value = static_cast<Enumeration>(i);
-      return;
-    }
-    words += (words.empty() ? "" : " or ") + std::string(kWords<Enumeration>[i]);
-  }
-  throw Failure("'" + text + "' is not " + words, "", "");
+  const auto& words = kWords<Enumeration>;
+  const auto found = std::find(words.begin(), words.end(), text);
+  if (found == words.end()) throw Failure("'" + text + "' is not " + joined(words, " or "), "", "");
+  value = static_cast<Enumeration>(found - words.begin());
 }
 
 void read(const std::string& text, std::string& value) { value = text; }

@@ -1,7 +1,6 @@
 #include "host/content/animator/motion/wishes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "hal/failure/failure.h"
@@ -13,9 +12,8 @@ void Wishes::refuse(std::string_view name, const std::string& what, const std::s
 }
 
 double Wishes::parsed(std::string_view name, const std::string& text, Range range) const {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+  const double value = number_in<double>(text).value_or(NAN);
+  if (!std::isfinite(value))
     refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
   if (value < range.lowest || value > range.highest)
     refuse(name, "is " + text, "give a number from " + shown(range.lowest) + " to " + shown(range.highest));
@@ -53,10 +51,8 @@ std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
   if (found == values_.end()) return otherwise;
   const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
   if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
-  std::string all;
-  for (const std::string_view each : choices) all += (all.empty() ? "" : ", ") + std::string(each);
   refuse(name, "is '" + found->second.at(0) + "'",
-         did_you_mean(found->second.at(0), choices, "one of " + all));
+         did_you_mean(found->second.at(0), choices, "one of " + joined(choices)));
 }
 
 }  // namespace mars::host
