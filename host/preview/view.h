@@ -3,7 +3,7 @@
 // Values only: arrays of numbers and of numbers of others, to draw from or to send to a browser as they are.
 //
 // Control vertices and prisms use the compiled film's T-matrices (from the unit cube) as they stand, by the same
-// numbers; so do the sticks of joints that have a segment, whose lines are therefore told in the unit cube too.
+// numbers; so do the sticks of joints that have a segment, whose lines are therefore given in the unit cube too.
 // Only joints without a segment add matrices, behind the film's.
 #pragma once
 

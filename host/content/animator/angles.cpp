@@ -47,7 +47,7 @@ bool better(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, const 
 }
 
 // The three turns one by one. z stands across both x and y, so Rot(x, a) Rot(y, b) takes it where `turn` does,
-// and how far that lies along x tells b.
+// and how far that lies along x gives b.
 class Unturned {
  public:
   Unturned(const Joint& joint, const glm::dmat3& turn)

@@ -45,7 +45,7 @@ std::vector<std::string> left_out(const Film& meaning, const Choice& choice) {
   return remarks;
 }
 
-// Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` tells
+// Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` returns
 // whether the choice names any key of the track; if none does, that is an error.
 template <typename Change>
 Remarks change_tracks(Json& film, const Film& meaning, const Choice& choice, const std::string& sought,
@@ -149,7 +149,7 @@ Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const std::string gave_way = joined(put_tracks(*thing.json, tracks));
   Remarks remarks;
   if (!gave_way.empty())
-    remarks.push_back(thing.name + ": a key has one ease; that of what else is keyed there rules " + gave_way);
+    remarks.push_back(thing.name + ": a key has one ease; the ease of the other keys there applies to " + gave_way);
   append(remarks, side_effects(chosen, before, tracks_of(*thing.json)));
   return remarks;
 }

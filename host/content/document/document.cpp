@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
 
-// Walks the text for the parser and tells how far it has come.
+// Walks the text for the parser and knows how far it has come.
 struct Reader {
   using value_type = char;
   using difference_type = std::ptrdiff_t;

@@ -117,7 +117,7 @@ class Document {
 
 // Reads and parses a file.
 Document read_document(const std::filesystem::path& path);
-// One that `name` names: where it cannot be read, the place of `name` is told, too.
+// One that `name` names: where it cannot be read, the failure names the place of `name`, too.
 Document read_document(const Element& name, const std::filesystem::path& path);
 
 

@@ -12,7 +12,7 @@
 
 namespace mars::host {
 
-// The packed block, aligned to 64 bytes, and what it does not tell.
+// The packed block, aligned to 64 bytes, and what it does not hold.
 struct CompiledFilm {
   struct alignas(64) Line {
     std::array<std::byte, 64> bytes;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFarthestMatrix = 1e12;              // as node/wire/film.h allows
 constexpr std::size_t kWorthAThread = 20'000;          // matrices
-constexpr std::size_t kRoomBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
+constexpr std::size_t kCapacityBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
 constexpr std::size_t kBytesEach = sizeof(node::Matrix) + 3 * sizeof(node::Change);  // with lists on the way
 
 // Frames at which something may differ from the frame before: (after, last], ascending and apart.
@@ -105,7 +105,7 @@ class MotionWriter {
 
   std::size_t write(CompiledFilm::Lines& lines) {
     plan();
-    matrices_ = room_for(most_matrices_, lines);
+    matrices_ = reserve(most_matrices_, lines);
     const std::size_t own_changes = data_.changes.size();  // of camera, lights and materials
     data_.changes.resize(own_changes + most_matrices_);
     for (Share& share : shares_) share.first_change += own_changes;
@@ -121,9 +121,9 @@ class MotionWriter {
            sizeof(CompiledFilm::Line);
   }
 
-  static node::Matrix* room_for(std::size_t matrices, CompiledFilm::Lines& lines) {
-    // Room for what follows them, mostly their changes, so that they need not be moved again.
-    lines.reserve(lines_of(matrices + matrices / 4) + kRoomBehind / sizeof(CompiledFilm::Line));
+  static node::Matrix* reserve(std::size_t matrices, CompiledFilm::Lines& lines) {
+    // Capacity for what follows them, mostly their changes, so that they need not be moved again.
+    lines.reserve(lines_of(matrices + matrices / 4) + kCapacityBehind / sizeof(CompiledFilm::Line));
     lines.resize(lines_of(matrices));
     return reinterpret_cast<node::Matrix*>(reinterpret_cast<std::byte*>(lines.data()) + node::kMatricesOffset);
   }

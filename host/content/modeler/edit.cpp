@@ -47,7 +47,7 @@ Json* find_joint(Json& model, const std::string& name) {
 [[noreturn]] void no_such_joint(Json& model, const std::string& name) {
   const std::vector<std::string> names = names_of(joints_of(model));
   throw Failure("is not in the model", joint_of(name),
-                near(name, names, "mars model show tells the joints' names"));
+                near(name, names, "mars model show lists the joints"));
 }
 
 Json& joint_named(Json& model, const std::string& name) {

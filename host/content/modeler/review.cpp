@@ -66,7 +66,7 @@ class Review {
                           ", for its limits leave 0 out");
   }
 
-  // Children hang on their parent's segment. True if something was told.
+  // Children hang on their parent's segment. True if a doubt was added.
   bool doubt_place(std::size_t number) {
     const Joint& joint = model_.joints[number];
     if (joint.parent == kNone || !model_.joints[joint.parent].segment) return false;

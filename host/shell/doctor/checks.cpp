@@ -57,7 +57,7 @@ Finding check_mpi(const Facts& facts) {
   if (!facts.mpirun_version) return {State::good, about, name + where, ""};
   if (facts.mpirun_version->empty()) {
     return {State::trouble, about, "mpirun --version says nothing" + where,
-            "mpirun --version must work: load MPI anew, or use --backend threads"};
+            "mpirun --version must work: load MPI again, or use --backend threads"};
   }
   const std::string version = version_of(mpi, *facts.mpirun_version);
   if (version.empty()) {
@@ -155,7 +155,7 @@ Finding check_shared(const Facts& facts) {
   const Space& space = *facts.shared;
   const std::string found = bytes_text(space.total) + ", " + bytes_text(space.left) + " free";
   if (space.left < kLeastShared)
-    return {State::trouble, about, found, std::string(remedy) + "; what ended jobs left there may be deleted"};
+    return {State::trouble, about, found, std::string(remedy) + "; files of ended jobs there may be deleted"};
   if (space.total <= kLittleShared || space.left < (facts.nodes + 1) * kSharedByANode)
     return {State::note, about, found + ": too little for large films or many nodes", remedy};
   return {State::good, about, found, ""};
@@ -176,7 +176,7 @@ Finding check_copies(const Facts& facts) {
   if (!facts.surroundings.copies_forbidden)
     return {State::good, "copies", "processes may copy from each other's memory (CMA)", ""};
   return {State::note, "copies", "processes may not copy from each other's memory (CMA): slower messages",
-          "mars render minds it; for mpirun by hand export OMPI_MCA_btl_vader_single_copy_mechanism=none. "
+          "mars render sets it; for mpirun by hand export OMPI_MCA_btl_vader_single_copy_mechanism=none. "
           "Containers allow it with --cap-add=SYS_PTRACE, kernels with sysctl kernel.yama.ptrace_scope=0"};
 }
 
@@ -184,8 +184,8 @@ Finding check_user(const Facts& facts) {
   const std::string place = facts.container.empty() ? "" : " in a container (" + facts.container + ")";
   if (!facts.surroundings.root) return {State::good, "user", "not root" + place, ""};
   if (facts.programs.mpi == Mpi::mpich) return {State::good, "user", "root" + place, ""};
-  return {State::note, "user", "root" + place + ": Open MPI wants to be told twice",
-          "mars render does; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
+  return {State::note, "user", "root" + place + ": Open MPI starts as root only with two settings",
+          "mars render sets them; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
           "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
 }
 
@@ -197,7 +197,7 @@ Finding check_temporary(const Facts& facts) {
   }
   const std::string found = facts.temporary + ", " + bytes_text(facts.temporary_space->left) + " free";
   if (facts.temporary_space->left < kLittleTemporary)
-    return {State::trouble, about, found, "empty it, or set TMPDIR to a folder on a local disk that has room"};
+    return {State::trouble, about, found, "empty it, or set TMPDIR to a folder on a local disk with free space"};
   return {State::good, about, found, ""};
 }
 

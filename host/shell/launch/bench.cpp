@@ -4,7 +4,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
-#include "host/shell/launch/exec.h"
+#include "host/child/exec.h"
 
 namespace mars::host {
 namespace {
@@ -28,7 +28,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 }  // namespace
 
 std::string list_benchmarks(const fs::path& program) {
-  std::string text = "Benchmarks here (mars bench NAME --help tells more):\n";
+  std::string text = "Benchmarks (options: mars bench NAME --help):\n";
   for (const std::string& name : names_in(folder_of(program))) text += "  " + name + "\n";
   return text;
 }

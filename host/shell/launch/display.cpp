@@ -70,7 +70,7 @@ std::string done_text(const Done& done) {
   return text;
 }
 
-void Display::tell(const std::string& line) {
+void Display::print(const std::string& line) {
   if (kind_ == Kind::silent) return;
   if (line_open_) out_ << kClearLine;
   line_open_ = false;

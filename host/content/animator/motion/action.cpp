@@ -16,10 +16,10 @@ constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
 
 constexpr Parameter kWalk[] = {
     {"steps", "N",
-     "so many steps, and one that brings the feet together; default: 4, or as many as the way needs", "6"},
-    {"distance", "D", "so far; default: as far as the steps go", "3.5"},
-    {"to", "X Y", "to a place of the floor; the figure turns to it first", "2 -1"},
-    {"turn", "DEGREES", "along a bow that turns so far, to the left; default: straight on", "90"},
+     "number of steps, without the last that brings the feet together; default: 4, or as the distance needs", "6"},
+    {"distance", "D", "length of the way; default: from the number of steps", "3.5"},
+    {"to", "X Y", "a place on the floor; the figure turns to it first", "2 -1"},
+    {"turn", "DEGREES", "walk a bow of this angle to the left; default: straight on", "90"},
     {"step-length", "D", "default: 0.62 of the leg", "0.7"},
     kPace,
     {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right",
@@ -32,8 +32,8 @@ constexpr Parameter kTurn[] = {{"by", "DEGREES", "to the left; default: 90", "-9
                                {"to", "X Y", "to face a place of the floor", "2 -1"},
                                kPace};
 constexpr Parameter kSit[] = {
-    {"seat-height", "H", "of the seat over the floor; default: so that the thighs are level", "0.45"},
-    {"back", "D", "how far behind the feet the hips go; default: so that the shins stand upright", "0.4"},
+    {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
+    {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
     {"seconds", "S", "default: 1.6", "2"}};
 constexpr Parameter kStand[] = {{"seconds", "S", "default: 1.6", "2"}};
 constexpr Parameter kNod[] = {{"times", "N", "default: 2", "3"},
@@ -121,7 +121,7 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
   const ActorKey driven = all_of(motion.keys);
   clear_keys(json, name, scene.at + 1, driven.place ? node::kMostFrames : motion.last, driven);
   put_keys(json, name, motion.keys);
-  return {scene.at, motion.last, motion.told};
+  return {scene.at, motion.last, motion.report};
 }
 
 }  // namespace mars::host

@@ -36,7 +36,7 @@ const Action* find_action(std::string_view name);
 
 struct Performed {
   std::uint32_t first, last;  // frames
-  std::string told;
+  std::string report;
 };
 
 // Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
