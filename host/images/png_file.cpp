@@ -16,7 +16,7 @@ namespace mars::host {
 
 namespace {
 
-// Of the largest picture, not compressed, with 4 channels of 16 bits; the rest is room for what else a file says.
+// Of the largest picture, not compressed, with 4 channels of 16 bits; the rest is for what else a file holds.
 constexpr std::uintmax_t kLargestPng = std::uintmax_t{8} * node::kMaxSide * node::kMaxSide + (1 << 24);
 
 // libpng leaves a failing call by longjmp, which must not pass a C++ object: the functions between setjmp and
@@ -63,7 +63,7 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  // `row` has room for 3 * width bytes.
+  // `row` has 3 * width bytes.
   bool encode(std::uint32_t width, std::uint32_t height, const std::uint32_t* pixels, png_bytep row,
               std::vector<std::byte>* bytes) {
     if (setjmp(png_jmpbuf(png_))) return false;

@@ -35,7 +35,7 @@ class Blocks : public TerminalPicture {
     }
   }
 
-  PictureSize room(const Terminal& terminal, std::uint32_t lines) const override {
+  PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
     const PictureSize cells = terminal.cells();
     return {cells.width, 2 * (cells.height > lines ? cells.height - lines : 1)};
   }

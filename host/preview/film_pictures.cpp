@@ -88,7 +88,7 @@ SharedImage FilmPictures::rendered(std::uint32_t frame, PictureSize extent) {
   return image;
 }
 
-// In a row where there is room, else two above two.
+// In a row where they fit, else two above two.
 SharedImage FilmPictures::all(std::uint32_t frame, PictureSize extent) {
   const std::uint32_t columns = extent.width >= 2 * extent.height ? 4 : 2;
   const PictureSize panel{std::max(extent.width / columns, 1u), std::max(extent.height * columns / 4, 1u)};

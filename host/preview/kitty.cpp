@@ -24,7 +24,7 @@ std::string base64(std::span<const std::byte> bytes) {
 
 class Kitty : public TerminalPicture {
  public:
-  PictureSize room(const Terminal& terminal, std::uint32_t lines) const override {
+  PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
     const PictureSize cells = terminal.cells(), cell = terminal.cell();
     return {cells.width * cell.width, (cells.height > lines ? cells.height - lines : 1) * cell.height};
   }

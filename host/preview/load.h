@@ -1,4 +1,4 @@
-// What a person asks to see: a film file, a compiled film, or a model file alone, told apart by what they hold.
+// What a person asks to see: a film file, a compiled film, or a model file alone, distinguished by what they hold.
 #pragma once
 
 #include <filesystem>

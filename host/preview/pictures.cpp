@@ -6,12 +6,12 @@
 
 namespace mars::host {
 
-PictureSize fitted(PictureSize film, PictureSize room) {
-  const double scale = std::min(double(room.width) / film.width, double(room.height) / film.height);
+PictureSize fitted(PictureSize film, PictureSize space) {
+  const double scale = std::min(double(space.width) / film.width, double(space.height) / film.height);
   const auto side = [&](std::uint32_t length, std::uint32_t most) {
     return std::clamp(static_cast<std::uint32_t>(std::lround(scale * length)), 1u, std::max(most, 1u));
   };
-  return {side(film.width, room.width), side(film.height, room.height)};
+  return {side(film.width, space.width), side(film.height, space.height)};
 }
 
 Image scaled(const Image& image, PictureSize extent) {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "host/shell/options/render_options.h"
-#include "host/preview/key_press.h"
+#include "host/images/picture_size.h"
 #include "host/images/png_file.h"
+#include "host/preview/key_press.h"
 
 namespace mars::host {
 
@@ -39,8 +39,8 @@ class Pictures {
   virtual std::string keys() const { return ""; }   // what obey() knows, in lines of 80 characters at most
 };
 
-// The film's picture as large as fits into `room`, at least one pixel each way.
-PictureSize fitted(PictureSize film, PictureSize room);
+// The film's picture as large as fits into `space`, at least one pixel each way.
+PictureSize fitted(PictureSize film, PictureSize space);
 
 // By the mean of the pixels under each new one, or the nearest where it grows.
 Image scaled(const Image& image, PictureSize extent);

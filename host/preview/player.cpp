@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
+#include "host/content/document/text.h"
 #include "host/preview/terminal_picture.h"
 #include "host/preview/text_lines.h"
 
@@ -86,10 +86,10 @@ class Player {
     shown_frame_ = now;
   }
 
-  // Its size leaves room for the status; what would be behind `notes` lines more is left out.
+  // Its size leaves a line for the status; what would be behind `notes` lines more is left out.
   void show_picture(std::uint32_t now, std::size_t notes) {
-    const PictureSize room = picture_->room(terminal_, 1);
-    const PictureSize most{std::min(room.width, kLargest.width), std::min(room.height, kLargest.height)};
+    const PictureSize space = picture_->space(terminal_, 1);
+    const PictureSize most{std::min(space.width, kLargest.width), std::min(space.height, kLargest.height)};
     SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), most));
     missing_ = !pictures_.complete();
     if (!image) return;
@@ -98,15 +98,14 @@ class Player {
       empty();
       extent_ = {image->width, image->height};
     }
-    const std::uint32_t height = picture_->room(terminal_, 1 + static_cast<std::uint32_t>(notes)).height;
+    const std::uint32_t height = picture_->space(terminal_, 1 + static_cast<std::uint32_t>(notes)).height;
     if (image->height > height) image = std::make_shared<const Image>(upper_part(*image, height));
     terminal_.write(picture_->shown(*image));
   }
 
   std::string status(std::uint32_t now) const {
-    char numbers[120];
-    std::snprintf(numbers, sizeof numbers, " %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
-                  pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
+    const std::string numbers = formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
+                                          pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
     return cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit"),
                   terminal_.cells().width);
   }

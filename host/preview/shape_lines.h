@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "host/content/modeler/model.h"
-#include "host/preview/view.h"
+#include "host/preview/lines.h"
+#include "node/wire/film.h"
 
 namespace mars::host {
 

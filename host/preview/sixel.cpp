@@ -68,7 +68,7 @@ class Palette {
 class Sixel : public TerminalPicture {
  public:
   // One line less than there is: a picture that reaches the last one would scroll.
-  PictureSize room(const Terminal& terminal, std::uint32_t lines) const override {
+  PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
     const PictureSize cells = terminal.cells(), cell = terminal.cell();
     return {cells.width * cell.width, (cells.height > lines + 1 ? cells.height - lines - 1 : 1) * cell.height};
   }

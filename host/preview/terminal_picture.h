@@ -15,7 +15,7 @@ class TerminalPicture {
   virtual ~TerminalPicture() = default;
 
   // Room of the terminal for pictures, without `lines` lines of text beneath, in pixels.
-  virtual PictureSize room(const Terminal& terminal, std::uint32_t lines) const = 0;
+  virtual PictureSize space(const Terminal& terminal, std::uint32_t lines) const = 0;
   // What shows `image` in the upper left corner, where the last one stood.
   virtual const std::string& shown(const Image& image) = 0;
   // The screen is empty again.

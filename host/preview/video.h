@@ -2,10 +2,11 @@
 // through memory and appears whole or not at all.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
+#include <optional>
 
+#include "host/child/descriptor.h"
+#include "host/child/process.h"
 #include "host/preview/pictures.h"
 
 namespace mars::host {
@@ -15,7 +16,7 @@ class Video {
   // Of `rate` pictures a second. The file's ending says which kind: .gif or .mp4. Throws Failure where ffmpeg is
   // missing or the file cannot be written.
   Video(std::filesystem::path path, PictureSize extent, double rate);
-  ~Video();
+  ~Video() = default;  // a video that is not finished is not written
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
 
@@ -24,14 +25,13 @@ class Video {
 
  private:
   void start(PictureSize extent, double rate);
-  void end();
   [[noreturn]] void fail();
 
   std::filesystem::path path_;
-  pid_t process_ = -1;
-  int input_ = -1;   // ours, of a socket: who writes to one whose reader is gone gets an error, not a signal
-  int output_ = -1;  // files in memory
-  int errors_ = -1;
+  Descriptor input_;  // of a socket: where its reader is gone, writing is an error and no signal
+  Descriptor output_ = file_in_memory();
+  Descriptor errors_ = file_in_memory();
+  std::optional<Process> process_;
 };
 
 }  // namespace mars::host

@@ -3,7 +3,7 @@
 // Values only: arrays of numbers and of numbers of others, to draw from or to send to a browser as they are.
 //
 // Control vertices and prisms use the compiled film's T-matrices (from the unit cube) as they stand, by the same
-// numbers; so do the sticks of joints that have a segment, whose lines are therefore told in the unit cube too.
+// numbers; so do the sticks of joints that have a segment, whose lines are therefore given in the unit cube too.
 // Only joints without a segment add matrices, behind the film's.
 #pragma once
 
@@ -14,18 +14,13 @@
 
 #include "host/content/animator/film.h"
 #include "host/content/film/compile.h"
+#include "host/preview/lines.h"
 #include "node/wire/film.h"
 
 namespace mars::host {
 
 enum class As { stick, vertices, prisms, surface };
 inline constexpr std::size_t kOfLines = 3;  // representations before `surface`, which the renderer draws
-
-struct Lines {
-  std::vector<float> points;         // x, y, z of each
-  std::vector<std::uint32_t> ends;   // two points a line
-  std::uint32_t dots = 0;            // so many points, from the first, are marked: joints, control vertices
-};
 
 // One instance of lines: numbers of `lines`, and tracks over `changes` of numbers of `matrices` and `colors`.
 struct Part {

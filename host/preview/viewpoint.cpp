@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "host/content/modeler/frames.h"
+
 namespace mars::host {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFov = 30;     // vertical, degrees
 constexpr double kMargin = 1.08;
 constexpr double kNearPlane = 1e-9, kFarPlane = 1e12;  // that a compiled film allows

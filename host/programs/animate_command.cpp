@@ -23,7 +23,7 @@ constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all
   mars animate film.json list                              what is keyed
   mars animate film.json pose robot elbow.y=90 --frame 24  the elbow there
   mars animate film.json time robot --frame 0 --ease both  begin and end slowly
-docs/animating.md tells more.
+More: docs/animating.md.
 )";
 
 constexpr const char* kEaseRemedy = "write --ease 0.4,0,0.6,1";
@@ -41,13 +41,10 @@ struct Words {
 };
 
 std::uint32_t frame_of(const std::string& digits, const std::string& text) {
-  std::size_t used = 0;
-  unsigned long frame = node::kMostFrames + 1ul;
-  if (!digits.empty() && std::isdigit(static_cast<unsigned char>(digits[0])) && digits.size() < 9)
-    frame = std::stoul(digits, &used);
-  if (used != digits.size() || frame > node::kMostFrames)
+  const auto frame = number_in<std::uint32_t>(digits);
+  if (!frame || *frame > node::kMostFrames)
     throw Failure("is no frame", "'" + text + "'", "write a frame from 0 to 1000000, or a range: 24-48, or 24- to the end");
-  return static_cast<std::uint32_t>(frame);
+  return *frame;
 }
 
 FrameRange range_of(const std::string& text) {
@@ -71,8 +68,8 @@ std::optional<Ease> ease_of_words(const std::string& text) {
   const bool named = std::isalpha(static_cast<unsigned char>(text[0]));
   const auto numbers = std::count(text.begin(), text.end(), ',') + 1;
   if (!named && numbers != 4)
-    throw Failure("has " + std::to_string(numbers) + (numbers == 1 ? " number" : " numbers"), "--ease", kEaseRemedy);
-  const std::string json = R"({"ease": )" + (named ? "\"" + text + "\"" : "[" + text + "]") + "}";
+    throw Failure("has " + counted(static_cast<std::uint64_t>(numbers), "number"), "--ease", kEaseRemedy);
+  const std::string json = R"({"ease": )" + (named ? Json(text).dump() : "[" + text + "]") + "}";
   if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !Json::accept(json))
     throw Failure("is '" + text + "'", "--ease", kEaseRemedy);
   try {
@@ -137,7 +134,7 @@ class Command {
   }
   Command& clamp() {
     app_->add_flag("--clamp", words_.clamp,
-                   "Where limits of a joint would be broken, take the nearest angle allowed. Example: --clamp");
+                   "Clamp angles to the limits of their joints. Example: --clamp");
     return *this;
   }
   Command& lengthen() {
@@ -169,13 +166,13 @@ constexpr const char* kEase =
 
 void require_thing(const Words& words) {
   if (words.thing.empty() && !words.all)
-    throw Failure("is not told", "whose keys", "name an actor or camera, or say --all");
+    throw Failure("is not given", "whose keys to change", "name an actor or camera, or use --all");
 }
 
 void add_pose(CLI::App& animate, Words& words) {
   Command command(animate, words, "pose", "Set an actor's joints, place or turn, or the camera, at a frame");
   command.thing(kThing)
-      .parts("PART=NUMBERS", "One axis or all three: degrees, or a place; what is not named stays as it is there. "
+      .parts("PART=NUMBERS", "One axis or all three: degrees, or a place; other parts stay as they are. "
                              "Example: elbow.y=90 place=2,0,0 turn.z=45")
       .frame(kOneFrame, "FRAME")
       .ease(kEase)
@@ -192,7 +189,7 @@ void add_pose(CLI::App& animate, Words& words) {
 }
 
 void add_key(CLI::App& animate, Words& words) {
-  Command command(animate, words, "key", "Make keys as everything stands at a frame");
+  Command command(animate, words, "key", "Make keys of the pose at a frame");
   command.thing(kThing).parts("PART", kParts).all().frame(kOneFrame, "FRAME").ease(
       "From this key to the next; without it the film moves as before. Example: --ease both");
   command.clamp().lengthen().runs([&words] {
@@ -240,22 +237,22 @@ void add_time(CLI::App& animate, Words& words) {
   command.thing(kThing).all().frame(kRange, "RANGE").ease(kEase);
   CLI::App* app = command.app();
   app->add_option("--hold", words.hold,
-                  "From the frame on stand still for N frames; what follows comes later. Example: --hold 12")
+                  "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
       ->type_name("N")
       ->check(CLI::Range(1u, node::kMostFrames).description(""));
   app->add_option("--stretch", words.stretch,
-                  "The range takes so many times as long; what follows comes later. Example: --stretch 1.5")
+                  "Multiply the length of the range by FACTOR; later keys move along. Example: --stretch 1.5")
       ->type_name("FACTOR")
       ->check(CLI::Range(0.001, 1000.0).description(""));
   app->add_option("--shift", words.shift,
-                  "Keys at the frame and after come N frames later, or earlier. Example: --shift -6")
+                  "Move keys at the frame and after it N frames later, or earlier. Example: --shift -6")
       ->type_name("N")
       ->check(CLI::Range(-std::int64_t{node::kMostFrames}, std::int64_t{node::kMostFrames}).description(""));
   for (const auto& [name, value, help] :
        {std::tuple("--anticipate", &words.anticipation,
-                   "From the frame's keys first swing back, percent of the way. Example: --anticipate 15"),
+                   "Swing back first after the frame's keys, by percent of the way. Example: --anticipate 15"),
         std::tuple("--overshoot", &words.overshoot,
-                   "To the next keys swing beyond and back, percent of the way. Example: --overshoot 10")})
+                   "Swing beyond the next keys and back, by percent of the way. Example: --overshoot 10")})
     app->add_option(name, *value, help)->type_name("PERCENT")->check(CLI::Range(0.0, 100.0).description(""));
   command.lengthen().runs([&words, app] {
     require_thing(words);
@@ -263,8 +260,8 @@ void add_time(CLI::App& animate, Words& words) {
     for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) wishes += app->count(name) > 0;
     wishes += app->count("--anticipate") + app->count("--overshoot") > 0;
     if (wishes != 1)
-      throw Failure(wishes == 0 ? "is not told" : "is told twice", "what to change of the timing",
-                    "say one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
+      throw Failure(wishes == 0 ? "is not given" : "is given twice", "the change of timing",
+                    "use one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
     edit(words, [&](Json& json, const Film& film) { return retime(words, *app, json, film); });
   });
 }
@@ -281,11 +278,11 @@ void add_list(CLI::App& animate, Words& words) {
 }
 
 void add_check(CLI::App& animate, Words& words, int& code) {
-  Command command(animate, words, "check", "Tell what is wrong: limits left between keys, keys behind the end and more");
+  Command command(animate, words, "check", "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
     const Findings findings = check_film(open_film(words.film).film);
     for (const std::string& line : findings.lines) std::cout << line << '\n';
-    if (findings.lines.empty()) std::cout << words.film << ": all joints stay within their limits; nothing to mend\n";
+    if (findings.lines.empty()) std::cout << words.film << ": all joints stay within their limits; no errors\n";
     if (findings.trouble) code = kFailed;
   });
 }

@@ -10,8 +10,8 @@
 namespace mars::host {
 namespace {
 
-constexpr const char* kAfterwards = R"(What was read is printed at the end, and what was not, such as bones,
-animations and textures. docs/model-format.md tells more.
+constexpr const char* kAfterwards = R"(Prints at the end what was read and what was not, such as bones, animations
+and textures. More: docs/model-format.md.
 )";
 
 // Not numbers are refused too.
@@ -47,17 +47,17 @@ void add_import(CLI::App& app) {
       ->type_name("NAME");
   command
       ->add_option("--up", options->up,
-                   "Which axis of the file points up, where z does in MARS; default: y for OBJ and glTF, z for "
+                   "The file's axis that points up, z in MARS; default: y for OBJ and glTF, z for "
                    "others. Example: --up y")
       ->transform(CLI::Validator(small_axis, ""))
       ->type_name("x|y|z");
-  command->add_option("--scale", options->scale, "Makes it so many times larger; default: 1. Example: --scale 0.01")
+  command->add_option("--scale", options->scale, "Scale factor; default: 1. Example: --scale 0.01")
       ->check(number_from(1e-9, 1e9, "no factor: write a number from 1e-9 to 1e9"))
       ->type_name("FACTOR");
   command
       ->add_option("--crease", options->crease,
-                   "Edges at which faces meet at more degrees are sharp, others smooth, whatever normals the file "
-                   "has; default: its normals, else 30, for glTF 0. Example: --crease 60")
+                   "Edges whose faces meet at a larger angle are sharp, others smooth, instead of the file's "
+                   "normals; default: its normals, else 30, for glTF 0. Example: --crease 60")
       ->check(number_from(0, 180, "no such angle: write degrees from 0 to 180"))
       ->type_name("DEGREES");
   command->add_flag("--force", options->force, "Replace a model file that is there already. Example: --force");

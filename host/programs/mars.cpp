@@ -35,30 +35,30 @@ namespace {
 constexpr const char* kWayIn = R"(MARS models, animates and renders films in parallel.
 
 Begin with:
-  mars doctor                                  can films be rendered here?
+  mars doctor                                  check that films can be rendered
   mars render examples/demo.json -o demo       the demonstration, as PNG files
   mars render --help                           every option, with an example
 
 Commands:
   mars render FILM -o DIR          render a film to PNG files
   mars compile FILM -o FILM.mars   compute all its motion once
-  mars info FILM                   what a film holds
+  mars info FILM                   print what a film holds
   mars preview FILM                play a film or a model in the terminal, before it is rendered
   mars play DIR                    play rendered frames in the terminal
-  mars verify DIR                  are all frames there, and as they were rendered?
+  mars verify DIR                  check that all frames are there and whole
   mars animate FILM list           the keys of a film; pose, key, move, time and more
   mars plot FILM -o FILE.png       joint angles over time, as a picture
   mars import FILE -o MODEL.json   a model from a mesh or patch file
   mars model new MODEL.json        a model of your own, step by step
-  mars doctor                      what is in the way here, and what to do
+  mars doctor                      check this machine, with remedies
   mars bench NAME                  measure, where MARS was built from its sources
 
 A film is a JSON file: docs/film-format.md says how to write one.
 )";
 
 constexpr const char* kEnds =
-    R"(Exit codes: 0 all went well; 1 something failed, told on standard error;
-2 the command line is wrong.
+    R"(Exit codes: 0 success; 1 failure, reported on standard error; 2 wrong command
+line.
 )";
 
 struct Names {
@@ -119,20 +119,20 @@ void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
 }
 
 void add_info(CLI::App& app, Names& names) {
-  CLI::App* command = app.add_subcommand("info", "Tell what a film holds");
+  CLI::App* command = app.add_subcommand("info", "Print what a film holds");
   command->add_option("FILM", names.from, "A .json or .mars file. Example: examples/demo.json")->required();
   command->callback([&] { std::cout << info_of(names.from); });
 }
 
 void add_verify(CLI::App& app, Names& names, bool& missing, int& code) {
   CLI::App* command =
-      app.add_subcommand("verify", "Look all frames of a folder over; print one hash of their pixels");
+      app.add_subcommand("verify", "Check every frame of a folder; print one hash of all pixels");
   command->add_option("DIR", names.from, "The folder given to mars render with -o. Example: build/demo")
       ->required();
   command->add_flag("--missing", missing,
-                    "Print only which frames are missing or wrong, as --frames takes them; nothing where none is. "
+                    "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. "
                     "Example: --missing");
-  command->footer("To render what is missing:\n"
+  command->footer("To render the missing frames:\n"
                   "  missing=$(mars verify DIR --missing)\n"
                   "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
   command->callback([&] {
@@ -146,9 +146,9 @@ void add_verify(CLI::App& app, Names& names, bool& missing, int& code) {
 
 void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
   CLI::App* command = app.add_subcommand(
-      "doctor", "See whether films can be rendered here, and what to do where not");
+      "doctor", "Check whether films can be rendered here, and print remedies");
   command->add_option("--nodes", options.nodes,
-                      "For so many nodes, and show where each is placed; default: as mars render. "
+                      "Check for N nodes and show where each is placed; default: as mars render. "
                       "Example: --nodes 4")
       ->check(CLI::Range(1, 1 << 20).description(""))
       ->type_name("N");
@@ -158,9 +158,9 @@ void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
 }
 
 void add_bench(CLI::App& app, std::string& name, const std::vector<std::string>& own_words) {
-  CLI::App* command = app.add_subcommand("bench", "Run a benchmark, or tell which there are");
-  command->add_option("NAME", name, "The benchmark; what follows is its own. Example: peers --scenes s1");
-  command->footer("mars bench NAME --help tells a benchmark's own options.\n");
+  CLI::App* command = app.add_subcommand("bench", "Run a benchmark, or list them");
+  command->add_option("NAME", name, "The benchmark; the words after it are its own. Example: peers --scenes s1");
+  command->footer("mars bench NAME --help prints the benchmark's own options.\n");
   command->callback([&] {
     if (name.empty())
       std::cout << list_benchmarks(own_file());
@@ -213,7 +213,7 @@ int run(int argc, char** argv) {
   const std::vector<std::string> benchmark_words = take_benchmark_words(words);
   add_bench(app, names.from, benchmark_words);
   // Last, or each command would have it.
-  app.footer(std::string("mars COMMAND --help tells every option with an example.\n") + kEnds);
+  app.footer(std::string("mars COMMAND --help prints every option with an example.\n") + kEnds);
   if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;

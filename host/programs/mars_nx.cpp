@@ -1,7 +1,6 @@
 // mars-nx: starts programs that are written for NX: one host and its nodes, or nodes alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -13,8 +12,9 @@
 #include "hal/processes/job.h"
 #include "hal/messages/settings.h"
 #include "host/shell/launch/command.h"
-#include "host/shell/launch/environment.h"
-#include "host/shell/launch/exec.h"
+#include "host/child/environment.h"
+#include "host/child/programs.h"
+#include "host/child/exec.h"
 #include "host/shell/launch/session_folders.h"
 #include "host/shell/options/command_line.h"
 #include "topology/machine.h"
@@ -44,7 +44,8 @@ what mars-nx writes; the host reads its input, without a host node 0 does.
 When a program dies, the others' message calls fail, unless the host kills and
 loads the nodes again. Where every process waits for a message and none is on
 its way, all fail over processes; over MPI they do once a process has ended with
-a code above 0, else they wait for ever: MARS_NX_STRICT=yes tells who waits.
+a code above 0, else they wait for ever: MARS_NX_STRICT=yes prints
+who waits.
 Nothing is left behind, however mars-nx ends.
 
 Exit codes: the highest of all programs', 128 and the signal for one that died
@@ -61,7 +62,7 @@ Over over_of(const std::string& word) {
 }
 
 struct RunOptions {
-  int nodes = 0;  // 0: one a processor, or what the hostfile or the batch system has room for
+  int nodes = 0;  // 0: one a processor, or the slots of the hostfile or the batch system
   bool host = false;
   Over over = Over::automatic;
   std::string hostfile;
@@ -69,15 +70,11 @@ struct RunOptions {
   std::vector<std::string> arguments;
 };
 
-std::string path_of(const Environment& environment) {
-  return environment.value("PATH").value_or("/usr/bin:/bin");
-}
-
 // Here, or where a shell would find it.
 fs::path program_file(const std::string& word, const char* remedy = "") {
   if (runnable(word)) return fs::absolute(word);
   if (word.find('/') == std::string::npos)
-    if (const auto found = find_program(word, path_of(own_environment()))) return *found;
+    if (const auto found = find_program(word, program_path(own_environment()))) return *found;
   std::error_code ignored;
   if (fs::is_directory(word, ignored)) throw Failure("is a folder, not a program", word, "");
   if (fs::exists(word, ignored))
@@ -146,7 +143,7 @@ void check_mpi_can_start(const RunOptions& options, const NxPrograms& programs) 
 
 // mpirun as it begins, and how many nodes it starts.
 Command mpi_start_of(const RunOptions& options, const NxPrograms& programs, std::uint32_t& nodes) {
-  const std::string path = path_of(own_environment());
+  const std::string path = program_path(own_environment());
   Programs starters;
   starters.loopback = find_loopback(fs::read_symlink("/proc/self/exe"));
   starters.mpirun = find_mpirun(starters.mpi, path);
@@ -215,10 +212,8 @@ int run(RunOptions& options) {
 
 // Nothing, or what is wrong with the word.
 std::string is_count(const std::string& word) {
-  int count = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-  const bool whole = error == std::errc() && end == word.data() + word.size();
-  return whole && count >= 1 && count <= kMostNodes
+  const int count = number_in<int>(word).value_or(0);
+  return count >= 1 && count <= kMostNodes
              ? ""
              : "'" + word + "' is not a number from 1 to " + std::to_string(kMostNodes);
 }
@@ -232,8 +227,8 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
       ->type_name("FILE");
   command
       ->add_option("-n,--nodes", options.nodes,
-                   "Number of nodes; default: one a processor, or what the hostfile or Slurm job has room "
-                   "for. Example: --nodes 8")
+                   "Number of nodes; default: one per processor, or the slots of the hostfile or Slurm job. "
+                   "Example: --nodes 8")
       ->check(is_count)
       ->type_name("N");
   command->add_flag("--host", options.host,
@@ -242,9 +237,8 @@ void add_run(CLI::App& app, RunOptions& options, int& code) {
   command
       ->add_option_function<std::string>(
           "--over", [&options](const std::string& word) { options.over = over_of(word); },
-          "What carries the messages: processes over shared memory on this machine, or mpi; default: mpi "
-          "with "
-          "a hostfile or in a Slurm job, else processes. Example: --over mpi")
+          "Processes over shared memory on this machine, or mpi; default: mpi with a hostfile or in a "
+          "Slurm job, else processes. Example: --over mpi")
       ->type_name("auto|processes|mpi");
   command
       ->add_option("--hostfile", options.hostfile,

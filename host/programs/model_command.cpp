@@ -186,7 +186,7 @@ std::string shapes_text() {
     text += (text.empty() ? "" : ", ") + std::string(shape.name);
     if (!shape.option.key.empty()) text += " (" + std::string(shape.option.key) + ")";
   }
-  return "Shapes of the library, and what may be given --with:\n  " + wrapped(text, 2) + "\n";
+  return "Shapes of the library, and their options for --with:\n  " + wrapped(text, 2) + "\n";
 }
 
 void add_numbers(CLI::App& app, const char* name, std::vector<double>& numbers, int count, const char* type,
@@ -207,23 +207,23 @@ CLI::Option* add_several(CLI::App& app, const char* name, std::vector<Value>& va
 
 void add_limits(CLI::App& app, Words& words) {
   add_several(app, "--limits", words.limits, "x|y|z LOWER UPPER",
-              "How far it can turn about one of its axes, in degrees; equal: it is held there. Once for each axis. "
+              "Limits of its angle about one of its axes, in degrees; equal: fixed. Once for each axis. "
               "Example: --limits y -30 60")
       ->check([](const std::string& word) {
         const bool number = word.find_first_of("0123456789") != std::string::npos;
         return number || word == "x" || word == "y" || word == "z" ? std::string()
                                                                    : "'" + word + "' is no axis: write x, y or z";
       });
-  app.add_flag("--fixed", words.fixed, "It cannot turn, but for what --limits gives. Example: --fixed");
-  app.add_flag("--free", words.free, "It can turn about all axes, but for what --limits gives. Example: --free");
+  app.add_flag("--fixed", words.fixed, "Cannot turn, except within --limits. Example: --fixed");
+  app.add_flag("--free", words.free, "Turns freely about all axes not given by --limits. Example: --free");
 }
 
 void add_joint_options(CLI::App& app, Words& words) {
-  app.add_option("--parent", words.parent, "The joint it hangs on. Example: --parent body")->type_name("JOINT");
-  add_numbers(app, "--place", words.place, 3, "X Y Z", "Where, in the parent's frame. Example: --place 0.4 0.1 -0.1");
+  app.add_option("--parent", words.parent, "Its parent joint. Example: --parent body")->type_name("JOINT");
+  add_numbers(app, "--place", words.place, 3, "X Y Z", "Its place in the parent's frame. Example: --place 0.4 0.1 -0.1");
   add_numbers(app, "--x-axis", words.x_axis, 3, "X Y Z", "Its x axis, in the parent's frame. Example: --x-axis 1 1 0");
   add_numbers(app, "--y-axis", words.y_axis, 3, "X Y Z",
-              "Its y axis; if it is not square to x, the segment is sheared. Example: --y-axis 0.5 1 0");
+              "Its y axis; if not perpendicular to x, the segment is sheared. Example: --y-axis 0.5 1 0");
   add_limits(app, words);
   app.add_option("--shape", words.shape,
                  "Its segment: a shape of the library or of the model. Example: --shape capsule")
@@ -233,23 +233,23 @@ void add_joint_options(CLI::App& app, Words& words) {
       app, "--sbb", words.sbb, 6, "X Y Z X Y Z",
       "The segment's box, least and greatest corner in the joint's frame. Example: --sbb -0.1 -0.1 -0.5 0.1 0.1 0");
   app.add_option("--limb", words.limb,
-                 "What limb of a figure it is, so that commands can make it walk: pelvis, head, left.knee ... Example: "
+                 "The limb of a figure that it is, for walking and other motion: pelvis, head, left.knee ... Example: "
                  "--limb left.hip")
       ->type_name("LIMB");
   app.footer(shapes_text());
 }
 
 void add_look_options(CLI::App& app, Words& words) {
-  app.add_option("--material", words.material, "What it is made of. Example: --material fur")->type_name("NAME");
+  app.add_option("--material", words.material, "Its material. Example: --material fur")->type_name("NAME");
   add_numbers(app, "--color", words.color, 3, "R G B",
               "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
-  app.add_option("--ambient", words.look.ambient, "Share of the colour that is always there. Example: --ambient 0.2")
+  app.add_option("--ambient", words.look.ambient, "Ambient share of the colour. Example: --ambient 0.2")
       ->type_name("SHARE");
-  app.add_option("--diffuse", words.look.diffuse, "Share where light falls straight. Example: --diffuse 0.7")
+  app.add_option("--diffuse", words.look.diffuse, "Diffuse share of the colour. Example: --diffuse 0.7")
       ->type_name("SHARE");
-  app.add_option("--specular", words.look.specular, "White in the middle of a highlight. Example: --specular 0.1")
+  app.add_option("--specular", words.look.specular, "Strength of highlights. Example: --specular 0.1")
       ->type_name("SHARE");
-  app.add_option("--exponent", words.look.exponent, "How narrow a highlight is. Example: --exponent 16")
+  app.add_option("--exponent", words.look.exponent, "Sharpness of highlights. Example: --exponent 16")
       ->type_name("NUMBER");
   app.add_option("--sides", words.look.sides, "1: seen from outside only. Example: --sides 1")->type_name("1|2");
 }
@@ -266,7 +266,7 @@ constexpr Verb kVerbs[] = {
      [](CLI::App& app, Words& words) {
        app.add_option("JOINT", words.joint, "The joint's name; default: body. Example: body");
        app.add_option("--from", words.from,
-                      "Another model file, named from where the new one stands. Example: --from human.json")
+                      "Another model file, relative to the new one. Example: --from human.json")
            ->type_name("MODEL");
        add_joint_options(app, words);
        add_look_options(app, words);
@@ -286,7 +286,7 @@ constexpr Verb kVerbs[] = {
        add_joint_options(app, words);
        add_several(
            app, "--reset", words.resets, "WHAT",
-           "Back to what it is where nothing is told: parent, place, axes, limits, segment, sbb, material or limb. "
+           "Back to its default: parent, place, axes, limits, segment, sbb, material or limb. "
            "Example: --reset axes")
            ->check(CLI::IsMember(std::vector<std::string>(std::begin(kResets), std::end(kResets))).description(""));
        add_look_options(app, words);
@@ -299,11 +299,11 @@ constexpr Verb kVerbs[] = {
        add_several(app, "--joint", words.joints, "PATTERN",
                    "Only these joints; * stands for any text. Example: --joint '*-thigh'");
        add_several(app, "--branch", words.branches, "PATTERN",
-                   "Only these joints and all that hangs on them. Example: --branch head");
-       app.add_option("--height", words.height, "Then all alike to this height at rest. Example: --height 1.2")
+                   "Only these joints and all below them. Example: --branch head");
+       app.add_option("--height", words.height, "Then scale all joints alike to this height at rest. Example: --height 1.2")
            ->type_name("LENGTH");
        app.add_flag("--no-ground", words.no_ground,
-                    "The lowest point at rest may rise or sink; else it stays at its height. Example: --no-ground");
+                    "Do not keep the lowest point at rest at its height. Example: --no-ground");
        app.parse_complete_callback([&words] {
          if (words.factors.size() == 2) throw CLI::ValidationError("FACTOR", "give one for all axes, or three");
          if (words.factors.empty() && !words.height) throw CLI::ValidationError("FACTOR", "give it, or --height");
@@ -312,11 +312,11 @@ constexpr Verb kVerbs[] = {
     {"remove", "Remove a joint, or a material", run_remove,
      [](CLI::App& app, Words& words) {
        app.add_option("JOINT", words.joint, "The joint. Example: leg");
-       app.add_flag("--branch", words.branch, "With all joints that hang on it. Example: --branch");
-       app.add_option("--material", words.material, "The material that is to go. Example: --material fur")
+       app.add_flag("--branch", words.branch, "With all joints below it. Example: --branch");
+       app.add_option("--material", words.material, "The material to remove. Example: --material fur")
            ->type_name("NAME");
      }},
-    {"check", "Tell whether a model is right, and what is probably not meant", run_check, [](CLI::App&, Words&) {}},
+    {"check", "Check a model, and report what is probably a mistake", run_check, [](CLI::App&, Words&) {}},
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
   CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
   const auto typed = std::make_shared<Typed>();
   typed->values.resize(action.parameters.size());
-  command->add_option("ACTOR", typed->actor, "Who. Example: anna")->required();
+  command->add_option("ACTOR", typed->actor, "The actor. Example: anna")->required();
   for (std::size_t i = 0; i < action.parameters.size(); ++i) {
     const Parameter& parameter = action.parameters[i];
     const std::string name = "--" + std::string(parameter.name);
@@ -80,16 +80,16 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
                      Wishes(values, std::string(action.name)));
       note = grown(json, done.last, typed->lengthen);
     });
-    std::cout << "frames " << done.first << " to " << done.last << (done.told.empty() ? "" : ": " + done.told)
+    std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report)
               << note << (note.empty() ? "" : "--at " + std::to_string(done.first) + " --lengthen") << '\n';
   });
 }
 
 void add_script(CLI::App& animate, const std::string& film) {
-  CLI::App* command = animate.add_subcommand("script", "Have a script's actors act, each at its cue");
+  CLI::App* command = animate.add_subcommand("script", "Run a script: actions of several actors at their times");
   const auto script = std::make_shared<std::string>();
   const auto lengthen = std::make_shared<bool>(false);
-  command->add_option("SCRIPT", *script, "The script; docs/motion.md tells its form. Example: cubes.script")
+  command->add_option("SCRIPT", *script, "The script; its form: docs/motion.md. Example: cubes.script")
       ->required();
   command->add_flag("--lengthen", *lengthen,
                     "Give the film as many frames as the script needs. Example: --lengthen");
@@ -100,7 +100,7 @@ void add_script(CLI::App& animate, const std::string& film) {
       played = play_script(json, film, read_file(*script), *script);
       if (!played.cut) note = grown(json, played.last, *lengthen);
     });
-    for (const std::string& line : played.told) std::cout << line << '\n';
+    for (const std::string& line : played.report) std::cout << line << '\n';
     if (!note.empty()) std::cout << "frames up to " << played.last << note << "--lengthen\n";
   });
 }

@@ -28,7 +28,7 @@ struct Wishes {
   Graphics graphics = Graphics::automatic;
 };
 
-// What makes no sense is the person's own mistake: told with the option's name, exit code 2.
+// A value that makes no sense is a usage error: it names the option, exit code 2.
 template <typename Take>
 std::function<void(const std::string&)> taking(const char* name, Take take) {
   return [name, take](const std::string& text) {
@@ -63,7 +63,7 @@ void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
           "--frames", taking("--frames", [wishes](const std::string& text) { wishes->write.frames.emplace(text); }),
           "Frames that are written; default: all, on a sheet 12. Example: --frames 0-47")
       ->type_name("LIST");
-  command.add_option("--every", write.every, "Of these only each Nth. Example: --every 8")
+  command.add_option("--every", write.every, "Only every Nth of these. Example: --every 8")
       ->check(CLI::Range(1u, node::kMostFrames).description(""))
       ->type_name("N");
   command.add_option("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")

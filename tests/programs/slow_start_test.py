@@ -61,7 +61,7 @@ class SlowStart(ProgramTest):
             self.assertIn("4 frames in ", told[name])
         self.assertGreater(time.monotonic() - began, HINT_AFTER)
         self.assertIn("no node has answered for 20 seconds", told["late"])
-        self.assertIn("mars doctor tells more", told["late"])
+        self.assertIn("for more run mars doctor", told["late"])
         self.assertNotIn("no node has answered", told["compiling"])
         self.assertIn("loading long.json ...\nloaded in 0:22", told["compiling"])
 

@@ -5,11 +5,11 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/rotation.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kLocked = 1e-9;  // cosine of the second turn below which the first and third are one turn
 
 double excess(const Limits& limits, double angle) {
@@ -47,7 +47,7 @@ bool better(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, const 
 }
 
 // The three turns one by one. z stands across both x and y, so Rot(x, a) Rot(y, b) takes it where `turn` does,
-// and how far that lies along x tells b.
+// and how far that lies along x gives b.
 class Unturned {
  public:
   Unturned(const Joint& joint, const glm::dmat3& turn)

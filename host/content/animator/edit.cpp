@@ -123,9 +123,7 @@ void clear_keys(Json& film, const std::string& actor, std::uint32_t first, std::
 
 double rounded(double value) {
   if (std::abs(value) < 1e-9) return 0;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return std::strtod(text, nullptr);
+  return rounded_to(value, 9);
 }
 
 glm::dvec3 rounded(const glm::dvec3& value) {

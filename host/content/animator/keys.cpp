@@ -6,7 +6,6 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/edit.h"
-#include "host/content/animator/pose.h"
 #include "host/content/animator/side_effects.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -46,7 +45,7 @@ std::vector<std::string> left_out(const Film& meaning, const Choice& choice) {
   return remarks;
 }
 
-// Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` tells
+// Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` returns
 // whether the choice names any key of the track; if none does, that is an error.
 template <typename Change>
 Remarks change_tracks(Json& film, const Film& meaning, const Choice& choice, const std::string& sought,
@@ -147,11 +146,10 @@ void split_way(Track& track, std::uint32_t frame, Json value) {
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const Thing& thing = chosen.thing;
   const Tracks before = tracks_of(*thing.json);
-  std::string gave_way;
-  for (const std::string& part : put_tracks(*thing.json, tracks)) gave_way += (gave_way.empty() ? "" : ", ") + part;
+  const std::string gave_way = joined(put_tracks(*thing.json, tracks));
   Remarks remarks;
   if (!gave_way.empty())
-    remarks.push_back(thing.name + ": a key has one ease; that of what else is keyed there rules " + gave_way);
+    remarks.push_back(thing.name + ": a key has one ease; the ease of the other keys there applies to " + gave_way);
   append(remarks, side_effects(chosen, before, tracks_of(*thing.json)));
   return remarks;
 }

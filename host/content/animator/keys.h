@@ -5,15 +5,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "host/content/animator/things.h"
 #include "host/content/animator/tracks.h"
+#include "host/content/animator/within_limits.h"
 
 namespace mars::host {
-
-using Remarks = std::vector<std::string>;
 
 // Both ends belong to it.
 struct FrameRange {
@@ -22,9 +19,6 @@ struct FrameRange {
 
   bool holds(std::uint32_t frame) const { return frame >= first && frame <= last; }
 };
-
-// What may be outside the limits of joints: refused, or turned to the nearest that they allow.
-enum class Beyond { refused, clamped };
 
 // Makes the tracks the keys of a thing of which some parts were to change; remarks whose ease gave way, and what
 // side_effects() finds.

@@ -32,9 +32,7 @@ std::string shown_ease(const Json& key) {
   if (ease->is_string()) return ease->get<std::string>();
   std::string curve;
   for (const Json& number : *ease) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%s%.3g", curve.empty() ? "" : ",", number.get<double>());
-    curve += digits;
+    curve += (curve.empty() ? "" : ",") + formatted("%.3g", number.get<double>());
   }
   return curve;
 }
@@ -83,15 +81,16 @@ std::string table_of(const std::vector<Row>& rows) {
 }  // namespace
 
 std::string keys_table(Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
-  std::string text, without;
+  std::string text;
+  std::vector<std::string> without;
   for (const Chosen& chosen : choose(film, meaning, choice)) {
     const std::vector<Row> rows = rows_of(chosen, range);
     if (rows.empty())
-      without += (without.empty() ? "" : ", ") + chosen.thing.name;
+      without.push_back(chosen.thing.name);
     else
       text += chosen.thing.name + "\n" + table_of(rows);
   }
-  if (!without.empty()) text += "no keys: " + without + "\n";
+  if (!without.empty()) text += "no keys: " + joined(without) + "\n";
   return text;
 }
 

@@ -4,15 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "host/content/animator/angles.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kPrecision = 0.005;  // degrees by which the worst of a search may be missed
 
 using Poses = Channel<glm::dvec3>;

@@ -67,9 +67,9 @@ std::string data_of(Panel& panel, std::size_t i, std::uint32_t frames) {
 std::string bands_of(const Panel& panel, const Json& value) {
   std::string text;
   const bool angles = panel.part->joint || panel.part->name == "turn";
-  const double room =
+  const double margin =
       std::max(0.1 * (panel.highest - panel.lowest), angles ? 10.0 : 1e-3 + 0.05 * std::abs(panel.highest));
-  const double low = panel.lowest - room, high = panel.highest + room;
+  const double low = panel.lowest - margin, high = panel.highest + margin;
   text += "set yrange [" + shown(low) + ":" + shown(high) + "]\n";
   for (int axis = 0; axis < 3; ++axis) {
     if (!panel.part->joint || !drawn(*panel.part, value, axis)) continue;

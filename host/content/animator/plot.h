@@ -1,4 +1,4 @@
-// Angles of joints over the frames as a picture: what gnuplot is told to draw. A panel a part, a curve for each
+// Angles of joints over the frames as a picture: the script for gnuplot. A panel a part, a curve for each
 // axis that is free, dots at keys, the limits as a band: a curve that leaves its band leaves its limits.
 #pragma once
 

@@ -1,10 +1,8 @@
 #include "host/content/animator/pose.h"
 
-#include <charconv>
 #include <set>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/angles.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
@@ -26,12 +24,11 @@ std::string remedy_for(const std::string& part, const Json& now) {
 }
 
 double number_of(std::string_view digits, const std::string& text, const std::string& remedy) {
-  double number = 0;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size() || !(number >= -kFarthest && number <= kFarthest))
+  const auto number = number_in<double>(digits);
+  if (!number || !(*number >= -kFarthest && *number <= kFarthest))
     throw Failure("has '" + std::string(digits) + "' where a number belongs", "'" + text + "'", remedy);
-  return number;
+  return *number;
 }
 
 std::vector<double> numbers_of(const std::string& list, const std::string& text, const std::string& remedy) {
@@ -59,13 +56,6 @@ Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::ui
   for (int axis = 0; axis < 3; ++axis) numbers[axis] = wish.numbers[axis].value_or(numbers[axis]);
   if (part.joint) numbers = within_limits(thing.name, *part.joint, numbers, beyond, remarks);
   return written(numbers);
-}
-
-// "-170 degrees about y is beyond its limits -150 to 0".
-std::string beyond_limits(const Limits& limits, int axis, double angle) {
-  const std::string text = shown(angle) + " degrees about " + "xyz"[axis];
-  return limits.free() ? text + " is beyond its limits " + shown(limits.lower) + " to " + shown(limits.upper)
-                       : text + ", where it is locked at " + shown(limits.lower);
 }
 
 // Refuses an axis that an earlier wish has set; `set` are the parts and axes of those.
@@ -100,25 +90,9 @@ Wish Wish::read(const std::string& text, const Thing& thing) {
   const bool three = now.is_array();
   const std::size_t needed = with_axis || !three ? 1 : 3;
   if (numbers.size() != needed || (with_axis && !three))
-    throw Failure("has " + std::to_string(numbers.size()) + (numbers.size() == 1 ? " number" : " numbers"),
-                  "'" + text + "'", remedy);
+    throw Failure("has " + counted(numbers.size(), "number"), "'" + text + "'", remedy);
   for (std::size_t i = 0; i < needed; ++i) wish.numbers[axis + i] = numbers[i];
   return wish;
-}
-
-glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
-                         Remarks& remarks) {
-  const glm::dvec3 nearest = clamped(joint, pose);
-  if (largest_excess(joint, pose) <= kAngleRounding) return nearest;
-  const std::string name = thing + ", joint '" + joint.name + "'";
-  if (beyond == Beyond::refused)
-    throw Failure(*broken_limit(joint, pose), name,
-                  "--clamp takes the nearest allowed, or widen the limits in its model");
-  for (int axis = 0; axis < 3; ++axis)
-    if (excess_of(joint, pose)[axis] > kAngleRounding)
-      remarks.push_back(name + ": " + beyond_limits(joint.limits[axis], axis, pose[axis]) + ": keyed as " +
-                        shown(nearest[axis]));
-  return nearest;
 }
 
 Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,

@@ -20,11 +20,6 @@ struct Wish {
   static Wish read(const std::string& text, const Thing& thing);
 };
 
-// The nearest pose within the limits. If that is another than by rounding: throws, naming joint, axis, angle and range,
-// where `beyond` refuses it; else adds a remark for each such axis.
-glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
-                         Remarks& remarks);
-
 // Sets the thing (an actor, or "camera") at the frame, with an ease from there if given. A part without keys also
 // gets one at frame 0, as it was, so that it moves from there.
 Remarks pose(Json& film, const Film& meaning, const std::string& thing, std::span<const std::string> wishes,

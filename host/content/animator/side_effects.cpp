@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "host/content/animator/figure.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::host {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNothing = 0.01;  // degrees
 constexpr int kMostKeysShown = 3;
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/content/document/file.h"
 
 namespace mars::host {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
 
-// Walks the text for the parser and tells how far it has come.
+// Walks the text for the parser and knows how far it has come.
 struct Reader {
   using value_type = char;
   using difference_type = std::ptrdiff_t;
@@ -38,8 +39,6 @@ struct Reader {
   bool operator==(const Reader& other) const { return at == other.at; }
   bool operator!=(const Reader& other) const { return at != other.at; }
 };
-
-constexpr std::size_t kLongestShown = 80;  // bytes of a name in a message
 
 // What is not JSON, by words of the parser's message, which are not for people. The first that fits counts.
 struct Mistake {
@@ -249,13 +248,6 @@ Document read_document(const Element& name, const std::filesystem::path& path) {
     throw Failure(failure.problem, name.where() + ": " + failure.where, failure.remedy);
   }
   return Document(text, path.string());
-}
-
-std::string shortened(std::string_view name) {
-  if (name.size() <= kLongestShown) return std::string(name);
-  std::size_t end = kLongestShown;
-  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // within a character
-  return std::string(name.substr(0, end)) + "...";
 }
 
 Kind Element::kind() const { return document_->nodes_[index_].kind; }

@@ -117,10 +117,8 @@ class Document {
 
 // Reads and parses a file.
 Document read_document(const std::filesystem::path& path);
-// One that `name` names: where it cannot be read, the place of `name` is told, too.
+// One that `name` names: where it cannot be read, the failure names the place of `name`, too.
 Document read_document(const Element& name, const std::filesystem::path& path);
 
-// A name from a file as messages show it: the beginning of a long one, and "...".
-std::string shortened(std::string_view name);
 
 }  // namespace mars::host

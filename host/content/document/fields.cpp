@@ -33,8 +33,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string listed(std::span<const std::string_view> names) {
-  std::string list;
-  for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
+  const std::string list = joined(names);
   return list.size() > 300 ? list.substr(0, 300) + " ..." : list;
 }
 
@@ -52,14 +51,6 @@ std::string form_or(const Element& element, const std::string& otherwise) {
 }
 
 }  // namespace
-
-std::string in_quotes(std::string_view name) { return "'" + shortened(name) + "'"; }
-
-std::string shown(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", number);
-  return text;
-}
 
 std::optional<std::string> near_name(std::string_view wanted, std::span<const std::string_view> names) {
   std::size_t nearest = (wanted.size() + 2) / 3 + 1;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "host/content/document/document.h"
+#include "host/content/document/text.h"
 
 namespace mars::host {
 
@@ -44,12 +45,6 @@ std::optional<std::string> near_name(std::string_view wanted, std::span<const st
 // "did you mean 'knee'?", or `otherwise` if no name is near.
 std::string did_you_mean(std::string_view wanted, std::span<const std::string_view> names,
                          const std::string& otherwise);
-
-// "'knee'", long names shortened().
-std::string in_quotes(std::string_view name);
-
-// "12.5", as short as tells it, for messages.
-std::string shown(double number);
 
 // An object whose keys are all known.
 class Fields {

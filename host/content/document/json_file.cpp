@@ -16,25 +16,25 @@ namespace {
 constexpr std::size_t kColumns = 110;
 constexpr std::size_t kIndent = 2;
 
-// On one line, or "" if that takes more than `room` columns.
-std::string on_one_line(const Json& json, std::size_t room) {
+// On one line, or "" if that takes more than `columns` columns.
+std::string on_one_line(const Json& json, std::size_t columns) {
   if (!json.is_structured()) return json.dump();
   std::string line(1, json.is_array() ? '[' : '{');
   for (auto item = json.begin(); item != json.end(); ++item) {
     if (item != json.begin()) line += ", ";
     if (json.is_object()) line += Json(item.key()).dump() + ": ";
-    const std::string value = line.size() < room ? on_one_line(*item, room - line.size()) : "";
+    const std::string value = line.size() < columns ? on_one_line(*item, columns - line.size()) : "";
     if (value.empty()) return "";
     line += value;
   }
   line += json.is_array() ? ']' : '}';
-  return line.size() <= room ? line : "";
+  return line.size() <= columns ? line : "";
 }
 
 // `before`: columns that stand before the value on its first line.
 void lay_out(const Json& json, std::size_t indent, std::size_t before, std::string& text) {
-  const std::size_t room = before < kColumns ? kColumns - before : 0;
-  if (const std::string line = on_one_line(json, room); !line.empty() || !json.is_structured()) {
+  const std::size_t columns = before < kColumns ? kColumns - before : 0;
+  if (const std::string line = on_one_line(json, columns); !line.empty() || !json.is_structured()) {
     text.append(line);
     return;
   }

@@ -1,5 +1,5 @@
 // JSON files that our commands change: read, changed in memory, checked by the file's own reader, and only then
-// written, whole. What a person wrote keeps its order; it is laid out anew.
+// written, whole. What a person wrote keeps its order; its layout is ours.
 #pragma once
 
 #include <filesystem>

@@ -51,7 +51,7 @@ class Descriptor {
     }
   }
 
-  // Network file systems may tell only here that the disk is full.
+  // Network file systems may report only here that the disk is full.
   void close_checked() {
     const int closed = close(number_);
     number_ = -1;

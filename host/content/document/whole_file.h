@@ -33,7 +33,7 @@ void replace_file(const std::filesystem::path& path, const std::filesystem::path
 // not there. Throws Failure also where there is something of that name.
 bool create_file(const std::filesystem::path& path, std::string_view text);
 
-// Throws as writing `path` would, as far as can be told before; leaves nothing behind.
+// Throws as writing `path` would, as far as can be known before; leaves nothing behind.
 void check_can_write(const std::filesystem::path& path);
 
 // Refuses to write `to` where it is the file `from` that is read.

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <unordered_map>
 
 #include "hal/failure/failure.h"
@@ -112,7 +113,7 @@ class Compiler {
     node::Camera camera;
     for (int row = 0; row < 3; ++row)
       camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
-    const double half = value_at(motion.fov, frame) * (3.14159265358979323846 / 360);
+    const double half = value_at(motion.fov, frame) * (std::numbers::pi / 360);
     camera.focal = std::cos(half) / std::sin(half);
     camera.near = motion.near;
     camera.far = motion.far;

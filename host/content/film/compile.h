@@ -3,17 +3,12 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "host/content/animator/film.h"
-#include "host/content/film/lazy_memory.h"
-#include "node/wire/film.h"
+#include "host/content/film/compiled_film.h"
 
 namespace mars::host {
 
@@ -21,23 +16,6 @@ namespace mars::host {
 struct CompileOptions {
   std::optional<Cutting> cutting;
   std::optional<std::array<std::uint32_t, 2>> size;  // pixels, each 1..node::kMaxSide
-};
-
-// The packed block, aligned to 64 bytes, and what it does not tell.
-struct CompiledFilm {
-  struct alignas(64) Line {
-    std::array<std::byte, 64> bytes;
-  };
-
-  using Lines = LazyVector<Line>;
-
-  Lines lines;
-  std::string source;  // file, for messages
-  std::uint32_t actors = 0;
-  std::uint32_t joints = 0;  // of all actors
-
-  std::span<const std::byte> block() const { return std::as_bytes(std::span(lines)); }
-  node::FilmView view() const { return {block(), source, true}; }
 };
 
 CompiledFilm compile(const Film& film, const CompileOptions& options = {});

@@ -1,20 +1,12 @@
 #include "host/content/film/describe.h"
 
-#include <cstdio>
-
 #include "host/content/document/checksum.h"
+#include "host/content/document/text.h"
 
 namespace mars::host {
 namespace {
 
 constexpr std::size_t kMostRows = 60;  // of the table of intervals
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 // Patches as they are rendered and stored; the same of meshes, where there are any.
 std::string polygons_of(const node::FilmView& film) {

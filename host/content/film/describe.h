@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/content/film/compile.h"
+#include "host/content/film/compiled_film.h"
 
 namespace mars::host {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "host/content/film/compile.h"
+#include "host/content/film/compiled_film.h"
 
 namespace mars::host {
 

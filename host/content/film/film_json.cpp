@@ -23,7 +23,7 @@ FilmFile open_film(const std::filesystem::path& path) {
 }
 
 void change_film(const std::filesystem::path& path, const std::function<void(Json&, const Film&)>& change) {
-  meaning_of(path);  // tells what a file of another kind is
+  meaning_of(path);  // refuses a file of another kind by its name
   change_json(
       path, [&](Json& json) { change(json, read_film(path)); },
       [&](const Element& root) { check_camera(read_film(root, path.parent_path())); });

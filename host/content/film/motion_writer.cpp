@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <thread>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "topology/memory_limit.h"
 
 namespace mars::host {
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFarthestMatrix = 1e12;              // as node/wire/film.h allows
 constexpr std::size_t kWorthAThread = 20'000;          // matrices
-constexpr std::size_t kRoomBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
+constexpr std::size_t kCapacityBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
 constexpr std::size_t kBytesEach = sizeof(node::Matrix) + 3 * sizeof(node::Change);  // with lists on the way
 
 // Frames at which something may differ from the frame before: (after, last], ascending and apart.
@@ -97,11 +97,7 @@ std::uint64_t memory_here() {
   return limit == 0 ? bytes : std::min(bytes, limit);
 }
 
-std::string gigabytes(std::uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f GB", double(bytes) / 1e9);
-  return text;
-}
+std::string gigabytes(std::uint64_t bytes) { return formatted("%.1f GB", double(bytes) / 1e9); }
 
 class MotionWriter {
  public:
@@ -109,7 +105,7 @@ class MotionWriter {
 
   std::size_t write(CompiledFilm::Lines& lines) {
     plan();
-    matrices_ = room_for(most_matrices_, lines);
+    matrices_ = reserve(most_matrices_, lines);
     const std::size_t own_changes = data_.changes.size();  // of camera, lights and materials
     data_.changes.resize(own_changes + most_matrices_);
     for (Share& share : shares_) share.first_change += own_changes;
@@ -125,9 +121,9 @@ class MotionWriter {
            sizeof(CompiledFilm::Line);
   }
 
-  static node::Matrix* room_for(std::size_t matrices, CompiledFilm::Lines& lines) {
-    // Room for what follows them, mostly their changes, so that they need not be moved again.
-    lines.reserve(lines_of(matrices + matrices / 4) + kRoomBehind / sizeof(CompiledFilm::Line));
+  static node::Matrix* reserve(std::size_t matrices, CompiledFilm::Lines& lines) {
+    // Capacity for what follows them, mostly their changes, so that they need not be moved again.
+    lines.reserve(lines_of(matrices + matrices / 4) + kCapacityBehind / sizeof(CompiledFilm::Line));
     lines.resize(lines_of(matrices));
     return reinterpret_cast<node::Matrix*>(reinterpret_cast<std::byte*>(lines.data()) + node::kMatricesOffset);
   }

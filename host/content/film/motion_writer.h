@@ -6,12 +6,12 @@
 #include <cstddef>
 
 #include "host/content/animator/film.h"
-#include "host/content/film/compile.h"
+#include "host/content/film/compiled_film.h"
 #include "node/wire/film.h"
 
 namespace mars::host {
 
-// Gives the segments of `data`, which are those of all actors in order, their motion; `lines` becomes room for
+// Gives the segments of `data`, which are those of all actors in order, their motion; `lines` becomes the memory of
 // the block's header and the matrices. Returns the number of matrices. Throws, before any is made, where there
 // are more than memory holds; and where a segment stands too far out.
 std::size_t write_motion(const Film& film, node::FilmData& data, CompiledFilm::Lines& lines);

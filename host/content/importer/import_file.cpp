@@ -11,6 +11,7 @@
 #include "host/content/document/json_file.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/whole_file.h"
+#include "host/content/document/text.h"
 #include "host/content/importer/apart.h"
 #include "host/content/importer/file_kind.h"
 #include "host/content/importer/import_report.h"
@@ -40,9 +41,7 @@ glm::dmat3 upright(char up) {
 }
 
 std::string box_of(const glm::dvec3& extent, char up) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
-  return text;
+  return formatted("%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
 }
 
 Imported import_patches(const ImportOptions& options, char up) {

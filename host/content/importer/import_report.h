@@ -18,10 +18,4 @@ struct ImportReport {
 // In lines, the first beginning with the file that was written.
 std::string text_of(const ImportReport& report, const std::string& written);
 
-// "1 face", "2 faces".
-std::string counted(std::size_t count, std::string_view one, std::string_view several);
-
-// Of a file's bytes what can be printed; '?' for others.
-std::string printable(std::string_view text);
-
 }  // namespace mars::host

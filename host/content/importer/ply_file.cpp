@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "host/content/document/file.h"
+#include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/ply_header.h"
 

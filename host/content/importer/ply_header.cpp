@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
 namespace mars::host {
@@ -105,12 +106,11 @@ class HeaderReader {
   }
 
   bool add_element(const std::string& name, const std::string& number) {
-    std::uint64_t count = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+    const auto count = number_in<std::uint64_t>(number);
     for (const PlyElement& other : header_.elements)
       if (other.name == name) return false;
-    header_.elements.push_back({name, count, {}});
-    return error == std::errc() && end == number.data() + number.size();
+    header_.elements.push_back({name, count.value_or(0), {}});
+    return count.has_value();
   }
 
   static std::optional<PlyType> type_of(const std::string& word) {

@@ -8,6 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
 namespace mars::host {

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/mesh_builder.h"
 #include "host/content/importer/promised.h"

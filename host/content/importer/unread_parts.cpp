@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
 namespace mars::host {

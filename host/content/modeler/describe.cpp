@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "host/content/document/fields.h"
 #include "host/content/modeler/frames.h"
@@ -14,13 +14,6 @@ namespace {
 constexpr double kSquare = 1e-3;  // degrees from a right angle that are rounding
 
 using Row = std::vector<std::string>;
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[100];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 double without_rounding(double number) { return std::abs(number) < 1e-9 ? 0 : number; }
 
@@ -162,8 +155,7 @@ std::string materials_of(const Model& model) {
 }  // namespace
 
 double skew_of(const Joint& joint) {
-  constexpr double kPi = 3.14159265358979323846;
-  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / kPi;
+  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / std::numbers::pi;
   return std::abs(angle - 90) < kSquare ? 0 : angle;
 }
 

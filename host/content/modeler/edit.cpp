@@ -47,7 +47,7 @@ Json* find_joint(Json& model, const std::string& name) {
 [[noreturn]] void no_such_joint(Json& model, const std::string& name) {
   const std::vector<std::string> names = names_of(joints_of(model));
   throw Failure("is not in the model", joint_of(name),
-                near(name, names, "mars model show tells the joints' names"));
+                near(name, names, "mars model show lists the joints"));
 }
 
 Json& joint_named(Json& model, const std::string& name) {
@@ -204,9 +204,7 @@ void rename_joint(Json& model, const std::string& from, const std::string& to) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
-  return list;
+  return "'" + joined(names, "', '") + "'";
 }
 
 std::vector<std::string> children_of(const Json& joints, const std::string& name) {
@@ -248,9 +246,7 @@ void change_material(Json& material, const MaterialChange& change) {
 }  // namespace
 
 Json plain_number(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", number);
-  const double rounded = std::strtod(text, nullptr);
+  const double rounded = rounded_to(number, 10);
   if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
   return rounded;
 }

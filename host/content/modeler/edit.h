@@ -1,6 +1,6 @@
 // Steps by which commands, and later the studio, change a model: each on the JSON of a model that read_model() took
-// (model_file.h reads and writes it), so that what a person wrote stays as written. What only read_model() can tell,
-// such as a cycle of parents, is told when the file is written. Failures name the joint, axis or material.
+// (model_file.h reads and writes it), so that what a person wrote stays as written. What only read_model() finds,
+// such as a cycle of parents, is refused when the file is written. Failures name the joint, axis or material.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -18,7 +18,7 @@ enum class Freedom { as_it_was, fixed, free };
 
 // Of one joint; what is not there stays as it was.
 struct JointChange {
-  std::vector<std::string> reset;     // of kResets, to what they are where a file does not tell
+  std::vector<std::string> reset;     // of kResets, to their defaults
   std::optional<std::string> name;
   std::optional<std::string> parent;
   std::optional<glm::dvec3> place;

@@ -57,7 +57,7 @@ glm::dmat3 rotation_by_degrees(const glm::dvec3& axis, double degrees) {
   int quarter = 0;
   const double rest = std::remquo(degrees, 90.0, &quarter);
   if (rest == 0) return rotation_of(axis, sines[quarter & 3], sines[(quarter + 1) & 3]);
-  return rotation(axis, degrees * (3.14159265358979323846 / 180));
+  return rotation(axis, degrees * kDegree);
 }
 
 glm::dmat3 orientation(const Joint& joint, const glm::dvec3& pose) {

@@ -4,6 +4,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Axes {
   glm::dmat3 turn{1};
   glm::dvec3 place{0, 0, 0};
 };
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // radians
 
 // About `axis`, a unit vector, by an angle in radians: cos I + (1 - cos) n n^T + sin N.
 glm::dmat3 rotation(const glm::dvec3& axis, double angle);

@@ -7,10 +7,9 @@
 #include <string_view>
 
 #include "host/content/document/fields.h"
+#include "host/content/modeler/joint.h"
 
 namespace mars::host {
-
-struct Joint;
 
 enum class Side : std::size_t { left, right };
 enum class Trunk : std::size_t { pelvis, spine, chest, neck, head };

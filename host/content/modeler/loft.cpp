@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <numbers>
 
 namespace mars::host {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // Pulls a sine or cosine towards +-1.
 double squared(double value, double by) {
@@ -27,7 +28,7 @@ double swelling_at(std::span<const Swelling> swellings, double at, double angle)
   double height = 0;
   for (const Swelling& s : swellings) {
     const double along = (at - s.at) / (at < s.at ? s.below : s.above);
-    const double degrees = std::abs(angle > kPi ? angle - 2 * kPi : angle) * 180 / kPi;
+    const double degrees = std::abs(angle > pi ? angle - 2 * pi : angle) * 180 / pi;
     height += s.height * fade(along) * fade((degrees - s.angle) / s.reach);
   }
   return height;
@@ -35,10 +36,10 @@ double swelling_at(std::span<const Swelling> swellings, double at, double angle)
 
 // The control points of a closed curve; `reach` makes up for what a B-spline falls short of its polygon.
 std::vector<glm::dvec3> control_points(const Ring& ring, const Loft& loft) {
-  const double reach = 3 / (2 + std::cos(2 * kPi / loft.around));
+  const double reach = 3 / (2 + std::cos(2 * pi / loft.around));
   std::vector<glm::dvec3> points;
   for (int i = 0; i < loft.around; ++i) {
-    const double even = 2 * kPi * i / loft.around, angle = even - loft.crowding * std::sin(even);
+    const double even = 2 * pi * i / loft.around, angle = even - loft.crowding * std::sin(even);
     const double square = std::cos(angle) > 0 ? ring.square : ring.square_back;
     const double front = squared(std::cos(angle), square), side = squared(std::sin(angle), square);
     const double out = swelling_at(loft.swellings, ring.at, angle);

@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostSources = 16;  // files derived from each other, in a row
 
 // Of all segments, also those of the file that the model is derived from; what is not as it should be is left to
-// read_model() to tell.
+// read_model() to refuse.
 void add_materials(const Element& model, int sources, std::vector<std::string>& names) {
   if (const auto joints = model.find("joints"))
     for (const Element joint : *joints) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -32,12 +31,10 @@ class Words {
   double number(const char* of) {
     if (at_end()) fail(std::string("ends before ") + of, "the file may be cut short");
     const std::string_view word = rest_.substr(0, std::min(rest_.find_first_of(" \t\r\n\v\f"), rest_.size()));
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size())
-      fail("has " + quoted(word) + " for " + of, "write a number");
+    const auto value = number_in<double>(word);
+    if (!value) fail("has '" + printable(word) + "' for " + of, "write a number");
     rest_.remove_prefix(word.size());
-    return value;
+    return *value;
   }
 
   double coordinate(const char* of) {
@@ -52,13 +49,6 @@ class Words {
   }
 
  private:
-  static std::string quoted(std::string_view word) {
-    std::string text(word.substr(0, 40));
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
-    return "'" + text + "'";
-  }
-
   std::string_view rest_;
   std::string name_;
   std::size_t line_ = 1;

@@ -66,7 +66,7 @@ class Review {
                           ", for its limits leave 0 out");
   }
 
-  // Children hang on their parent's segment. True if something was told.
+  // Children hang on their parent's segment. True if a doubt was added.
   bool doubt_place(std::size_t number) {
     const Joint& joint = model_.joints[number];
     if (joint.parent == kNone || !model_.joints[joint.parent].segment) return false;
@@ -156,11 +156,7 @@ class Review {
     if (shapes.empty()) doubts_.push_back("no joint has a segment: nothing is seen");
   }
 
-  static std::string short_text(double number) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%.3g", number);
-    return text;
-  }
+  static std::string short_text(double number) { return formatted("%.3g", number); }
 
   const Model& model_;
   std::vector<std::optional<Box>> bounds_;  // of each joint's segment at rest

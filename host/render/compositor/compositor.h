@@ -20,7 +20,7 @@
 #include <optional>
 #include <span>
 
-#include "host/images/frame.h"
+#include "host/render/compositor/frame.h"
 #include "node/wire/protocol.h"
 
 namespace mars::host {

@@ -1,7 +1,7 @@
 // Where finished frames go: files, later a screen or a studio. A true seam: the sink pool knows no more.
 #pragma once
 
-#include "host/images/frame.h"
+#include "host/render/compositor/frame.h"
 
 namespace mars::host {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 
+#include "host/content/document/text.h"
 #include "host/shell/launch/text_reader.h"
 
 namespace mars::host {
@@ -17,10 +17,6 @@ constexpr std::uint64_t kLittleShared = 64 * kMiB;     // what containers get un
 constexpr std::uint64_t kLeastShared = 16 * kMiB;
 constexpr std::uint64_t kSharedByANode = 4 * kMiB;     // Open MPI's segment for messages
 constexpr std::uint64_t kLittleTemporary = 16 * kMiB;  // free
-
-std::string counted(std::uint64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -61,7 +57,7 @@ Finding check_mpi(const Facts& facts) {
   if (!facts.mpirun_version) return {State::good, about, name + where, ""};
   if (facts.mpirun_version->empty()) {
     return {State::trouble, about, "mpirun --version says nothing" + where,
-            "mpirun --version must work: load MPI anew, or use --backend threads"};
+            "mpirun --version must work: load MPI again, or use --backend threads"};
   }
   const std::string version = version_of(mpi, *facts.mpirun_version);
   if (version.empty()) {
@@ -76,21 +72,19 @@ Finding check_mpi(const Facts& facts) {
 Finding check_programs(const Facts& facts) {
   const char* about = "programs";
   const Programs& programs = facts.programs;
-  std::string lacking;
+  std::vector<std::string> lacking;
   for (const auto& [name, there] : {std::pair{"mars-host", programs.host.has_value()},
                                     std::pair{"mars-node", programs.node.has_value()},
                                     std::pair{"mars-threads", programs.threads.has_value()}}) {
-    if (!there) lacking += (lacking.empty() ? "" : ", ") + std::string(name);
+    if (!there) lacking.emplace_back(name);
   }
   if (!lacking.empty()) {
     const bool needed = programs.mpirun || !programs.threads;
-    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + lacking,
+    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + joined(lacking),
             "build MARS where MPI is installed, and keep its programs in one folder"};
   }
   if (!facts.lacking.empty()) {
-    std::string names;
-    for (const std::string& name : facts.lacking) names += (names.empty() ? "" : ", ") + name;
-    return {State::trouble, about, "mars-node lacks libraries: " + names,
+    return {State::trouble, about, "mars-node lacks libraries: " + joined(facts.lacking),
             "load the MPI that MARS was built with (module load ...), or install it on this machine"};
   }
   const auto folder = programs.node->parent_path();
@@ -161,7 +155,7 @@ Finding check_shared(const Facts& facts) {
   const Space& space = *facts.shared;
   const std::string found = bytes_text(space.total) + ", " + bytes_text(space.left) + " free";
   if (space.left < kLeastShared)
-    return {State::trouble, about, found, std::string(remedy) + "; what ended jobs left there may be deleted"};
+    return {State::trouble, about, found, std::string(remedy) + "; files of ended jobs there may be deleted"};
   if (space.total <= kLittleShared || space.left < (facts.nodes + 1) * kSharedByANode)
     return {State::note, about, found + ": too little for large films or many nodes", remedy};
   return {State::good, about, found, ""};
@@ -182,7 +176,7 @@ Finding check_copies(const Facts& facts) {
   if (!facts.surroundings.copies_forbidden)
     return {State::good, "copies", "processes may copy from each other's memory (CMA)", ""};
   return {State::note, "copies", "processes may not copy from each other's memory (CMA): slower messages",
-          "mars render minds it; for mpirun by hand export OMPI_MCA_btl_vader_single_copy_mechanism=none. "
+          "mars render sets it; for mpirun by hand export OMPI_MCA_btl_vader_single_copy_mechanism=none. "
           "Containers allow it with --cap-add=SYS_PTRACE, kernels with sysctl kernel.yama.ptrace_scope=0"};
 }
 
@@ -190,8 +184,8 @@ Finding check_user(const Facts& facts) {
   const std::string place = facts.container.empty() ? "" : " in a container (" + facts.container + ")";
   if (!facts.surroundings.root) return {State::good, "user", "not root" + place, ""};
   if (facts.programs.mpi == Mpi::mpich) return {State::good, "user", "root" + place, ""};
-  return {State::note, "user", "root" + place + ": Open MPI wants to be told twice",
-          "mars render does; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
+  return {State::note, "user", "root" + place + ": Open MPI starts as root only with two settings",
+          "mars render sets them; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
           "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
 }
 
@@ -203,7 +197,7 @@ Finding check_temporary(const Facts& facts) {
   }
   const std::string found = facts.temporary + ", " + bytes_text(facts.temporary_space->left) + " free";
   if (facts.temporary_space->left < kLittleTemporary)
-    return {State::trouble, about, found, "empty it, or set TMPDIR to a folder on a local disk that has room"};
+    return {State::trouble, about, found, "empty it, or set TMPDIR to a folder on a local disk with free space"};
   return {State::good, about, found, ""};
 }
 
@@ -235,15 +229,10 @@ void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
 }  // namespace
 
 std::string bytes_text(std::uint64_t bytes) {
-  char text[40];
-  if (bytes >= 10 * 1024 * kMiB) {
-    std::snprintf(text, sizeof text, "%.0f GiB", static_cast<double>(bytes) / (1024.0 * kMiB));
-  } else if (bytes >= 1024 * kMiB) {
-    std::snprintf(text, sizeof text, "%.1f GiB", static_cast<double>(bytes) / (1024.0 * kMiB));
-  } else {
-    std::snprintf(text, sizeof text, "%.0f MiB", static_cast<double>(bytes) / kMiB);
-  }
-  return text;
+  const double mebibytes = static_cast<double>(bytes) / kMiB;
+  if (bytes >= 10 * 1024 * kMiB) return formatted("%.0f GiB", mebibytes / 1024);
+  if (bytes >= 1024 * kMiB) return formatted("%.1f GiB", mebibytes / 1024);
+  return formatted("%.0f MiB", mebibytes);
 }
 
 std::vector<Finding> check_machine(const Facts& facts) {
@@ -267,12 +256,10 @@ Finding check_start(const Trial& trial) {
     const std::string found = failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem;
     return {State::trouble, "a start", found, failure.remedy + (failure.remedy.empty() ? "" : "\n") + trial.command};
   }
-  char seconds[40];
-  std::snprintf(seconds, sizeof seconds, "%.1f", trial.boot_seconds);
   const Booted& booted = trial.booted;
   return {State::good, "a start",
           counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") + " (" +
-              booted.backend + ") booted in " + seconds + " s, rendered " + counted(trial.frames, "frame"),
+              booted.backend + ") booted in " + formatted("%.1f", trial.boot_seconds) + " s, rendered " + counted(trial.frames, "frame"),
           ""};
 }
 

@@ -5,8 +5,9 @@
 #include <iostream>
 
 #include "host/shell/doctor/show.h"
-#include "host/shell/launch/child.h"
-#include "host/shell/launch/environment.h"
+#include "host/child/child.h"
+#include "host/child/environment.h"
+#include "host/child/programs.h"
 
 namespace mars::host {
 namespace {
@@ -57,7 +58,7 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
                                          const std::filesystem::path& self) {
   const std::vector<MachineFindings> here{{facts.host, check_machine(facts)}};
   if (!facts.slurm || facts.slurm->machines < 2) return here;
-  const auto srun = find_program("srun", own_environment().value("PATH").value_or("/usr/bin:/bin"));
+  const auto srun = find_program("srun", program_path(own_environment()));
   if (!srun) return here;
   const std::uint32_t machines = facts.slurm->machines;
   Answers answers = ask(ask_all(*srun, *facts.slurm, (facts.nodes + machines - 1) / machines, self));
@@ -73,7 +74,7 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
   return answers.machines.empty() ? here : answers.machines;
 }
 
-// None where there is nothing to start, which the checks tell.
+// None where there is nothing to start, which the checks report.
 std::optional<Trial> try_to_start(const DoctorOptions& options, const Programs& programs,
                                   const std::filesystem::path& self) {
   if (!programs.threads && !(programs.mpirun && programs.host && programs.node)) return std::nullopt;

@@ -17,10 +17,10 @@ struct DoctorOptions {
   std::string version;        // of MARS
 };
 
-// Whether nothing is in trouble; everything told on standard output. `self`: the running program's own file.
+// Whether nothing is in trouble; prints everything on standard output. `self`: the running program's own file.
 bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self);
 
-// What mars render tells when a start fails.
+// What mars render prints when a start fails.
 Adviser adviser(const std::filesystem::path& self);
 
 }  // namespace mars::host

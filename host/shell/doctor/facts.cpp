@@ -9,8 +9,9 @@
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
-#include "host/shell/launch/child.h"
-#include "host/shell/launch/environment.h"
+#include "host/child/child.h"
+#include "host/child/environment.h"
+#include "host/child/programs.h"
 #include "topology/machine.h"
 
 namespace mars::host {
@@ -114,7 +115,7 @@ std::optional<SlurmJob> slurm_job(const Environment& environment, const std::str
 
 Facts gather_facts(const fs::path& self, std::uint32_t nodes, Ask ask) {
   const Environment environment = own_environment();
-  const std::string path = environment.value("PATH").value_or("/usr/bin:/bin");
+  const std::string path = program_path(environment);
   const topology::Machine machine = topology::Machine::here();
   Facts facts;
   facts.host = host_name();

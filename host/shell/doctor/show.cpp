@@ -127,8 +127,8 @@ std::string text_of(std::span<const Finding> findings) {
 
 std::string verdict(std::span<const Finding> findings) {
   const std::size_t troubles = count(findings, State::trouble);
-  if (troubles == 0) return "Nothing is in the way: mars render FILM -o DIR";
-  return std::to_string(troubles) + (troubles == 1 ? " trouble" : " troubles") + "; what to do stands below each (->)";
+  if (troubles == 0) return "No trouble found: mars render FILM -o DIR";
+  return std::to_string(troubles) + (troubles == 1 ? " trouble" : " troubles") + "; the remedy is below each (->)";
 }
 
 bool in_trouble(std::span<const Finding> findings) { return count(findings, State::trouble) > 0; }
@@ -139,7 +139,7 @@ std::string short_text(std::span<const Finding> findings) {
     if (finding.state != State::trouble) continue;
     text += finding.about + ": " + finding.found + (finding.remedy.empty() ? "" : " (" + finding.remedy + ")") + "\n";
   }
-  return text + "mars doctor tells more";
+  return text + "for more run mars doctor";
 }
 
 std::string lines_of(const MachineFindings& machine) {

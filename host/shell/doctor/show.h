@@ -1,5 +1,5 @@
 // Findings as people read them: one line each, what to do below it; of several machines what is the same is
-// told once. And as lines for the doctor that asked this machine's.
+// printed once. And as lines for the doctor that asked this machine's.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct MachineFindings {
 // "n1-n4,n7,login"; each once, in order.
 std::string host_list(std::vector<std::string> hosts);
 
-// Findings about the same thing on all machines, told once where they are equal; else each names its hosts:
+// Findings about the same thing on all machines, printed once where they are equal; else each names its hosts:
 // "n3: ...". In the order of the first machine that has them.
 std::vector<Finding> grouped(std::span<const MachineFindings> machines);
 

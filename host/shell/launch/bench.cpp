@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
-#include "host/shell/launch/exec.h"
+#include "host/content/document/text.h"
+#include "host/child/exec.h"
 
 namespace mars::host {
 namespace {
@@ -27,7 +28,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 }  // namespace
 
 std::string list_benchmarks(const fs::path& program) {
-  std::string text = "Benchmarks here (mars bench NAME --help tells more):\n";
+  std::string text = "Benchmarks (options: mars bench NAME --help):\n";
   for (const std::string& name : names_in(folder_of(program))) text += "  " + name + "\n";
   return text;
 }
@@ -35,9 +36,7 @@ std::string list_benchmarks(const fs::path& program) {
 void run_benchmark(const fs::path& program, const std::string& name, const std::vector<std::string>& words) {
   const std::vector<std::string> names = names_in(folder_of(program));
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    std::string known;
-    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + known);
+    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + joined(names));
   }
   Command command{{}, {folder_of(program) / name / "run"}};
   command.words.insert(command.words.end(), words.begin(), words.end());

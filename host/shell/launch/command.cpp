@@ -1,9 +1,7 @@
 #include "host/shell/launch/command.h"
 
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/uio.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,7 +15,9 @@
 #include "hal/failure/process_limit.h"
 #include "hal/messages/settings.h"
 #include "host/content/document/shell_word.h"
-#include "host/shell/launch/environment.h"
+#include "host/child/environment.h"
+#include "host/child/process.h"
+#include "host/child/programs.h"
 #include "host/shell/launch/text_reader.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
@@ -29,18 +29,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kLoopback = "mars-loopback.so";
-
-// In the first folder of `path` that has any of `names`, the first of these.
-std::optional<fs::path> find_first(std::span<const std::string_view> names, std::string_view path) {
-  while (!path.empty()) {
-    const std::string_view folder = path.substr(0, path.find(':'));
-    path.remove_prefix(std::min(path.size(), folder.size() + 1));
-    for (const std::string_view name : names) {
-      if (const fs::path file = fs::path(folder) / name; !folder.empty() && runnable(file)) return file;
-    }
-  }
-  return std::nullopt;
-}
 
 std::optional<fs::path> find_ours(const std::string& name, const fs::path& self, const std::string& path) {
   for (const fs::path& folder : {self.parent_path(), self.parent_path().parent_path() / "libexec"}) {
@@ -55,18 +43,13 @@ std::optional<fs::path> find_ours(const std::string& name, const fs::path& self,
 bool may_copy() {
   int from = 1;
   int to = 0;
-  const pid_t other = fork();
-  if (other == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const auto sleep = []() -> int {
     for (;;) pause();
-  }
+  };
+  const Process other(sleep, {.signal_at_our_end = SIGKILL});
   const iovec local{&to, sizeof to};
   const iovec remote{&from, sizeof from};
-  const bool may = process_vm_readv(other, &local, 1, &remote, 1, 0) == sizeof from;
-  if (other < 0) return true;
-  kill(other, SIGKILL);
-  waitpid(other, nullptr, 0);
-  return may;
+  return process_vm_readv(other.id(), &local, 1, &remote, 1, 0) == sizeof from;
 }
 
 std::vector<std::string> settings_in_use() {
@@ -118,20 +101,10 @@ Mpi our_mpi() { return MARS_MPICH ? Mpi::mpich : Mpi::open_mpi; }
 const char* name_of(Mpi mpi) { return mpi == Mpi::mpich ? "MPICH" : "Open MPI"; }
 const char* package_of(Mpi mpi) { return mpi == Mpi::mpich ? "mpich" : "openmpi-bin"; }
 
-bool runnable(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
-}
-
-std::optional<fs::path> find_program(const std::string& name, const std::string& path) {
-  const std::string_view only = name;
-  return find_first({&only, 1}, path);
-}
-
 std::optional<fs::path> find_mpirun(Mpi mpi, const std::string& path) {
   static constexpr std::string_view kOpenMpi[] = {"mpirun.openmpi", "mpirun"};
   static constexpr std::string_view kMpich[] = {"mpirun.mpich", "mpiexec.hydra", "mpirun"};
-  return mpi == Mpi::mpich ? find_first(kMpich, path) : find_first(kOpenMpi, path);
+  return mpi == Mpi::mpich ? find_first_program(kMpich, path) : find_first_program(kOpenMpi, path);
 }
 
 std::optional<fs::path> find_loopback(const fs::path& self) {
@@ -276,7 +249,7 @@ Command mpich_start(const RenderOptions& options, const Programs& programs, cons
 Command open_mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
   Command command;
   const auto add = [&](const Variables& settings) { add_settings(command, settings, surroundings); };
-  // As root Open MPI wants to be told twice; as the only user of a container there is nobody else to be.
+  // As root Open MPI starts as root only with two settings; as the only user of a container there is nobody else to be.
   if (surroundings.root) {
     command.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
   }
@@ -296,9 +269,9 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
   if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", word_of_file(options.hostfile)});
-  const std::uint32_t room = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
-  // A hostfile tells its own slots; what is more than these goes round over its hosts.
-  if (!options.hostfile.empty() || options.nodes + 1 > room) command.words.emplace_back("--oversubscribe");
+  const std::uint32_t slots = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
+  // A hostfile has its own slots; what is more than these goes round over its hosts.
+  if (!options.hostfile.empty() || options.nodes + 1 > slots) command.words.emplace_back("--oversubscribe");
   for (const std::string& name : surroundings.settings)
     command.words.insert(command.words.end(), {"-x", name});
   return command;

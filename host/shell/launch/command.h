@@ -1,5 +1,4 @@
-// A command as it is started and as it is shown: words, and the environment variables set for it on top of
-// those it inherits. Made for each backend from a person's options and from what the machine has.
+// The commands that start jobs, made for each backend from a person's options and from what the machine has.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "host/shell/launch/environment.h"
+#include "host/child/command.h"
+#include "host/child/environment.h"
 #include "host/shell/options/render_options.h"
 
 namespace mars::host {
 
-struct Command {
-  std::vector<std::pair<std::string, std::string>> environment;
-  std::vector<std::string> words;  // the first is the program
-  bool session_folders = false;    // it starts Open MPI on this machine alone: SessionFolders
-
-  bool operator==(const Command&) const = default;
-};
-
-// As it can be pasted into a shell.
+// A command as it can be pasted into a shell.
 std::string shell_text(const Command& command);
-
-// A file that may be executed. Folders that we may not look into have none for us.
-bool runnable(const std::filesystem::path& file);
-
-// The program of that name in `path`, folders separated by colons; none: in none of them.
-std::optional<std::filesystem::path> find_program(const std::string& name, const std::string& path);
 
 // Whose mpirun starts the programs. Intel's and others that come from MPICH are as MPICH is.
 enum class Mpi { open_mpi, mpich };
@@ -49,7 +35,7 @@ struct Programs {
   std::optional<std::filesystem::path> loopback;  // loopback.cpp, for mpirun to load
 };
 
-// The first mpirun in `path`; a folder that has those of several MPIs tells them apart by their names.
+// The first mpirun in `path`; a folder that has those of several MPIs distinguishes them by their names.
 std::optional<std::filesystem::path> find_mpirun(Mpi mpi, const std::string& path);
 
 // Beside `self`, or in ../libexec/mars or ../libexec/mars-nx from there.
@@ -58,7 +44,7 @@ std::optional<std::filesystem::path> find_loopback(const std::filesystem::path& 
 // Looks for our own beside `self`, then in ../libexec from there, then in `path`.
 Programs find_programs(const std::filesystem::path& self, const std::string& path);
 
-// What a start has to mind.
+// What a start depends on.
 struct Surroundings {
   std::uint32_t cores = 1;  // of the processors this process was given
   std::uint32_t processors = 1;
@@ -80,7 +66,7 @@ Surroundings look_around(const std::string& path, Ask ask = Ask::programs);
 // The sum of Slurm's list of tasks a host, "2(x3),1"; 0 for what is none.
 std::uint32_t task_count(const std::string& tasks_per_node);
 
-// A hostfile's hosts with their slots, 1 for a line that tells none. Throws Failure where it cannot be read or
+// A hostfile's hosts with their slots, 1 for a line that names none. Throws Failure where it cannot be read or
 // names no host.
 struct Slots {
   std::string host;
@@ -88,7 +74,7 @@ struct Slots {
 };
 std::vector<Slots> read_hostfile(const std::filesystem::path& hostfile);
 
-// How many nodes render where a person does not say: what the hostfile or the batch system has room for beside
+// How many nodes render where a person does not say: the slots of the hostfile or the batch system beside
 // the host; else, and for threads, one a processor.
 std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& surroundings);
 

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <set>
 
+#include "host/content/document/text.h"
 #include "host/shell/launch/mpi_words.h"
 #include "host/shell/launch/text_reader.h"
 
@@ -40,7 +41,7 @@ std::string remedy_for(int signal) {
   return "please report it with the film";
 }
 
-Failure told(const Fault& fault) {
+Failure failure_from(const Fault& fault) {
   const std::string again = fault.replay.empty() ? "" : "to see it again: " + fault.replay;
   const std::string remedy =
       fault.remedy.empty() || again.empty() ? fault.remedy + again : fault.remedy + "; " + again;
@@ -95,15 +96,13 @@ std::string without_port(const std::string& address) { return address.substr(0, 
 std::string machines_of(const Booted& booted) {
   std::set<std::string> names;
   for (const Booted::Node& node : booted.nodes) names.insert(node.host);
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : " or ") + name;
-  return list;
+  return joined(names, " or ");
 }
 
-// Which machine was lost, if the words tell of such a loss. Open MPI has three ways to say it:
+// Which machine was lost, if the words report such a loss. Open MPI has three ways to say it:
 // "ORTE has lost communication with a remote daemon. ... Remote daemon: [[6456,0],2] on node n3";
 // where the daemon's ssh ends first "ORTE was unable to reliably start one or more daemons", long after they have
-// started; and a rank's "connect() to 10.77.0.14:1028 failed", which alone tells the machine then.
+// started; and a rank's "connect() to 10.77.0.14:1028 failed", which alone names the machine then.
 std::optional<std::string> machine_lost(const std::string& line, const std::optional<Booted>& booted) {
   TextReader daemon(line);
   if (daemon.find("lost communication with a remote daemon") && daemon.find("Remote daemon: ") && daemon.find(" on node "))
@@ -119,11 +118,11 @@ std::optional<std::string> machine_lost(const std::string& line, const std::opti
 std::optional<Failure> lost_machine(const std::string& line, const std::optional<Booted>& booted) {
   const std::optional<std::string> machine = machine_lost(line, booted);
   if (!machine) return std::nullopt;
-  return Failure("nothing is heard of it any more", "machine " + *machine,
-                 "see whether it still runs and can be reached; --frames renders what is missing");
+  return Failure("does not answer any more", "machine " + *machine,
+                 "check whether it still runs and can be reached; render the missing frames with --frames");
 }
 
-// "mars: ..." is how our programs tell why they end.
+// "mars: ..." is how our programs report why they end.
 std::optional<Failure> own_words(const std::deque<std::string>& lines) {
   for (const std::string& line : lines) {
     if (line.starts_with("mars: ")) return Failure(line.substr(6), "", "");
@@ -162,7 +161,7 @@ Failure stopped(const Remains& remains, const RenderOptions& options) {
 
 Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice) {
   if (remains.passed_on != 0) return stopped(remains, options);
-  if (remains.fault) return told(*remains.fault);
+  if (remains.fault) return failure_from(*remains.fault);
   const auto advised = [&](const Failure& failure) {
     return remains.booted ? failure : with_advice(failure, advice);
   };

@@ -9,7 +9,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/render/events/events.h"
-#include "host/shell/launch/child.h"
+#include "host/child/child.h"
 #include "host/shell/options/render_options.h"
 
 namespace mars::host {

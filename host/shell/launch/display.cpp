@@ -4,7 +4,8 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
+
+#include "host/content/document/text.h"
 
 namespace mars::host {
 
@@ -16,15 +17,7 @@ constexpr std::chrono::milliseconds kTerminalPeriod{100};
 constexpr std::chrono::milliseconds kLinePeriod{2000};
 constexpr const char* kClearLine = "\r\x1b[K";
 
-std::string one_decimal(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
+std::string one_decimal(double value) { return formatted("%.1f", value); }
 
 // A line that wraps could not be written over.
 std::string fitting(const std::string& text) {
@@ -46,13 +39,8 @@ std::string left_text(const Progress& progress) {
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<unsigned long>(std::lround(std::min(seconds, 1e9)));
-  char text[60];
-  if (whole >= 3600) {
-    std::snprintf(text, sizeof text, "%lu:%02lu:%02lu", whole / 3600, whole / 60 % 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lu:%02lu", whole / 60, whole % 60);
-  }
-  return text;
+  if (whole >= 3600) return formatted("%lu:%02lu:%02lu", whole / 3600, whole / 60 % 60, whole % 60);
+  return formatted("%lu:%02lu", whole / 60, whole % 60);
 }
 
 std::string progress_text(const Progress& progress) {
@@ -82,7 +70,7 @@ std::string done_text(const Done& done) {
   return text;
 }
 
-void Display::tell(const std::string& line) {
+void Display::print(const std::string& line) {
   if (kind_ == Kind::silent) return;
   if (line_open_) out_ << kClearLine;
   line_open_ = false;

@@ -26,7 +26,7 @@ class Display {
   Display(Kind kind, std::ostream& out) : kind_(kind), out_(out) {}
 
   // A line that stays.
-  void tell(const std::string& line);
+  void print(const std::string& line);
   // How far it is: shown when due.
   void show(const Progress& progress);
   // Leaves the terminal's progress line as it is and goes below it.
@@ -39,7 +39,7 @@ class Display {
   std::ostream& out_;
   bool line_open_ = false;  // the terminal's progress line is being shown
   std::chrono::steady_clock::time_point last_{};
-  std::uint32_t shown_ = 0;  // frames that the last plain line told
+  std::uint32_t shown_ = 0;  // frames that the last plain line reported
 };
 
 // For standard output.

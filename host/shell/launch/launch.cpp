@@ -7,10 +7,10 @@
 #include "hal/messages/settings.h"
 #include "host/render/events/events.h"
 #include "host/shell/launch/background_text.h"
-#include "host/shell/launch/child.h"
+#include "host/child/child.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/display.h"
-#include "host/shell/launch/environment.h"
+#include "host/child/environment.h"
 #include "host/shell/launch/session_folders.h"
 #include "host/render/sinks/frame_folder.h"
 #include "topology/machine.h"
@@ -19,14 +19,14 @@ namespace mars::host {
 
 namespace {
 
-constexpr std::size_t kLastWords = 400;  // lines: each rank may tell the same loss in its own dozen
+constexpr std::size_t kLastWords = 400;  // lines: each rank may report the same loss in a dozen of its own
 constexpr std::size_t kLongestWords = 4096;  // bytes of such a line
 constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kSlowLoad{3};    // of compiling the film, until a person learns what takes so long
 constexpr std::chrono::seconds kLongestTrial{30};
 
 Command command_for(RenderOptions& options, const std::filesystem::path& self) {
-  const std::string path = own_environment().value("PATH").value_or("/usr/bin:/bin");
+  const std::string path = program_path(own_environment());
   const Programs programs = find_programs(self, path);
   options.backend = choose_backend(options.backend, programs);
   const Surroundings surroundings = look_around(path);
@@ -76,7 +76,7 @@ class Run {
     if (const auto* loaded = std::get_if<Loaded>(&*event)) end_loading(*loaded);
     if (const auto* warning = std::get_if<Warning>(&*event)) std::cerr << "mars: warning: " << warning->text << '\n';
     if (const auto* booted = std::get_if<Booted>(&*event)) {
-      display_.tell(booted_text(*booted));
+      display_.print(booted_text(*booted));
       remains_.booted = *booted;
       boot_seconds_ = std::chrono::duration<double>(Clock::now() - started_).count();
     }
@@ -93,14 +93,14 @@ class Run {
   void show_slow_load() {
     if (slow_load_shown_ || Clock::now() - waiting_since_ < kSlowLoad) return;
     slow_load_shown_ = true;
-    display_.tell("loading " + loading_->film + " ...");
+    display_.print("loading " + loading_->film + " ...");
   }
 
   // Nodes are waited for only from now on: the host does not listen to them before.
   void end_loading(const Loaded& loaded) {
     loading_.reset();
     waiting_since_ = Clock::now();
-    if (slow_load_shown_) display_.tell("loaded in " + clock_text(loaded.seconds));
+    if (slow_load_shown_) display_.print("loaded in " + clock_text(loaded.seconds));
   }
 
   void take_error(const std::string& line) {
@@ -122,21 +122,21 @@ class Run {
 
 void launch_render(RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
   Display display(kind_of_output(options.quiet), std::cout);
-  for (const std::string& line : hal::unknown_settings()) display.tell(line);
-  hal::read_settings();  // what makes no sense is told before anything is started
+  for (const std::string& line : hal::unknown_settings()) display.print(line);
+  hal::read_settings();  // wrong settings fail before anything is started
   const Command command = command_for(options, self);
-  display.tell(shell_text(command));
+  display.print(shell_text(command));
   const Advice advice = [&] { return adviser.after_a_failed_start(options); };
   BackgroundText hint;
   Run run(display);
   run.follow(
       command, kSlowStart,
       [&](Child&) {
-        display.tell("no node has answered for " + std::to_string(kSlowStart.count()) + " seconds");
+        display.print("no node has answered for " + std::to_string(kSlowStart.count()) + " seconds");
         hint.begin([ask = adviser.while_it_starts, options] { return ask(options); });
       },
       [&] {
-        if (const std::string text = hint.take(); !text.empty()) display.tell(text);
+        if (const std::string text = hint.take(); !text.empty()) display.print(text);
       });
   display.settle();
   if (!run.well()) {
@@ -144,7 +144,7 @@ void launch_render(RenderOptions options, const std::filesystem::path& self, con
     if (!options.folder.empty()) clear_ended_runs(options.folder);
     throw failure;
   }
-  display.tell(done_text(run.done()));
+  display.print(done_text(run.done()));
 }
 
 Trial try_start(RenderOptions options, const std::filesystem::path& self) {

@@ -8,7 +8,7 @@
 namespace mars::host {
 namespace {
 
-constexpr const char* kNoRoom = "the allocation has no room for the host and so many nodes";
+constexpr const char* kTooFewSlots = "the allocation has too few slots for the host and the nodes";
 constexpr const char* kAskForMore = "use fewer --nodes, or ask for one task more than nodes";
 constexpr const char* kWrongMpi = "this mpirun is not of the MPI that MARS was built with";
 constexpr const char* kOneMpi =
@@ -20,8 +20,8 @@ constexpr const char* kOpenPorts =
     "OMPI_MCA_oob_tcp_if_include=eth0";
 
 constexpr std::array kTable = {
-    MpiWords{"not enough slots available", kNoRoom, kAskForMore},
-    MpiWords{"are already filled", kNoRoom, kAskForMore},
+    MpiWords{"not enough slots available", kTooFewSlots, kAskForMore},
+    MpiWords{"are already filled", kTooFewSlots, kAskForMore},
     MpiWords{"detected an attempt to run as root", "Open MPI does not start as root",
              "use another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"},
     MpiWords{"error while loading shared libraries", "a machine lacks a library that MARS was built with",
@@ -36,7 +36,7 @@ constexpr std::array kTable = {
     MpiWords{"orte_session_dir failed", "Open MPI cannot write its temporary files",
              "set TMPDIR to a folder on a local disk that you may write, on every machine"},
     MpiWords{"Too many open files", "mpirun or a node may not open as many files as it must", "ulimit -n 1024"},
-    MpiWords{"No space left on device", "a disk is full", "empty it, or set TMPDIR to a folder that has room"},
+    MpiWords{"No space left on device", "a disk is full", "empty it, or set TMPDIR to a folder with free space"},
     MpiWords{"listener thread failed to start", "Open MPI finds no address 127.0.0.1 on this machine",
              "ip link set lo up gives it, or use --backend threads"},
     MpiWords{"plm_rsh_agent", "there is neither ssh nor rsh to reach the other machines with",
@@ -50,7 +50,7 @@ constexpr std::array kTable = {
     MpiWords{"unexpectedly failed after launch", "Open MPI's daemon on another machine cannot reach this one",
              kOpenPorts},
     MpiWords{"lost communication with a remote daemon", "a machine was lost",
-             "see whether it still runs; mars render goes on with --frames for what is missing"},
+             "check whether it still runs; render the missing frames with --frames"},
     MpiWords{"unable to complete a TCP connection", "two machines cannot reach each other",
              kOpenPorts},
     MpiWords{"Read -1, expected", "the system forbids processes to copy from each other's memory",

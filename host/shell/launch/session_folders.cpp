@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,7 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "host/shell/launch/environment.h"
+#include "host/child/environment.h"
+#include "host/child/process.h"
 
 namespace mars::host {
 namespace {
@@ -98,24 +98,17 @@ std::optional<SessionFolders::Folder> SessionFolders::make_in(const fs::path& ba
   return std::nullopt;
 }
 
-// It is nobody's child and has nothing open, so that nobody waits for it.
+// Its locks are closed with all it had open, or it would wait for itself.
 void SessionFolders::leave_to_another() const {
   if (folders_.empty()) return;
-  const pid_t child = fork();
-  if (child > 0) waitpid(child, nullptr, 0);
-  if (child != 0) return;
-  if (fork() != 0) _exit(0);
-  setsid();
-  for (const Folder& folder : folders_) close(folder.lock());  // or it waits for itself
-  closefrom(0);
-  if (chdir("/") != 0) _exit(1);
-  for (const Folder& folder : folders_) {
-    const int ended = open_folder(folder.path(), 0);
-    if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
-    std::error_code ignored;
-    fs::remove_all(folder.path(), ignored);
-  }
-  _exit(0);
+  run_detached([this] {
+    for (const Folder& folder : folders_) {
+      const int ended = open_folder(folder.path(), 0);
+      if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
+      std::error_code ignored;
+      fs::remove_all(folder.path(), ignored);
+    }
+  });
 }
 
 }  // namespace mars::host

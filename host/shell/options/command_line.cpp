@@ -92,11 +92,11 @@ class Help : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string text = option->get_description();
     const std::size_t example = text.find("Example: ");
-    if (example == std::string::npos) return wrapped(text, 0, room());
-    return wrapped(text.substr(0, example), 0, room()) + "\n" + wrapped(text.substr(example), 0, room());
+    if (example == std::string::npos) return wrapped(text, 0, text_columns());
+    return wrapped(text.substr(0, example), 0, text_columns()) + "\n" + wrapped(text.substr(example), 0, text_columns());
   }
 
-  // "X Y Z" tells by itself how many words follow.
+  // "X Y Z" shows how many words follow.
   std::string make_option_opts(const CLI::Option* option) const override {
     const std::string type = option->get_type_name();
     return type.find(' ') == std::string::npos ? Formatter::make_option_opts(option) : " " + type;
@@ -104,13 +104,13 @@ class Help : public CLI::Formatter {
 
   std::string make_subcommand(const CLI::App* command) const override {
     std::ostringstream line;
-    CLI::detail::format_help(line, command->get_name(), wrapped(command->get_description(), 0, room()),
+    CLI::detail::format_help(line, command->get_name(), wrapped(command->get_description(), 0, text_columns()),
                              column_width_);
     return line.str();
   }
 
  private:
-  std::size_t room() const { return kColumns - column_width_; }
+  std::size_t text_columns() const { return kColumns - column_width_; }
 };
 
 std::vector<std::string> commands_of(const CLI::App& app) {
@@ -184,7 +184,7 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
     std::cout << app.help();
     return 0;
   } catch (const CLI::ParseError& error) {
-    // A word that is not known is told first: what is missing may be what it was meant for.
+    // An unknown word is reported first: what is missing may be what it was meant for.
     const bool misfits =
         dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
     if (misfits && app.remaining_size(true) > 0) {

@@ -1,5 +1,5 @@
 // How every program of MARS reads its command line and ends: 0 all went well, 1 something failed, 2 the
-// command line itself is wrong (told with what to type instead).
+// command line itself is wrong (reported with what to type instead).
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace mars::host {
 inline constexpr int kFailed = 1;
 inline constexpr int kUsage = 2;
 
-// None: go on. Otherwise the exit code, everything already told (0 after --help, --version and --list-options, and
+// None: go on. Otherwise the exit code, everything already printed (0 after --help, --version and --list-options, and
 // after a command that only holds others: `mars model` prints its help).
 // --list-options is for manuals and completion (cluster/install/): lines of fields between tabs, none of them empty:
 //   command   NAME     PURPOSE                    the program and its commands: mars, mars model, mars model show

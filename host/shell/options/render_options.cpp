@@ -1,12 +1,13 @@
 #include "host/shell/options/render_options.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
+#include <algorithm>
 #include <functional>
 #include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
 
@@ -37,25 +38,15 @@ constexpr std::array kWords<node::Mapping>{"greedy", "optimal"};
 template <typename Enumeration>
 requires std::is_enum_v<Enumeration>
 void read(const std::string& text, Enumeration& value) {
-  std::string words;
-  for (std::size_t i = 0; i < kWords<Enumeration>.size(); ++i) {
-    if (text == kWords<Enumeration>[i]) {
-      value = static_cast<Enumeration>(i);
-      return;
-    }
-    words += (words.empty() ? "" : " or ") + std::string(kWords<Enumeration>[i]);
-  }
-  throw Failure("'" + text + "' is not " + words, "", "");
+  const auto& words = kWords<Enumeration>;
+  const auto found = std::find(words.begin(), words.end(), text);
+  if (found == words.end()) throw Failure("'" + text + "' is not " + joined(words, " or "), "", "");
+  value = static_cast<Enumeration>(found - words.begin());
 }
 
 void read(const std::string& text, std::string& value) { value = text; }
 
 void read(const std::string& text, FrameSet& value) { value = FrameSet(text); }
-
-bool read_number(std::string_view text, std::uint32_t& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 void read(const std::string& text, std::optional<PictureSize>& value) { value = read_picture_size(text); }
 
@@ -70,7 +61,10 @@ void read_count(const std::string& text, const Count& count, RenderOptions& opti
   std::uint32_t& value = options.*count.member;
   if (count.may_be_auto && text == "auto") {
     value = 0;
-  } else if (!read_number(text, value) || value < 1 || value > count.most) {
+    return;
+  }
+  value = number_in<std::uint32_t>(text).value_or(0);
+  if (value < 1 || value > count.most) {
     throw Failure("'" + text + "' is not a number from 1 to " + std::to_string(count.most) +
                       (count.may_be_auto ? " or auto" : ""),
                   "", "");
@@ -90,7 +84,7 @@ std::string text_of(const std::optional<PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
 
-// A command line that makes no sense is the person's own mistake: told with what it concerns, exit code 2.
+// A command line that makes no sense is a usage error: it names what it concerns, exit code 2.
 template <typename Check>
 void as_usage(const std::string& name, Check check) {
   try {
@@ -173,39 +167,39 @@ std::vector<Entry> table() {
   return {
       film(compiles),
       option(all, "-o,--output", "DIR", &RenderOptions::folder,
-             "Folder for the frames; made where it is missing. Example: -o build/demo"),
+             "Folder for the frames; created if it is missing. Example: -o build/demo"),
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
-             "Nodes that render; default: one a processor, or what a batch job or hostfile has room for beside the "
-             "host. Example: --nodes 4"),
+             "Nodes that render; default: one per processor, or the slots of the batch job or hostfile less one "
+             "for the host. Example: --nodes 4"),
       option(person, "--backend", "auto|mpi|threads", &RenderOptions::backend,
-             "What carries messages: MPI processes, or threads of one process; auto takes MPI where it is "
+             "MPI processes, or threads of one process; auto uses MPI where it is "
              "installed. Example: --backend threads"),
       option(person, "--hostfile", "FILE", &RenderOptions::hostfile,
-             "Machines to use: a line each, as for mpirun: n1 slots=4. Example: --hostfile hosts"),
+             "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(all, "--frames", "SET", &RenderOptions::frames,
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
       option(compiles, "--size", "WxH", &RenderOptions::size,
-             "Picture size in pixels instead of the film's. Example: --size 960x540"),
+             "Picture size in pixels; default: the film's. Example: --size 960x540"),
       option(all, "--mapping", "greedy|optimal", &RenderOptions::mapping,
-             "How scanlines are divided over nodes: the thesis's heuristic or the exact optimum. "
+             "How scanlines are divided among nodes: the thesis's heuristic or the exact optimum. "
              "Example: --mapping optimal"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
              "Example: --intervals keyframes"),
       flag(all, "--no-coherence", &RenderOptions::no_coherence,
-           "Render every frame from scratch; same pictures, slower. Example: --no-coherence"),
+           "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
       number(all, "--block", {&RenderOptions::block, false, node::kMaxSide},
-             "Side of the compositor's blocks in pixels; same pictures. Example: --block 32"),
+             "Side of the compositor's blocks in pixels: same pictures. Example: --block 32"),
       number(
           all, "--groups", {&RenderOptions::groups, true, many},
-          "Intervals rendered at a time, each by a part of the nodes; 1 is the thesis. Example: --groups 1"),
+          "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: --groups 1"),
       option(all, "--sink", "png|none", &RenderOptions::sink,
-             "Where frames go; none writes nothing, to measure rendering. Example: --sink none"),
+             "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
       option(all, "--trace", "FILE", &RenderOptions::trace,
-             "Write who did what when, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
-      flag(person, "-q,--quiet", &RenderOptions::quiet, "Tell only what went wrong. Example: --quiet"),
+             "Write a timeline of all ranks, for ui.perfetto.dev or chrome://tracing. Example: --trace trace.json"),
+      flag(person, "-q,--quiet", &RenderOptions::quiet, "Print only errors. Example: --quiet"),
   };
 }
 
@@ -213,7 +207,7 @@ bool takes(Program program, const Entry& entry) {
   return (entry.programs & static_cast<unsigned>(program)) != 0;
 }
 
-// What no single option can tell.
+// What no single option can check.
 void check_together(const RenderOptions& options) {
   if (options.folder.empty() && options.sink == SinkKind::png) {
     throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
@@ -227,27 +221,13 @@ void check_together(const RenderOptions& options) {
 
 std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
 
-PictureSize read_picture_size(const std::string& text) {
-  const std::size_t cross = std::min(text.find('x'), text.size());
-  PictureSize size{};
-  const bool numbers = cross < text.size() &&
-                       read_number(std::string_view(text).substr(0, cross), size.width) &&
-                       read_number(std::string_view(text).substr(cross + 1), size.height);
-  if (!numbers) throw Failure("'" + text + "' is not a size", "", "write width and height like 960x540");
-  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > node::kMaxSide) {
-    throw Failure(
-        "'" + text + "' is not between 1x1 and " + std::to_string(node::kMaxSide) + " pixels a side", "", "");
-  }
-  return size;
-}
-
 void add_render_options(CLI::App& app, RenderOptions& options, Program program) {
   for (const Entry& entry : table()) {
     if (takes(program, entry)) entry.add(app, options);
   }
   if (program == Program::compile) return;
   app.parse_complete_callback([&app, &options] {
-    if (app.remaining_size() > 0) return;  // what it does not know is told first
+    if (app.remaining_size() > 0) return;  // unknown words are reported first
     as_usage(app.get_name(), [&] { check_together(options); });
   });
 }

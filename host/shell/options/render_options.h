@@ -1,4 +1,4 @@
-// What a person may ask of a rendering, told in the same words by every program that renders: `mars render`,
+// What a person may ask of a rendering, in the same words for every program that renders: `mars render`,
 // and the programs it starts or a person starts instead. One table holds every option's name, help, programs
 // and both directions: from a command line and to the command line of the program started next.
 #pragma once
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/content/film/frame_set.h"
+#include "host/images/picture_size.h"
 #include "node/wire/protocol.h"
 
 namespace CLI {
@@ -24,16 +25,6 @@ enum class Backend { automatic, mpi, threads };
 enum class Intervals { automatic, keyframes };
 enum class SinkKind { png, none };
 
-struct PictureSize {
-  std::uint32_t width;  // pixels, 1..node::kMaxSide
-  std::uint32_t height;
-
-  bool operator==(const PictureSize&) const = default;
-};
-
-// From "960x540". Throws Failure where that is no size.
-PictureSize read_picture_size(const std::string& text);
-
 struct RenderOptions {
   std::string film;         // FILM.json or FILM.mars
   std::string folder;       // for the frames; "" only without a sink
@@ -46,7 +37,7 @@ struct RenderOptions {
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
-  std::uint32_t groups = 0;    // intervals rendered at a time; 0: as many as pay
+  std::uint32_t groups = 0;    // intervals rendered at a time; 0: chosen by the schedule
   SinkKind sink = SinkKind::png;
   std::string report;  // file for the measurements; "": none
   std::string trace;   // file for a picture of the run; "": none

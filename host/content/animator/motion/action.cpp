@@ -1,10 +1,6 @@
 #include "host/content/animator/motion/action.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <set>
-#include <sstream>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/gesture.h"
@@ -20,10 +16,10 @@ constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
 
 constexpr Parameter kWalk[] = {
     {"steps", "N",
-     "so many steps, and one that brings the feet together; default: 4, or as many as the way needs", "6"},
-    {"distance", "D", "so far; default: as far as the steps go", "3.5"},
-    {"to", "X Y", "to a place of the floor; the figure turns to it first", "2 -1"},
-    {"turn", "DEGREES", "along a bow that turns so far, to the left; default: straight on", "90"},
+     "number of steps, without the last that brings the feet together; default: 4, or as the distance needs", "6"},
+    {"distance", "D", "length of the way; default: from the number of steps", "3.5"},
+    {"to", "X Y", "a place on the floor; the figure turns to it first", "2 -1"},
+    {"turn", "DEGREES", "walk a bow of this angle to the left; default: straight on", "90"},
     {"step-length", "D", "default: 0.62 of the leg", "0.7"},
     kPace,
     {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right",
@@ -36,8 +32,8 @@ constexpr Parameter kTurn[] = {{"by", "DEGREES", "to the left; default: 90", "-9
                                {"to", "X Y", "to face a place of the floor", "2 -1"},
                                kPace};
 constexpr Parameter kSit[] = {
-    {"seat-height", "H", "of the seat over the floor; default: so that the thighs are level", "0.45"},
-    {"back", "D", "how far behind the feet the hips go; default: so that the shins stand upright", "0.4"},
+    {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
+    {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
     {"seconds", "S", "default: 1.6", "2"}};
 constexpr Parameter kStand[] = {{"seconds", "S", "default: 1.6", "2"}};
 constexpr Parameter kNod[] = {{"times", "N", "default: 2", "3"},
@@ -101,65 +97,6 @@ std::size_t Parameter::count() const {
   return 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
 }
 
-void Wishes::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
-  throw Failure("'" + std::string(name) + "' " + what, where_, remedy);
-}
-
-double Wishes::parsed(std::string_view name, const std::string& text, Range range) const {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
-  if (value < range.lowest || value > range.highest)
-    refuse(name, "is " + text, "give a number from " + shown(range.lowest) + " to " + shown(range.highest));
-  return value;
-}
-
-std::optional<double> Wishes::number(std::string_view name, Range range) const {
-  const auto found = values_.find(std::string(name));
-  if (found == values_.end()) return std::nullopt;
-  return parsed(name, found->second.at(0), range);
-}
-
-double Wishes::number(std::string_view name, double otherwise, Range range) const {
-  return number(name, range).value_or(otherwise);
-}
-
-std::uint32_t Wishes::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
-  const double value = number(name, otherwise, {1, double(highest)});
-  if (value != std::floor(value)) refuse(name, "is " + shown(value), "give a whole number");
-  return static_cast<std::uint32_t>(value);
-}
-
-std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
-  const auto found = values_.find(std::string(name));
-  if (found == values_.end()) return std::nullopt;
-  glm::dvec3 vector(0);
-  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i)
-    vector[int(i)] = parsed(name, found->second[i], {});
-  return vector;
-}
-
-std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
-                           std::span<const std::string_view> choices) const {
-  const auto found = values_.find(std::string(name));
-  if (found == values_.end()) return otherwise;
-  const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
-  if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
-  std::string all;
-  for (const std::string_view each : choices) all += (all.empty() ? "" : ", ") + std::string(each);
-  refuse(name, "is '" + found->second.at(0) + "'",
-         did_you_mean(found->second.at(0), choices, "one of " + all));
-}
-
-std::uint32_t Scene::last_after(double frames) const {
-  const double last = at + std::ceil(frames);
-  if (last < node::kMostFrames) return static_cast<std::uint32_t>(last);
-  throw Failure("would end at frame " + shown(last), who(),
-                "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) +
-                    " frames");
-}
-
 std::span<const Action> actions() { return kActions; }
 
 const Action* find_action(std::string_view name) {
@@ -184,7 +121,7 @@ Performed perform(Json& json, const std::filesystem::path& path, const std::stri
   const ActorKey driven = all_of(motion.keys);
   clear_keys(json, name, scene.at + 1, driven.place ? node::kMostFrames : motion.last, driven);
   put_keys(json, name, motion.keys);
-  return {scene.at, motion.last, motion.told};
+  return {scene.at, motion.last, motion.report};
 }
 
 }  // namespace mars::host

@@ -97,7 +97,7 @@ glm::dmat3 nearly_square(const glm::dmat3& axes) {
                 "add it to the model's limbs: docs/model-format.md");
 }
 
-// The axes of a figure follow from where its hips and left ankle are, which must tell them.
+// The axes of a figure follow from where its hips and left ankle are, which must determine them.
 void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips, const std::array<glm::dvec3, 2>& ankles) {
   const auto fail = [&](const std::string& problem) {
     throw Failure(problem, "actor '" + actor + "'",

@@ -1,4 +1,4 @@
-// Smooth curves through points: Hermite's cubics.
+// Smooth curves: through points by Hermite's cubics, and from 0 to 1.
 #pragma once
 
 #include <algorithm>
@@ -28,6 +28,12 @@ inline double curve_through(std::span<const CurvePoint> points, double first_slo
   const auto end = std::lower_bound(points.begin() + 1, points.end() - 1, x, ends_before);
   const auto i = static_cast<std::size_t>(end - points.begin()) - 1;
   return hermite(points[i], points[i + 1], slope(i), slope(i + 1), x);
+}
+
+// From 0 to 1 as x goes from `from` to `to`, starting and ending slowly.
+inline double smooth(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return (3 - 2 * t) * t * t;
 }
 
 }  // namespace mars::host

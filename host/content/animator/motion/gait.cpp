@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 #include <optional>
 
 #include "hal/failure/failure.h"
@@ -142,7 +143,7 @@ class Walker {
     foot.bent = off.bent == 0 ? 0 : -curve_through(kBends, 0, 0, u) * off.bent / kOff;
     foot.stands = false;
     const glm::dvec2 forward = ahead(foot.heading);
-    const double aside = sign_of(side) * round_about(side) * std::sin(M_PI * u);
+    const double aside = sign_of(side) * round_about(side) * std::sin(std::numbers::pi * u);
     foot.ankle += glm::dvec3(-forward.y * aside, forward.x * aside, 0);
     foot.ankle.z =
         floor_ +
@@ -202,7 +203,7 @@ class Walker {
     Stance stance;
     const double full = fullness(time), leg = body_.leg_length(), p = phase(time);
     const double swing = full * std::min(gait_.stride / kStride, 1.2);
-    const auto wave = [&](double at, double times = 1) { return std::cos(2 * M_PI * times * (p - at)); };
+    const auto wave = [&](double at, double times = 1) { return std::cos(2 * std::numbers::pi * times * (p - at)); };
     const double loose = body_.planar() || body_.stiff() ? 0 : 1;  // a figure that cannot sway does not
     move_along(time, stance);
     const double settle = smooth(0, gait_.steps.front().land, time);
@@ -230,7 +231,7 @@ class Walker {
     const auto step = std::upper_bound(gait_.steps.begin(), gait_.steps.end(), time, down);
     if (step == gait_.steps.end() || time <= step->off) return 0;
     const double u = (time - step->off) / (step->land - step->off);
-    return sign_of(step->side) * glm::degrees(std::asin(roll(step->side))) * std::sin(M_PI * u);
+    return sign_of(step->side) * glm::degrees(std::asin(roll(step->side))) * std::sin(std::numbers::pi * u);
   }
 
   double roll(Side side) const {  // its sine
@@ -256,7 +257,7 @@ class Walker {
   }
 
   void add_trunk(Stance& stance, double p, double swing, double lean) const {
-    const auto wave = [&](double at, double times = 1) { return std::cos(2 * M_PI * times * (p - at)); };
+    const auto wave = [&](double at, double times = 1) { return std::cos(2 * std::numbers::pi * times * (p - at)); };
     const auto add = [&](Trunk part, const glm::dvec3& swung, double share) {
       if (const std::size_t joint = body_.find(part); joint != kNone)
         stance.turns[joint] = canonical_turn(swing * swung + glm::dvec3(0, share * lean, 0));
@@ -270,7 +271,7 @@ class Walker {
   void add_arm(Stance& stance, Side side, double p, double swing) const {
     const double own = side == Side::left ? p : p + 0.5, s = sign_of(side),
                  much = swing * gait_.style.arm_swing;
-    const auto wave = [&](double late) { return std::cos(2 * M_PI * (own - late)); };
+    const auto wave = [&](double late) { return std::cos(2 * std::numbers::pi * (own - late)); };
     if (const std::size_t joint = body_.find(Limb::shoulder, side); joint != kNone)
       stance.turns[joint] = hanging_shoulder(
           body_, side, {s * (8 + 1.5 * much * wave(0.5)), -3 * swing + 21 * much * wave(0.02), s * -12});
@@ -320,11 +321,6 @@ void lower_smoothly(std::vector<double>& high, const Gait& gait) {
 }
 
 }  // namespace
-
-double smooth(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return (3 - 2 * t) * t * t;
-}
 
 double swing_share(const Body& body) { return body.stiff() ? 1.0 : 5.0 / 6; }
 

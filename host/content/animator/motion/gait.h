@@ -61,7 +61,4 @@ double swing_share(const Body& body);
 // How a body stands at ease: arms hanging, trunk upright.
 std::map<std::size_t, glm::dmat3> at_ease(const Body& body);
 
-// From 0 to 1 as x goes from `from` to `to`, starting and ending slowly.
-double smooth(double from, double to, double x);
-
 }  // namespace mars::host

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/motion/curve.h"
 #include "host/content/animator/motion/gait.h"
 #include "host/content/animator/motion/glide.h"
 #include "host/content/animator/motion/reach.h"

@@ -1,7 +1,7 @@
 // Gestures: what a figure does with its head or an arm where it stands or sits.
 #pragma once
 
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/scene.h"
 
 namespace mars::host {
 

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "host/content/animator/angles.h"
+#include "host/content/animator/motion/curve.h"
 #include "host/content/animator/motion/gait.h"
 
 namespace mars::host {

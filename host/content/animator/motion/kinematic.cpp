@@ -126,7 +126,7 @@ Motion bounce(const Scene& scene) {
   const double rest = slides ? flight.rest() + 1 : flight.rest();
   Motion motion = flown(scene, flight, wishes.number("seconds", std::min(rest, kLongest), {0.001, kLongest}));
   const auto hundredths = [](double value) { return shown(std::round(value * 100) / 100); };
-  motion.told = "first on the floor after " + hundredths(flight.arcs()[1].time) + " s, " +
+  motion.report = "first on the floor after " + hundredths(flight.arcs()[1].time) + " s, " +
                 (slides ? "bounces for " : "at rest after ") + hundredths(flight.rest()) + " s";
   return motion;
 }

@@ -2,7 +2,7 @@
 // straight.
 #pragma once
 
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/scene.h"
 
 namespace mars::host {
 

@@ -76,12 +76,12 @@ class Player {
     if (!line.empty()) line.refuse("goes on after cut", "a camera's cut is: camera cut eye X Y Z");
     film_["frames"] = at;
     played_.cut = true;
-    played_.told.push_back(line.where() + ": the film has " + std::to_string(at) + " frames");
+    played_.report.push_back(line.where() + ": the film has " + std::to_string(at) + " frames");
   }
 
   std::uint32_t start(ScriptLine& line, const std::string& who, std::uint32_t at) {
     if (!is_actor(who))
-      line.refuse("names '" + who + "', who is no actor of the film",
+      line.refuse("names '" + who + "', which is no actor of the film",
                   did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()),
                                "name an actor, or camera"));
     const std::string verb = line.take("an action");
@@ -94,8 +94,8 @@ class Player {
     const Wishes wishes(take_values(line, *action, at), line.where() + ": " + verb);
     if (begun_.insert(who).second) clear_after(who, at);
     const Performed done = in_line(line, [&] { return perform(film_, path_, who, *action, at, wishes); });
-    played_.told.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) +
-                           " to " + std::to_string(done.last) + (done.told.empty() ? "" : ": " + done.told));
+    played_.report.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) +
+                           " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
     return done.last;
   }
 
@@ -166,7 +166,7 @@ class Player {
       pose(film_, meaning_of(film_, path_), kCamera, wishes, end, kLinear, Beyond::refused);
       return meaning_of(film_, path_).frames;
     });
-    played_.told.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));
+    played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));
     return end;
   }
 
@@ -202,7 +202,7 @@ class Player {
     camera["keys"] = left;
   }
 
-  // Failures of an action are told with the line that wanted it.
+  // Failures of an action name the line that wanted it.
   template <typename Do>
   auto in_line(const ScriptLine& line, Do act) -> decltype(act()) {
     try {

@@ -13,7 +13,7 @@ namespace mars::host {
 struct Played {
   std::uint32_t last = 0;         // frame at which the last action ends
   bool cut = false;               // whether it said itself where the film ends
-  std::vector<std::string> told;  // a line for each action: "play.script:4: anna walk, frames 10 to 82"
+  std::vector<std::string> report;  // a line for each action: "play.script:4: anna walk, frames 10 to 82"
 };
 
 // Changes the film, or throws with the script's file and line; the film is then as it was. `path` is the

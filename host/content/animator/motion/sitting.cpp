@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/motion/curve.h"
 #include "host/content/animator/motion/gait.h"
 #include "host/content/animator/motion/glide.h"
 #include "host/content/animator/motion/reach.h"
@@ -221,9 +222,9 @@ Motion sit(const Scene& scene) {
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
       chair.with_hands_on_thighs(pelvis));
-  const auto told = [](double value) { return shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
-  motion.told = "sits at " + told(pelvis.x) + " " + told(pelvis.y) + ", on a seat of height " +
-                told(hips - soft - chair.floor());
+  const auto rounded_text = [](double value) { return shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
+  motion.report = "sits at " + rounded_text(pelvis.x) + " " + rounded_text(pelvis.y) + ", on a seat of height " +
+                rounded_text(hips - soft - chair.floor());
   return motion;
 }
 

@@ -1,7 +1,7 @@
 // Sitting down on a seat and standing up again; feet stay where they are.
 #pragma once
 
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/scene.h"
 
 namespace mars::host {
 

@@ -90,7 +90,7 @@ int twist_axis(const Body& body, const Joint& joint) {
 }
 
 // How far a joint twists to either side, degrees.
-double twist_room(const Body& body, const Joint& joint) {
+double twist_limit(const Body& body, const Joint& joint) {
   const Limits& limits = joint.limits[twist_axis(body, joint)];
   return std::max(0.0, std::min(-limits.lower, limits.upper));
 }
@@ -162,7 +162,7 @@ class LegReach {
     }
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
     const glm::dmat3 is = body_.turn_of(posture_, leg_.ankle);
-    const bool twists = twist_room(body_, body_.model->joints[leg_.ankle]) > 0;
+    const bool twists = twist_limit(body_, body_.model->joints[leg_.ankle]) > 0;
     const double tilted = glm::degrees(std::acos(std::min(1.0, glm::dot(is[2], wanted[2]))));
     const double off = glm::degrees(turn_between(is, wanted).angle);
     if (tilted > kFlatEnough || off > std::max(kFlatEnough, twists ? 0 : foot_.askew)) {
@@ -182,8 +182,8 @@ class LegReach {
     leg.push_back(leg_.knee);
     // What the foot points beside the knee, the ankle twists.
     const double aside = std::remainder(foot_.heading - stance_.heading - stance_.tilt.z, 360.0);
-    const double room = twist_room(body_, body_.model->joints[leg_.ankle]);
-    const double knees = foot_.heading - std::clamp((1 - kKneeShare) * aside, -room, room);
+    const double limit_of_twist = twist_limit(body_, body_.model->joints[leg_.ankle]);
+    const double knees = foot_.heading - std::clamp((1 - kKneeShare) * aside, -limit_of_twist, limit_of_twist);
     goals.push_back({.joint = leg_.knee,
                      .turn_weight = kKneeWeight * leg_.length(),
                      .direction = hinge.direction,

@@ -1,7 +1,7 @@
 // Walking and turning (thesis 3.2.2, 3.2.4): plans of steps for a gait.
 #pragma once
 
-#include "host/content/animator/motion/action.h"
+#include "host/content/animator/motion/scene.h"
 
 namespace mars::host {
 

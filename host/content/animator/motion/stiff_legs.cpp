@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "host/content/animator/motion/gait.h"
+#include "host/content/animator/motion/curve.h"
 
 namespace mars::host {
 namespace {

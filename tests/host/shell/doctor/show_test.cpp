@@ -72,8 +72,8 @@ TEST(Text, FitsATerminal) {
 
 TEST(Text, AdviceIsOnlyOfTroubles) {
   EXPECT_EQ(short_text(std::vector<Finding>{kGood, kOther, kSmall}),
-            "/dev/shm: 64 MiB (enlarge it)\nmars doctor tells more");
-  EXPECT_EQ(short_text({}), "mars doctor tells more");
+            "/dev/shm: 64 MiB (enlarge it)\nfor more run mars doctor");
+  EXPECT_EQ(short_text({}), "for more run mars doctor");
 }
 
 TEST(Placement, TellsCoresAndWhatTheyShare) {

@@ -56,7 +56,7 @@ TEST(Diagnosis, OfALostMachine) {
   EXPECT_EQ(message(failed_with({"ORTE has lost communication with a remote daemon.", "",
                                  "  HNP daemon   : [[6456,0],0] on node n1",
                                  "  Remote daemon: [[6456,0],2] on node n3"})),
-            "machine n3: nothing is heard of it any more (see whether it still runs and can be reached; "
+            "machine n3: does not answer any more (see whether it still runs and can be reached; "
             "--frames renders what is missing)");
 }
 
@@ -66,11 +66,11 @@ TEST(Diagnosis, OfAMachineWhoseDaemonEndsFirst) {
                                  "  Message:    connect() to 127.0.0.1:1028 failed"});
   EXPECT_TRUE(holds(message(remains), "cannot start on another machine")) << "nothing had booted";
   remains.booted = Booted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n4", 2, "", "sse2"}, {2, "n4", 3, "", "sse2"}}};
-  EXPECT_TRUE(holds(message(remains), "machine localhost: nothing is heard of it any more"));
+  EXPECT_TRUE(holds(message(remains), "machine localhost: does not answer any more"));
   remains.last_words.back() = "  Message:    connect() to n4-ib0:1028 failed";
-  EXPECT_TRUE(holds(message(remains), "machine n4-ib0: nothing is heard of it any more")) << "no address";
+  EXPECT_TRUE(holds(message(remains), "machine n4-ib0: does not answer any more")) << "no address";
   remains.last_words.pop_back();
-  EXPECT_TRUE(holds(message(remains), "machine n1 or n4: nothing is heard of it any more"));
+  EXPECT_TRUE(holds(message(remains), "machine n1 or n4: does not answer any more"));
 }
 
 // MPI may say very much in between, and in very long words.
@@ -82,7 +82,7 @@ TEST(Diagnosis, OfAnyAmountOfWords) {
     EXPECT_TRUE(holds(message(failed_with(words)), "a machine was lost"));
     std::deque<std::string> named = words;
     named.push_back("  Remote daemon: [[6456,0],2] on node n3");
-    EXPECT_TRUE(holds(message(failed_with(named)), "machine n3: nothing is heard of it any more"));
+    EXPECT_TRUE(holds(message(failed_with(named)), "machine n3: does not answer any more"));
     named.back() += long_word;
     EXPECT_LT(message(failed_with(named)).size(), 1000u);
     words.push_back("YOUR APPLICATION TERMINATED WITH THE EXIT STRING: Killed (signal 9)");

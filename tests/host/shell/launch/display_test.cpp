@@ -43,10 +43,10 @@ TEST(Display, ProgressBeforeTheFirstFrame) {
 TEST(Display, PlainLinesAreWholeAndNotTooMany) {
   std::ostringstream out;
   Display display(Display::Kind::lines, out);
-  display.tell("begin");
+  display.print("begin");
   for (int i = 0; i < 100; ++i) display.show(some_progress());
   display.settle();
-  display.tell("end");
+  display.print("end");
   EXPECT_EQ(out.str(), "begin\n" + progress_text(some_progress()) + "\nend\n");
 }
 
@@ -54,7 +54,7 @@ TEST(Display, ATerminalsLineIsWrittenOver) {
   std::ostringstream out;
   Display display(Display::Kind::terminal, out);
   display.show(some_progress());
-  display.tell("end");
+  display.print("end");
   const std::string text = out.str();
   EXPECT_EQ(text.substr(0, 4), "\r\x1b[K");
   EXPECT_TRUE(text.ends_with("\r\x1b[Kend\n"));
@@ -63,7 +63,7 @@ TEST(Display, ATerminalsLineIsWrittenOver) {
 TEST(Display, SilentIsSilent) {
   std::ostringstream out;
   Display display(Display::Kind::silent, out);
-  display.tell("begin");
+  display.print("begin");
   display.show(some_progress());
   display.settle();
   EXPECT_EQ(out.str(), "");

@@ -1,4 +1,4 @@
-#include "host/shell/launch/signal_relay.h"
+#include "host/child/signal_relay.h"
 
 #include <unistd.h>
 

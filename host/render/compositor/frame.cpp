@@ -1,4 +1,4 @@
-#include "host/images/frame.h"
+#include "host/render/compositor/frame.h"
 
 namespace mars::host {
 

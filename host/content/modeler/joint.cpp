@@ -1,4 +1,4 @@
-#include "host/content/modeler/model.h"
+#include "host/content/modeler/joint.h"
 
 #include <algorithm>
 

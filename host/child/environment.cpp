@@ -1,4 +1,4 @@
-#include "host/shell/launch/environment.h"
+#include "host/child/environment.h"
 
 #include <unistd.h>
 
@@ -32,6 +32,8 @@ Environment own_environment() {
   for (char** line = environ; line != nullptr && *line != nullptr; ++line) lines.emplace_back(*line);
   return Environment(std::move(lines));
 }
+
+std::string program_path(const Environment& environment) { return environment.value("PATH").value_or("/usr/bin:/bin"); }
 
 std::string temporary_folder(const Environment& environment) {
   for (const char* name : {"TMPDIR", "TEMP", "TMP"})

@@ -1,11 +1,11 @@
-// What exec takes for a command, and becoming it.
+// A command as exec takes it.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "host/shell/launch/command.h"
-#include "host/shell/launch/environment.h"
+#include "host/child/command.h"
+#include "host/child/environment.h"
 
 namespace mars::host {
 
@@ -16,8 +16,9 @@ class ExecArguments {
   ExecArguments(const ExecArguments&) = delete;
   ExecArguments& operator=(const ExecArguments&) = delete;
 
-  char* const* words() const { return word_pointers_.data(); }
-  char* const* environment() const { return environment_pointers_.data(); }
+  // This process becomes the program, which is looked for in the PATH where its name is no path. Returns, with errno,
+  // where it cannot. May be called after fork.
+  void execute() const;
 
  private:
   std::vector<std::string> words_;

@@ -25,6 +25,9 @@ class Environment {
 
 Environment own_environment();
 
+// The folders in which programs are looked for: PATH, or the usual ones where it is not set.
+std::string program_path(const Environment& environment);
+
 // Where temporary files go, as Open MPI looks for it; a variable that is set but empty counts as not set.
 std::string temporary_folder(const Environment& environment);
 

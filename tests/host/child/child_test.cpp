@@ -1,4 +1,4 @@
-#include "host/shell/launch/child.h"
+#include "host/child/child.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

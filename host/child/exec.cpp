@@ -1,4 +1,4 @@
-#include "host/shell/launch/exec.h"
+#include "host/child/exec.h"
 
 #include <unistd.h>
 
@@ -24,9 +24,13 @@ ExecArguments::ExecArguments(const Command& command)
       word_pointers_(pointers_to(words_)),
       environment_pointers_(environment_.pointers()) {}
 
+void ExecArguments::execute() const {
+  execvpe(word_pointers_[0], word_pointers_.data(), environment_pointers_.data());
+}
+
 void become(const Command& command, const std::string& remedy) {
   const ExecArguments arguments(command);
-  execve(arguments.words()[0], arguments.words(), arguments.environment());
+  arguments.execute();
   throw Failure(std::string("cannot be started: ") + std::strerror(errno), command.words.front(), remedy);
 }
 

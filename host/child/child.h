@@ -12,16 +12,12 @@
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "host/shell/launch/command.h"
-#include "host/shell/launch/signal_relay.h"
+#include "host/child/command.h"
+#include "host/child/descriptor.h"
+#include "host/child/process.h"
+#include "host/child/signal_relay.h"
 
 namespace mars::host {
-
-// How a program ended.
-struct Ending {
-  int code = 0;    // it gave
-  int signal = 0;  // that killed it; 0: none
-};
 
 class Child {
  public:
@@ -33,7 +29,7 @@ class Child {
 
   // Throws Failure where the program cannot be started.
   explicit Child(const Command& command);
-  ~Child();  // kills it if it still runs
+  ~Child() = default;  // kills it if it still runs
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
@@ -52,24 +48,23 @@ class Child {
 
   // A pipe's reading end and the line that is not complete yet.
   struct Stream {
-    int descriptor = -1;
+    Descriptor descriptor;
     std::string rest;
   };
 
-  void start(const Command& command, int output, int error);
   void wait_for_output();
   void take(Stream& stream, const std::function<void(const std::string&)>& listener);
   void reap();
   void notice_signals();
   void end_what_is_due();
-  bool ended() const { return status_ && !orphans_ && output_.descriptor < 0 && error_.descriptor < 0; }
+  bool ended() const { return ending_ && !orphans_ && !output_.descriptor.open() && !error_.descriptor.open(); }
 
   std::set<pid_t> strangers_;  // children of ours that were there before it
-  pid_t process_ = -1;
+  std::optional<Process> process_;
   std::optional<SignalRelay> relay_;
   Stream output_;
   Stream error_;
-  std::optional<int> status_;  // once it has ended
+  std::optional<Ending> ending_;  // once it has ended
   bool orphans_ = false;       // processes that it started may still run
   bool given_up_ = false;      // what is left does not die
   int signals_noticed_ = 0;

@@ -1,0 +1,23 @@
+#include "host/content/animator/gnuplot.h"
+
+#include "hal/failure/failure.h"
+#include "host/child/descriptor.h"
+#include "host/child/environment.h"
+#include "host/child/process.h"
+#include "host/child/programs.h"
+
+namespace mars::host {
+
+std::string draw_with_gnuplot(const std::string& script) {
+  const std::string path = program_path(own_environment());
+  if (!find_program("gnuplot", path))
+    throw Failure("is not installed", "gnuplot", "install it, on Debian with: apt install gnuplot-nox");
+  const Descriptor input = file_in_memory(script), output = file_in_memory(), errors = file_in_memory();
+  Process process(Command{{}, {"gnuplot"}},
+                  {.streams = {{0, input.number()}, {1, output.number()}, {2, errors.number()}}});
+  if (!process.wait().well())
+    throw Failure("drew nothing: " + content_of(errors).substr(0, 300), "gnuplot", "is it version 5 or newer?");
+  return content_of(output);
+}
+
+}  // namespace mars::host

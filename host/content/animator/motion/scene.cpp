@@ -1,0 +1,19 @@
+#include "host/content/animator/motion/scene.h"
+
+#include <cmath>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "node/wire/film.h"
+
+namespace mars::host {
+
+std::uint32_t Scene::last_after(double frames) const {
+  const double last = at + std::ceil(frames);
+  if (last < node::kMostFrames) return static_cast<std::uint32_t>(last);
+  throw Failure("would end at frame " + shown(last), who(),
+                "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) +
+                    " frames");
+}
+
+}  // namespace mars::host

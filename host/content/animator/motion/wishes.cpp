@@ -1,0 +1,58 @@
+#include "host/content/animator/motion/wishes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hal/failure/failure.h"
+
+namespace mars::host {
+
+void Wishes::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
+  throw Failure("'" + std::string(name) + "' " + what, where_, remedy);
+}
+
+double Wishes::parsed(std::string_view name, const std::string& text, Range range) const {
+  const double value = number_in<double>(text).value_or(NAN);
+  if (!std::isfinite(value))
+    refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
+  if (value < range.lowest || value > range.highest)
+    refuse(name, "is " + text, "give a number from " + shown(range.lowest) + " to " + shown(range.highest));
+  return value;
+}
+
+std::optional<double> Wishes::number(std::string_view name, Range range) const {
+  const auto found = values_.find(std::string(name));
+  if (found == values_.end()) return std::nullopt;
+  return parsed(name, found->second.at(0), range);
+}
+
+double Wishes::number(std::string_view name, double otherwise, Range range) const {
+  return number(name, range).value_or(otherwise);
+}
+
+std::uint32_t Wishes::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
+  const double value = number(name, otherwise, {1, double(highest)});
+  if (value != std::floor(value)) refuse(name, "is " + shown(value), "give a whole number");
+  return static_cast<std::uint32_t>(value);
+}
+
+std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
+  const auto found = values_.find(std::string(name));
+  if (found == values_.end()) return std::nullopt;
+  glm::dvec3 vector(0);
+  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i)
+    vector[int(i)] = parsed(name, found->second[i], {});
+  return vector;
+}
+
+std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
+                           std::span<const std::string_view> choices) const {
+  const auto found = values_.find(std::string(name));
+  if (found == values_.end()) return otherwise;
+  const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
+  if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
+  refuse(name, "is '" + found->second.at(0) + "'",
+         did_you_mean(found->second.at(0), choices, "one of " + joined(choices)));
+}
+
+}  // namespace mars::host

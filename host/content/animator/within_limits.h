@@ -1,0 +1,22 @@
+// Poses that a person asked for, held within the limits of joints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/content/modeler/model.h"
+
+namespace mars::host {
+
+// For the person: what was left as it is, whose ease gave way, what was clamped.
+using Remarks = std::vector<std::string>;
+
+// What may be outside the limits of joints: refused, or turned to the nearest that they allow.
+enum class Beyond { refused, clamped };
+
+// The nearest pose within the limits. If that is another than by rounding: throws, naming joint, axis, angle and range,
+// where `beyond` refuses it; else adds a remark for each such axis.
+glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
+                         Remarks& remarks);
+
+}  // namespace mars::host

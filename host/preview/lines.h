@@ -1,0 +1,15 @@
+// Lines between points, some of them marked: a wire picture of one thing in coordinates of its own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace mars::host {
+
+struct Lines {
+  std::vector<float> points;         // x, y, z of each
+  std::vector<std::uint32_t> ends;   // two points a line
+  std::uint32_t dots = 0;            // so many points, from the first, are marked: joints, control vertices
+};
+
+}  // namespace mars::host
