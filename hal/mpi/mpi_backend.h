@@ -1,6 +1,7 @@
 // Ranks as MPI processes. Messages travel as MPI messages whose tag is their type; receiving is probe, then
 // receive of just what was probed, which is safe because one thread a process makes all MPI calls. Waiting
-// never spins for long (see idle), also inside of what MPI itself would spin for.
+// never spins for long (see idle), also inside of what MPI itself would spin for. Messages that are longer than
+// MPI's counts: announcement.h.
 #pragma once
 
 #include <cstddef>
