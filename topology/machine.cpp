@@ -15,7 +15,8 @@
 namespace mars::topology {
 namespace {
 
-constexpr std::size_t kRoomToLoad = std::size_t{16} << 20;  // bytes; a machine of 256 processors takes some 2 MiB
+constexpr std::size_t kRoomToLoad = std::size_t{16}
+                                    << 20;  // bytes; a machine of 256 processors takes some 2 MiB
 
 using Bitmap = std::unique_ptr<hwloc_bitmap_s, decltype(&hwloc_bitmap_free)>;
 

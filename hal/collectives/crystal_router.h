@@ -1,7 +1,7 @@
-// Sparse all-to-all: each node of a group has messages for some others, who do not know of them. The crystal router
-// (Fox et al., Solving Problems on Concurrent Processors, 1988) sends log2 P messages a node, one across each
-// dimension, which carry all that has to cross it; sending to each node directly takes P - 1. Positions that are not
-// corners (dimension_exchange.h) hand theirs to their corner and get theirs from it.
+// Sparse all-to-all: each node of a group has messages for some others, who do not know of them. The crystal
+// router (Fox et al., Solving Problems on Concurrent Processors, 1988) sends log2 P messages a node, one
+// across each dimension, which carry all that has to cross it; sending to each node directly takes P - 1.
+// Positions that are not corners (dimension_exchange.h) hand theirs to their corner and get theirs from it.
 #pragma once
 
 #include <cstddef>
@@ -20,22 +20,26 @@ struct Parcel {
 };
 
 enum class Route {
-  automatic,  // by the number of nodes and the most bytes that one of them sends, on which they agree first: route_for
+  automatic,  // by the number of nodes and the most bytes that one of them sends, on which they agree first:
+              // route_for
   crystal,
   direct,
-  network,  // the network's own all-to-all, where the backend has one and the group is the whole machine; else direct
+  network,  // the network's own all-to-all, where the backend has one and the group is the whole machine;
+            // else direct
 };
 
-// The quicker one for so many nodes of which none sends more than `bytes`, heads included: docs/messages.md has the
-// measurements.
+// The quicker one for so many nodes of which none sends more than `bytes`, heads included: docs/messages.md
+// has the measurements.
 Route route_for(int nodes, std::size_t bytes);
 
 // Its buffers are used again by the next exchange.
 class CrystalRouter {
  public:
-  // All members of the group call, with the same route; parcels may be for the node itself, and several for one node.
-  // Returns what is for this node, by sender, and of each sender in the order given: valid until the next exchange.
-  std::span<const Parcel> exchange(const Group& group, std::span<const Parcel> parcels, Route route = Route::automatic);
+  // All members of the group call, with the same route; parcels may be for the node itself, and several for
+  // one node. Returns what is for this node, by sender, and of each sender in the order given: valid until
+  // the next exchange.
+  std::span<const Parcel> exchange(const Group& group, std::span<const Parcel> parcels,
+                                   Route route = Route::automatic);
 
  private:
   // Records one behind the other: each a head and its bytes.

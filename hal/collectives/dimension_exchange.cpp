@@ -23,7 +23,8 @@ DimensionExchange::DimensionExchange(const char* call, const Group& group)
   const int rank = backend.rank();
   if (rank == backend.host())
     process_.fail(call, kNoSuchNode, "the host takes no part in collectives", "call it on nodes only");
-  check(0 <= group.first && 0 < group.count && group.first + group.count <= backend.nodes(), "a group lies within the nodes");
+  check(0 <= group.first && 0 < group.count && group.first + group.count <= backend.nodes(),
+        "a group lies within the nodes");
   position_ = rank - group.first;
   check(0 <= position_ && position_ < group.count, "a node takes part in its own group");
   corners_ = static_cast<int>(std::bit_floor(static_cast<unsigned>(group.count)));
@@ -43,7 +44,8 @@ void DimensionExchange::receive(int from, void* data, std::size_t bytes) {
   check_came(from, process_.receive_internal(call_, group_.first + from, data, bytes), bytes);
 }
 
-void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes) {
+void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in,
+                             std::size_t in_bytes) {
   if (spoilt() || out_bytes < kLong) {
     send(with, out, out_bytes);
     receive(with, in, in_bytes);

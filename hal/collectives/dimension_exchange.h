@@ -1,7 +1,7 @@
-// One node's part in a collective by dimension exchange: the hypercube that the nodes of a group form, and the
-// messages across it. Positions are node ids less the group's first. The lowest 2^d of them are the corners; each
-// other one folds in with the corner 2^d below it. What one node finds wrong all get to know, and none is left
-// waiting: messages go on as ever, spoilt ones among them, and at the end all fail.
+// One node's part in a collective by dimension exchange: the hypercube that the nodes of a group form, and
+// the messages across it. Positions are node ids less the group's first. The lowest 2^d of them are the
+// corners; each other one folds in with the corner 2^d below it. What one node finds wrong all get to know,
+// and none is left waiting: messages go on as ever, spoilt ones among them, and at the end all fail.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class DimensionExchange {
   int position() const { return position_; }
   int count() const { return group_.count; }
   int corners() const { return corners_; }
-  bool folded() const { return position_ >= corners_; }              // has a partner below
+  bool folded() const { return position_ >= corners_; }               // has a partner below
   bool folds() const { return position_ + corners_ < group_.count; }  // has a partner above
 
   // One message of just so many bytes. A receive is there for each send, of the same length.

@@ -13,15 +13,15 @@ struct Run {
 
 }  // namespace
 
-// What a node holds at each step is the parts of an aligned run of corners, and of those folded into them: two
-// ranges of y. Runs beyond the last position are not sent.
+// What a node holds at each step is the parts of an aligned run of corners, and of those folded into them:
+// two ranges of y. Runs beyond the last position are not sent.
 void gather(DimensionExchange& exchange, void* y, const std::vector<std::size_t>& offsets) {
   const int me = exchange.position();
   const int corners = exchange.corners();
   const auto run = [&](int first, int last) {
     const int from = std::min(first, exchange.count()), to = std::min(last, exchange.count());
     return Run{static_cast<std::byte*>(y) + offsets[static_cast<std::size_t>(from)],
-                   offsets[static_cast<std::size_t>(to)] - offsets[static_cast<std::size_t>(from)]};
+               offsets[static_cast<std::size_t>(to)] - offsets[static_cast<std::size_t>(from)]};
   };
   if (exchange.folded()) {
     const Run mine = run(me, me + 1), all = run(0, exchange.count());

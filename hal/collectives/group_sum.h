@@ -1,5 +1,6 @@
-// The sums and maxima of a group of nodes. NX's own g* calls always take the whole machine; these take the group's nodes,
-// by dimension exchange over the hypercube that they form (nodes beyond the largest power of two fold in first).
+// The sums and maxima of a group of nodes. NX's own g* calls always take the whole machine; these take the
+// group's nodes, by dimension exchange over the hypercube that they form (nodes beyond the largest power of
+// two fold in first).
 #pragma once
 
 #include <span>

@@ -68,7 +68,8 @@ void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::
 
 }  // namespace
 
-bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x, std::size_t n) {
+bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x,
+                       std::size_t n) {
   Process& self = process();
   if (self.collectives() != CollectiveMethod::network || exchange.spoilt()) return false;
   return exchange.count() == self.backend().nodes() && self.reduce(reduction, x, n);

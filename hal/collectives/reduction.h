@@ -1,7 +1,7 @@
-// Element-wise operations on vectors of all nodes of a group, the result on each of them with the same bits. The
-// order, which matters to floating point: first positions p and p + 2^d where there is one, then pairs across bit
-// 0, 1, ... d - 1 of the positions, always the lower position's operand on the left. It is the same for all ways
-// that reduce knows.
+// Element-wise operations on vectors of all nodes of a group, the result on each of them with the same bits.
+// The order, which matters to floating point: first positions p and p + 2^d where there is one, then pairs
+// across bit 0, 1, ... d - 1 of the positions, always the lower position's operand on the left. It is the
+// same for all ways that reduce knows.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace mars::hal {
 
-// An operation on `n` elements: x = x op theirs, or theirs op x where mine is not first; `theirs` may be changed.
+// An operation on `n` elements: x = x op theirs, or theirs op x where mine is not first; `theirs` may be
+// changed.
 struct Operation {
   std::size_t element;  // bytes
   void (*merge)(const Operation& operation, void* x, void* theirs, std::size_t n, bool mine_first);
@@ -34,8 +35,8 @@ constexpr Operation operation{sizeof(T), merge<T, combine>};
 
 inline constexpr auto higher = [](auto a, auto b) { return a < b ? b : a; };
 
-// By the network's own means if the process's collectives are to be so, the backend has them and all nodes take part;
-// false: nothing was done. The order is then the network's.
+// By the network's own means if the process's collectives are to be so, the backend has them and all nodes
+// take part; false: nothing was done. The order is then the network's.
 bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x, std::size_t n);
 
 // `x` and `work` have `n` elements; all members call, with the same n.

@@ -8,16 +8,18 @@ namespace {
 
 // Failures are apart from the checks, which are the quicker for it.
 [[noreturn]] void fail_length(const Caller& caller, const char* call, long length) {
-  caller.fail(call, kBadLength, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+  caller.fail(call, kBadLength, "length " + std::to_string(length) + " is negative",
+              "give a length in bytes");
 }
 
 [[noreturn]] void fail_buffer(const Caller& caller, const char* call, std::size_t bytes) {
-  caller.fail(call, kNullBuffer, "the buffer of " + bytes_text(bytes) + " is a null pointer", "give a buffer, or length 0");
+  caller.fail(call, kNullBuffer, "the buffer of " + bytes_text(bytes) + " is a null pointer",
+              "give a buffer, or length 0");
 }
 
 [[noreturn]] void fail_pid(const Caller& caller, const char* call, long pid) {
   caller.fail(call, kNoSuchPid, "there is no pid " + std::to_string(pid),
-               "every node runs one process, pid 0; the host may have any");
+              "every node runs one process, pid 0; the host may have any");
 }
 
 [[noreturn]] void fail_node(const Caller& caller, const char* call, long node, const char* all) {
@@ -25,17 +27,17 @@ namespace {
                          ? ", the host is myhost()"
                          : ", and this job has no host: mars-nx run ./host ./node starts one";
   caller.fail(call, kNoSuchNode, "there is no node " + std::to_string(node),
-               "nodes are 0 to " + std::to_string(caller.backend().nodes() - 1) + host + ", -1 is " + all);
+              "nodes are 0 to " + std::to_string(caller.backend().nodes() - 1) + host + ", -1 is " + all);
 }
 
 [[noreturn]] void fail_type(const Caller& caller, const char* call, long type) {
   caller.fail(call, kBadType, "message type " + std::to_string(type) + " is reserved",
-               "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
+              "use 0 to 999999999, or 1073741824 to 1999999999 for force messages");
 }
 
 [[noreturn]] void fail_typesel(const Caller& caller, const char* call, long typesel) {
   caller.fail(call, kBadType, "typesel " + std::to_string(typesel) + " is a reserved type",
-               "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
+              "use 0 to 999999999, -1 for any, or 1073741824 to 1999999999 for force messages");
 }
 
 std::size_t check_buffer(const Caller& caller, const char* call, const void* buffer, long length) {

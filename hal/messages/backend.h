@@ -1,8 +1,8 @@
 // What carries messages: the contract that a process (process.h) asks of a backend and each folder below hal/
-// implements: mpi/, processes/, threads/; template/ is one to copy. One Backend object is one rank; all its calls
-// come from one thread. Ranks are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are 0..2^31-1
-// and lengths bytes; what types mean is not a backend's affair. Between one sender and one receiver messages
-// arrive in the order sent.
+// implements: mpi/, processes/, threads/; template/ is one to copy. One Backend object is one rank; all its
+// calls come from one thread. Ranks are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are
+// 0..2^31-1 and lengths bytes; what types mean is not a backend's affair. Between one sender and one receiver
+// messages arrive in the order sent.
 #pragma once
 
 #include <chrono>
@@ -74,22 +74,26 @@ class Backend {
   virtual void take(void* buffer) = 0;
 
   // For one who waits for a message of just this type, and for whom peek has nothing: waits some
-  // microseconds and takes it if it comes and is at most `capacity` long: true, and `came` is its envelope. Meanwhile other
-  // messages may be overtaken.
-  virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*capacity*/, Envelope& /*came*/) { return false; }
+  // microseconds and takes it if it comes and is at most `capacity` long: true, and `came` is its envelope.
+  // Meanwhile other messages may be overtaken.
+  virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*capacity*/, Envelope& /*came*/) {
+    return false;
+  }
 
-  // Collectives of all nodes by the network's own means, where it has them: done when sent(ticket). Buffers stay
-  // untouched and arrays unread by others until then. In place, element by element; and to each node a range of
-  // `out`, from each one of `in`.
-  virtual std::optional<Ticket> start_reduce(const Reduction& /*reduction*/, void* /*x*/, std::size_t /*n*/) { return {}; }
-  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const ByteRange> /*to*/, void* /*in*/,
-                                                 std::span<const ByteRange> /*from*/) {
+  // Collectives of all nodes by the network's own means, where it has them: done when sent(ticket). Buffers
+  // stay untouched and arrays unread by others until then. In place, element by element; and to each node a
+  // range of `out`, from each one of `in`.
+  virtual std::optional<Ticket> start_reduce(const Reduction& /*reduction*/, void* /*x*/, std::size_t /*n*/) {
+    return {};
+  }
+  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const ByteRange> /*to*/,
+                                                 void* /*in*/, std::span<const ByteRange> /*from*/) {
     return {};
   }
 
   // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
-  // `longest`, and no longer than until something happens where the backend can know. Who gives 5 ms or more can
-  // do nothing before a message comes: where all do, a backend may end the job.
+  // `longest`, and no longer than until something happens where the backend can know. Who gives 5 ms or more
+  // can do nothing before a message comes: where all do, a backend may end the job.
   virtual void idle(int turn, std::chrono::microseconds longest) = 0;
 
   // Since some fixed point: by the machine's clock, unless ranks live by another.

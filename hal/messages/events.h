@@ -1,5 +1,5 @@
-// The events of one process: what recorder.h records. Their memory is two halves set aside at the start: one is
-// filled, the other may be on its way to whoever collects. What does not fit is left out and counted.
+// The events of one process: what recorder.h records. Their memory is two halves set aside at the start: one
+// is filled, the other may be on its way to whoever collects. What does not fit is left out and counted.
 #pragma once
 
 #include <cstddef>
@@ -21,21 +21,21 @@ struct Event {
     lost,    // ends each half: `value` events did not fit so far; `number` is 1 in a process's last
   };
 
-  double begin;            // seconds of the process's clock, dclock()
+  double begin;  // seconds of the process's clock, dclock()
   double end;
-  std::uint64_t value;     // bytes of a message; of a span what the program likes
+  std::uint64_t value;  // bytes of a message; of a span what the program likes
   Kind kind;
-  std::int32_t what;       // message type
-  std::int32_t peer;       // rank at the other end of a message, else -1
-  std::uint32_t number;    // of a message among all from its sender to its receiver, from 0
-  std::int32_t frame;      // the program's: last given to record_frame; -1 before
+  std::int32_t what;     // message type
+  std::int32_t peer;     // rank at the other end of a message, else -1
+  std::uint32_t number;  // of a message among all from its sender to its receiver, from 0
+  std::int32_t frame;    // the program's: last given to record_frame; -1 before
   std::uint32_t reserved;
 };
 
 class EventBuffer {
  public:
-  // Halves of `capacity` events, in the time of `backend`, which outlives it; messages of `silent_type`, which carry
-  // events, are not recorded.
+  // Halves of `capacity` events, in the time of `backend`, which outlives it; messages of `silent_type`,
+  // which carry events, are not recorded.
   EventBuffer(const Backend& backend, std::size_t capacity, int silent_type);
 
   void message(Event::Kind kind, double begin, const Envelope& envelope, std::uint32_t number);

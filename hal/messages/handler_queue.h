@@ -1,6 +1,6 @@
 // The handlers (handler.h) of requests under way and done. They run inside of the process's
-// message calls (or between them, see progress_thread.h), one at a time and in the order in which the requests
-// were done: while one runs, or while they are masked, those that are due wait.
+// message calls (or between them, see progress_thread.h), one at a time and in the order in which the
+// requests were done: while one runs, or while they are masked, those that are due wait.
 #pragma once
 
 #include <cstddef>

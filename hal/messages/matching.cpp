@@ -10,9 +10,8 @@ void Matching::unpost(const Request& request) {
 }
 
 Request* Matching::posted_for(const Envelope& envelope) const {
-  const auto at = std::find_if(posted_.begin(), posted_.end(), [&](const Request* request) {
-    return request->selection.selects(envelope);
-  });
+  const auto at = std::find_if(posted_.begin(), posted_.end(),
+                               [&](const Request* request) { return request->selection.selects(envelope); });
   return at == posted_.end() ? nullptr : *at;
 }
 

@@ -1,6 +1,6 @@
 // Buffers for messages on their way, used again and again so that steady traffic allocates nothing: a
-// pool retains what it ever allocated, in classes of size 2^k, until it is destroyed. A pool, its lists and its
-// messages belong to one thread at a time.
+// pool retains what it ever allocated, in classes of size 2^k, until it is destroyed. A pool, its lists and
+// its messages belong to one thread at a time.
 #pragma once
 
 #include <array>

@@ -30,7 +30,8 @@ Request& Progress::checked(const char* call, Request* request) const {
   return *request;
 }
 
-void Progress::receive_now(const char* call, const Selection& selection, const ReceiveBuffer& into, long* info) {
+void Progress::receive_now(const char* call, const Selection& selection, const ReceiveBuffer& into,
+                           long* info) {
   attend();
   if (receive_soon(selection, into, info)) return;
   Request& request = checked(call, requests_.acquire(call));
@@ -131,9 +132,7 @@ void Progress::wait(Request& head) try {
 }
 
 // For requests that nobody knows but the call that waits: a handler that fails ends it.
-void Progress::wait_or_cancel(Request& request) try {
-  wait(request);
-} catch (...) {
+void Progress::wait_or_cancel(Request& request) try { wait(request); } catch (...) {
   if (request.state != Request::State::free) cancel(request);
   throw;
 }

@@ -1,5 +1,5 @@
-// What moves inside of one rank's message calls (process.h): requests to their end, arrived messages to where they
-// belong, handlers when they are due.
+// What moves inside of one rank's message calls (process.h): requests to their end, arrived messages to where
+// they belong, handlers when they are due.
 #pragma once
 
 #include <cstddef>
@@ -79,7 +79,7 @@ class Progress : public Caller {
   Envelope info_;
   Ledger ledger_;
   bool overtaken_ = false;  // messages may wait that came before one that was received
-  int quiet_turns_ = 0;  // flicks since anything arrived
+  int quiet_turns_ = 0;     // flicks since anything arrived
 };
 
 }  // namespace mars::hal

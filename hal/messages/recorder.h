@@ -1,6 +1,6 @@
-// Records what one process does, for pictures of a run: every message sent, taken and waited for, and spans of
-// time that the program names. While a Recorder lives, the calling thread's process (process.h) is recorded;
-// without one a message costs a branch more.
+// Records what one process does, for pictures of a run: every message sent, taken and waited for, and spans
+// of time that the program names. While a Recorder lives, the calling thread's process (process.h) is
+// recorded; without one a message costs a branch more.
 #pragma once
 
 #include <cstddef>

@@ -54,7 +54,8 @@ void Rendezvous::report_wait(const Caller& caller, const Request& request) {
   if (std::exchange(reported_, true)) return;
   const std::chrono::duration<double> silence = std::chrono::steady_clock::now() - quiet_since_;
   const std::string me = rank_name(caller.backend().rank(), caller.backend().host());
-  std::fprintf(stderr, "%s has waited %.1f s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
+  std::fprintf(stderr,
+               "%s has waited %.1f s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
                me.c_str(), silence.count(), request.call, awaited(caller, request).c_str(), kBuffered);
 }
 

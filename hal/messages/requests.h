@@ -30,12 +30,12 @@ struct Request {
 
   State state = State::free;
   int slot = 0;
-  int uses = 0;            // how often the slot was given out
-  bool has_id = false;     // a message id stands for it
-  const char* call = "";   // the NX call that made it
+  int uses = 0;             // how often the slot was given out
+  bool has_id = false;      // a message id stands for it
+  const char* call = "";    // the NX call that made it
   Request* also = nullptr;  // done only with this one, too
-  Handler handler;         // called when done
-  Envelope envelope;       // of what was received, or is too long; of a send, whose `from` is the receiver
+  Handler handler;          // called when done
+  Envelope envelope;        // of what was received, or is too long; of a send, whose `from` is the receiver
 
   Ticket ticket = 0;   // of a send under way
   int unreceived = 0;  // how many receivers have yet to say that they have it

@@ -45,7 +45,8 @@ std::uint64_t parse_memory(const std::string& name, const std::string& text) {
 
 bool parse_yes(const std::string& name, const std::string& text) {
   if (text == "yes" || text == "no") return text == "yes";
-  throw Failure("\"" + text + "\" is neither yes nor no", "environment variable " + name, "set it to yes or no, or unset it");
+  throw Failure("\"" + text + "\" is neither yes nor no", "environment variable " + name,
+                "set it to yes or no, or unset it");
 }
 
 bool parse_handlers(const std::string& text) {
@@ -101,10 +102,13 @@ std::span<const Setting> settings_table() { return kTable; }
 Settings read_settings() {
   Settings settings;
   if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory("MARS_MEMORY", text);
-  if (const char* text = std::getenv("MARS_NX_MEMORY")) settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
-  if (const char* text = std::getenv("MARS_NX_COLLECTIVES")) settings.nx_collectives = parse_collectives(text);
+  if (const char* text = std::getenv("MARS_NX_MEMORY"))
+    settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
+  if (const char* text = std::getenv("MARS_NX_COLLECTIVES"))
+    settings.nx_collectives = parse_collectives(text);
   if (const char* text = std::getenv("MARS_NX_HOST")) settings.nx_host = parse_yes("MARS_NX_HOST", text);
-  if (const char* text = std::getenv("MARS_NX_STRICT")) settings.nx_strict = parse_yes("MARS_NX_STRICT", text);
+  if (const char* text = std::getenv("MARS_NX_STRICT"))
+    settings.nx_strict = parse_yes("MARS_NX_STRICT", text);
   if (const char* text = std::getenv("MARS_NX_HANDLERS")) settings.nx_handler_thread = parse_handlers(text);
   if (const char* text = std::getenv("MARS_SIMD")) settings.simd = parse_simd(text);
   return settings;
@@ -113,7 +117,8 @@ Settings read_settings() {
 // By Open MPI, by whoever speaks PMIx (srun too), PMI-1 or PMI-2 (MPICH's).
 bool started_by_mpi() {
   const std::array names = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD"};
-  return std::any_of(names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+  return std::any_of(names.begin(), names.end(),
+                     [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 std::optional<std::string> take_place_text() {

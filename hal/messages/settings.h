@@ -22,12 +22,13 @@ std::span<const Setting> settings_table();
 
 struct Settings {
   std::optional<std::uint64_t> memory;  // bytes a node may use for one frame; none: the program decides
-  std::optional<std::uint64_t> nx_memory;  // bytes of messages under way between mars-nx's processes; none: it decides
-  std::optional<bool> nx_host;             // rank 0 of an MPI job is the host; none: its program decides
-  bool nx_strict = false;                  // long messages are not buffered (hal/messages/rendezvous.h)
+  std::optional<std::uint64_t>
+      nx_memory;                // bytes of messages under way between mars-nx's processes; none: it decides
+  std::optional<bool> nx_host;  // rank 0 of an MPI job is the host; none: its program decides
+  bool nx_strict = false;       // long messages are not buffered (hal/messages/rendezvous.h)
   CollectiveMethod nx_collectives = CollectiveMethod::automatic;
-  bool nx_handler_thread = false;          // handlers run between NX calls too (hal/nx/progress_thread.h)
-  std::string simd;                     // widest instruction set that kernels may use; "": the processor's
+  bool nx_handler_thread = false;  // handlers run between NX calls too (hal/nx/progress_thread.h)
+  std::string simd;                // widest instruction set that kernels may use; "": the processor's
 };
 
 // Throws a Failure that names the variable and what it may be.
@@ -36,8 +37,8 @@ Settings read_settings();
 // Whether an MPI's starter (mpirun, srun) made this process a rank of a job.
 bool started_by_mpi();
 
-// Takes out of the environment what the process that started this one as a rank wrote there for it (hal/processes/place.h);
-// none: nothing.
+// Takes out of the environment what the process that started this one as a rank wrote there for it
+// (hal/processes/place.h); none: nothing.
 std::optional<std::string> take_place_text();
 inline constexpr const char* kPlaceSetting = "MARS_NX_PLACE";
 

@@ -1,7 +1,7 @@
-// Messages that are longer than MPI's counts, which are ints. Such a message is two of MPI's: under its type's tag goes an
-// announcement, which says how long it is; then, under the same tag, the bytes as one element of a datatype of that size.
-// So messages of one type stay in order. An announcement is known by its length and its mark: a message that happens to
-// look like one is announced itself.
+// Messages that are longer than MPI's counts, which are ints. Such a message is two of MPI's: under its
+// type's tag goes an announcement, which says how long it is; then, under the same tag, the bytes as one
+// element of a datatype of that size. So messages of one type stay in order. An announcement is known by its
+// length and its mark: a message that happens to look like one is announced itself.
 #pragma once
 
 #include <cstddef>

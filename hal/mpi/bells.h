@@ -1,5 +1,5 @@
-// A bell for each rank of a machine, in memory that they share: who sends to a rank rings its bell, so that it
-// can sleep while nothing comes and still wake at once. MPI itself offers no way to sleep. Ranks on other
+// A bell for each rank of a machine, in memory that they share: who sends to a rank rings its bell, so that
+// it can sleep while nothing comes and still wake at once. MPI itself offers no way to sleep. Ranks on other
 // machines have none here: their messages are noticed when a sleep ends by itself. Ringing costs next to
 // nothing while nobody sleeps: a rank arms its bell, looks once more, and only then sleeps; senders only look
 // whether a bell is armed, in a line of memory that seldom changes.
@@ -23,15 +23,17 @@ class Bells {
   // All ranks are on this machine.
   bool everyone_has_one() const { return everyone_; }
   // Rank `id` is on this machine.
-  bool reaches(int id) const { return static_cast<std::size_t>(id) < of_.size() && of_[static_cast<std::size_t>(id)] != nullptr; }
+  bool reaches(int id) const {
+    return static_cast<std::size_t>(id) < of_.size() && of_[static_cast<std::size_t>(id)] != nullptr;
+  }
 
   // Wakes rank `id` if it sleeps on this machine: to be called after what it may wait for has been done.
   void ring(int id);
   // Once armed, a bell is armed until it rings.
   void arm();
   bool armed() const;
-  // Until this rank's bell rings, at most so long; not at all if it rang since it was armed. Whoever sleeps has
-  // looked since it armed the bell.
+  // Until this rank's bell rings, at most so long; not at all if it rang since it was armed. Whoever sleeps
+  // has looked since it armed the bell.
   void sleep(std::chrono::microseconds longest);
 
   // Says that this rank waits for a message of `type` and nothing else; kNothing: for none.

@@ -1,5 +1,5 @@
-// What the ranks of a job of C programs send each other beside their messages: that a node may begin, that one
-// has ended, that one is to end, and whether anything still moves when one has ended with an error.
+// What the ranks of a job of C programs send each other beside their messages: that a node may begin, that
+// one has ended, that one is to end, and whether anything still moves when one has ended with an error.
 #pragma once
 
 #include <chrono>

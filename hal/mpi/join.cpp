@@ -110,7 +110,7 @@ class MpiWorld final : public World {
   std::vector<int> rank_of_;   // by id
   std::vector<bool> started_;  // by id
   bool begun_ = false;         // this node; for the host: one at least, and no other by itself any more
-  std::optional<int> left_;  // the code with which it leaves
+  std::optional<int> left_;    // the code with which it leaves
 };
 
 void JoinedBackend::send(int to, int type, const void* data, std::size_t length) {

@@ -151,8 +151,8 @@ std::shared_ptr<std::byte> MpiBackend::share(std::size_t bytes) {
   MPI_Win window = MPI_WIN_NULL;
   void* block = nullptr;
   const bool leads = neighbourhood_.index == 0;
-  succeed(MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(whole) : 0, 1, MPI_INFO_NULL, machine_, &block,
-                                  &window),
+  succeed(MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(whole) : 0, 1, MPI_INFO_NULL, machine_,
+                                  &block, &window),
           "MPI_Win_allocate_shared");
   MPI_Aint size = 0;
   int unit = 0;

@@ -1,6 +1,7 @@
 // Ranks as MPI processes. Messages travel as MPI messages whose tag is their type; receiving is probe, then
 // receive of just what was probed, which is safe because one thread a process makes all MPI calls. Waiting
-// never spins for long (see idle), also inside of what MPI itself would spin for.
+// never spins for long (see idle), also inside of what MPI itself would spin for. Messages that are longer than
+// MPI's counts: announcement.h.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,8 @@ namespace mars::hal {
 
 class MpiBackend : public Backend {
  public:
-  // Collective over `ranks`, among which `host_rank` is the host's; -1: there is none. Nodes get their ids by place.
+  // Collective over `ranks`, among which `host_rank` is the host's; -1: there is none. Nodes get their ids by
+  // place.
   explicit MpiBackend(int host_rank, MPI_Comm ranks = MPI_COMM_WORLD);
   // Collective after an orderly finish; after a failure it leaves all to the end of the job.
   ~MpiBackend() override;
@@ -48,7 +50,8 @@ class MpiBackend : public Backend {
   // Messages that this rank has received.
   std::uint64_t taken() const { return taken_; }
 
-  // Announces messages that are longer than that, and not only those that MPI could not carry otherwise: for tests.
+  // Announces messages that are longer than that, and not only those that MPI could not carry otherwise: for
+  // tests.
   void announce_beyond(std::size_t length) { longest_plain_ = length; }
 
  private:
@@ -86,13 +89,13 @@ class MpiBackend : public Backend {
   int tag(int type) const;
   int type(int tag) const;
 
-  MPI_Comm all_;                      // its ranks are ids
+  MPI_Comm all_;                         // its ranks are ids
   MPI_Comm nodes_only_ = MPI_COMM_NULL;  // null at the host
-  MPI_Comm machine_ = MPI_COMM_NULL;  // this machine's nodes; null at the host
+  MPI_Comm machine_ = MPI_COMM_NULL;     // this machine's nodes; null at the host
   int nodes_ = 0;
-  int rank_ = 0;      // id of this rank
-  int last_tag_ = 0;  // the tags up to it are types; those of internal types come after
-  int wide_tag_ = 0;  // of messages whose type is larger than last_tag_
+  int rank_ = 0;                   // id of this rank
+  int last_tag_ = 0;               // the tags up to it are types; those of internal types come after
+  int wide_tag_ = 0;               // of messages whose type is larger than last_tag_
   std::size_t longest_plain_ = 0;  // messages that are longer are announced
   bool oversubscribed_ = false;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
@@ -103,8 +106,9 @@ class MpiBackend : public Backend {
   std::size_t next_pending_ = 0;      // to look at
   std::vector<MPI_Request> tickets_;  // by ticket
   std::vector<Ticket> free_tickets_;
-  std::vector<int> counts_;           // of an all-to-all under way: lengths to, offsets to, lengths from, offsets from
-  std::vector<std::byte> operands_;   // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
+  std::vector<int> counts_;  // of an all-to-all under way: lengths to, offsets to, lengths from, offsets from
+  std::vector<std::byte>
+      operands_;  // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
   std::optional<Envelope> peeked_;
   Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
   bool announced_ = false;     // the peeked message's bytes are still to be received

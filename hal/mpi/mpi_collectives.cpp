@@ -13,22 +13,32 @@ namespace {
 
 MPI_Datatype datatype(Reduction::Element element) {
   switch (element) {
-    case Reduction::Element::real64: return MPI_DOUBLE;
-    case Reduction::Element::real32: return MPI_FLOAT;
-    case Reduction::Element::whole: return MPI_LONG;
+    case Reduction::Element::real64:
+      return MPI_DOUBLE;
+    case Reduction::Element::real32:
+      return MPI_FLOAT;
+    case Reduction::Element::whole:
+      return MPI_LONG;
   }
   return MPI_DATATYPE_NULL;
 }
 
 MPI_Op operation(Reduction::Rule rule) {
   switch (rule) {
-    case Reduction::Rule::sum: return MPI_SUM;
-    case Reduction::Rule::product: return MPI_PROD;
-    case Reduction::Rule::high: return MPI_MAX;
-    case Reduction::Rule::low: return MPI_MIN;
-    case Reduction::Rule::bit_and: return MPI_BAND;
-    case Reduction::Rule::bit_or: return MPI_BOR;
-    case Reduction::Rule::bit_xor: return MPI_BXOR;
+    case Reduction::Rule::sum:
+      return MPI_SUM;
+    case Reduction::Rule::product:
+      return MPI_PROD;
+    case Reduction::Rule::high:
+      return MPI_MAX;
+    case Reduction::Rule::low:
+      return MPI_MIN;
+    case Reduction::Rule::bit_and:
+      return MPI_BAND;
+    case Reduction::Rule::bit_or:
+      return MPI_BOR;
+    case Reduction::Rule::bit_xor:
+      return MPI_BXOR;
   }
   return MPI_OP_NULL;
 }
@@ -54,7 +64,8 @@ std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void*
   const auto* values = static_cast<const std::byte*>(x);
   operands_.assign(values, values + n * static_cast<std::size_t>(bytes));
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Iallreduce(operands_.data(), x, static_cast<int>(n), type, operation(reduction.rule), nodes_only_, &request),
+  succeed(MPI_Iallreduce(operands_.data(), x, static_cast<int>(n), type, operation(reduction.rule),
+                         nodes_only_, &request),
           "MPI_Iallreduce");
   return ticket_of_collective(request);
 }
@@ -72,8 +83,8 @@ std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<co
   const int* counts = counts_.data();
   const std::size_t n = to.size();
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Ialltoallv(out, counts, counts + n, MPI_BYTE, in, counts + 2 * n, counts + 3 * n, MPI_BYTE, nodes_only_,
-                         &request),
+  succeed(MPI_Ialltoallv(out, counts, counts + n, MPI_BYTE, in, counts + 2 * n, counts + 3 * n, MPI_BYTE,
+                         nodes_only_, &request),
           "MPI_Ialltoallv");
   return ticket_of_collective(request);
 }

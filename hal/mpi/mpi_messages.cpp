@@ -33,8 +33,8 @@ std::size_t length_of(const MPI_Status& status) {
 
 }  // namespace
 
-// An MPI need not have tags as large as types are. Internal types have the highest but one that it has; others
-// that are too large for it have the highest, and travel behind their message's bytes.
+// An MPI need not have tags as large as types are. Internal types have the highest but one that it has;
+// others that are too large for it have the highest, and travel behind their message's bytes.
 int MpiBackend::tag(int type) const {
   if (type < kFirstInternalType && type <= last_tag_) return type;
   if (type_class(type) == TypeClass::reserved) return last_tag_ + 1 + (type - kFirstInternalType);
@@ -91,7 +91,8 @@ void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
 }
 
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
-  if (tag(type) != wide_tag_ || !plain(data, length)) return send_copy(to, type, pool_.copy({rank_, type, length}, data));
+  if (tag(type) != wide_tag_ || !plain(data, length))
+    return send_copy(to, type, pool_.copy({rank_, type, length}, data));
   Message* copy = with_type(type, data, length);
   release_when_sent(isend_plain(to, wide_tag_, copy->bytes(), copy->envelope.length), copy);
 }
@@ -121,7 +122,8 @@ std::optional<Ticket> MpiBackend::send_or_start(int to, int type, const void* da
       pool_.release(copy);
       return start_send(to, type, data, length);
     }
-    std::memcpy(copy->bytes() + done, static_cast<const std::byte*>(data) + done, std::min(kCopiedAtOnce, length - done));
+    std::memcpy(copy->bytes() + done, static_cast<const std::byte*>(data) + done,
+                std::min(kCopiedAtOnce, length - done));
   }
   send_copy(to, type, copy);
   return std::nullopt;
@@ -182,8 +184,8 @@ std::optional<Envelope> MpiBackend::peek() {
   if (peeked_) return peeked_;
   int arrived = 0;
   MPI_Status status;
-  // Open MPI's first look may only fetch what has come, and the second one sees it: whoever slept on the first
-  // would not be rung again.
+  // Open MPI's first look may only fetch what has come, and the second one sees it: whoever slept on the
+  // first would not be rung again.
   for (int looks = bells_->armed() ? 2 : 1; looks > 0 && arrived == 0; --looks)
     succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
   if (arrived == 0) return std::nullopt;
@@ -280,10 +282,12 @@ bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, Enve
 
 bool MpiBackend::catch_soon(int type, MPI_Status& status) {
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Irecv(caught_.bytes(), INT_MAX, MPI_BYTE, MPI_ANY_SOURCE, tag(type), all_, &request), "MPI_Irecv");
+  succeed(MPI_Irecv(caught_.bytes(), INT_MAX, MPI_BYTE, MPI_ANY_SOURCE, tag(type), all_, &request),
+          "MPI_Irecv");
   const int at_once = turns_at_once(oversubscribed_);
   int done = 0;
-  for (int turn = 0; turn < at_once && done == 0; ++turn) succeed(MPI_Test(&request, &done, &status), "MPI_Test");
+  for (int turn = 0; turn < at_once && done == 0; ++turn)
+    succeed(MPI_Test(&request, &done, &status), "MPI_Test");
   if (done != 0) return true;
   for (int turn = at_once; pause_of(turn, oversubscribed_)->count() == 0; ++turn) {
     sched_yield();
@@ -301,8 +305,8 @@ bool MpiBackend::give_up(MPI_Request& request, MPI_Status& status) {
   return cancelled != 0;
 }
 
-// Of what ranks send that have no bell here, and of what MPI still has to do for a send, only a look tells. Arms the
-// bell for one more look before the first sleep.
+// Of what ranks send that have no bell here, and of what MPI still has to do for a send, only a look tells.
+// Arms the bell for one more look before the first sleep.
 void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
   const auto pause = pause_of(turn, oversubscribed_);
   if (!pause) return;

@@ -1,5 +1,5 @@
-// A buffer for any message that is not announced (announcement.h), so that a receive can be posted before the length is known and
-// still never cuts. It is address space: memory is taken only as far as messages reach.
+// A buffer for any message that is not announced (announcement.h), so that a receive can be posted before the
+// length is known and still never cuts. It is address space: memory is taken only as far as messages reach.
 #pragma once
 
 #include <cstddef>

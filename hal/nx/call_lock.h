@@ -1,5 +1,6 @@
-// Who has a progress thread (progress_thread.h) makes each of its NX calls under a mutex, so that the thread calls only
-// between them. Others pay for two counts. A handler's calls are within a call, and so hold it already.
+// Who has a progress thread (progress_thread.h) makes each of its NX calls under a mutex, so that the thread
+// calls only between them. Others pay for two counts. A handler's calls are within a call, and so hold it
+// already.
 #pragma once
 
 #include <mutex>

@@ -73,8 +73,8 @@ class Files : public Process::Extension {
   std::map<int, Shared> shared_;  // by descriptor
 };
 
-// The files of `process`, made with the first call for them; they end with the process, or by end_files, which waits
-// for all transfers.
+// The files of `process`, made with the first call for them; they end with the process, or by end_files,
+// which waits for all transfers.
 Files& files_of(Process& process);
 void end_files(Process& process);
 

@@ -25,11 +25,15 @@ constexpr auto lower = [](auto a, auto b) { return b < a ? b : a; };
 
 Group all_nodes() { return {0, process().backend().nodes()}; }
 
-// What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there is none.
+// What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there
+// is none.
 std::size_t checked_count(DimensionExchange& exchange, const void* x, const void* work, long n) {
-  if (n < 0) exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
-  if (n > 0 && x == nullptr) exchange.spoil(EQPBUF, "the vector is a null pointer", "give a vector, or length 0");
-  if (n > 0 && work == nullptr) exchange.spoil(EQPBUF, "work is a null pointer", "give one as long as the vector");
+  if (n < 0)
+    exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
+  if (n > 0 && x == nullptr)
+    exchange.spoil(EQPBUF, "the vector is a null pointer", "give a vector, or length 0");
+  if (n > 0 && work == nullptr)
+    exchange.spoil(EQPBUF, "work is a null pointer", "give one as long as the vector");
   return exchange.spoilt() ? 0 : static_cast<std::size_t>(n);
 }
 
@@ -42,7 +46,8 @@ template <class T>
 void reduce_all(const char* call, const Operation& operation, Reduction::Rule rule, T* x, long n, T* work) {
   DimensionExchange exchange(call, all_nodes());
   const std::size_t count = checked_count(exchange, x, work, n);
-  if (!reduce_by_network(exchange, {element_of<T>, rule}, x, count)) reduce(exchange, operation, x, count, work);
+  if (!reduce_by_network(exchange, {element_of<T>, rule}, x, count))
+    reduce(exchange, operation, x, count, work);
   exchange.conclude();
 }
 
@@ -88,9 +93,11 @@ struct Scratch {
 thread_local Scratch scratch;
 
 void check_buffer(DimensionExchange& exchange, const void* buffer, long length) {
-  if (length < 0) exchange.spoil(EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+  if (length < 0)
+    exchange.spoil(EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
   if (length > 0 && buffer == nullptr)
-    exchange.spoil(EQPBUF, "the buffer of " + bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
+    exchange.spoil(EQPBUF,
+                   "the buffer of " + bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
                    "give a buffer, or length 0");
 }
 
@@ -104,7 +111,8 @@ const std::vector<std::size_t>& add_up(const DimensionExchange& exchange, Length
   return offsets;
 }
 
-void concatenate(DimensionExchange& exchange, const void* x, const std::vector<std::size_t>& offsets, void* y) {
+void concatenate(DimensionExchange& exchange, const void* x, const std::vector<std::size_t>& offsets,
+                 void* y) {
   const auto me = static_cast<std::size_t>(exchange.position());
   const std::size_t size = offsets[me + 1] - offsets[me];
   if (size > 0) std::memmove(static_cast<std::byte*>(y) + offsets[me], x, size);
@@ -114,9 +122,11 @@ void concatenate(DimensionExchange& exchange, const void* x, const std::vector<s
 
 void concatenate_known(const void* x, const long* xlens, void* y) {
   DimensionExchange exchange("gcolx", all_nodes());
-  if (xlens == nullptr) exchange.spoil(EQPBUF, "the lengths are a null pointer", "give the length of each node's part");
+  if (xlens == nullptr)
+    exchange.spoil(EQPBUF, "the lengths are a null pointer", "give the length of each node's part");
   long all = 0;
-  for (int i = 0; i < exchange.count() && !exchange.spoilt(); all += xlens[i++]) check_buffer(exchange, y, xlens[i]);
+  for (int i = 0; i < exchange.count() && !exchange.spoilt(); all += xlens[i++])
+    check_buffer(exchange, y, xlens[i]);
   if (!exchange.spoilt()) check_buffer(exchange, x, xlens[exchange.position()]);
   const auto& offsets = add_up(exchange, [xlens](std::size_t i) { return xlens[i]; });
   concatenate(exchange, x, offsets, y);
@@ -127,7 +137,8 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   DimensionExchange exchange("gcol", all_nodes());
   check_buffer(exchange, x, xlen);
   check_buffer(exchange, y, ylen);
-  if (ncnt == nullptr) exchange.spoil(EQPBUF, "ncnt is a null pointer", "give a place for the number of bytes");
+  if (ncnt == nullptr)
+    exchange.spoil(EQPBUF, "ncnt is a null pointer", "give a place for the number of bytes");
   std::vector<Scratch::Part>& parts = scratch.parts;
   parts.resize(static_cast<std::size_t>(exchange.count()));
   parts[static_cast<std::size_t>(exchange.position())] = {xlen, ylen};
@@ -142,7 +153,8 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
     if (all <= parts[node].capacity) continue;
     process().fail("gcol", EQMSGLONG,
                    "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
-                       std::to_string(parts[node].capacity) + " that node " + std::to_string(node) + " has room for",
+                       std::to_string(parts[node].capacity) + " that node " + std::to_string(node) +
+                       " has room for",
                    "give a buffer for the bytes of all nodes");
   }
   concatenate(exchange, x, offsets, y);
@@ -150,12 +162,16 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
 }
 
 void send_to_list(long type, const void* x, long xlen, const long* nodes, long n) {
-  if (n < 0) process().fail("gsendx", EQLEN, "length " + std::to_string(n) + " is negative", "give the number of nodes");
-  if (n > 0 && nodes == nullptr) process().fail("gsendx", EQPBUF, "the nodes are a null pointer", "give a list of nodes");
+  if (n < 0)
+    process().fail("gsendx", EQLEN, "length " + std::to_string(n) + " is negative",
+                   "give the number of nodes");
+  if (n > 0 && nodes == nullptr)
+    process().fail("gsendx", EQPBUF, "the nodes are a null pointer", "give a list of nodes");
   const auto check = [&](long node) { check_send(process(), "gsendx", type, x, xlen, node, 0); };
   for (long i = 0; i < n; ++i) {
     check(nodes[i]);
-    if (nodes[i] < 0) process().fail("gsendx", EQNODE, "there is no node " + std::to_string(nodes[i]), "name each node");
+    if (nodes[i] < 0)
+      process().fail("gsendx", EQNODE, "there is no node " + std::to_string(nodes[i]), "name each node");
   }
   for (long i = 0; i < n; ++i) process().csend(type, x, xlen, nodes[i], 0);
 }
@@ -166,9 +182,13 @@ void send_to_list(long type, const void* x, long xlen, const long* nodes, long n
 using namespace mars::hal;
 
 // A call and its twin.
-#define VECTOR_CALL(name, T, call)                                        \
-  void name(T x[], long n, T work[]) { plain([&] { call; }); }            \
-  long _##name(T x[], long n, T work[]) { return twin([&] { call; }); }
+#define VECTOR_CALL(name, T, call)        \
+  void name(T x[], long n, T work[]) {    \
+    plain([&] { call; });                 \
+  }                                       \
+  long _##name(T x[], long n, T work[]) { \
+    return twin([&] { call; });           \
+  }
 #define REDUCTION(name, T, As, combine, rule) \
   VECTOR_CALL(name, T, (reduce_all(#name, operation<As, combine>, Reduction::Rule::rule, x, n, work)))
 #define TRUTHS(name, combine, rule) \

@@ -10,8 +10,9 @@ namespace mars::hal {
 namespace {
 
 // One list of errors: its numbers here, its names for C in nx_errno.h.
-static_assert(kMessageTooLong == EQMSGLONG && kBadType == EQTYPE && kNoSuchNode == EQNODE && kNoSuchPid == EQPID &&
-              kBadLength == EQLEN && kNoSuchId == EQMID && kNoFreeId == EQNOMID && kNullBuffer == EQPBUF);
+static_assert(kMessageTooLong == EQMSGLONG && kBadType == EQTYPE && kNoSuchNode == EQNODE &&
+              kNoSuchPid == EQPID && kBadLength == EQLEN && kNoSuchId == EQMID && kNoFreeId == EQNOMID &&
+              kNullBuffer == EQPBUF);
 
 EndProgram end_program = nullptr;
 

@@ -11,8 +11,8 @@
 
 namespace mars::hal {
 
-// From now on a plain call that fails calls `end` with the reason; `end` ends this program and all other ranks and never
-// returns. For C programs, set before their first call; without it plain calls throw.
+// From now on a plain call that fails calls `end` with the reason; `end` ends this program and all other
+// ranks and never returns. For C programs, set before their first call; without it plain calls throw.
 using EndProgram = void (*)(const std::string& reason);
 void end_program_on_failure(EndProgram end);
 
@@ -29,7 +29,8 @@ auto plain(Call call) try {
   fail_plainly();
 }
 
-// What is no failure of this one call (another rank's end, a broken network) is none that a program can handle.
+// What is no failure of this one call (another rank's end, a broken network) is none that a program can
+// handle.
 template <class Call>
 long twin(Call call) try {
   const CallLock lock;

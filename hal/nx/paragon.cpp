@@ -52,14 +52,17 @@ void hsendx(long type, const void* buf, long len, long node, long ptype, nx_xhan
   plain([&] { process().hsend(type, buf, len, node, ptype, {.extended = proc, .parameter = parameter}); });
 }
 long _hsendx(long type, const void* buf, long len, long node, long ptype, nx_xhandler proc, long parameter) {
-  return twin([&] { process().hsend(type, buf, len, node, ptype, {.extended = proc, .parameter = parameter}); });
+  return twin(
+      [&] { process().hsend(type, buf, len, node, ptype, {.extended = proc, .parameter = parameter}); });
 }
-void hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc, long parameter) {
+void hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc,
+            long parameter) {
   plain([&] {
     process().hrecv(typesel, buf, len, nodesel, ptypesel, {.extended = proc, .parameter = parameter});
   });
 }
-long _hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc, long parameter) {
+long _hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc,
+             long parameter) {
   return twin([&] {
     process().hrecv(typesel, buf, len, nodesel, ptypesel, {.extended = proc, .parameter = parameter});
   });

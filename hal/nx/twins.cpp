@@ -57,7 +57,8 @@ long _hrecv(long typesel, void* buf, long len, nx_handler proc) {
 }
 long _hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
                 long rlen, nx_handler proc) {
-  return twin([&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
+  return twin(
+      [&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
 }
 long _masktrap(long state) {
   return twin([&] { return process().masktrap(state != 0); });

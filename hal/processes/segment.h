@@ -80,7 +80,7 @@ struct alignas(64) Header {
   std::int32_t has_host;
   std::atomic<std::int32_t> cube;       // of which the first so many are the cube
   std::atomic<std::uint32_t> age;       // begins and ends of processes so far
-  std::uint64_t heap_capacity;              // addresses that each heap has
+  std::uint64_t heap_capacity;          // addresses that each heap has
   std::uint64_t limit;                  // bytes that messages under way may take in all heaps
   std::atomic<std::uint64_t> used;      // of these
   std::atomic<std::int32_t> finished;   // ranks that have come to their orderly end

@@ -155,7 +155,8 @@ int ended_one(const char* call, const Nodes& nodes) {
     some = true;
   }
   if (!some)
-    fail(call, ECHILD, "nothing runs there that could end", "load a program first; each end is reported once");
+    fail(call, ECHILD, "nothing runs there that could end",
+         "load a program first; each end is reported once");
   return -1;
 }
 

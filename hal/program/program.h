@@ -10,8 +10,8 @@ namespace mars::hal {
 // The calling program's job; connects it. A Failure on any thread but the first that called.
 World& world();
 
-// The next message call makes a new process for the program, with nothing sent or received: after the cube has
-// changed.
+// The next message call makes a new process for the program, with nothing sent or received: after the cube
+// has changed.
 void renew_process();
 
 }  // namespace mars::hal

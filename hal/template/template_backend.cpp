@@ -17,14 +17,15 @@ constexpr std::align_val_t kAlignment{64};
 }  // namespace
 
 // With many ranks: hand the bytes to the transport, or copy them and hand over the copy when there is room.
-// Must return though the receiver does nothing, or two nodes that send first would wait for each other for ever.
+// Must return though the receiver does nothing, or two nodes that send first would wait for each other for
+// ever.
 void TemplateBackend::send(int to, int type, const void* data, std::size_t length) {
   check(to == rank(), "a world of one node has no other");
   arrived_.push(pool_.copy({rank(), type, length}, data));
 }
 
-// With many ranks: where the transport takes bytes from where they lie, begin that, and remember under the ticket how
-// its end shows. Copying is always allowed.
+// With many ranks: where the transport takes bytes from where they lie, begin that, and remember under the
+// ticket how its end shows. Copying is always allowed.
 Ticket TemplateBackend::start_send(int to, int type, const void* data, std::size_t length) {
   send(to, type, data, length);
   return 0;
@@ -53,7 +54,8 @@ void TemplateBackend::idle(int turn, std::chrono::microseconds longest) {
   std::this_thread::sleep_for(std::min(std::chrono::microseconds(20 << std::min(turn, 10)), longest));
 }
 
-// With many ranks: which nodes are on one machine. Its own answer for each node is allowed: nothing is shared then.
+// With many ranks: which nodes are on one machine. Its own answer for each node is allowed: nothing is shared
+// then.
 Neighbourhood TemplateBackend::neighbourhood() { return {rank(), 0, 1, rank(), false}; }
 
 // With many nodes a machine: memory they all see, made and given back by all of them together.
@@ -62,16 +64,17 @@ std::shared_ptr<std::byte> TemplateBackend::share(std::size_t bytes) {
     return {static_cast<std::byte*>(::operator new(bytes, kAlignment)),
             [](std::byte* block) { ::operator delete(block, kAlignment); }};
   } catch (const std::bad_alloc&) {
-    throw Failure("there is no memory for " + std::to_string(bytes) + " bytes", "", "use a machine with more");
+    throw Failure("there is no memory for " + std::to_string(bytes) + " bytes", "",
+                  "use a machine with more");
   }
 }
 
-// With many ranks: inform all that this one has come to its end and how many messages it sent to each; true when
-// all have come, and as many messages have arrived here as were sent to this rank.
+// With many ranks: inform all that this one has come to its end and how many messages it sent to each; true
+// when all have come, and as many messages have arrived here as were sent to this rank.
 bool TemplateBackend::finish() { return arrived_.empty(); }
 
-// With many ranks: make every other end too, at once and without waiting: the transport's own abort, a signal, a
-// connection that breaks.
+// With many ranks: make every other end too, at once and without waiting: the transport's own abort, a
+// signal, a connection that breaks.
 void TemplateBackend::abort(const std::string& reason) {
   std::fprintf(stderr, "%s\n", reason.c_str());
   std::_Exit(1);

@@ -45,7 +45,8 @@ Graph graph_of(std::string (*vertex_of)(const std::string& file)) {
   for (const Source& source : sources()) {
     std::set<std::string>& others = graph[vertex_of(source.path)];
     for (const std::string& include : source.includes)
-      if (const auto target = target_of(source, include); target && vertex_of(*target) != vertex_of(source.path))
+      if (const auto target = target_of(source, include);
+          target && vertex_of(*target) != vertex_of(source.path))
         others.insert(vertex_of(*target));
   }
   return graph;
@@ -76,14 +77,16 @@ std::vector<Path> circles_in(const Graph& graph) {
   std::vector<Path> circles;
   for (const auto& [vertex, others] : graph) {
     Path circle = circle_through(graph, vertex);
-    if (!circle.empty() && *std::min_element(circle.begin(), circle.end()) == vertex) circles.push_back(std::move(circle));
+    if (!circle.empty() && *std::min_element(circle.begin(), circle.end()) == vertex)
+      circles.push_back(std::move(circle));
   }
   return circles;
 }
 
 bool excepted(const Path& circle) {
   return std::any_of(kExcepted.begin(), kExcepted.end(), [&](const std::string& folder) {
-    return std::all_of(circle.begin(), circle.end(), [&](const std::string& each) { return (each + "/").rfind(folder, 0) == 0; });
+    return std::all_of(circle.begin(), circle.end(),
+                       [&](const std::string& each) { return (each + "/").rfind(folder, 0) == 0; });
   });
 }
 
@@ -98,14 +101,16 @@ void expect_no_circles(const Graph& graph) {
 }
 
 TEST(Circles, AreFound) {
-  const Graph graph = {{"a", {"b"}}, {"b", {"c", "d"}}, {"c", {}}, {"d", {"c", "e"}}, {"e", {"b"}}, {"f", {"a", "g"}}, {"g", {"f"}}};
+  const Graph graph = {{"a", {"b"}}, {"b", {"c", "d"}}, {"c", {}},   {"d", {"c", "e"}},
+                       {"e", {"b"}}, {"f", {"a", "g"}}, {"g", {"f"}}};
   EXPECT_EQ(circles_in(graph), (std::vector<Path>{{"b", "d", "e"}, {"f", "g"}}));
 }
 
 TEST(Circles, IncludesAreResolved) {
   const Graph modules = graph_of(module_of);
   EXPECT_EQ(modules.at("hal/nx/mesh"), std::set<std::string>{"hal/nx/cube"}) << "beside the file";
-  EXPECT_EQ(modules.at("hal/failure/explain"), (std::set<std::string>{"hal/failure/failure", "hal/failure/process_limit"}));
+  EXPECT_EQ(modules.at("hal/failure/explain"),
+            (std::set<std::string>{"hal/failure/failure", "hal/failure/process_limit"}));
   EXPECT_EQ(graph_of(folder_of).at("topology"), std::set<std::string>{"hal/failure"});
 }
 

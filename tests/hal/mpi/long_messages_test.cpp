@@ -1,5 +1,5 @@
-// Messages that are announced, for they are longer than MPI's counts: one of the real size, and many with the backend's
-// bound lowered. Run by all ranks (mpi_main.cpp).
+// Messages that are announced, for they are longer than MPI's counts: one of the real size, and many with the
+// backend's bound lowered. Run by all ranks (mpi_main.cpp).
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -90,7 +90,8 @@ TEST_F(LongMessages, AreSentAndReceivedInTheBackground) {
     if (receives()) ids.push_back(irecv(i % 4, buffers.back().data(), 20'000));
   }
   for (const long id : ids) msgwait(id);
-  for (int i = 0; receives() && i < kAtOnce; ++i) ASSERT_EQ(buffers[static_cast<std::size_t>(i)], pattern(20'000, static_cast<std::size_t>(i)));
+  for (int i = 0; receives() && i < kAtOnce; ++i)
+    ASSERT_EQ(buffers[static_cast<std::size_t>(i)], pattern(20'000, static_cast<std::size_t>(i)));
 }
 
 // A receive of one type, which may overtake others, meets announcements of several types.
