@@ -2,30 +2,26 @@
 // (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "hal/collectives/group.h"
+#include "node/frame_report.h"
+#include "node/geometry/scene.h"
+#include "node/group/depth_exchange.h"
+#include "node/group/exchange.h"
+#include "node/group/group_sums.h"
+#include "node/group/outbox.h"
+#include "node/group/passes.h"
 #include "node/raster/arena.h"
 #include "node/raster/czb.h"
-#include "node/group/exchange.h"
-#include "node/group/mapping.h"
-#include "node/group/outbox.h"
-#include "node/tessellator.h"
 #include "node/raster/scanline.h"
-#include "node/geometry/scene.h"
+#include "node/tessellator.h"
 #include "node/tracer.h"
 
-
 namespace mars::node {
-
-// Where PhaseTimes has each step, by Phase.
-inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,  &PhaseTimes::map,
-                                        &PhaseTimes::exchange, &PhaseTimes::fill, &PhaseTimes::scanline,
-                                        &PhaseTimes::depth,    &PhaseTimes::credit};
 
 class Renderer {
  public:
@@ -42,25 +38,28 @@ class Renderer {
 
   Outbox& outbox() { return outbox_; }
   // The frame at hand, for a fault's report.
-  std::uint32_t frame() const { return frame_; }
+  std::uint32_t frame() const { return report_.strip().frame; }
 
  private:
-  void draw_frame(FrameKind kind, const hal::Group& group);
-  Polygons make_polygons(const hal::Group& group);
-  void sum_counts(const hal::Group& group);
-  std::uint32_t plan_passes(const hal::Group& group);
-  std::uint64_t memory_for(const hal::Group& group, std::uint32_t passes) const;
-  void draw_pass(const hal::Group& group, const Polygons& own, std::uint32_t pass, std::uint32_t passes);
-  std::uint32_t draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& look, StripBuffer& out);
+  void begin_interval(const Render& command, std::span<const std::uint32_t> inbetweens);
+  void draw_frame(FrameKind kind, std::uint32_t interval, std::uint32_t frame, const hal::Group& group);
+
+  Tessellation tessellate_all();
+  Tessellation tessellate_part(const Pass& pass);
+  Tessellation tessellate();
+  // Returns the number of passes.
+  std::uint32_t map_to_homes(const MadeCounts& made);
+  LineBoxes exchange_triangles(const Polygons& own, const Pass& pass);
+  void draw_lines(const LineBoxes& boxes, const Triangle* triangles, const Pass& pass);
+  // Draws lines from `first` on until the strip is full or all are drawn; one past the last of them.
+  std::uint32_t draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& shading, StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
-  void finish_pass(const hal::Group& group, bool last);
-  void send_strip(const hal::Group& group, const LineRange& lines, bool last);
-  void mark_lines(const hal::Group& group, std::uint32_t pass, std::uint32_t passes);
-  LineBoxes gather_boxes(const hal::Group& group, const Polygons& own, const LineRange& lines,
-                         std::span<const LineRange> homes);
+  void finish_exchange(const Pass& pass);
+  void send_strip(const LineRange& lines, bool last);
+
+  std::size_t member() const;  // the caller's index in the group
+  std::span<LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
   Shading shading(const Triangle* triangles) const;
-  // Adds the time since the last call to `phase`.
-  void clock(Phase phase);
 
   std::optional<Tracer> tracer_;
   Scene scene_;
@@ -69,27 +68,22 @@ class Renderer {
   Arena arena_;
   ZBuffer z_buffer_;
   Czb czb_;
-  Exchange exchange_;
+  GroupSums sums_;
+  TriangleExchange triangle_exchange_;
+  DepthExchange depth_exchange_;
   Outbox outbox_;
 
-  std::uint32_t frame_ = 0;
-  Render command_{};
-  LineRange moving_line_bounds_;               // in the interval's inbetweens
-  std::vector<std::uint8_t> draws_;         // which of the group's nodes draw inbetweens of the interval
+  // Of the interval at hand.
+  LineRange moving_line_bounds_;           // in its inbetweens
+  std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
+
+  // Of the frame at hand.
+  hal::Group group_;                        // that draws it
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
-  std::vector<double> sums_, work_;         // EBC as it is summed, then each node's memory for its own triangles
-  std::vector<std::uint64_t> ebc_;          // prefix-summed over all nodes
+  std::vector<std::uint8_t> wanted_lines_;
   std::vector<LineRange> homes_;
   std::vector<LineRange> pass_homes_;
-  std::vector<std::uint8_t> wanted_lines_;
-  struct {
-    std::uint64_t triangles;
-    std::uint64_t edge_boxes;
-    bool all_stored;
-  } made_{};  // by make_polygons
-  Strip strip_{};  // of the frame at hand
-  std::uint64_t sent_before_ = 0;
-  double clock_ = 0;
+  FrameReport report_;
 };
 
 }  // namespace mars::node

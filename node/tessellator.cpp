@@ -1,35 +1,51 @@
 #include "node/tessellator.h"
 
+#include <algorithm>
+
 namespace mars::node {
 
 Tessellator::Tessellator(InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set) {}
 
-void Tessellator::make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work) {
+Tessellation Tessellator::tessellate(const Scene& scene, FrameKind kind, const Scatter& scatter,
+                                     const LineTable& lines, Arena& arena, WorkCounts& work) {
+  std::ranges::fill(lines.counts, 0u);
+  work.patches = work.vertices = 0;
+  SetUps out(arena.rest(), lines.counts, lines.wanted);
+  if (kind == FrameKind::keyframe) add(scene, false, scatter, out, work);
+  const std::size_t stationary = out.boxes().size();
+  add(scene, true, scatter, out, work);
+  const auto boxes = out.boxes();
+  arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
+  return {{out.first, boxes.last(stationary), boxes.first(boxes.size() - stationary)},
+          {out.touching, out.edge_boxes},
+          out.all_stored()};
+}
+
+void Tessellator::add(const Scene& scene, bool moving, const Scatter& scatter, SetUps& out, WorkCounts& work) {
   const FilmView& film = scene.film();
   SetUp set_up(instruction_set_, scene.projection(), scene.width(), scene.height());
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   const int fixed_rate = static_cast<int>(film.settings().dice);
-  const auto add = [&](const Surface& surface, PatchIdentity& identity, std::uint32_t number) {
+  const auto set_up_surface = [&](const Surface& surface, PatchIdentity& identity, std::uint32_t number) {
     identity.patch = number;
     set_up.add(surface, identity, out);
     ++work.patches;
     work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
   };
   for (std::size_t s = 0; s < film.segments().size(); ++s) {
-    if (scene.moves(s) != (part == Part::moving)) continue;
+    if (scene.moves(s) != moving) continue;
     const Shape& shape = film.shapes()[film.segments()[s].shape];
     const std::uint32_t first = scene.first_patch(s);
     std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
     if (i >= shape.size()) continue;
     const EyeMatrix matrix = scene.matrix(s);
     const std::uint32_t material = scene.material(s);
-    PatchIdentity identity{0, material, mirrors(matrix), film.materials()[material].sides == 1,
-                           part == Part::moving};
+    PatchIdentity identity{0, material, mirrors(matrix), film.materials()[material].sides == 1, moving};
     for (; i < shape.patch_count; i += scatter.count) {
       const EyePatch patch = to_eye(matrix, film.patches()[shape.first_patch + i]);
       if (unseen(patch, scene.projection(), width, height)) continue;
       dicer_.dice(patch, scene.projection(), fixed_rate);
-      add(dicer_, identity, first + static_cast<std::uint32_t>(i));
+      set_up_surface(dicer_, identity, first + static_cast<std::uint32_t>(i));
     }
     if (i >= shape.size()) continue;
     const EyeMap map = eye_map(matrix);
@@ -37,7 +53,7 @@ void Tessellator::make(const Scene& scene, Part part, const Scatter& scatter, Se
       const Meshlet& meshlet = film.meshlets()[shape.first_meshlet + i - shape.patch_count];
       if (unseen(matrix, meshlet, scene.projection(), width, height)) continue;
       placer_.place(map, film, meshlet, scene.projection());
-      add(placer_, identity, first + static_cast<std::uint32_t>(i));
+      set_up_surface(placer_, identity, first + static_cast<std::uint32_t>(i));
     }
   }
 }

@@ -1,16 +1,20 @@
-// The dicing step: a node's share of the patches and meshlets, scattered as i, i + P, i + 2P ..., becomes triangles,
-// their edge boxes counted line by line.
+// The first step of a frame: a node's share of the patches and meshlets, scattered as i, i + P, i + 2P ..., becomes
+// triangles, their edge boxes counted line by line.
 #pragma once
 
-#include "node/shape/dice.h"
+#include <cstdint>
+#include <span>
+
 #include "node/geometry/meshlets.h"
-#include "node/wire/protocol.h"
 #include "node/geometry/scene.h"
+#include "node/group/passes.h"
+#include "node/raster/arena.h"
+#include "node/raster/scanline.h"
 #include "node/raster/setup.h"
+#include "node/shape/dice.h"
+#include "node/wire/protocol.h"
 
 namespace mars::node {
-
-enum class Part { stationary, moving };
 
 // Patches and meshlets whose number is `index` modulo `count`.
 struct Scatter {
@@ -18,15 +22,31 @@ struct Scatter {
   std::uint32_t count = 1;
 };
 
+// One a line of the picture.
+struct LineTable {
+  std::span<const std::uint8_t> wanted;  // 1: edge boxes there are stored and counted
+  std::span<std::uint32_t> counts;       // edge boxes
+};
+
+struct Tessellation {
+  Polygons polygons;
+  MadeCounts made;  // on wanted lines, whether stored or not
+  bool all_stored;  // else memory was short
+};
+
 class Tessellator {
  public:
   explicit Tessellator(InstructionSet set);
 
-  // Triangles of `part`'s patches and meshlets at the scene's frame, in the order of polygon numbers. Counts what it did
-  // into `work`.
-  void make(const Scene& scene, Part part, const Scatter& scatter, SetUps& out, WorkCounts& work);
+  // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
+  // keyframe, of the moving ones in an inbetween. They lie in `arena`. Sets `lines.counts`, and the patches and
+  // vertices of `work`.
+  Tessellation tessellate(const Scene& scene, FrameKind kind, const Scatter& scatter, const LineTable& lines,
+                          Arena& arena, WorkCounts& work);
 
  private:
+  void add(const Scene& scene, bool moving, const Scatter& scatter, SetUps& out, WorkCounts& work);
+
   InstructionSet instruction_set_;
   Dicer dicer_;
   MeshletPlacer placer_;

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "node/wire/protocol.h"
 
@@ -25,12 +24,11 @@ long bytes_of(std::span<T> items) {
 
 }  // namespace
 
-Exchange::Exchange(int nodes, std::size_t lines) : parcels_(static_cast<std::size_t>(nodes)), home_of_(lines) {
-  pending_.reserve(4 * static_cast<std::size_t>(nodes));
-}
+TriangleExchange::TriangleExchange(int nodes, std::size_t lines)
+    : pending_(2 * static_cast<std::size_t>(nodes)), parcels_(static_cast<std::size_t>(nodes)), home_of_(lines) {}
 
-void Exchange::send_triangles(const hal::Group& group, const Polygons& own, std::span<const LineRange> homes,
-                              std::span<const std::uint32_t> line_counts, Arena& arena) {
+void TriangleExchange::send_triangles(const hal::Group& group, const Polygons& own, std::span<const LineRange> homes,
+                                      std::span<const std::uint32_t> line_counts, Arena& arena) {
   const auto self = static_cast<std::size_t>(mynode() - group.first);
   if (homes.size() == 1) return;
   for (std::size_t home = 0; home < homes.size(); ++home) {
@@ -47,13 +45,13 @@ void Exchange::send_triangles(const hal::Group& group, const Polygons& own, std:
     const Parcel& parcel = parcels_[index];
     const long node = group.first + static_cast<long>(index);
     const auto triangles = parcel.triangles.first(parcel.triangle_count);
-    pending_.push_back(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
-    pending_.push_back(isend(edge_boxes_from(mynode()), parcel.boxes.data(), bytes_of(parcel.boxes), node, 0));
+    pending_.add(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
+    pending_.add(isend(edge_boxes_from(mynode()), parcel.boxes.data(), bytes_of(parcel.boxes), node, 0));
   }
 }
 
 // As a node has its own: triangles in order and numbered from 0, edge boxes from the last to the first.
-void Exchange::fill_parcels(const Polygons& own, std::uint32_t self) {
+void TriangleExchange::fill_parcels(const Polygons& own, std::uint32_t self) {
   visit_all(own, [&](const UnsortedEdgeBox& unsorted) {
     const std::uint32_t home = home_of_[unsorted.line];
     if (home == self) return;
@@ -65,7 +63,7 @@ void Exchange::fill_parcels(const Polygons& own, std::uint32_t self) {
   });
 }
 
-Polygons Exchange::receive_triangles(const hal::Group& group, int number, Arena& arena) {
+Polygons TriangleExchange::receive_triangles(const hal::Group& group, int number, Arena& arena) {
   const int self = static_cast<int>(mynode()) - group.first;
   const int node = group.first + (self + group.count - number) % group.count;
   cprobe(triangles_from(node));
@@ -80,49 +78,6 @@ Polygons Exchange::receive_triangles(const hal::Group& group, int number, Arena&
   return {triangles.data(), boxes.subspan(moving), boxes.first(moving)};
 }
 
-// A machine's first node of the group, its head, collects what the others write or send there, then tells all who wait.
-void Exchange::depth_lines(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed,
-                           std::span<const std::uint8_t> draws, Czb& czb) {
-  const auto self = static_cast<int>(mynode());
-  const int head = czb.head_of(self);
-  const auto drawn_at = [&](int node) { return draws[static_cast<std::size_t>(node - group.first)] == 1; };
-  const auto drawn_under = [&](int other_head) {
-    for (int node = other_head; node < group.first + group.count; ++node)
-      if (drawn_at(node) && czb.head_of(node) == other_head) return true;
-    return false;
-  };
-  const LineRange own = overlap(homes[static_cast<std::size_t>(self - group.first)], needed);
-  for (int to = group.first; to < group.first + group.count; ++to) {
-    if (to == self || czb.head_of(to) != to || own.count() == 0 || !drawn_under(to)) continue;
-    const auto lines = czb.lines(to == head ? LineRange{} : own);
-    pending_.push_back(isend(depth_lines_from(self), lines.data(), bytes_of(lines), to, 0));
-  }
-  if (self == head && drawn_under(self)) {
-    collect_depth(group, homes, needed, czb);
-    for (int node = group.first; node < group.first + group.count; ++node)
-      if (node != self && drawn_at(node) && czb.head_of(node) == self)
-        csend(depth_lines_from(self), nullptr, 0, node, 0);
-  } else if (drawn_at(self)) {
-    crecv(depth_lines_from(head), nullptr, 0);
-  }
-  finish();
-}
-
-void Exchange::collect_depth(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed,
-                             Czb& czb) {
-  const auto self = static_cast<int>(mynode());
-  for (int from = group.first; from < group.first + group.count; ++from) {
-    const LineRange lines = overlap(homes[static_cast<std::size_t>(from - group.first)], needed);
-    if (from == self || lines.count() == 0) continue;
-    const auto depth = czb.lines(czb.head_of(from) == self ? LineRange{} : lines);
-    pending_.push_back(irecv(depth_lines_from(from), depth.data(), bytes_of(depth)));
-  }
-  finish();
-}
-
-void Exchange::finish() {
-  for (const long mid : pending_) msgwait(mid);
-  pending_.clear();
-}
+void TriangleExchange::finish() { pending_.wait(); }
 
 }  // namespace mars::node

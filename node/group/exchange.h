@@ -1,5 +1,4 @@
-// What nodes of a group give each other in a keyframe: triangles, each once to every home of its scanlines, and
-// afterwards CZB to those that will draw inbetweens.
+// What nodes of a group give each other in a keyframe: triangles, each once to every home of its scanlines.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +8,16 @@
 
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
+#include "node/group/pending_messages.h"
 #include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 
 namespace mars::node {
 
-class Exchange {
+class TriangleExchange {
  public:
   // `nodes`: the most a group has; `lines`: of a picture.
-  Exchange(int nodes, std::size_t lines);
+  TriangleExchange(int nodes, std::size_t lines);
 
   // Begins to send to every other node of the group those of `own` triangles that have edge boxes on its lines,
   // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
@@ -27,25 +27,19 @@ class Exchange {
   Polygons receive_triangles(const hal::Group& group, int number, Arena& arena);
   void finish();
 
-  // Returns when lines `needed` of `czb` are whole on the caller's machine, if draws[index] is set for it, all nodes of
-  // the group having written theirs there: lines go once to every other machine where a node draws.
-  void depth_lines(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed,
-                   std::span<const std::uint8_t> draws, Czb& czb);
-
  private:
   // What goes to one home.
   struct Parcel {
     std::span<Triangle> triangles;
     std::span<UnsortedEdgeBox> boxes;
     std::size_t triangle_count = 0;   // filled from the front
-    std::size_t box_count = 0;   // not filled yet, from the back
+    std::size_t box_count = 0;        // not filled yet, from the back
     std::uint32_t met = kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
   };
 
   void fill_parcels(const Polygons& own, std::uint32_t self);
-  void collect_depth(const hal::Group& group, std::span<const LineRange> homes, const LineRange& needed, Czb& czb);
 
-  std::vector<long> pending_;  // message ids
+  PendingMessages pending_;
   std::vector<Parcel> parcels_;
   std::vector<std::uint32_t> home_of_;  // each line of some home: its index
 };

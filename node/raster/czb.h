@@ -2,7 +2,7 @@
 // one for each group: the group's nodes there write their home lines to it, and all of them read it.
 //
 // Who writes when: home lines in a keyframe, after the group's sum of EBC, which no node leaves before all have come to
-// it and so have finished the inbetweens of the interval before. Who reads: inbetweens, after Exchange::depth_lines.
+// it and so have finished the inbetweens of the interval before. Who reads: inbetweens, after DepthExchange::complete.
 #pragma once
 
 #include <cstddef>

@@ -21,7 +21,7 @@ struct RasterKernels {
                         const PatchIdentity& identity, Triangle& out);
 
   // Stores set-ups of those of the batch's decided triangles that `lanes` has bits for, and that have a box on a
-  // wanted line. There must be room for all.
+  // wanted line. They must all fit.
   void (*emit)(const Vertices& vertices, const Triangles& triangles, const Batch& batch, const Classified& classified,
                std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 

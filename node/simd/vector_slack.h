@@ -3,7 +3,7 @@
 
 namespace mars::node {
 
-// Every array of vertices, of triangles' corners and of pixels has room for this many items more than are asked for,
+// Every array of vertices, of triangles' corners and of pixels is longer by this many items than is asked for,
 // which may be written (with anything) or read; corners there must be numbers of vertices. So has a line's depth and
 // ids; there what lies behind the line is read, and written back as it was.
 inline constexpr int kVectorSlack = 16;

@@ -112,7 +112,7 @@ struct WorkCounts {
   std::uint64_t pixels;           // shaded
   std::uint64_t bytes_to_nodes;
   std::uint64_t bytes_to_host;    // in strips
-  std::uint64_t memory;           // bytes of the frame's arena in use at its fullest
+  std::uint64_t memory;           // bytes of the frame's arena in use at the peak
   std::uint32_t passes;           // over line ranges; 1 unless memory was short
   std::uint32_t credits_waited;   // strips that had to wait for credit
 };

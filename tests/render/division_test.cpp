@@ -208,7 +208,7 @@ TEST_P(Division, BytesReportedAreBytesSent) {
   }
 }
 
-// The arena holds what docs/performance.md says, at its fullest, and little more.
+// The arena holds what docs/performance.md says, at its peak, and little more.
 TEST_P(Division, MemoryIsAsTheFormulaSays) {
   Counted counted;
   run_counted(film_, {GetParam()}, counted, {0});
@@ -217,7 +217,7 @@ TEST_P(Division, MemoryIsAsTheFormulaSays) {
   for (const Strip& strip : counted.run.report.strips) {
     const auto& work = strip.work;
     const std::uint64_t own = 64 * work.triangles + 12 * work.edge_boxes_diced, in_lines = 8 * work.edge_boxes;
-    // Room is kept for a triangle with each edge box that may be sent; what comes is part of what all send.
+    // A triangle is reserved with each edge box that may be sent; what comes is part of what all send.
     const std::uint64_t sending = GetParam() > 1 ? (64 + 12) * work.edge_boxes_diced : 0;
     const std::uint64_t small = 24 * film_.settings.height + 512 * static_cast<std::uint64_t>(GetParam()) + 4096;
     EXPECT_GE(work.memory, own + in_lines);

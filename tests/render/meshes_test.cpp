@@ -7,6 +7,7 @@
 
 #include "host/content/modeler/primitives.h"
 #include "node/shape/dice.h"
+#include "node/simd/instruction_set.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 

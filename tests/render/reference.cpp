@@ -7,6 +7,7 @@
 #include "node/shape/dice.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/simd/instruction_set.h"
 
 namespace mars::test {
 namespace {

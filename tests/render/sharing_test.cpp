@@ -146,7 +146,7 @@ TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
   EXPECT_EQ(shared({6, 6, 6}), 0u) << "a group of one node has nobody to share with";
 }
 
-// Where there is no inbetween nothing is kept, and nobody is told of it.
+// Where there is no inbetween nothing is shared, and no node hears of it.
 TEST(Sharing, NothingWithoutInbetweens) {
   SharedRun rendered;
   run(film(1), {4, 2}, rendered);

@@ -9,7 +9,7 @@
 
 #include "hal/messages/message_types.h"
 #include "host/render/trace/trace_file.h"
-#include "node/renderer.h"
+#include "node/frame_report.h"
 #include "tests/hal/counting_backend.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 #include "tests/render/film_run.h"

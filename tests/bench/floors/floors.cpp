@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "node/simd/instruction_set.h"
 #include "node/tessellator.h"
 #include "tests/bench/floors/bare.h"
 #include "tests/bench/floors/workload.h"

@@ -1,3 +1,4 @@
+#include "node/simd/instruction_set.h"
 #include "tests/bench/floors/workload.h"
 
 #include <algorithm>
@@ -46,17 +47,16 @@ void Workload::dice(node::Dicer& dicer) {
   }
 }
 
+// All as if they stood still.
 void Workload::make(node::InstructionSet set) {
   made_.clear();
-  std::fill(line_counts_.begin(), line_counts_.end(), 0u);
   counts_ = {};
-  node::SetUps made(made_.rest(), line_counts_, wanted_);
-  node::Tessellator tessellator(set);
-  tessellator.make(scene_, node::Part::stationary, {}, made, counts_);
-  tessellator.make(scene_, node::Part::moving, {}, made, counts_);
-  counts_.triangles = made.touching;
-  polygons_ = {made.first, made.boxes(), {}};
-  shading_ = {made.first, view_.materials().data(), scene_.lights().data(),
+  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, node::FrameKind::keyframe, {},
+                                                                   {wanted_, line_counts_}, made_, counts_);
+  const auto [triangles, stationary, moving] = own.polygons;
+  counts_.triangles = own.made.triangles;
+  polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};
+  shading_ = {triangles, view_.materials().data(), scene_.lights().data(),
               static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }
 

@@ -8,6 +8,7 @@
 #include "host/content/film/compile.h"
 #include "node/shape/dice.h"
 #include "node/geometry/scene.h"
+#include "node/simd/instruction_set.h"
 #include "tests/bench/peers/mesh.h"
 
 namespace mars::bench {
@@ -84,7 +85,7 @@ void add_segments(const node::Scene& scene, bool moving, Mesh& mesh) {
     const node::Shape& shape = film.shapes()[film.segments()[s].shape];
     for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
       dicer.dice(node::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
-      add_patch(dicer, {s, scene.look(s), moving ? 1u : 0u, 0, 0, 0, 0}, mesh);
+      add_patch(dicer, {s, scene.material(s), moving ? 1u : 0u, 0, 0, 0, 0}, mesh);
     }
   }
 }

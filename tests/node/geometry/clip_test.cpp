@@ -56,16 +56,16 @@ std::vector<Exact> clip_exactly(const Projection& view, const ClipPolygon& polyg
     points.push_back({p[0], p[1], p[2]});
   }
   for (std::size_t plane = 0; plane < 6; ++plane) {
-    std::vector<Exact> kept;
+    std::vector<Exact> inside;
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Exact &a = points[k], &b = points[(k + 1) % points.size()];
       const long double from = distances(view, a)[plane], to = distances(view, b)[plane];
-      if (from >= 0) kept.push_back(a);
+      if (from >= 0) inside.push_back(a);
       if ((from >= 0) == (to >= 0)) continue;
       const long double t = from / (from - to);
-      kept.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
+      inside.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
     }
-    points = kept;
+    points = inside;
   }
   return points;
 }

@@ -56,7 +56,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-// A line with the room behind it that kernels may use and leave as it was.
+// A line with the slack behind it that kernels may use and leave as it was.
 struct Line {
   explicit Line(std::int32_t width)
       : depth(static_cast<std::size_t>(width + node::kVectorSlack), -9), ids(depth.size(), 99) {

@@ -1,4 +1,4 @@
-// Set-ups of diced patches: which way they face, what their plane equations say, and which of them are kept.
+// Set-ups of diced patches: which way they face, what their plane equations say, and which of them are emitted.
 #include "node/raster/setup.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "node/shape/dice.h"
+#include "node/simd/instruction_set.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
@@ -29,25 +30,25 @@ constexpr std::int32_t kWidth = 640, kHeight = 480;
 const node::Projection kView = projection(kWidth, kHeight, 2);
 
 // What set-up makes, with what a triangle does not tell of itself any more.
-struct Kept : Made {
+struct Emitted : Made {
   std::vector<Corners> corners;        // of each triangle
   std::vector<std::uint32_t> indices;  // in the patch's dicing
 };
 
 class SetUpTest : public testing::Test {
  protected:
-  Kept set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
+  Emitted set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
               const node::Projection& view = kView) {
     dicer.dice(patch, view, rate);
-    Kept kept{test::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
-    EXPECT_TRUE(kept.all_stored);
+    Emitted emitted{test::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
+    EXPECT_TRUE(emitted.all_stored);
     for (const PlainTriangle& plain : plain_set_up(dicer, view, identity)) {
       if (plain_edge_boxes(plain.corners, kWidth, kHeight).empty()) continue;
-      kept.corners.push_back(plain.corners);
-      kept.indices.push_back(plain.index);
+      emitted.corners.push_back(plain.corners);
+      emitted.indices.push_back(plain.index);
     }
-    EXPECT_EQ(kept.corners.size(), kept.triangles.size());
-    return kept;
+    EXPECT_EQ(emitted.corners.size(), emitted.triangles.size());
+    return emitted;
   }
 
   const node::InstructionSet set = node::best_instruction_set("");
@@ -66,9 +67,9 @@ double at(const Triangle& t, Value value, double dx, double dy) {
 // Square pixels.
 double square_pixels(const Corners& t) { return std::abs(static_cast<double>(area(t))) / 131072; }
 
-double covered(const Kept& kept) {
+double covered(const Emitted& emitted) {
   double sum = 0;
-  for (const Corners& t : kept.corners) sum += square_pixels(t);
+  for (const Corners& t : emitted.corners) sum += square_pixels(t);
   return sum;
 }
 
@@ -81,14 +82,14 @@ int samples_on(const Made& made, std::int32_t line) {
 }
 
 TEST_F(SetUpTest, CarriesWhatThePatchIs) {
-  const Kept kept = set_up(square(1, 4), 3);
-  ASSERT_EQ(kept.triangles.size(), 18u);
+  const Emitted emitted = set_up(square(1, 4), 3);
+  ASSERT_EQ(emitted.triangles.size(), 18u);
   for (std::uint32_t k = 0; k < 18; ++k) {
-    EXPECT_EQ(kept.triangles[k].patch, 5u);
-    EXPECT_EQ(kept.triangles[k].material, 3u);
-    EXPECT_EQ(kept.indices[k], k);
+    EXPECT_EQ(emitted.triangles[k].patch, 5u);
+    EXPECT_EQ(emitted.triangles[k].material, 3u);
+    EXPECT_EQ(emitted.indices[k], k);
   }
-  EXPECT_NEAR(covered(kept), 240 * 240, 2);  // 2 units of 480 / 4 pixels
+  EXPECT_NEAR(covered(emitted), 240 * 240, 2);  // 2 units of 480 / 4 pixels
 }
 
 // Seen from outside and inside, as it is and through a mirror, with one side and with two.
@@ -121,11 +122,11 @@ TEST_F(SetUpTest, NormalsAreTurnedToTheEye) {
   const EyePatch octant = sphere_octant({0, 0, -4}, 1);
   for (const EyePatch& patch : {octant, swapped(octant), turned(octant)})
     for (const bool mirrored : {false, true}) {
-      const Kept kept = set_up(patch, 12, {0, 0, mirrored, false, false});
-      ASSERT_GT(kept.triangles.size(), 100u);
-      for (std::size_t k = 0; k < kept.triangles.size(); ++k) {
-        const Triangle& t = kept.triangles[k];
-        const auto& [cx, cy] = kept.corners[k];
+      const Emitted emitted = set_up(patch, 12, {0, 0, mirrored, false, false});
+      ASSERT_GT(emitted.triangles.size(), 100u);
+      for (std::size_t k = 0; k < emitted.triangles.size(); ++k) {
+        const Triangle& t = emitted.triangles[k];
+        const auto& [cx, cy] = emitted.corners[k];
         const double dx = (cx[1] + cx[2] - 2 * cx[0]) / 3.0, dy = (cy[1] + cy[2] - 2 * cy[0]) / 3.0;
         const double w = 1 / at(t, node::kDepth, dx, dy);
         const double x = (cx[0] + dx) / 256 - kView.center[0], y = (cy[0] + dy) / 256 - kView.center[1];
@@ -144,16 +145,16 @@ TEST_F(SetUpTest, PlanesGoThroughTheVertices) {
   int checked = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, -6}, 1);
-    const Kept kept = set_up(patch, 6);
+    const Emitted emitted = set_up(patch, 6);
     const node::Vertices& v = dicer.vertices();
-    for (std::size_t n = 0; n < kept.triangles.size(); ++n) {
-      const Triangle& t = kept.triangles[n];
-      const node::Corner3 corners = dicer.triangles()[kept.indices[n]];
+    for (std::size_t n = 0; n < emitted.triangles.size(); ++n) {
+      const Triangle& t = emitted.triangles[n];
+      const node::Corner3 corners = dicer.triangles()[emitted.indices[n]];
       const std::uint32_t number[] = {corners.a, corners.b, corners.c};
       ASSERT_EQ(t.first_x, v.x[corners.a]);
       ASSERT_EQ(t.first_y, v.y[corners.a]);
-      if (square_pixels(kept.corners[n]) < 0.5) continue;  // rounding decides the planes of slivers
-      const double sign = area(kept.corners[n]) < 0 ? 1 : -1;
+      if (square_pixels(emitted.corners[n]) < 0.5) continue;  // rounding decides the planes of slivers
+      const double sign = area(emitted.corners[n]) < 0 ? 1 : -1;
       for (const std::uint32_t k : number) {
         const double dx = v.x[k] - t.first_x, dy = v.y[k] - t.first_y, w = 1 / v.values[k][node::kDepth];
         EXPECT_NEAR(at(t, node::kDepth, dx, dy) * w, 1, 1e-4);
@@ -188,22 +189,22 @@ TEST_F(SetUpTest, GroundReachesPastTheEye) {
       const EyePatch ground = make_patch([&](int i, int j) {
         return Vec3{size * (i - 1.4), -1, size * (1.6 - j)};
       });
-      const Kept kept = set_up(ground, rate, {0, 0, false, true, false}, view);
+      const Emitted emitted = set_up(ground, rate, {0, 0, false, true, false}, view);
       int holes = 0;
-      for (std::int32_t line = 300; line < kHeight; ++line) holes += samples_on(kept, line) != kWidth;
+      for (std::int32_t line = 300; line < kHeight; ++line) holes += samples_on(emitted, line) != kWidth;
       EXPECT_EQ(holes, 0) << "size " << size << ", rate " << rate;
     }
 }
 
 // On a lattice of samples: a square of 2 pixels round a corner of four holds those four.
 TEST_F(SetUpTest, CountsEdgeBoxes) {
-  const Kept kept = set_up(square(1.0 / 120, 4), 1);  // 1 pixel is 1/120 unit: [319, 321) x [239, 241)
-  EXPECT_EQ(kept.touching, 2u);
-  EXPECT_EQ(kept.edge_boxes, kept.line_counts[239] + kept.line_counts[240]);
-  EXPECT_EQ(samples_on(kept, 239), 2);
-  EXPECT_EQ(samples_on(kept, 240), 2);
+  const Emitted emitted = set_up(square(1.0 / 120, 4), 1);  // 1 pixel is 1/120 unit: [319, 321) x [239, 241)
+  EXPECT_EQ(emitted.touching, 2u);
+  EXPECT_EQ(emitted.edge_boxes, emitted.line_counts[239] + emitted.line_counts[240]);
+  EXPECT_EQ(samples_on(emitted, 239), 2);
+  EXPECT_EQ(samples_on(emitted, 240), 2);
   for (std::uint32_t line = 0; line < kHeight; ++line)
-    EXPECT_EQ(kept.line_counts[line] > 0, line == 239 || line == 240) << line;
+    EXPECT_EQ(emitted.line_counts[line] > 0, line == 239 || line == 240) << line;
 }
 
 std::size_t bytes_of(const Made& made) {
@@ -278,7 +279,7 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
   EXPECT_GT(mixed_batches(set, dicer), 0);
   for (const EyePatch& patch : {sphere_octant({0, 0, -4}, 1), ground, swapped(ground), wedge, turned(wedge)})
     for (const int rate : {0, 2, 9}) {
-      const Kept all = set_up(patch, rate);
+      const Emitted all = set_up(patch, rate);
       Shortage shortage;
       const std::size_t most = bytes_of(all) + kHeight * sizeof(node::UnsortedEdgeBox) + sizeof(Triangle);
       for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 1600))
@@ -291,18 +292,18 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
 }
 
 TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
-  const Kept all = set_up(square(1, 4), 9);
+  const Emitted all = set_up(square(1, 4), 9);
   std::vector<std::uint8_t> wanted(kHeight);
   std::fill(wanted.begin() + 200, wanted.begin() + 230, std::uint8_t{1});
   wanted[300] = 1;
   std::vector<Whole> expected;
   std::vector<std::uint32_t> counts(kHeight);
   for (const Whole& one : by_triangle(all)) {
-    Whole kept{one.triangle, {}};
+    Whole on_wanted{one.triangle, {}};
     for (const node::UnsortedEdgeBox& unsorted : one.boxes)
-      if (wanted[unsorted.line]) kept.boxes.push_back(unsorted);
-    for (const node::UnsortedEdgeBox& unsorted : kept.boxes) ++counts[unsorted.line];
-    if (!kept.boxes.empty()) expected.push_back(kept);
+      if (wanted[unsorted.line]) on_wanted.boxes.push_back(unsorted);
+    for (const node::UnsortedEdgeBox& unsorted : on_wanted.boxes) ++counts[unsorted.line];
+    if (!on_wanted.boxes.empty()) expected.push_back(on_wanted);
   }
   EXPECT_LT(expected.size(), all.triangles.size());
   EXPECT_GT(expected.size(), 0u);
@@ -325,14 +326,14 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
 // Edge boxes say whose they are, line after line, and whether it moves.
 TEST_F(SetUpTest, EdgeBoxesFollowTheirTriangles) {
   for (const bool moving : {false, true}) {
-    const Kept kept = set_up(square(1, 4), 5, {5, 3, false, false, moving});
-    ASSERT_EQ(kept.boxes.size(), kept.edge_boxes);
-    for (std::size_t k = 0; k < kept.boxes.size(); ++k) {
-      const node::UnsortedEdgeBox& here = kept.boxes[k];
+    const Emitted emitted = set_up(square(1, 4), 5, {5, 3, false, false, moving});
+    ASSERT_EQ(emitted.boxes.size(), emitted.edge_boxes);
+    for (std::size_t k = 0; k < emitted.boxes.size(); ++k) {
+      const node::UnsortedEdgeBox& here = emitted.boxes[k];
       EXPECT_EQ(here.moving, moving);
-      ASSERT_LT(here.box.triangle, kept.triangles.size());
+      ASSERT_LT(here.box.triangle, emitted.triangles.size());
       if (k == 0) continue;
-      const node::UnsortedEdgeBox& before = kept.boxes[k - 1];
+      const node::UnsortedEdgeBox& before = emitted.boxes[k - 1];
       if (here.box.triangle == before.box.triangle)
         EXPECT_GT(here.line, before.line);
       else

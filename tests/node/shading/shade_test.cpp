@@ -38,7 +38,7 @@ struct Result {
   std::vector<std::uint32_t> pixels;
 };
 
-// Behind the line and behind the pixels there is the room that kernels may use, and no more.
+// Behind the line and behind the pixels there is the slack that kernels may use, and no more.
 Result shade(const Scenery& scenery, node::InstructionSet set, Extent extent) {
   constexpr std::uint32_t kUntouched = 0xabcdef01;
   std::vector<std::uint32_t> ids = scenery.ids;

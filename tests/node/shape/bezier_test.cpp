@@ -246,7 +246,7 @@ TEST(Bezier, InsideRatesKeepOutlinesAndTurns) {
   EXPECT_GT(cells, 400u * 4);
 }
 
-// The survey's bits are the same for all instruction sets.
+// The curvature's bits are the same for all instruction sets.
 TEST(Bezier, RatesAreTheSameEverywhere) {
   Random random(19);
   const Projection view = projection(640, 480, 2);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node/simd/instruction_set.h"
 #include "tests/node/shape/diced.h"
 
 namespace mars::test {

@@ -7,6 +7,7 @@
 #include "node/wire/film.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/simd/instruction_set.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/wire/small_film.h"
 
@@ -27,7 +28,7 @@ std::uint64_t walk(const FilmView& film) {
     for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {
       scene.set_frame(frame);
       sum += scene.lines_of_movers({&frame, 1}).last;
-      for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.look(s) + scene.first_patch(s);
+      for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.material(s) + scene.first_patch(s);
     }
   }
   for (const node::Segment& segment : film.segments()) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "node/shape/dice.h"
+#include "node/simd/instruction_set.h"
 #include "tests/host/content/modeler/surface.h"
 
 namespace mars::host {

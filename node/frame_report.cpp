@@ -1,0 +1,44 @@
+#include "node/frame_report.h"
+
+#include "hal/messages/process.h"
+#include "hal/messages/recorder.h"
+#include "hal/nx/nx_messages.h"
+
+namespace mars::node {
+
+void FrameReport::begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval, const hal::Group& group) {
+  begin_ = clock_ = dclock();
+  hal::record_frame(static_cast<std::int32_t>(frame));
+  sent_before_ = hal::traffic().to_nodes.bytes;
+  strip_ = {};
+  strip_.frame = frame;
+  strip_.interval = interval;
+  strip_.kind = kind;
+  strip_.node = static_cast<std::int32_t>(mynode());
+  strip_.group_first = group.first;
+  strip_.group_count = group.count;
+}
+
+void FrameReport::clock(Phase phase) {
+  const double now = dclock();
+  strip_.times.*kPhaseTimes[static_cast<std::size_t>(phase)] += now - clock_;
+  hal::record_span(static_cast<int>(phase), clock_, now);
+  clock_ = now;
+}
+
+void FrameReport::skip_clock() { clock_ = dclock(); }
+
+void FrameReport::set_strip(const LineRange& lines, bool last, std::uint64_t memory) {
+  strip_.last = last ? 1 : 0;
+  strip_.first_line = lines.first;
+  strip_.last_line = lines.last;
+  strip_.work.memory = memory;
+  strip_.work.bytes_to_nodes = hal::traffic().to_nodes.bytes - sent_before_;
+}
+
+void FrameReport::end() const {
+  const Phase whole = is_keyframe() ? Phase::keyframe : Phase::inbetween;
+  hal::record_span(static_cast<int>(whole), begin_, clock_, strip_.interval);
+}
+
+}  // namespace mars::node

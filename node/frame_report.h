@@ -1,0 +1,42 @@
+// What a node tells the host of the frame at hand: the header of its strips, with times and counts so far.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hal/collectives/group.h"
+#include "node/geometry/line_range.h"
+#include "node/wire/protocol.h"
+
+namespace mars::node {
+
+// Where PhaseTimes has each step, by Phase.
+inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,  &PhaseTimes::map,
+                                        &PhaseTimes::exchange, &PhaseTimes::fill, &PhaseTimes::scanline,
+                                        &PhaseTimes::depth,    &PhaseTimes::credit};
+
+class FrameReport {
+ public:
+  // A new frame, which `group` draws. Its clock starts.
+  void begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval, const hal::Group& group);
+  // Adds the time since the last call to `phase`, and records it as a span.
+  void clock(Phase phase);
+  // The time since the last call is no phase's, or somebody else has added it.
+  void skip_clock();
+  // Prepares the header of the frame's next strip; `memory`: bytes in use at the peak.
+  void set_strip(const LineRange& lines, bool last, std::uint64_t memory);
+  // Records the frame as a span.
+  void end() const;
+
+  Strip& strip() { return strip_; }
+  const Strip& strip() const { return strip_; }
+  bool is_keyframe() const { return strip_.kind == FrameKind::keyframe; }
+
+ private:
+  Strip strip_{};
+  std::uint64_t sent_before_ = 0;  // bytes to nodes
+  double begin_ = 0;
+  double clock_ = 0;
+};
+
+}  // namespace mars::node

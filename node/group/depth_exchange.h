@@ -1,0 +1,45 @@
+// CZB for the nodes that draw inbetweens: after a keyframe each machine that has such nodes, the contributors, gets the
+// lines that inbetweens may touch, once.
+//
+// The group's nodes on a machine write their home lines to its CZB. The first of them, its head, collects there what
+// other machines send and the word of its own, and then tells the machine's contributors.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "hal/collectives/group.h"
+#include "node/geometry/line_range.h"
+#include "node/group/pending_messages.h"
+#include "node/raster/czb.h"
+
+namespace mars::node {
+
+// What the group's nodes know of each other, all of them the same.
+struct DepthNeeds {
+  hal::Group group;
+  std::span<const LineRange> homes;           // of the group's nodes
+  LineRange lines;                            // that inbetweens may touch
+  std::span<const std::uint8_t> contributes;  // 1: the node draws inbetweens; of all the group's nodes
+};
+
+class DepthExchange {
+ public:
+  // `nodes`: the most a group has.
+  explicit DepthExchange(int nodes);
+
+  // Collective over the group, which has written its home lines to `czb`. A contributor returns when all needed lines
+  // are there.
+  void complete(const DepthNeeds& needs, Czb& czb);
+
+ private:
+  class Plan;
+
+  void send_home_lines(const Plan& plan, Czb& czb);
+  void collect_lines(const Plan& plan, Czb& czb);
+  void tell_contributors(const Plan& plan) const;
+
+  PendingMessages pending_;
+};
+
+}  // namespace mars::node

@@ -1,0 +1,107 @@
+#include "node/group/passes.h"
+
+#include <algorithm>
+#include <string>
+
+#include "hal/failure/failure.h"
+#include "hal/nx/nx_messages.h"
+#include "node/geometry/triangle.h"
+#include "node/raster/edge_box.h"
+
+namespace mars::node {
+namespace {
+
+// Bytes of edge boxes that travel with their triangles, at most; and of those that lie in their lines.
+constexpr std::uint64_t kTravelling = sizeof(Triangle) + sizeof(UnsortedEdgeBox);
+constexpr std::uint64_t kInLine = sizeof(EdgeBox);
+
+// Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
+// piece of memory is rounded up.
+std::uint64_t overhead(const FrameLoad& load) { return 24 * load.line_counts.size() + 512 * load.homes.size() + 4096; }
+
+// Of all nodes' triangles, on some lines.
+std::uint64_t boxes_on(const FrameLoad& load, const LineRange& lines) {
+  return load.ebc[lines.last] - load.ebc[lines.first];
+}
+
+// Of the node's own triangles, on all lines of a pass.
+std::uint64_t own_boxes_in(const FrameLoad& load, const Pass& pass) {
+  std::uint64_t boxes = 0;
+  for (const LineRange& home : load.homes) {
+    const LineRange part = part_of(home, pass);
+    for (std::uint32_t line = part.first; line < part.last; ++line) boxes += load.line_counts[line];
+  }
+  return boxes;
+}
+
+const LineRange& home_of(const FrameLoad& load, int node) {
+  return load.homes[static_cast<std::size_t>(node - load.group.first)];
+}
+
+// A triangle has at least one edge box.
+std::uint64_t memory_in(const FrameLoad& load, int node, const Pass& pass) {
+  const std::uint64_t own_boxes = own_boxes_in(load, pass), boxes = boxes_on(load, part_of(home_of(load, node), pass));
+  const std::uint64_t own =
+      std::min(own_boxes, load.triangles) * sizeof(Triangle) + own_boxes * sizeof(UnsortedEdgeBox);
+  const std::uint64_t travelling = load.homes.size() > 1 ? (own_boxes + boxes) * kTravelling : 0;
+  return own + travelling + boxes * kInLine;
+}
+
+// By what every node knows of all.
+bool one_pass_fits_all(const FrameLoad& load, std::uint64_t memory) {
+  for (std::size_t n = 0; n < load.homes.size(); ++n) {
+    const std::uint64_t boxes = boxes_on(load, load.homes[n]);
+    const std::uint64_t received = load.homes.size() > 1 ? boxes * kTravelling : 0;
+    if (load.own_bytes[n] + received + boxes * kInLine + overhead(load) > memory) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+LineRange part_of(const LineRange& home, const Pass& pass) {
+  const auto at = [&](std::uint32_t number) {
+    return home.first + static_cast<std::uint32_t>(std::uint64_t{home.count()} * number / pass.count);
+  };
+  return {at(pass.number), at(pass.number + 1)};
+}
+
+void mark_lines(std::span<const LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted) {
+  std::ranges::fill(wanted, std::uint8_t{0});
+  for (const LineRange& home : homes) {
+    const LineRange part = part_of(home, pass);
+    std::ranges::fill(wanted.subspan(part.first, part.count()), std::uint8_t{1});
+  }
+}
+
+std::uint64_t own_bytes(const MadeCounts& made, const hal::Group& group) {
+  const std::uint64_t sent = group.count > 1 ? made.edge_boxes * kTravelling : 0;
+  return made.triangles * sizeof(Triangle) + made.edge_boxes * sizeof(UnsortedEdgeBox) + sent;
+}
+
+std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes) {
+  std::uint64_t most = 0;
+  for (std::uint32_t number = 0; number < passes; ++number)
+    most = std::max(most, memory_in(load, node, {number, passes}));
+  return most + overhead(load);
+}
+
+std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) {
+  const std::uint64_t height = load.line_counts.size();
+  std::uint32_t passes = 1;
+  while (memory_for(load, node, passes) > memory && passes < 2 * height) passes *= 2;
+  if (const std::uint64_t needed = memory_for(load, node, passes); needed > memory)
+    throw Failure("one line's edge boxes need " + std::to_string((needed >> 20) + 1) + " MiB, but a frame has " +
+                      std::to_string(memory >> 20) + " MiB",
+                  "memory", "set MARS_MEMORY to more MiB");
+  return passes;
+}
+
+std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory) {
+  if (one_pass_fits_all(load, memory)) return 1;
+  double most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
+  if (load.group.count > 1) hal::group_high(load.group, {&most, 1}, {&work, 1});
+  return static_cast<std::uint32_t>(most);
+}
+
+}  // namespace mars::node

@@ -1,0 +1,57 @@
+// Where a frame's triangles and edge boxes exceed a node's memory, its lines are drawn in several passes, in each of
+// which every home draws a part of its lines and all nodes make the triangles of these parts again. How many passes
+// there are follows from counts alone, before any memory is used.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "hal/collectives/group.h"
+#include "node/geometry/line_range.h"
+
+namespace mars::node {
+
+struct Pass {
+  std::uint32_t number = 0;
+  std::uint32_t count = 1;
+
+  bool is_last() const { return number + 1 == count; }
+};
+
+// The lines of a home that are drawn in a pass. The parts for twice as many passes lie within these.
+LineRange part_of(const LineRange& home, const Pass& pass);
+
+// Sets those of `wanted`, one a line of the picture, to 1 that any of the homes draws in the pass, others to 0.
+void mark_lines(std::span<const LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted);
+
+// What one node's patches became: triangles that touch a sample, and their edge boxes.
+struct MadeCounts {
+  std::uint64_t triangles = 0;
+  std::uint64_t edge_boxes = 0;
+};
+
+// Bytes that these take on their node in a single pass, with what is set aside to send them to the group's others.
+std::uint64_t own_bytes(const MadeCounts& made, const hal::Group& group);
+
+// A frame as a node of the group knows it when lines are mapped.
+struct FrameLoad {
+  hal::Group group;
+  std::span<const std::uint64_t> ebc;          // of all nodes (mapping.h)
+  std::span<const LineRange> homes;            // of the group's nodes
+  std::span<const std::uint64_t> own_bytes;    // of the group's nodes
+  std::span<const std::uint32_t> line_counts;  // edge boxes a line of the node's own triangles
+  std::uint64_t triangles;                     // of its own
+};
+
+// A bound on the bytes that node `node` uses in any of `passes` passes.
+std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes);
+
+// The least number of passes, a power of two, for which `memory` bytes do on node `node`. Throws Failure where they do
+// not even for one line.
+std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory);
+
+// The number of passes that does for the calling node and all others of the group, the same on every one; collective.
+// Nodes ask each other only where one pass might not do for one of them, which all can tell from the sums.
+std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory);
+
+}  // namespace mars::node

@@ -1,0 +1,160 @@
+// Strips to a host that gives credit, and a transport that is done with messages, when the test says so.
+#include "node/group/outbox.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
+#include "hal/template/template_backend.h"
+
+namespace mars::test {
+namespace {
+
+constexpr std::size_t kWidth = 16;
+
+// A node alone with its host. What happens meanwhile stands in a script: each time that the node can do nothing but wait,
+// its next event comes.
+class ScriptedHost : public hal::TemplateBackend {
+ public:
+  struct Sent {
+    int to, type;
+    node::Strip strip;
+    bool gone = false;
+  };
+
+  bool has_host() const override { return true; }
+  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    Sent message{to, type, {}, transport_is_quick};
+    EXPECT_EQ(length, sizeof message.strip) << "these strips are empty";
+    std::memcpy(&message.strip, data, sizeof message.strip);
+    messages.push_back(message);
+    return static_cast<hal::Ticket>(messages.size() - 1);
+  }
+  bool sent(hal::Ticket ticket) override { return messages.at(static_cast<std::size_t>(ticket)).gone; }
+  void idle(int, std::chrono::microseconds longest) override {
+    if (longest < std::chrono::milliseconds(5)) return;  // in a call that does not wait
+    if (script.empty()) throw Failure("the node waits for ever", "", "");
+    ++waits;
+    std::exchange(script.front(), {})();
+    script.pop_front();
+  }
+
+  // Arrives as if from the host.
+  void give_credit(int count) {
+    const node::Credit credit{count};
+    send(rank(), node::kCredit, &credit, sizeof credit);
+  }
+
+  std::vector<Sent> messages;
+  std::deque<std::function<void()>> script;
+  bool transport_is_quick = true;  // else messages are gone when the test sets it
+  int waits = 0;
+};
+
+class OutboxTest : public testing::Test {
+ protected:
+  // The header as the outbox leaves it.
+  node::Strip send(node::Outbox& outbox) {
+    node::Strip header{};
+    header.number = static_cast<std::uint32_t>(host.messages.size());
+    outbox.begin(false);
+    outbox.send(header);
+    return header;
+  }
+
+  ScriptedHost host;
+  hal::Process process{host};
+};
+
+TEST_F(OutboxTest, SendsAsManyStripsAsThereAreCredits) {
+  node::Outbox outbox(kWidth, 3);
+  for (std::uint32_t number = 0; number < 3; ++number) {
+    EXPECT_EQ(send(outbox).work.credits_waited, 0u);
+    const ScriptedHost::Sent& message = host.messages.at(number);
+    EXPECT_EQ(message.to, host.host());
+    EXPECT_EQ(message.type, node::kStrip);
+    EXPECT_EQ(message.strip.number, number);
+  }
+  EXPECT_EQ(host.waits, 0);
+}
+
+TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
+  node::Outbox outbox(kWidth, 1);
+  send(outbox);
+  host.script = {[] {}, [&] { host.give_credit(1); }};
+  const node::Strip header = send(outbox);
+  EXPECT_EQ(host.waits, 2);
+  EXPECT_EQ(header.work.credits_waited, 1u);
+  EXPECT_GT(header.times.credit, 0);
+  EXPECT_EQ(host.messages.back().strip.work.credits_waited, 1u) << "the strip says so to the host";
+  EXPECT_EQ(host.messages.size(), 2u);
+}
+
+TEST_F(OutboxTest, TakesWhatCreditHasCome) {
+  node::Outbox outbox(kWidth, 1);
+  send(outbox);
+  host.give_credit(1);
+  host.give_credit(2);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(send(outbox).work.credits_waited, 0u);
+  EXPECT_THROW(send(outbox), Failure) << "a fourth has none";
+  EXPECT_EQ(host.messages.size(), 4u);
+}
+
+TEST_F(OutboxTest, ReceivesCreditWhileNothingIsSent) {
+  node::Outbox outbox(kWidth, 1);
+  send(outbox);
+  host.script = {[&] { host.give_credit(1); }};
+  outbox.receive_credit();
+  EXPECT_EQ(send(outbox).work.credits_waited, 0u);
+  EXPECT_EQ(host.waits, 1);
+}
+
+// Though there is credit: a buffer is not touched before its message has left it.
+TEST_F(OutboxTest, ReusesABufferWhenItsMessageIsGone) {
+  node::Outbox outbox(kWidth, 2);
+  host.transport_is_quick = false;
+  send(outbox);
+  send(outbox);
+  host.give_credit(2);
+  host.script = {[&] { host.messages[1].gone = true; }, [&] { host.messages[0].gone = true; }};
+  send(outbox);
+  EXPECT_EQ(host.waits, 2) << "the first buffer's turn, not the second's";
+  send(outbox);
+  EXPECT_EQ(host.waits, 2) << "the second is free already";
+}
+
+TEST_F(OutboxTest, FlushWaitsUntilAllIsGone) {
+  node::Outbox outbox(kWidth, 3);
+  host.transport_is_quick = false;
+  send(outbox);
+  send(outbox);
+  host.script = {[&] { host.messages[1].gone = true; }, [&] { host.messages[0].gone = true; }};
+  outbox.flush();
+  EXPECT_EQ(host.waits, 2);
+  outbox.flush();
+  EXPECT_EQ(host.waits, 2) << "nothing is left";
+}
+
+TEST_F(OutboxTest, AFailureOfTheTransportComesThrough) {
+  node::Outbox outbox(kWidth, 1);
+  send(outbox);
+  host.script = {[] { throw Failure("the host is gone", "", ""); }};
+  node::Strip header{};
+  outbox.begin(false);
+  EXPECT_THROW(outbox.send(header), Failure);
+  EXPECT_EQ(host.messages.size(), 1u);
+}
+
+TEST_F(OutboxTest, FailsWhereTheMachineLacksTheMemory) {
+  EXPECT_THROW(node::Outbox(std::size_t{1} << 42, 1), Failure);
+}
+
+}  // namespace
+}  // namespace mars::test

@@ -1,0 +1,29 @@
+// Which node draws which inbetween.
+#include "node/wire/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace mars::test {
+namespace {
+
+std::vector<std::int32_t> contributors(const node::Render& render) {
+  std::vector<std::int32_t> nodes;
+  for (std::uint32_t k = 0; k + 1 < render.frame_count; ++k) nodes.push_back(contributor_of_inbetween(render, k));
+  return nodes;
+}
+
+TEST(Contributors, GoRoundTheGroupsNodes) {
+  EXPECT_EQ(contributors({.interval = 3, .group_first = 4, .group_count = 3, .frame_count = 6, .first_inbetween = 0}),
+            (std::vector<std::int32_t>{4, 5, 6, 4, 5}));
+}
+
+TEST(Contributors, GoOnWhereTheIntervalBeforeEnded) {
+  EXPECT_EQ(contributors({.interval = 4, .group_first = 4, .group_count = 3, .frame_count = 3, .first_inbetween = 5}),
+            (std::vector<std::int32_t>{6, 4}));
+  EXPECT_EQ(contributors({0, 0, 2, 2, 1'000'000'000'001}), (std::vector<std::int32_t>{1}));
+}
+
+}  // namespace
+}  // namespace mars::test
