@@ -9,7 +9,7 @@ namespace mars::host {
 
 struct Command {
   std::vector<std::pair<std::string, std::string>> environment;
-  std::vector<std::string> words;  // the first is the program: a path, or a name that is looked for in the PATH
+  std::vector<std::string> words;  // the first is the path of the program
   bool session_folders = false;    // it starts Open MPI on this machine alone (shell/launch/session_folders.h)
 
   bool operator==(const Command&) const = default;

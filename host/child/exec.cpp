@@ -25,7 +25,7 @@ ExecArguments::ExecArguments(const Command& command)
       environment_pointers_(environment_.pointers()) {}
 
 void ExecArguments::execute() const {
-  execvpe(word_pointers_[0], word_pointers_.data(), environment_pointers_.data());
+  execve(word_pointers_[0], word_pointers_.data(), environment_pointers_.data());
 }
 
 void become(const Command& command, const std::string& remedy) {

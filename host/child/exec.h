@@ -16,8 +16,7 @@ class ExecArguments {
   ExecArguments(const ExecArguments&) = delete;
   ExecArguments& operator=(const ExecArguments&) = delete;
 
-  // This process becomes the program, which is looked for in the PATH where its name is no path. Returns, with errno,
-  // where it cannot. May be called after fork.
+  // This process becomes the program. Returns, with errno, where it cannot. May be called after fork.
   void execute() const;
 
  private:

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/child/environment.h"
+#include "host/child/programs.h"
 #include "host/content/document/whole_file.h"
 
 namespace mars::host {
@@ -17,10 +19,10 @@ namespace {
 
 constexpr int kOutput = 3;  // of ffmpeg
 
-Command command(bool gif, PictureSize extent, double rate) {
+Command command(const std::string& program, bool gif, PictureSize extent, double rate) {
   std::array<char, 40> number{};
   std::to_chars(number.data(), number.data() + number.size() - 1, rate);
-  std::vector<std::string> words{"ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb0", "-s",
+  std::vector<std::string> words{program, "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb0", "-s",
                                  std::to_string(extent.width) + "x" + std::to_string(extent.height), "-r",
                                  number.data(), "-i", "-"};
   const std::vector<std::string> ending =
@@ -43,6 +45,10 @@ Video::Video(std::filesystem::path path, PictureSize extent, double rate) : path
 }
 
 void Video::start(PictureSize extent, double rate) {
+  const auto program = find_program("ffmpeg", program_path(own_environment()));
+  if (!program)
+    throw Failure("needs the program ffmpeg, which is not installed", path_.string(),
+                  "install it (Debian: apt install ffmpeg), or write a contact sheet: -o sheet.png");
   int ends[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Failure(std::strerror(errno), "starting ffmpeg", "");
@@ -54,12 +60,7 @@ void Video::start(PictureSize extent, double rate) {
                                        {2, errors_.number()},
                                        {kOutput, output_.number()}},
                            .default_signals = {SIGXFSZ}};
-  try {
-    process_.emplace(command(path_.extension() == ".gif", extent, rate), setup);
-  } catch (const Failure& failure) {
-    throw Failure("needs the program ffmpeg, which " + failure.problem, path_.string(),
-                  "install it (Debian: apt install ffmpeg), or write a contact sheet: -o sheet.png");
-  }
+  process_.emplace(command(program->string(), path_.extension() == ".gif", extent, rate), setup);
 }
 
 void Video::add(const Image& image) {

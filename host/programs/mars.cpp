@@ -19,14 +19,15 @@
 #include "host/shell/launch/launch.h"
 #include "host/shell/options/command_line.h"
 #include "host/content/film/frame_set.h"
-#include "host/programs/animate_command.h"
+#include "host/shell/commands/animate_command.h"
 #include "host/programs/film_of.h"
-#include "host/programs/import_command.h"
-#include "host/programs/model_command.h"
+#include "host/shell/commands/import_command.h"
+#include "host/shell/commands/model_command.h"
 #include "host/programs/node_job.h"
-#include "host/programs/plot_command.h"
-#include "host/programs/preview_command.h"
+#include "host/shell/commands/plot_command.h"
+#include "host/shell/commands/preview_command.h"
 #include "host/programs/standard_streams.h"
+#include "host/programs/surface_frames.h"
 #include "host/render/sinks/verify.h"
 
 namespace mars::host {
@@ -61,9 +62,9 @@ constexpr const char* kEnds =
 line.
 )";
 
-struct Names {
-  std::string from;
-  std::string to;
+struct Verifying {
+  std::string folder;
+  bool missing = false;
 };
 
 std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
@@ -106,38 +107,38 @@ void add_render(CLI::App& app, RenderOptions& options) {
   command->callback([&options] { launch_render(options, own_file(), adviser(own_file())); });
 }
 
-void add_compile(CLI::App& app, RenderOptions& options, Names& names) {
+void add_compile(CLI::App& app, RenderOptions& options, std::string& output) {
   CLI::App* command = app.add_subcommand("compile", "Compute a film's motion once, to a .mars file");
   add_render_options(*command, options, Program::compile);
-  command->add_option("-o,--output", names.to, "The compiled film. Example: -o film.mars")
+  command->add_option("-o,--output", output, "The compiled film. Example: -o film.mars")
       ->required()
       ->type_name("FILE");
   command->callback([&] {
-    refuse_same_file(options.film, names.to);
-    save_film(load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }), names.to);
+    refuse_same_file(options.film, output);
+    save_film(load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }), output);
   });
 }
 
-void add_info(CLI::App& app, Names& names) {
+void add_info(CLI::App& app, std::string& film) {
   CLI::App* command = app.add_subcommand("info", "Print what a film holds");
-  command->add_option("FILM", names.from, "A .json or .mars file. Example: examples/demo.json")->required();
-  command->callback([&] { std::cout << info_of(names.from); });
+  command->add_option("FILM", film, "A .json or .mars file. Example: examples/demo.json")->required();
+  command->callback([&] { std::cout << info_of(film); });
 }
 
-void add_verify(CLI::App& app, Names& names, bool& missing, int& code) {
+void add_verify(CLI::App& app, Verifying& verifying, int& code) {
   CLI::App* command =
       app.add_subcommand("verify", "Check every frame of a folder; print one hash of all pixels");
-  command->add_option("DIR", names.from, "The folder given to mars render with -o. Example: build/demo")
+  command->add_option("DIR", verifying.folder, "The folder given to mars render with -o. Example: build/demo")
       ->required();
-  command->add_flag("--missing", missing,
+  command->add_flag("--missing", verifying.missing,
                     "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. "
                     "Example: --missing");
   command->footer("To render the missing frames:\n"
                   "  missing=$(mars verify DIR --missing)\n"
                   "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
   command->callback([&] {
-    const Verdict verdict = verify_folder(names.from);
-    if (missing)
+    const Verdict verdict = verify_folder(verifying.folder);
+    if (verifying.missing)
       print_missing(verdict);
     else
       code = print_verdict(verdict);
@@ -192,15 +193,15 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "mars " MARS_VERSION, "Print the version. Example: --version");
   app.require_subcommand(0, 1);
   RenderOptions options;
-  Names names;
+  std::string compiled_film, film, benchmark;
+  Verifying verifying;
   int code = 0;
   add_render(app, options);
-  add_compile(app, options, names);
-  add_info(app, names);
-  bool missing = false;
-  add_verify(app, names, missing, code);
+  add_compile(app, options, compiled_film);
+  add_info(app, film);
+  add_verify(app, verifying, code);
   add_import(app);
-  add_preview(app);
+  add_preview(app, [](const CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
   add_play(app);
   add_animate(app, code);
   add_plot(app);
@@ -211,7 +212,7 @@ int run(int argc, char** argv) {
   add_doctor(app, doctor, code);
   std::vector<const char*> words = help_as_option(argc, argv);
   const std::vector<std::string> benchmark_words = take_benchmark_words(words);
-  add_bench(app, names.from, benchmark_words);
+  add_bench(app, benchmark, benchmark_words);
   // Last, or each command would have it.
   app.footer(std::string("mars COMMAND --help prints every option with an example.\n") + kEnds);
   if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;

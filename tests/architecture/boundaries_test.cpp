@@ -139,18 +139,20 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
     });
   };
   const std::string document = "host/content/document/", modeler = "host/content/modeler/", animator = "host/content/animator/";
-  const std::string film = "host/content/film/", preview = "host/preview/", sinks = "host/render/sinks/", options = "host/shell/options/";
+  const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/", child = "host/child/";
+  below(child, {child});
   below(document, {document});
   below(modeler, {document, modeler});
-  below("host/content/importer/", {document, modeler, "host/content/importer/"});
-  below(animator, {document, modeler, animator});
-  below(film, {document, modeler, animator, film, sinks});
-  below(preview, {document, modeler, animator, film, preview, sinks, options});
+  below("host/content/importer/", {child, document, modeler, "host/content/importer/"});
+  below(animator, {child, document, modeler, animator});
+  below(film, {document, modeler, animator, film});
+  below(images, {document, images});
+  below(preview, {child, document, modeler, animator, film, images, preview, "host/render/sinks/"});
   for (const Source& source : sources())
     for (const std::string& include : source.includes) {
       EXPECT_TRUE(!begins(include, "host/programs/") || begins(source.path, "host/programs/")) << source.path;
       EXPECT_TRUE(!begins(include, animator + "motion/") || begins(source.path, animator + "motion/") ||
-                  begins(source.path, "host/programs/"))
+                  begins(source.path, "host/shell/commands/"))
           << source.path;
     }
 }
@@ -179,6 +181,59 @@ Files reached_from(const Source& file) {
       if (source.path == next) left.insert(left.end(), source.includes.begin(), source.includes.end());
   }
   return reached;
+}
+
+// What a film is needs no messages: of hal only failures, of node/ only what both sides share.
+TEST(Boundaries, ContentKnowsNoMessages) {
+  for (const char* room : {"host/child/", "host/content/", "host/images/"})
+    expect_includes(room, [](const std::string& i) {
+      return begins(i, "host/") || begins(i, "hal/failure/") || begins(i, "topology/") || begins(i, "node/wire/") ||
+             begins(i, "node/shape/");
+    });
+}
+
+// Processes are started in one place, for the programs' own jobs in hal/.
+TEST(Boundaries, OnePlaceStartsProcesses) {
+  const std::regex starting(R"(\b(fork|vfork|posix_spawnp?|execvp?e?|popen)\s*\()");
+  Files files;
+  for (const Source& source : sources())
+    if (begins(source.path, "host/") && std::regex_search(source.text, starting)) files.insert(source.path);
+  EXPECT_EQ(files, (Files{"host/child/exec.cpp", "host/child/process.cpp"}));
+}
+
+using Graph = std::map<std::string, std::set<std::string>>;
+
+// Those of the graph that reach themselves again.
+Files in_circles(const Graph& graph) {
+  Files found;
+  for (const auto& [start, first] : graph) {
+    std::vector<std::string> waiting(first.begin(), first.end());
+    Files seen;
+    while (!waiting.empty()) {
+      const std::string at = waiting.back();
+      waiting.pop_back();
+      if (!seen.insert(at).second || !graph.contains(at)) continue;
+      waiting.insert(waiting.end(), graph.at(at).begin(), graph.at(at).end());
+    }
+    if (seen.contains(start)) found.insert(start);
+  }
+  return found;
+}
+
+// A header and its implementation are one.
+TEST(Boundaries, NoCircleOfIncludes) {
+  const auto unit = [](const std::string& path) { return path.substr(0, path.rfind('.')); };
+  const auto folder = [](const std::string& path) { return path.substr(0, path.rfind('/')); };
+  Graph units, folders;
+  for (const Source& source : sources())
+    for (const std::string& include : source.includes) {
+      if (!begins(source.path, "host/") || !begins(include, "host/")) continue;
+      if (unit(include) != unit(source.path)) units[unit(source.path)].insert(unit(include));
+      if (folder(include) != folder(source.path)) folders[folder(source.path)].insert(folder(include));
+    }
+  EXPECT_GT(units.size(), 100u) << "nothing to scan: the test is broken";
+  EXPECT_EQ(in_circles(units), Files{});
+  EXPECT_EQ(in_circles(folders), Files{});
 }
 
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide

@@ -9,11 +9,11 @@
 namespace mars::host {
 
 std::string draw_with_gnuplot(const std::string& script) {
-  const std::string path = program_path(own_environment());
-  if (!find_program("gnuplot", path))
+  const auto program = find_program("gnuplot", program_path(own_environment()));
+  if (!program)
     throw Failure("is not installed", "gnuplot", "install it, on Debian with: apt install gnuplot-nox");
   const Descriptor input = file_in_memory(script), output = file_in_memory(), errors = file_in_memory();
-  Process process(Command{{}, {"gnuplot"}},
+  Process process(Command{{}, {program->string()}},
                   {.streams = {{0, input.number()}, {1, output.number()}, {2, errors.number()}}});
   if (!process.wait().well())
     throw Failure("drew nothing: " + content_of(errors).substr(0, 300), "gnuplot", "is it version 5 or newer?");

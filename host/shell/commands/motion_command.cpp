@@ -1,4 +1,4 @@
-#include "host/programs/motion_command.h"
+#include "host/shell/commands/motion_command.h"
 
 #include <CLI/CLI.hpp>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "host/programs/animate_command.h"
+#include "host/shell/commands/animate_command.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/check.h"
+#include "host/content/animator/frame_words.h"
 #include "host/content/animator/keys_table.h"
 #include "host/content/animator/pose.h"
-#include "host/content/animator/read_keys.h"
 #include "host/content/film/film_json.h"
 #include "host/shell/options/command_line.h"
-#include "host/programs/motion_command.h"
+#include "host/shell/commands/motion_command.h"
 #include "node/wire/film.h"
 
 namespace mars::host {
@@ -26,8 +26,6 @@ constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all
 More: docs/animating.md.
 )";
 
-constexpr const char* kEaseRemedy = "write --ease 0.4,0,0.6,1";
-
 // What a person typed, of all the commands.
 struct Words {
   std::string film, thing, frame, ease;
@@ -39,47 +37,6 @@ struct Words {
 
   Choice choice() const { return {all, thing, parts}; }
 };
-
-std::uint32_t frame_of(const std::string& digits, const std::string& text) {
-  const auto frame = number_in<std::uint32_t>(digits);
-  if (!frame || *frame > node::kMostFrames)
-    throw Failure("is no frame", "'" + text + "'", "write a frame from 0 to 1000000, or a range: 24-48, or 24- to the end");
-  return *frame;
-}
-
-FrameRange range_of(const std::string& text) {
-  const std::size_t dash = text.find('-');
-  const std::uint32_t first = frame_of(text.substr(0, dash), text);
-  if (dash == std::string::npos) return {first, first};
-  if (dash + 1 == text.size()) return {first, node::kMostFrames};
-  const std::uint32_t last = frame_of(text.substr(dash + 1), text);
-  if (last < first) throw Failure("ends before it begins", "'" + text + "'", "write the earlier frame first");
-  return {first, last};
-}
-
-std::uint32_t one_frame(const std::string& text) {
-  const FrameRange range = range_of(text);
-  if (range.first != range.last) throw Failure("is a range", "'" + text + "'", "name one frame here");
-  return range.first;
-}
-
-std::optional<Ease> ease_of_words(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const bool named = std::isalpha(static_cast<unsigned char>(text[0]));
-  const auto numbers = std::count(text.begin(), text.end(), ',') + 1;
-  if (!named && numbers != 4)
-    throw Failure("has " + counted(static_cast<std::uint64_t>(numbers), "number"), "--ease", kEaseRemedy);
-  const std::string json = R"({"ease": )" + (named ? Json(text).dump() : "[" + text + "]") + "}";
-  if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !Json::accept(json))
-    throw Failure("is '" + text + "'", "--ease", kEaseRemedy);
-  try {
-    const Document document(json, "--ease");
-    constexpr std::string_view names[] = {"ease"};
-    return read_ease(Fields(document.root(), Keys{"option", names}));
-  } catch (const Failure& failure) {
-    throw Failure(failure.problem, "--ease", failure.remedy);  // nobody has typed a line and a key
-  }
-}
 
 // Changes the film file by `change`; it stays as it was where that fails or the result is no film.
 void edit(const Words& words, const std::function<Remarks(Json&, const Film&)>& change) {
@@ -182,7 +139,7 @@ void add_pose(CLI::App& animate, Words& words) {
   command.app()->get_option("PART=NUMBERS")->required();
   command.runs([&words] {
     edit(words, [&](Json& json, const Film& film) {
-      return pose(json, film, words.thing, words.parts, one_frame(words.frame), ease_of_words(words.ease),
+      return pose(json, film, words.thing, words.parts, read_frame(words.frame), read_typed_ease(words.ease),
                   words.clamp ? Beyond::clamped : Beyond::refused);
     });
   });
@@ -195,7 +152,7 @@ void add_key(CLI::App& animate, Words& words) {
   command.clamp().lengthen().runs([&words] {
     require_thing(words);
     edit(words, [&](Json& json, const Film& film) {
-      return make_keys(json, film, words.choice(), one_frame(words.frame), ease_of_words(words.ease),
+      return make_keys(json, film, words.choice(), read_frame(words.frame), read_typed_ease(words.ease),
                        words.clamp ? Beyond::clamped : Beyond::refused);
     });
   });
@@ -207,7 +164,7 @@ void add_displacing(CLI::App& animate, Words& words, const char* name, const cha
   command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, keep] {
     require_thing(words);
     edit(words, [&](Json& json, const Film& film) {
-      return (keep ? copy_keys : move_keys)(json, film, words.choice(), range_of(words.frame), words.to);
+      return (keep ? copy_keys : move_keys)(json, film, words.choice(), read_frame_range(words.frame), words.to);
     });
   });
 }
@@ -217,17 +174,17 @@ void add_delete(CLI::App& animate, Words& words) {
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
     require_thing(words);
     edit(words, [&](Json& json, const Film& film) {
-      return delete_keys(json, film, words.choice(), range_of(words.frame));
+      return delete_keys(json, film, words.choice(), read_frame_range(words.frame));
     });
   });
 }
 
 Remarks retime(const Words& words, CLI::App& command, Json& json, const Film& film) {
-  const FrameRange range = range_of(words.frame);
-  if (command.count("--hold")) return hold(json, film, words.choice(), one_frame(words.frame), words.hold);
-  if (command.count("--shift")) return shift(json, film, words.choice(), one_frame(words.frame), words.shift);
+  const FrameRange range = read_frame_range(words.frame);
+  if (command.count("--hold")) return hold(json, film, words.choice(), read_frame(words.frame), words.hold);
+  if (command.count("--shift")) return shift(json, film, words.choice(), read_frame(words.frame), words.shift);
   if (command.count("--stretch")) return stretch(json, film, words.choice(), range, words.stretch);
-  if (command.count("--ease")) return ease_keys(json, film, words.choice(), range, *ease_of_words(words.ease));
+  if (command.count("--ease")) return ease_keys(json, film, words.choice(), range, *read_typed_ease(words.ease));
   return ease_keys(json, film, words.choice(), range,
                    swinging(words.anticipation / 100, words.overshoot / 100));
 }
@@ -272,7 +229,7 @@ void add_list(CLI::App& animate, Words& words) {
   command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
   command.runs([&words] {
     FilmFile file = open_film(words.film);
-    const FrameRange range = words.frame.empty() ? FrameRange{0, node::kMostFrames} : range_of(words.frame);
+    const FrameRange range = words.frame.empty() ? FrameRange{0, node::kMostFrames} : read_frame_range(words.frame);
     std::cout << keys_table(file.json, file.film, {words.thing.empty(), words.thing, words.parts}, range);
   });
 }

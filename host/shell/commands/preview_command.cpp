@@ -1,4 +1,4 @@
-#include "host/programs/preview_command.h"
+#include "host/shell/commands/preview_command.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,14 +9,13 @@
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
-#include "host/shell/options/render_options.h"
+#include "host/images/picture_size.h"
 #include "host/preview/film_pictures.h"
 #include "host/preview/folder_pictures.h"
 #include "host/preview/load.h"
 #include "host/preview/player.h"
 #include "host/preview/reloading_pictures.h"
 #include "host/preview/write_pictures.h"
-#include "host/programs/surface_frames.h"
 
 namespace mars::host {
 namespace {
@@ -105,22 +104,21 @@ void play_in_terminal(const Wishes& wishes, const std::function<int(Terminal&)>&
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
 }
 
-void write_preview(Wishes& wishes, const Previewed& film) {
-  SurfaceFrames surface(film.film);
+void write_preview(Wishes& wishes, const Previewed& film, const MakeSurface& make_surface) {
+  const auto surface = make_surface(film.film);
   wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
   wishes.look.smooth = wishes.look.wait = true;
-  FilmPictures pictures(film.view, surface, wishes.look);
+  FilmPictures pictures(film.view, *surface, wishes.look);
   write_pictures(pictures, wishes.write);
 }
 
-void preview(Wishes& wishes) {
+void preview(Wishes& wishes, const MakeSurface& make_surface) {
   RecordedReads reads;
   auto film = std::make_unique<Previewed>(load_previewed(wishes.source));
-  if (!wishes.write.file.empty()) return write_preview(wishes, *film);
+  if (!wishes.write.file.empty()) return write_preview(wishes, *film, make_surface);
   std::optional<ReloadingPictures> pictures;
   play_in_terminal(wishes, [&](Terminal& terminal) {
     wishes.look.smooth = terminal.graphics() >= Graphics::blocks;  // few pixels: they cost little, and need it most
-    const auto make_surface = [](const CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); };
     pictures.emplace(wishes.source, std::move(film), reads.stamps(), make_surface, wishes.look);
     return play(*pictures, terminal);
   });
@@ -135,7 +133,7 @@ void play_folder(const Wishes& wishes) {
 
 }  // namespace
 
-void add_preview(CLI::App& app) {
+void add_preview(CLI::App& app, const MakeSurface& make_surface) {
   const auto wishes = std::make_shared<Wishes>();
   CLI::App* command = app.add_subcommand("preview", "Play a film or a model in the terminal before it is rendered");
   command
@@ -152,7 +150,7 @@ void add_preview(CLI::App& app) {
              "Where it is seen from first; default: the film's camera. Example: --view side");
   add_graphics(*command, wishes);
   add_output(*command, wishes);
-  command->callback([wishes] { preview(*wishes); });
+  command->callback([wishes, make_surface] { preview(*wishes, make_surface); });
 }
 
 void add_play(CLI::App& app) {

@@ -1,4 +1,4 @@
-#include "host/programs/plot_command.h"
+#include "host/shell/commands/plot_command.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "host/programs/model_command.h"
+#include "host/shell/commands/model_command.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "host/programs/import_command.h"
+#include "host/shell/commands/import_command.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>

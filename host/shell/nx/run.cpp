@@ -1,0 +1,169 @@
+#include "host/shell/nx/run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <string_view>
+
+#include "hal/failure/failure.h"
+#include "hal/messages/settings.h"
+#include "hal/processes/job.h"
+#include "host/child/environment.h"
+#include "host/child/exec.h"
+#include "host/child/programs.h"
+#include "host/shell/launch/command.h"
+#include "host/shell/launch/session_folders.h"
+#include "host/shell/options/command_line.h"
+#include "topology/machine.h"
+#include "topology/memory_limit.h"
+
+namespace mars::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHostSetting = "MARS_NX_HOST";
+
+// Here, or where a shell would find it.
+fs::path program_file(const std::string& word, const char* remedy = "") {
+  if (runnable(word)) return fs::absolute(word);
+  if (word.find('/') == std::string::npos)
+    if (const auto found = find_program(word, program_path(own_environment()))) return *found;
+  std::error_code ignored;
+  if (fs::is_directory(word, ignored)) throw Failure("is a folder, not a program", word, "");
+  if (fs::exists(word, ignored))
+    throw Failure("is not a program that can be run", word, "see whether it may be executed: chmod +x");
+  throw Failure("there is no such program", word, remedy);
+}
+
+struct NxPrograms {
+  fs::path host;  // empty: none
+  fs::path node;  // likewise
+};
+
+NxPrograms programs_of(NxRun& job) {
+  NxPrograms programs;
+  std::size_t used = 0;
+  if (job.host || job.words.size() >= 2) programs.host = program_file(job.words[used++]);
+  const char* remedy = used == 0 ? "" : "arguments of the programs come after --";
+  if (used < job.words.size()) programs.node = program_file(job.words[used++], remedy);
+  job.arguments.insert(job.arguments.begin(),
+                           job.words.begin() + static_cast<std::ptrdiff_t>(used), job.words.end());
+  return programs;
+}
+
+// In its own process; returns where it cannot.
+int become_program(const fs::path& file, const std::vector<std::string>& arguments, bool reads) try {
+  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return kFailed;
+  Command command{{}, {file.string()}};
+  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  become(command);
+} catch (const Failure& failure) {
+  std::cerr << "mars-nx: " << failure.what() << '\n';
+  return kFailed;
+}
+
+int run_processes(const NxRun& job, const NxPrograms& programs, std::uint64_t limit) {
+  hal::JobPlan plan;
+  plan.nodes = job.nodes;
+  plan.host = !programs.host.empty();
+  if (plan.host) plan.begin = programs.node.empty() ? hal::JobPlan::Begin::never : hal::JobPlan::Begin::later;
+  plan.limit = limit;
+  plan.become = [&](const hal::Place& place, const std::string& file) {
+    const bool host = plan.host && place.index == job.nodes;
+    hal::leave_place(place);
+    const fs::path& program = host ? programs.host : file.empty() ? programs.node : fs::path(file);
+    return become_program(program, job.arguments, plan.host ? host : place.index == 0);
+  };
+  plan.report = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
+  return hal::Job(plan).run();
+}
+
+// Half of what the machine has and this job may use.
+std::uint64_t message_memory(const topology::Machine& machine) {
+  const std::uint64_t memory = machine.memory() == 0 ? std::uint64_t{1} << 32 : machine.memory();
+  const std::uint64_t limit = topology::memory_limit().least();
+  return (limit == 0 ? memory : std::min(memory, limit)) / 2;
+}
+
+void check_mpi_can_start(const NxRun& job, const NxPrograms& programs) {
+  if (programs.node.empty())
+    throw Failure("MPI starts the nodes with the host, and no program is named for them", "",
+                  "name it: mars-nx run --over mpi ./host ./node");
+  if (std::find(job.arguments.begin(), job.arguments.end(), ":") != job.arguments.end())
+    throw Failure("mpirun takes : for the end of a program's arguments, not for one of them", "",
+                  "leave it out, or use --over processes");
+}
+
+// mpirun as it begins, and how many nodes it starts.
+Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t& nodes) {
+  const std::string path = program_path(own_environment());
+  Programs starters;
+  starters.loopback = find_loopback(fs::read_symlink("/proc/self/exe"));
+  starters.mpirun = find_mpirun(starters.mpi, path);
+  if (!starters.mpirun)
+    throw Failure("mpirun was not found", "",
+                  "install Open MPI (Debian: openmpi-bin), or use --over processes");
+  RenderOptions start;
+  start.hostfile = job.hostfile;
+  start.backend = Backend::mpi;
+  Surroundings surroundings = look_around(path);
+  start.nodes = nodes =
+      job.nodes == 0 ? default_nodes(start, surroundings) : static_cast<std::uint32_t>(job.nodes);
+  surroundings.settings.emplace_back(kHostSetting);
+  Command command = mpi_start(start, starters, surroundings);
+  command.environment.emplace_back(kHostSetting, programs.host.empty() ? "no" : "yes");
+  return command;
+}
+
+// Becomes mpirun: its output, its end and the signals it is sent are its own.
+[[noreturn]] void run_mpi(const NxRun& job, const NxPrograms& programs) {
+  check_mpi_can_start(job, programs);
+  std::uint32_t nodes = 0;
+  Command command = mpi_start_of(job, programs, nodes);
+  const auto add = [&](std::uint32_t count, const fs::path& program) {
+    command.words.insert(command.words.end(), {"-n", std::to_string(count), program.string()});
+    command.words.insert(command.words.end(), job.arguments.begin(), job.arguments.end());
+  };
+  if (!programs.host.empty()) {
+    add(1, programs.host);
+    command.words.emplace_back(":");
+  }
+  add(nodes, programs.node);
+  const SessionFolders folders(command);
+  folders.leave_to_another();
+  become(command);
+}
+
+bool over_mpi(const NxRun& job) {
+  if (job.over == Over::processes && !job.hostfile.empty())
+    throw Failure("processes are all on this machine", "", "leave out --hostfile, or use --over mpi");
+  if (job.over != Over::automatic) return job.over == Over::mpi;
+  return !job.hostfile.empty() || own_environment().value("SLURM_TASKS_PER_NODE").has_value();
+}
+
+// More processes than this would keep the machine busy with changing between them.
+constexpr int kNodesAProcessor = 64;
+
+void check_nodes(int nodes, const topology::Machine& machine) {
+  const int most = kNodesAProcessor * machine.processors();
+  if (nodes <= most) return;
+  throw Failure(std::to_string(nodes) + " nodes are too many for this machine's " +
+                    std::to_string(machine.processors()) + " processors",
+                "--nodes", "use at most " + std::to_string(most) + ", or more machines by --hostfile");
+}
+
+}  // namespace
+
+int run_nx(NxRun job) {
+  const NxPrograms programs = programs_of(job);
+  const hal::Settings settings = hal::read_settings();
+  if (over_mpi(job)) run_mpi(job, programs);
+  const topology::Machine machine = topology::Machine::here();
+  if (job.nodes == 0) job.nodes = machine.processors();
+  check_nodes(job.nodes, machine);
+  return run_processes(job, programs, settings.nx_memory.value_or(message_memory(machine)));
+}
+
+}  // namespace mars::host

@@ -1,0 +1,26 @@
+// Runs programs that are written for NX: one host and its nodes, or nodes alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mars::host {
+
+inline constexpr int kMostNxNodes = 1 << 12;
+
+enum class Over { automatic, processes, mpi };
+
+struct NxRun {
+  int nodes = 0;  // 0: one a processor, or the slots of the hostfile or the batch system
+  bool host = false;
+  Over over = Over::automatic;
+  std::string hostfile;
+  std::vector<std::string> words;
+  std::vector<std::string> arguments;
+};
+
+// Their highest exit code, as of a shell: 128 and the signal for one that died of it. Over MPI this process becomes
+// mpirun.
+int run_nx(NxRun job);
+
+}  // namespace mars::host
