@@ -1,6 +1,8 @@
 // mars-nx: starts programs that are written for NX: one host and its nodes, or nodes alone.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -8,6 +10,8 @@
 
 #include "hal/failure/explain.h"
 #include "hal/messages/settings.h"
+#include "hal/processes/job.h"
+#include "host/child/exec.h"
 #include "host/content/document/text.h"
 #include "host/shell/nx/run.h"
 #include "host/shell/options/command_line.h"
@@ -54,6 +58,33 @@ std::string is_count(const std::string& word) {
              : "'" + word + "' is not a number from 1 to " + std::to_string(kMostNxNodes);
 }
 
+// In its own process; returns where it cannot.
+int become_program(const std::filesystem::path& file, const std::vector<std::string>& arguments, bool reads) try {
+  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return kFailed;
+  Command command{{}, {file.string()}};
+  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  become(command);
+} catch (const Failure& failure) {
+  std::cerr << "mars-nx: " << failure.what() << '\n';
+  return kFailed;
+}
+
+int run_processes(const NxRun& job, const NxPrograms& programs, std::uint64_t limit) {
+  hal::JobPlan plan;
+  plan.nodes = job.nodes;
+  plan.host = !programs.host.empty();
+  if (plan.host) plan.begin = programs.node.empty() ? hal::JobPlan::Begin::never : hal::JobPlan::Begin::later;
+  plan.limit = limit;
+  plan.become = [&](const hal::Place& place, const std::string& file) {
+    const bool host = plan.host && place.index == job.nodes;
+    hal::leave_place(place);
+    const std::filesystem::path& program = host ? programs.host : file.empty() ? programs.node : std::filesystem::path(file);
+    return become_program(program, job.arguments, plan.host ? host : place.index == 0);
+  };
+  plan.report = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
+  return hal::Job(plan).run();
+}
+
 void add_run(CLI::App& app, NxRun& options, int& code) {
   CLI::App* command = app.add_subcommand("run", "Start a host and its nodes, or nodes alone");
   command
@@ -81,7 +112,7 @@ void add_run(CLI::App& app, NxRun& options, int& code) {
                    "Open MPI's file of the machines to use. Example: --hostfile hosts")
       ->type_name("FILE");
   command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kStarts);
-  command->callback([&] { code = run_nx(options); });
+  command->callback([&] { code = run_nx(options, run_processes); });
 }
 
 // What follows -- is not ours.

@@ -1,14 +1,11 @@
 #include "host/shell/nx/run.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <string_view>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
-#include "hal/processes/job.h"
 #include "host/child/environment.h"
 #include "host/child/exec.h"
 #include "host/child/programs.h"
@@ -37,11 +34,6 @@ fs::path program_file(const std::string& word, const char* remedy = "") {
   throw Failure("there is no such program", word, remedy);
 }
 
-struct NxPrograms {
-  fs::path host;  // empty: none
-  fs::path node;  // likewise
-};
-
 NxPrograms programs_of(NxRun& job) {
   NxPrograms programs;
   std::size_t used = 0;
@@ -51,33 +43,6 @@ NxPrograms programs_of(NxRun& job) {
   job.arguments.insert(job.arguments.begin(),
                            job.words.begin() + static_cast<std::ptrdiff_t>(used), job.words.end());
   return programs;
-}
-
-// In its own process; returns where it cannot.
-int become_program(const fs::path& file, const std::vector<std::string>& arguments, bool reads) try {
-  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return kFailed;
-  Command command{{}, {file.string()}};
-  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
-  become(command);
-} catch (const Failure& failure) {
-  std::cerr << "mars-nx: " << failure.what() << '\n';
-  return kFailed;
-}
-
-int run_processes(const NxRun& job, const NxPrograms& programs, std::uint64_t limit) {
-  hal::JobPlan plan;
-  plan.nodes = job.nodes;
-  plan.host = !programs.host.empty();
-  if (plan.host) plan.begin = programs.node.empty() ? hal::JobPlan::Begin::never : hal::JobPlan::Begin::later;
-  plan.limit = limit;
-  plan.become = [&](const hal::Place& place, const std::string& file) {
-    const bool host = plan.host && place.index == job.nodes;
-    hal::leave_place(place);
-    const fs::path& program = host ? programs.host : file.empty() ? programs.node : fs::path(file);
-    return become_program(program, job.arguments, plan.host ? host : place.index == 0);
-  };
-  plan.report = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
-  return hal::Job(plan).run();
 }
 
 // Half of what the machine has and this job may use.
@@ -156,7 +121,7 @@ void check_nodes(int nodes, const topology::Machine& machine) {
 
 }  // namespace
 
-int run_nx(NxRun job) {
+int run_nx(NxRun job, const RunProcesses& run_processes) {
   const NxPrograms programs = programs_of(job);
   const hal::Settings settings = hal::read_settings();
   if (over_mpi(job)) run_mpi(job, programs);

@@ -1,6 +1,9 @@
 // Runs programs that are written for NX: one host and its nodes, or nodes alone.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +22,17 @@ struct NxRun {
   std::vector<std::string> arguments;
 };
 
+struct NxPrograms {
+  std::filesystem::path host;  // empty: none
+  std::filesystem::path node;  // likewise
+};
+
+// Runs the programs as processes of this machine, with at most `limit` bytes of messages in flight; their highest exit
+// code. The program that links the transport gives it.
+using RunProcesses = std::function<int(const NxRun& job, const NxPrograms& programs, std::uint64_t limit)>;
+
 // Their highest exit code, as of a shell: 128 and the signal for one that died of it. Over MPI this process becomes
 // mpirun.
-int run_nx(NxRun job);
+int run_nx(NxRun job, const RunProcesses& run_processes);
 
 }  // namespace mars::host
