@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "hal/collectives/group_sum.h"
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "node/group/mapping.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hal/collectives/group_sum.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::node {

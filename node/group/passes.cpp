@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "hal/collectives/group_sum.h"
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "node/geometry/triangle.h"
