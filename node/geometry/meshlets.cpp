@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "node/simd/vector_slack.h"
-
 namespace mars::node {
 namespace {
 

@@ -12,7 +12,6 @@
 #include "node/raster/kernels.h"
 #include "node/raster/strip_buffer.h"
 #include "node/shading/kernels.h"
-#include "node/simd/vector_slack.h"
 
 namespace mars::node {
 

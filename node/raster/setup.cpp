@@ -7,7 +7,6 @@
 
 #include "node/geometry/clip.h"
 #include "node/raster/outline.h"
-#include "node/simd/vector_slack.h"
 
 namespace mars::node {
 namespace {

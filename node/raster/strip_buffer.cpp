@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include "node/simd/vector_slack.h"
-
 namespace mars::node {
 namespace {
 

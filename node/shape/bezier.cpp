@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "node/simd/vector_slack.h"
-
 namespace mars::node {
 namespace {
 

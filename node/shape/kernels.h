@@ -1,6 +1,6 @@
 // The inner loops of shape, each written once and compiled for several instruction sets (kernels/); the bits are the
 // same for all of them. Plain structs and pointers only: nothing inline may be shared with code that is compiled for a
-// lesser CPU. Arrays are longer by kVectorSlack than is asked for.
+// lesser CPU.
 #pragma once
 
 #include "node/shape/vertices.h"

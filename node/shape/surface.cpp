@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "node/simd/vector_slack.h"
-
 namespace mars::node {
 
 Surface::Surface(InstructionSet set, int most_vertices, int most_triangles, int most_batches)

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "node/simd/vector_slack.h"
+
 namespace mars::node {
 
 inline constexpr std::int32_t kSubpixels = 256;
@@ -69,7 +71,8 @@ struct Projection {
 };
 
 // Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then
-// what projection adds: values, screen place, and whether the vertex is on the screen's plane at all.
+// what projection adds: values, screen place, and whether the vertex is on the screen's plane at all. Arrays are longer
+// by kVectorSlack.
 struct Vertices {
   float* place[3];
   float* normal[3];

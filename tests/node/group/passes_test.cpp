@@ -12,6 +12,7 @@
 
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
+#include "node/geometry/triangle.h"
 #include "node/group/group_sums.h"
 #include "node/group/mapping.h"
 #include "node/raster/arena.h"

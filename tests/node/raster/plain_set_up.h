@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "node/shape/surface.h"
+#include "node/raster/outline.h"
 #include "node/raster/setup.h"
+#include "node/shape/surface.h"
 
 namespace mars::test {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "node/simd/instruction_set.h"
+
 namespace mars::test {
 namespace {
 

@@ -253,8 +253,8 @@ TEST(Bezier, RatesAreTheSameEverywhere) {
   for (int trial = 0; trial < 3000; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, random.real(-20, 1)}, std::pow(10, random.real(-3, 1)));
     const node::Rates expected = node::rates(node::shape_kernels(node::InstructionSet::sse2), patch, view, 0);
-    for (const node::Kernels* set : all_kernels())
-      ASSERT_EQ(node::rates(*set, patch, view, 0), expected) << set->name << ' ' << trial;
+    for (const node::InstructionSet set : all_sets())
+      ASSERT_EQ(node::rates(node::shape_kernels(set), patch, view, 0), expected) << node::name_of(set) << ' ' << trial;
   }
 }
 
