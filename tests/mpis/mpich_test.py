@@ -13,7 +13,7 @@ FEW = ["--frames", "0,5-8,30", "--size", "192x108"]
 class Mpich(ProgramTest):
     def test_the_same_pixels(self):
         self.succeed("mars", "render", FILM, "-o", "own", "--backend", "mpi", "--nodes", 3, "-q", *FEW)
-        self.succeed(sys.argv[3], "-n", 4, PROGRAMS / "mars-cube-mpich", FILM, "-o", "mpich", *FEW)
+        self.succeed(sys.argv[3], "-n", 4, PROGRAMS / "mars-ranks-mpich", FILM, "-o", "mpich", *FEW)
         self.assertEqual(self.verified_hash("mpich"), self.verified_hash("own"))
 
 
