@@ -51,21 +51,21 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
 
 void Renderer::render(const Render& command, std::span<const std::uint32_t> frames) {
   const hal::Group group{command.group_first, command.group_count};
-  const auto index = static_cast<std::uint64_t>(mynode() - group.first);
+  const auto index = static_cast<std::int32_t>(mynode() - group.first);
   const auto inbetweens = frames.subspan(1);
-  const auto artist = [&](std::size_t k) {
-    return (command.first_inbetween + k) % static_cast<std::uint64_t>(group.count);
+  const auto contributor = [&](std::size_t k) {
+    return contributor_of_inbetween(command.first_inbetween + k, group.count);
   };
   command_ = command;
   scene_.set_interval(command.interval);
   lines_of_movers_ = scene_.lines_of_movers(inbetweens);
   std::fill(draws_.begin(), draws_.end(), std::uint8_t{0});
-  for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[artist(k)] = 1;
+  for (std::size_t k = 0; k < inbetweens.size(); ++k) draws_[static_cast<std::size_t>(contributor(k))] = 1;
 
   frame_ = frames.front();
   draw_frame(FrameKind::keyframe, group);
-  for (std::size_t k = 0; k < inbetweens.size(); ++k) {
-    if (artist(k) != index) continue;
+  for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k) {
+    if (contributor(k) != index) continue;
     frame_ = inbetweens[k];
     draw_frame(FrameKind::inbetween, {static_cast<int>(mynode()), 1});
   }
@@ -223,15 +223,15 @@ void Renderer::draw_pass(const hal::Group& group, const Polygons& own, std::uint
     clock(Phase::scanline);
     const bool drawn = strip.last == lines.last;
     if (drawn) finish_pass(group, pass + 1 == passes);
-    send_strip(group, strip, drawn && pass + 1 == passes);
+    send_strip(strip, drawn && pass + 1 == passes);
   } while (strip.last < lines.last);
 }
 
 // Draws lines from `first` on until the strip is full or all are drawn; one past the last of them.
 std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& look, StripBuffer& out) {
   std::uint32_t line = first;
-  while (line < boxes.lines.last && !out.full()) {
-    const LineRange part{line, std::min(line + StripBuffer::kLines, boxes.lines.last)};
+  while (line < boxes.lines.last && out.lines_that_fit() > 0) {
+    const LineRange part{line, std::min(line + out.lines_that_fit(), boxes.lines.last)};
     if (strip_.kind == FrameKind::keyframe)
       z_buffer_.draw_keyframe(boxes, part, look, lines_of_movers_, czb_, out);
     else
@@ -249,12 +249,10 @@ void Renderer::finish_pass(const hal::Group& group, bool last) {
   clock(Phase::depth);
 }
 
-void Renderer::send_strip(const hal::Group& group, const LineRange& lines, bool last) {
+void Renderer::send_strip(const LineRange& lines, bool last) {
   strip_.frame = frame_;
   strip_.interval = command_.interval;
   strip_.node = static_cast<std::int32_t>(mynode());
-  strip_.group_first = group.first;
-  strip_.group_count = group.count;
   strip_.last = last ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;

@@ -52,7 +52,7 @@ class Renderer {
   std::uint32_t draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& look, StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_pass(const hal::Group& group, bool last);
-  void send_strip(const hal::Group& group, const LineRange& lines, bool last);
+  void send_strip(const LineRange& lines, bool last);
   void mark_lines(const hal::Group& group, std::uint32_t pass, std::uint32_t passes);
   LineBoxes gather_boxes(const hal::Group& group, const Polygons& own, const LineRange& lines,
                          std::span<const LineRange> homes);

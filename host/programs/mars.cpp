@@ -20,7 +20,7 @@
 #include "host/shell/options/command_line.h"
 #include "host/content/film/frame_set.h"
 #include "host/programs/animate_command.h"
-#include "host/programs/film_of.h"
+#include "host/shell/job/film_of.h"
 #include "host/programs/import_command.h"
 #include "host/programs/model_command.h"
 #include "host/programs/node_job.h"

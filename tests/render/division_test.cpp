@@ -56,8 +56,8 @@ void run_counted(const node::FilmData& film, const Cluster& cluster, Counted& ou
   hal::Machines machines(cluster.nodes_each);
   RunOptions options;
   options.nodes = cluster.nodes;
-  options.farm.groups = cluster.groups;
-  options.farm.frames = std::move(frames);
+  options.work.groups = cluster.groups;
+  options.work.frames = std::move(frames);
   options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
   out.run = run_film(FilmBlock(film).bytes(), options);
   out.czb_written = machines.written();
@@ -168,16 +168,16 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   run_counted(film_, {nodes}, counted);
   std::uint64_t moving_patches = 0;
   for (const std::uint32_t s : film_.moving) moving_patches += film_.shapes[film_.segments[s].shape].size();
-  std::set<std::int32_t> artists;
+  std::set<std::int32_t> contributors;
   const auto inbetweens = of_kind(counted, FrameKind::inbetween);
   EXPECT_EQ(inbetweens.size(), kFrames - 1u);
   for (const Strip& strip : inbetweens) {
     EXPECT_EQ(strip.work.bytes_to_nodes, 0u);
     EXPECT_GT(strip.work.patches, 0u);
     EXPECT_LE(strip.work.patches, moving_patches);
-    artists.insert(strip.node);
+    contributors.insert(strip.node);
   }
-  EXPECT_EQ(artists.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
+  EXPECT_EQ(contributors.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
   // All triangles that nodes gave each other are the keyframe's: one message for each pair.
   std::uint64_t triangles = 0;
   for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = node::triangles_from(from)}).messages;
@@ -227,15 +227,15 @@ TEST_P(Division, MemoryIsAsTheFormulaSays) {
 
 INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
 
-// As many units as groups: none gets two while another has none.
-TEST(Division, EveryGroupGetsAUnit) {
+// As many tasks as groups: none gets two while another has none.
+TEST(Division, EveryGroupGetsATask) {
   const FilmBlock film(crowd(64, 40, 4, 1));
   RunOptions options;
   options.nodes = 4;
-  options.farm.groups = 4;
-  std::set<std::int32_t> artists;
-  for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) artists.insert(strip.node);
-  EXPECT_EQ(artists.size(), 4u);
+  options.work.groups = 4;
+  std::set<std::int32_t> contributors;
+  for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) contributors.insert(strip.node);
+  EXPECT_EQ(contributors.size(), 4u);
 }
 
 // CZB lines travel only where moving parts can be seen, once to each machine with nodes that draw inbetweens; on one
