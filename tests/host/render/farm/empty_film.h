@@ -11,8 +11,9 @@ namespace mars::host {
 
 class EmptyFilm {
  public:
-  // Intervals of so many frames.
-  explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8) {
+  // Intervals of so many frames; the block has more than `bytes`.
+  explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
+                     std::size_t bytes = 0) {
     node::FilmData film;
     for (const std::uint32_t frames : intervals) {
       film.intervals.push_back({film.settings.frames, frames, 0, 0});
@@ -24,6 +25,7 @@ class EmptyFilm {
     film.settings.camera = {0, 1};
     film.cameras = {{{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}, 2, 0.1, 100}};
     film.changes = {{0, 0}};
+    film.names.resize(bytes);
     const std::vector<std::byte> block = node::pack(film);
     words_.resize((block.size() + 7) / 8);
     size_ = block.size();
