@@ -58,8 +58,8 @@ struct FarmReport {
   bool cancelled = false;     // before all frames were composed
 };
 
-// The calling HAL process is the host. When all frames are with the sinks, or when it is cancelled, all nodes have been told
-// to stop. Throws Failure when a node or a sink fails; the nodes are then still waiting, for whoever ends the run.
+// The calling HAL process is the host. When all frames are with the sinks, or when it is cancelled, Stop has been sent
+// to all nodes. Throws Failure when a node or a sink fails; the nodes are then still waiting, for whoever ends the run.
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
                        SinkPool& sinks, const FarmListener& listener);
 

@@ -26,7 +26,7 @@ class Tracing {
   void receive();
   // When all frames are there and nodes are idle: reads the clocks again where they are not the host's own.
   void read_clocks_again();
-  // When nodes were told to stop: receives what they have recorded until then.
+  // When Stop was sent to the nodes: receives what they have recorded until then.
   void finish();
 
  private:

@@ -1,5 +1,5 @@
 // One rendering, as the host's process does it from a film to the last frame: the same in every program that renders.
-// It knows no command line: what a person asked for is told by RenderJob.
+// It knows no command line: RenderJob says what a person asked for.
 #pragma once
 
 #include <cstdint>

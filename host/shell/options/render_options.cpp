@@ -1,6 +1,7 @@
 #include "host/shell/options/render_options.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <charconv>
 #include <functional>
 #include <string_view>
@@ -213,6 +214,18 @@ bool takes(Program program, const Entry& entry) {
   return (entry.programs & static_cast<unsigned>(program)) != 0;
 }
 
+// Names that options had before, by their names now.
+constexpr std::array<std::pair<const char*, const char*>, 1> kFormerNames{{{"--cubes", "--groups"}}};
+
+void refuse_former_names(CLI::App& app) {
+  for (const auto& [former, now] : kFormerNames) {
+    const auto refuse = [name = std::string(former), now = std::string(now)](const std::string&) {
+      throw CLI::ValidationError(name, "use " + now);
+    };
+    app.add_option_function<std::string>(former, refuse)->group("");  // not in the help
+  }
+}
+
 // What no single option can tell.
 void check_together(const RenderOptions& options) {
   if (options.folder.empty() && options.sink == SinkKind::png) {
@@ -246,6 +259,7 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
     if (takes(program, entry)) entry.add(app, options);
   }
   if (program == Program::compile) return;
+  refuse_former_names(app);
   app.parse_complete_callback([&app, &options] {
     if (app.remaining_size() > 0) return;  // what it does not know is told first
     as_usage(app.get_name(), [&] { check_together(options); });

@@ -46,7 +46,7 @@ struct RenderOptions {
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
-  std::uint32_t groups = 0;    // intervals rendered at a time; 0: as many as pay
+  std::uint32_t groups = 0;   // intervals rendered at a time; 0: as make_groups chooses
   SinkKind sink = SinkKind::png;
   std::string report;  // file for the measurements; "": none
   std::string trace;   // file for a picture of the run; "": none

@@ -128,7 +128,7 @@ void expect_put_together(unsigned seed) {
         pool.submit(pasted->whole);
       }
     }
-    EXPECT_EQ(not_pasted, 0u) << "each was told of when it was pasted";
+    EXPECT_EQ(not_pasted, 0u) << "each was reported when it was pasted";
     compositor.begin_interval();
   }
   pool.finish();

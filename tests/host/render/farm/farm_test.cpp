@@ -176,7 +176,7 @@ TEST(Farm, CanBeCancelledFromWithinASink) {
   });
   EXPECT_TRUE(report.cancelled);
   EXPECT_LT(run.sink.pixels.size(), 200u);
-  EXPECT_EQ(stopped, 3) << "every node was told to stop";
+  EXPECT_EQ(stopped, 3) << "Stop reached every node";
 }
 
 TEST(Farm, CancelledAfterTheLastFrameItIsNot) {
