@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/shared_memory.h"
+#include "node/wire/commands.h"
 #include "node/wire/film.h"
 #include "node/simd/instruction_set.h"
 #include "node/wire/protocol.h"
@@ -29,21 +32,30 @@ class Firmware {
 
   void obey();
   // The node's last words.
-  void tell_fault(const std::string& reason);
+  void report_fault(const std::string& reason);
 
  private:
+  std::span<const std::byte> receive(long type);
   void load();
+  void receive_film(std::span<std::byte> block);
   void render();
-  void tell_time() const;
+  void send_time();
+  Renderer& renderer();
 
   InstructionSet instruction_set_;
+  const std::string name_;  // as in failures
   std::optional<hal::SharedMemory> film_block_;
+  std::optional<FilmView> film_;
   std::optional<Renderer> renderer_;
-  std::vector<std::byte> command_;  // Load or Render and what follows it
+  int groups_ = 1;
+  std::vector<std::byte> command_;  // the one at hand
 };
 
-Firmware::Firmware(const NodeIdentity& identity) : instruction_set_(best_instruction_set(identity.simd)) {
+Firmware::Firmware(const NodeIdentity& identity)
+    : instruction_set_(best_instruction_set(identity.simd)),
+      name_(identity.host + " (node " + std::to_string(mynode()) + ")") {
   Hello hello{};
+  hello.stamp = own_stamp();
   hello.node = static_cast<std::int32_t>(mynode());
   hello.machine = hal::neighbourhood().machine;
   hello.rank = hal::neighbourhood().rank;
@@ -63,47 +75,65 @@ void Firmware::obey() {
     switch (infotype()) {
       case kLoad: load(); break;
       case kRender: render(); break;
-      case kCredit: renderer_->outbox().receive_credit(); break;
+      case kCredit: renderer().outbox().receive_credit(); break;
       case kStop:
-        crecv(kStop, nullptr, 0);
+        check_size("Stop", receive(kStop).size(), 0);
         if (renderer_) renderer_->finish();
         return;
-      case kClock: tell_time(); break;
+      case kClock: send_time(); break;
     }
   }
 }
 
+// The command that was probed.
+std::span<const std::byte> Firmware::receive(long type) {
+  command_.resize(static_cast<std::size_t>(infocount()));
+  crecv(type, command_.data(), static_cast<long>(command_.size()));
+  return command_;
+}
+
 // The machine's first node takes the film from the host; the others read it there.
 void Firmware::load() {
-  command_.resize(sizeof(Load) + static_cast<std::size_t>(numnodes()) * sizeof(std::int32_t));
-  crecv(kLoad, command_.data(), static_cast<long>(command_.size()));
-  const auto& load = *reinterpret_cast<const Load*>(command_.data());
-  const auto* machines = reinterpret_cast<const std::int32_t*>(command_.data() + sizeof(Load));
-  const hal::Neighbourhood machine = hal::neighbourhood();
+  const auto [load, machines] = read_load(receive(kLoad), static_cast<int>(numnodes()), name_);
   film_block_.emplace(load.film_bytes);
   const auto block = film_block_->bytes();
-  if (machine.index == 0) crecv(kFilmBlock, block.data(), static_cast<long>(block.size()));
+  if (hal::neighbourhood().index == 0) receive_film(block);
   gsync();
-  const FilmView film(block, "film", true);
-  renderer_.emplace(film, load, std::span(machines, static_cast<std::size_t>(numnodes())), instruction_set_);
-  command_.resize(sizeof(Render) + film.settings().frames * sizeof(std::uint32_t));
+  film_.emplace(block, "film", true);
+  renderer_.emplace(*film_, load, machines, instruction_set_);
+  groups_ = load.groups;
+  command_.reserve(sizeof(Render) + film_->settings().frames * sizeof(std::uint32_t));
   csend(kLoaded, nullptr, 0, myhost(), 0);
 }
 
-void Firmware::render() {
-  crecv(kRender, command_.data(), static_cast<long>(command_.size()));
-  const auto& command = *reinterpret_cast<const Render*>(command_.data());
-  const auto* frames = reinterpret_cast<const std::uint32_t*>(command_.data() + sizeof(Render));
-  renderer_->render(command, {frames, command.frame_count});
+void Firmware::receive_film(std::span<std::byte> block) {
+  while (!block.empty()) {
+    const std::size_t bytes = std::min<std::size_t>(block.size(), kFilmPiece);
+    crecv(kFilmBlock, block.data(), static_cast<long>(bytes));
+    check_size("FilmBlock", static_cast<std::size_t>(infocount()), bytes);
+    block = block.subspan(bytes);
+  }
 }
 
-void Firmware::tell_time() const {
-  crecv(kClock, nullptr, 0);
+void Firmware::render() {
+  Renderer& renderer = this->renderer();
+  const auto [command, frames] = read_render(receive(kRender), *film_, static_cast<int>(mynode()),
+                                             static_cast<int>(numnodes()), groups_);
+  renderer.render(command, frames);
+}
+
+void Firmware::send_time() {
+  check_size("Clock", receive(kClock).size(), 0);
   const double now = dclock();
   csend(kClock, &now, sizeof now, myhost(), 0);
 }
 
-void Firmware::tell_fault(const std::string& reason) {
+Renderer& Firmware::renderer() {
+  if (!renderer_) throw Failure("the host gives work before a film", "", "please report it");
+  return *renderer_;
+}
+
+void Firmware::report_fault(const std::string& reason) {
   Fault fault{};
   fault.node = static_cast<std::int32_t>(mynode());
   if (renderer_) renderer_->send_trace();
@@ -119,7 +149,7 @@ void run_node(const NodeIdentity& identity) {
   try {
     firmware.obey();
   } catch (const std::exception& failure) {
-    firmware.tell_fault(reason_of(failure));
+    firmware.report_fault(reason_of(failure));
     crecv(kStop, nullptr, 0);  // the host ends the run; leaving first would take the reason with it
     throw;
   }

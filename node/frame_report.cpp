@@ -6,7 +6,7 @@
 
 namespace mars::node {
 
-void FrameReport::begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval, const hal::Group& group) {
+void FrameReport::begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval) {
   begin_ = clock_ = dclock();
   hal::record_frame(static_cast<std::int32_t>(frame));
   sent_before_ = hal::traffic().to_nodes.bytes;
@@ -15,8 +15,6 @@ void FrameReport::begin(FrameKind kind, std::uint32_t frame, std::uint32_t inter
   strip_.interval = interval;
   strip_.kind = kind;
   strip_.node = static_cast<std::int32_t>(mynode());
-  strip_.group_first = group.first;
-  strip_.group_count = group.count;
 }
 
 void FrameReport::clock(Phase phase) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
 #include "node/wire/protocol.h"
 
@@ -17,8 +16,8 @@ inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,
 
 class FrameReport {
  public:
-  // A new frame, which `group` draws. Its clock starts.
-  void begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval, const hal::Group& group);
+  // A new frame. Its clock starts.
+  void begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval);
   // Adds the time since the last call to `phase`, and records it as a span.
   void clock(Phase phase);
   // The time since the last call is no phase's, or somebody else has added it.

@@ -29,11 +29,11 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
 
 void Renderer::render(const Render& command, std::span<const std::uint32_t> frames) {
   const auto inbetweens = frames.subspan(1);
-  const int self = static_cast<int>(mynode());
   begin_interval(command, inbetweens);
   draw_frame(FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count});
-  for (std::size_t k = 0; k < inbetweens.size(); ++k)
-    if (contributor_of_inbetween(command, k) == self)
+  const int self = static_cast<int>(mynode());
+  for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k)
+    if (command.group_first + contributor_of_inbetween(command.first_inbetween + k, command.group_count) == self)
       draw_frame(FrameKind::inbetween, command.interval, inbetweens[k], {self, 1});
 }
 
@@ -51,14 +51,14 @@ void Renderer::begin_interval(const Render& command, std::span<const std::uint32
   moving_line_bounds_ = scene_.moving_line_bounds(inbetweens);
   std::ranges::fill(contributes_, std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k)
-    contributes_[static_cast<std::size_t>(contributor_of_inbetween(command, k) - command.group_first)] = 1;
+    contributes_[static_cast<std::size_t>(contributor_of_inbetween(command.first_inbetween + k, command.group_count))] = 1;
 }
 
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes
 // them with moving parts only, by one node, which is the home of all lines.
 void Renderer::draw_frame(FrameKind kind, std::uint32_t interval, std::uint32_t frame, const hal::Group& group) {
   group_ = group;
-  report_.begin(kind, frame, interval, group);
+  report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
   Tessellation own = tessellate_all();
   Pass pass{0, map_to_homes(own.made)};
@@ -151,8 +151,8 @@ void Renderer::draw_lines(const LineBoxes& boxes, const Triangle* triangles, con
 std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& shading,
                                    StripBuffer& out) {
   std::uint32_t line = first;
-  while (line < boxes.lines.last && !out.full()) {
-    const LineRange part{line, std::min(line + StripBuffer::kLines, boxes.lines.last)};
+  while (line < boxes.lines.last && out.lines_that_fit() > 0) {
+    const LineRange part{line, std::min(line + out.lines_that_fit(), boxes.lines.last)};
     if (report_.is_keyframe())
       z_buffer_.draw_keyframe(boxes, part, shading, moving_line_bounds_, czb_, out);
     else

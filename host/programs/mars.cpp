@@ -20,7 +20,7 @@
 #include "host/shell/options/command_line.h"
 #include "host/content/film/frame_set.h"
 #include "host/shell/commands/animate_command.h"
-#include "host/programs/film_of.h"
+#include "host/shell/job/film_of.h"
 #include "host/shell/commands/import_command.h"
 #include "host/shell/commands/model_command.h"
 #include "host/programs/node_job.h"

@@ -1,6 +1,6 @@
 // mars-host: the rank of an MPI job that reads the film, gives out the work and writes the frames.
 #include "hal/mpi/start.h"
-#include "host/programs/render_job.h"
+#include "host/shell/job/render_job.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     return *code;
   }
   return hal::run_mpi(argc, argv, hal::Role::host, [&](int, char**) {
-    host::run_render_job(options, "mpi");
+    host::run_session(host::job_of(options, "mpi"));
     return 0;
   });
 }

@@ -2,7 +2,7 @@
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_messages.h"
 #include "host/programs/node_job.h"
-#include "host/programs/render_job.h"
+#include "host/shell/job/render_job.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   }
   return hal::run_mpi(argc, argv, hal::Role::by_rank, [&](int, char**) {
     if (mynode() == myhost())
-      host::run_render_job(options, "mpi");
+      host::run_session(host::job_of(options, "mpi"));
     else
       host::run_node_job();
     return 0;

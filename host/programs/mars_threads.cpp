@@ -6,7 +6,7 @@
 #include "hal/threads/run_threads.h"
 #include "host/shell/options/command_line.h"
 #include "host/programs/node_job.h"
-#include "host/programs/render_job.h"
+#include "host/shell/job/render_job.h"
 #include "host/programs/standard_streams.h"
 #include "topology/machine.h"
 
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   try {
     if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
     host::check_memory_limit(options.nodes);
-    hal::run_threads(static_cast<int>(options.nodes), [&] { host::run_render_job(options, "threads"); },
+    hal::run_threads(static_cast<int>(options.nodes), [&] { host::run_session(host::job_of(options, "threads")); },
                      [&] { host::run_node_job(options.nodes); });
     return 0;
   } catch (const std::exception& failure) {

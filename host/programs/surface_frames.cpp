@@ -11,19 +11,11 @@
 #include "topology/machine.h"
 
 namespace mars::host {
-namespace {
-
-// Ends a rendering that is no longer wanted.
-struct Unwanted : std::exception {};
-
-}  // namespace
-
 class SurfaceFrames::Taker : public Sink {
  public:
   explicit Taker(SurfaceFrames& frames) : frames_(frames) {}
 
   void take(const Frame& frame) override {
-    if (frames_.stopped_) throw Unwanted();
     std::vector<std::byte> bytes = encode_png(frame.width, frame.height, frame.pixels);
     const std::lock_guard lock(frames_.mutex_);
     frames_.taken_[frame.number] = std::move(bytes);
@@ -39,12 +31,11 @@ void SurfaceFrames::aim(PictureSize extent, const std::optional<node::Camera>& c
   stop();
   taken_.clear();
   failure_ = nullptr;
-  stopped_ = false;
+  cancellation_.emplace();
   const node::Camera* by = camera ? &*camera : nullptr;
   renderer_ = std::thread([this, film = as_seen(film_, {extent.width, extent.height}, by), frames = std::move(frames)] {
     try {
       render(film, frames);
-    } catch (const Unwanted&) {
     } catch (...) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
@@ -57,16 +48,17 @@ void SurfaceFrames::aim(PictureSize extent, const std::optional<node::Camera>& c
 void SurfaceFrames::render(const CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
   const node::FilmSettings& settings = film.view().settings();
   const auto processors = static_cast<std::uint32_t>(topology::Machine::here().processors());
-  for (auto first = frames.begin(); first != frames.end();) {
+  for (auto first = frames.begin(); first != frames.end() && !cancellation_->cancelled();) {
     const auto end = std::is_sorted_until(first, frames.end());
+    const Plan plan = make_plan(film.view(), {{first, end}}, static_cast<int>(processors));
     FarmOptions farm;
-    farm.frames.assign(first, end);
+    farm.cancellation = &*cancellation_;
     Taker taker(*this);
     hal::run_threads(
         static_cast<int>(processors),
         [&] {
           SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2, pixel_of(settings.background)});
-          render_film(film.block(), farm, pool, {});
+          render_film(film.block(), plan, farm, pool, {});
         },
         [=] { run_node_job(processors); });
     first = end;
@@ -74,7 +66,7 @@ void SurfaceFrames::render(const CompiledFilm& film, const std::vector<std::uint
 }
 
 void SurfaceFrames::stop() {
-  stopped_ = true;
+  if (cancellation_) cancellation_->cancel();
   if (renderer_.joinable()) renderer_.join();
 }
 

@@ -1,16 +1,17 @@
 // Rendered frames for the previewer: host and nodes as threads of this process, in the background.
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "host/content/film/compile.h"
 #include "host/preview/surface_source.h"
+#include "host/render/farm/cancellation.h"
 
 namespace mars::host {
 
@@ -32,7 +33,7 @@ class SurfaceFrames : public SurfaceSource {
 
   const CompiledFilm& film_;
   std::thread renderer_;
-  std::atomic<bool> stopped_ = false;
+  std::optional<Cancellation> cancellation_;  // of the rendering at hand
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;

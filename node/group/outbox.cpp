@@ -2,6 +2,7 @@
 
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/recorder.h"
+#include "node/wire/commands.h"
 
 namespace mars::node {
 
@@ -19,6 +20,7 @@ StripBuffer& Outbox::begin(bool constant) {
 
 void Outbox::send(Strip& header) {
   wait_for_credit(header);
+  if (stopped_) return;
   Slot& slot = slots_[current_];
   const auto message = slot.buffer.finish(header);
   slot.message = isend(kStrip, message.data(), static_cast<long>(message.size()), myhost(), 0);
@@ -27,18 +29,31 @@ void Outbox::send(Strip& header) {
 
 void Outbox::wait_for_credit(Strip& header) {
   const double start = dclock();
-  while (iprobe(kCredit)) receive_credit();  // which may give the processor away
+  constexpr long kNews = any_of(kCredit, kStop);
+  while (!stopped_ && iprobe(kNews)) take_news();  // which may give the processor away
   if (credits_ == 0) ++header.work.credits_waited;
-  while (credits_ == 0) receive_credit();
+  while (!stopped_ && credits_ == 0) {
+    cprobe(kNews);
+    take_news();
+  }
   const double end = dclock();
   header.times.credit += end - start;
   hal::record_span(static_cast<int>(Phase::credit), start, end);
 }
 
+// Stop stays where it is: the firmware ends by it.
+void Outbox::take_news() {
+  if (infotype() == kStop)
+    stopped_ = true;
+  else
+    receive_credit();
+}
+
 void Outbox::receive_credit() {
   Credit credit;
   crecv(kCredit, &credit, sizeof credit);
-  credits_ += credit.count;
+  const auto message = std::as_bytes(std::span(&credit, 1)).first(static_cast<std::size_t>(infocount()));
+  credits_ += read_credit(message, static_cast<std::int32_t>(slots_.size()) - credits_);
 }
 
 void Outbox::flush() {

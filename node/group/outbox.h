@@ -14,8 +14,10 @@ class Outbox {
 
   // An empty buffer (StripBuffer::clear); waits until the strip last sent from it is gone.
   StripBuffer& begin(bool constant);
-  // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it.
+  // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it. Sends nothing
+  // where the host has said stop: it takes no more strips.
   void send(Strip& header);
+  bool stopped() const { return stopped_; }
 
   // Receives one Credit message, waiting for it.
   void receive_credit();
@@ -29,11 +31,13 @@ class Outbox {
   };
 
   void wait_for_credit(Strip& header);
+  void take_news();
   static void wait(Slot& slot);
 
   std::vector<Slot> slots_;
   std::size_t current_ = 0;
   int credits_;
+  bool stopped_ = false;
 };
 
 }  // namespace mars::node

@@ -1,9 +1,24 @@
 #include "node/raster/strip_buffer.h"
 
+#include <algorithm>
 #include <cstring>
+
+#include "hal/failure/failure.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::node {
 namespace {
+
+constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the space left and the next
+constexpr std::size_t kPixels = kMaxStripBytes / sizeof(std::uint32_t) + kVectorSlack;  // of one layer
+constexpr std::size_t kRuns = kMaxStripBytes / sizeof(Run);
+
+// Of both layers. Between two runs of a line is a pixel that neither has: most is taken by runs of one pixel each.
+constexpr std::size_t most_bytes_of_line(std::size_t width) {
+  return 2 * (sizeof(std::uint32_t) + sizeof(Run)) * ((width + 2) / 2);
+}
+
+static_assert(sizeof(Strip) + most_bytes_of_line(kMaxSide) <= kMaxStripBytes, "any line fits an empty strip");
 
 // `items` to `at`, which they may overlap; returns what comes behind them.
 template <typename T>
@@ -21,15 +36,24 @@ void StripBuffer::Layer::added(const Shaded& shaded) {
 }
 
 StripBuffer::StripBuffer(std::size_t width)
-    : capacity_(kPixels + kLines * width + kVectorSlack),
-      message_(sizeof(Strip) + 2 * capacity_ * (sizeof(std::uint32_t) + sizeof(Run))),
-      runs_(2 * capacity_ * sizeof(Run)) {}
+    : line_bytes_(most_bytes_of_line(width)),
+      message_(sizeof(Strip) + 2 * kPixels * sizeof(std::uint32_t)),
+      runs_(2 * kRuns * sizeof(Run)) {}
 
 void StripBuffer::clear(bool constant) {
   auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(Strip));
   auto* runs = reinterpret_cast<Run*>(runs_.bytes().data());
   constant_ = {pixels, runs};
-  moving_ = constant ? Layer(pixels + capacity_, runs + capacity_) : Layer(pixels, runs);
+  moving_ = constant ? Layer(pixels + kPixels, runs + kRuns) : Layer(pixels, runs);
+}
+
+std::size_t StripBuffer::bytes() const {
+  return sizeof(Strip) + constant_.pixels().size_bytes() + moving_.pixels().size_bytes() + constant_.runs().size_bytes() +
+         moving_.runs().size_bytes();
+}
+
+std::uint32_t StripBuffer::lines_that_fit() const {
+  return static_cast<std::uint32_t>(std::min<std::size_t>(kLines, (kMaxStripBytes - bytes()) / line_bytes_));
 }
 
 std::span<const std::byte> StripBuffer::finish(Strip& header) {
@@ -41,6 +65,7 @@ std::span<const std::byte> StripBuffer::finish(Strip& header) {
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(moving_.runs(), put(constant_.runs(), end));
   const auto size = static_cast<std::size_t>(end - start);
+  check(size <= kMaxStripBytes, "a strip has at most so many bytes");
   header.work.pixels += header.pixels;
   header.work.bytes_to_host += size;
   std::memcpy(start, &header, sizeof header);

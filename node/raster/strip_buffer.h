@@ -1,5 +1,6 @@
 // One strip on its way to the host: header, pixels, runs, as protocol.h lays them out. Stationary and moving parts
-// come line by line in turn; the message has all pixels of the first before those of the second.
+// come line by line in turn; the message has all pixels of the first before those of the second. It has at most
+// kMaxStripBytes.
 #pragma once
 
 #include <cstdint>
@@ -34,18 +35,13 @@ class StripBuffer {
     std::size_t run_count_ = 0;
   };
 
-  // A strip goes to the host when it has so many pixels: few enough to stay in a core's cache on their way, and
-  // the host puts them in place while the node draws on.
-  static constexpr std::size_t kPixels = 131072;
-  // Lines that may be drawn between one look at full() and the next.
-  static constexpr std::uint32_t kLines = 8;
-
   // For pictures of `width`. Throws Failure where the machine does not give the memory.
   explicit StripBuffer(std::size_t width);
 
   // Empty. `constant`: whether stationary parts will come.
   void clear(bool constant);
-  bool full() const { return constant_.pixels().size() + moving_.pixels().size() >= kPixels; }
+  // How many more lines surely fit, whatever they show, a few at most; 0: the strip is full.
+  std::uint32_t lines_that_fit() const;
 
   Layer& constant() { return constant_; }
   Layer& moving() { return moving_; }
@@ -55,7 +51,9 @@ class StripBuffer {
   std::span<const std::byte> finish(Strip& header);
 
  private:
-  std::size_t capacity_;  // pixels, and runs, of one layer
+  std::size_t bytes() const;
+
+  std::size_t line_bytes_;  // that a line takes at most
   hal::PrivateMemory message_;
   hal::PrivateMemory runs_;
   Layer constant_;

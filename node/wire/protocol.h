@@ -1,8 +1,11 @@
 // What crosses the wire between host and node: message types and their bodies, plain little-endian structs
 // followed by arrays where said. The node owns this page; the host includes it and nothing else of the
-// firmware. A node boots, sends Hello and then only obeys:
+// firmware. A node boots, sends Hello and then only obeys. Hello and Load begin with a stamp that tells versions apart
+// (stamp.h). Stop may come while nodes draw: each then finishes the keyframes it was given, for the others of its group wait
+// for it, draws no more inbetweens, sends no more strips and ends. Both sides check a message's size, counts and ranges before they use anything of it: the node's in
+// commands.h, the host's in host/render/farm/node_inbox.h.
 //
-//   host -> node   Load (+ film block to one node a machine), Render ..., Credit ..., Stop
+//   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or that they are
@@ -10,7 +13,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include "node/wire/stamp.h"
 
 namespace mars::node {
 
@@ -43,24 +49,34 @@ constexpr long any_of(Types... types) {
 
 // Who a node is. Strings are zero-ended.
 struct Hello {
+  WireStamp stamp;
+  std::array<char, 64> host;  // name of its machine
   std::int32_t node;
   std::int32_t machine;       // lowest node id on the same machine
   std::int32_t rank;          // its number for whoever started it (MPI's)
   std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
   std::uint64_t memory;       // bytes it may use for one frame's triangles and edge boxes
-  std::array<char, 64> host;  // name of its machine
   std::array<char, 64> binding;  // processors it is bound to, as hwloc lists them; "" if free
   std::array<char, 16> simd;  // widest instruction set its kernels use
 };
 
+static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version has it");
+
 enum class Mapping : std::uint32_t { greedy, optimal };
 
+// Bytes of the film block that one kFilmBlock message has; the last has the rest.
+inline constexpr std::uint64_t kFilmPiece = std::uint64_t{16} << 20;
+
+// Strips that a node has buffers for.
+inline constexpr std::int32_t kMaxCredits = 4;
+
 // Prepares a film of `film_bytes`. Followed by each node's machine (int32), as in Hello. Nodes that lead a machine get
-// the block next, as kFilmBlock.
+// the block next, as kFilmBlock messages.
 struct Load {
+  WireStamp stamp;
   std::uint64_t film_bytes;
   std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
-  std::int32_t credits;   // strips a node may have on the way to the host
+  std::int32_t credits;   // strips a node may have on the way to the host, 1..kMaxCredits
   Mapping mapping;
   std::int32_t groups;     // that the nodes form side by side (hal::group_of), for all Render commands
   std::uint32_t traced;   // 1: the node records what it does and sends it as Trace
@@ -73,13 +89,13 @@ struct Render {
   std::int32_t group_first;
   std::int32_t group_count;
   std::uint32_t frame_count;
-  std::uint64_t first_inbetween;  // the film's inbetweens before this command's
+  std::uint64_t first_inbetween;  // number in the film of the first inbetween here
 };
 
-// The node that draws the command's inbetween number `k`, from 0: all inbetweens of the film go round.
-constexpr std::int32_t contributor_of_inbetween(const Render& render, std::uint64_t k) {
-  const std::uint64_t number = render.first_inbetween + k;
-  return render.group_first + static_cast<std::int32_t>(number % static_cast<std::uint64_t>(render.group_count));
+// The node of a group of `group_count` that draws an inbetween, counted from the group's first: in turns over the whole
+// film. `inbetween` is the inbetween's number in the film (Render::first_inbetween and on).
+constexpr std::int32_t contributor_of_inbetween(std::uint64_t inbetween, std::int32_t group_count) {
+  return static_cast<std::int32_t>(inbetween % static_cast<std::uint64_t>(group_count));
 }
 
 // Gives back `count` strips' credit.
@@ -119,6 +135,10 @@ struct WorkCounts {
 
 enum class FrameKind : std::uint32_t { keyframe, inbetween };
 
+// Bytes of a strip, header and all, at most: few enough to stay in a core's cache on their way, and the host puts them in
+// place while the node draws on.
+inline constexpr std::size_t kMaxStripBytes = std::size_t{768} << 10;
+
 // A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
 // its moving parts (MFB). Followed by all pixels, each one uint32 (red in the lowest byte, then green, blue,
 // 0), then by constant_runs + moving_runs Run that say where they go, in the same order.
@@ -127,8 +147,6 @@ struct Strip {
   std::uint32_t interval;
   FrameKind kind;
   std::int32_t node;
-  std::int32_t group_first;
-  std::int32_t group_count;
   std::uint32_t number;           // of the strips that this node sends for this frame, from 0
   std::uint32_t last;             // 1 if this is the last of them; a frame is whole when all nodes' last came
   std::uint32_t first_line;       // it is of the node's home lines [first_line, last_line)

@@ -131,6 +131,18 @@ TEST(Boundaries, HostAndNodeShareTheWire) {
   }
 }
 
+// What makes frames of a film runs one way, and knows nothing of a person's command line.
+TEST(Boundaries, RenderingRunsOneWay) {
+  std::vector<std::string> before = {"host/images/", "host/content/"};
+  for (const char* part : {"compositor/", "sinks/", "events/", "trace/", "farm/", "report/", "session/"}) {
+    before.push_back(std::string("host/render/") + part);
+    expect_includes(before.back(), [&](const std::string& include) {
+      return !begins(include, "host/") ||
+             std::any_of(before.begin(), before.end(), [&](const auto& folder) { return begins(include, folder); });
+    });
+  }
+}
+
 // From a model to what is seen of it, each tool knows only those before it; none knows the programs.
 TEST(Boundaries, HostsToolsStandOnOneAnother) {
   const auto below = [](const std::string& from, const std::vector<std::string>& known) {

@@ -73,7 +73,7 @@ void expect_none_in_steady_state(host::Trace* trace) {
   hal::Counts counts;
   RunOptions options;
   options.nodes = kNodes;
-  options.farm.groups = 1;
+  options.work.groups = 1;
   options.farm.trace = trace;
   options.wrap = [&](hal::Backend& inner) {
     return std::make_unique<AllocationLog>(inner, counts, logs[static_cast<std::size_t>(inner.rank())]);

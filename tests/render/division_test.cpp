@@ -56,8 +56,8 @@ void run_counted(const node::FilmData& film, const Cluster& cluster, Counted& ou
   hal::Machines machines(cluster.nodes_each);
   RunOptions options;
   options.nodes = cluster.nodes;
-  options.farm.groups = cluster.groups;
-  options.farm.frames = std::move(frames);
+  options.work.groups = cluster.groups;
+  options.work.frames = std::move(frames);
   options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
   out.run = run_film(FilmBlock(film).bytes(), options);
   out.czb_written = machines.written();
@@ -227,12 +227,12 @@ TEST_P(Division, MemoryIsAsTheFormulaSays) {
 
 INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
 
-// As many units as groups: none gets two while another has none.
-TEST(Division, EveryGroupGetsAUnit) {
+// As many tasks as groups: none gets two while another has none.
+TEST(Division, EveryGroupGetsATask) {
   const FilmBlock film(crowd(64, 40, 4, 1));
   RunOptions options;
   options.nodes = 4;
-  options.farm.groups = 4;
+  options.work.groups = 4;
   std::set<std::int32_t> contributors;
   for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) contributors.insert(strip.node);
   EXPECT_EQ(contributors.size(), 4u);

@@ -49,18 +49,21 @@ FilmBlock::FilmBlock(const node::FilmData& film) {
 }
 
 FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
-  const node::FilmSettings settings = node::FilmView(film, "test film").settings();
+  const node::FilmView view(film, "test film");
+  const node::FilmSettings& settings = view.settings();
   host::FarmOptions farm = options.farm;
   farm.each_frame = true;
-  if (farm.frames.empty()) {
-    farm.frames.resize(settings.frames);
-    std::iota(farm.frames.begin(), farm.frames.end(), 0u);
+  host::PlanRequest work = options.work;
+  if (work.frames.empty()) {
+    work.frames.resize(settings.frames);
+    std::iota(work.frames.begin(), work.frames.end(), 0u);
   }
+  const host::Plan plan = host::make_plan(view, work, options.nodes);
   MemorySink sink;
   FilmRun run;
   const auto host = [&] {
     host::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
-    run.report = host::render_film(film, farm, pool, {});
+    run.report = host::render_film(film, plan, farm, pool, {});
   };
   const auto node = [&] {
     if (options.around_node) options.around_node();

@@ -17,7 +17,8 @@ using Pixels = std::vector<std::uint32_t>;
 
 struct RunOptions {
   int nodes = 1;
-  host::FarmOptions farm;  // no frames: all of the film
+  host::PlanRequest work;  // no frames: all of the film
+  host::FarmOptions farm;
   std::uint32_t block = 16;
   std::string simd;  // "" for the widest
   std::uint64_t memory = 256 << 20;  // bytes a node offers

@@ -60,18 +60,16 @@ constexpr std::uint32_t kFrames = 3;  // buffers
 // The most pictures the host had at a time while it rendered the film.
 std::size_t most_pictures(const node::FilmData& film, bool coherence, std::uint32_t groups) {
   const FilmBlock block(film);
-  host::FarmOptions options;
-  options.coherence = coherence;
-  options.groups = groups;
-  options.frames.resize(film.settings.frames);
-  std::iota(options.frames.begin(), options.frames.end(), 0u);
+  host::PlanRequest work{std::vector<std::uint32_t>(film.settings.frames), coherence, groups};
+  std::iota(work.frames.begin(), work.frames.end(), 0u);
+  const host::Plan plan = host::make_plan(block.view(), work, 4);
   made = live = most = 0;
   const auto host = [&] {
     is_host = true;
-    host::NothingSink sink;
+    host::NullSink sink;
     {
       host::SinkPool pool(sink, {kWidth, kHeight, 16, kFrames, 1});
-      host::render_film(block.bytes(), options, pool, {});
+      host::render_film(block.bytes(), plan, {}, pool, {});
     }
     is_host = false;
   };
@@ -106,13 +104,13 @@ TEST(HostMemory, DoesNotGrowWithTheFramesDone) {
     if (++done == kWarm) warm = allocated;
     if (done == kAll) grown = allocated - warm;
   };
-  host::FarmOptions options;
-  options.frames.resize(kAll);
-  std::iota(options.frames.begin(), options.frames.end(), 0u);
+  host::PlanRequest work{std::vector<std::uint32_t>(kAll)};
+  std::iota(work.frames.begin(), work.frames.end(), 0u);
+  const host::Plan plan = host::make_plan(block.view(), work, 1);
   const auto host = [&] {
-    host::NothingSink sink;
+    host::NullSink sink;
     host::SinkPool pool(sink, {16, 16, 16, kFrames, 1});
-    host::render_film(block.bytes(), options, pool, listener);
+    host::render_film(block.bytes(), plan, {}, pool, listener);
   };
   hal::run_threads(1, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
   EXPECT_EQ(done, kAll);

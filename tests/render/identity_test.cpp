@@ -31,7 +31,7 @@ std::vector<Case> cases() {
 
 RunOptions from_scratch() {
   RunOptions options;
-  options.farm.coherence = false;
+  options.work.coherence = false;
   options.simd = "sse2";
   return options;
 }
@@ -61,7 +61,7 @@ TEST_P(Identity, AnyMappingAndGroups) {
   for (const std::uint32_t groups : {1u, 2u, 5u}) {
     RunOptions options;
     options.nodes = 5;
-    options.farm.groups = groups;
+    options.work.groups = groups;
     options.farm.mapping = groups == 2 ? node::Mapping::greedy : node::Mapping::optimal;
     expect_as_from_scratch(options, std::to_string(groups) + "-groups");
   }
@@ -73,7 +73,7 @@ TEST_P(Identity, AnyMachines) {
     hal::Counts counts;
     RunOptions options;
     options.nodes = nodes;
-    options.farm.groups = groups;
+    options.work.groups = groups;
     options.wrap = [&](hal::Backend& inner) { return std::make_unique<hal::MachinesBackend>(inner, counts, machines); };
     expect_as_from_scratch(options, std::to_string(nodes_each) + "-a-machine");
   }
@@ -100,8 +100,8 @@ TEST_P(Identity, AnyInstructionSet) {
 TEST_P(Identity, WithoutCoherenceOnManyNodes) {
   RunOptions options;
   options.nodes = 5;
-  options.farm.coherence = false;
-  options.farm.groups = 1;
+  options.work.coherence = false;
+  options.work.groups = 1;
   expect_as_from_scratch(options, "scratch-5-nodes");
 }
 
@@ -128,10 +128,10 @@ TEST_P(Identity, OnlySomeFrames) {
   const FilmBlock block(GetParam().film);
   RunOptions options;
   options.nodes = 3;
-  options.farm.frames = {GetParam().film.settings.frames - 1};
-  if (GetParam().film.settings.frames > 2) options.farm.frames = {1, GetParam().film.settings.frames - 1};
+  options.work.frames = {GetParam().film.settings.frames - 1};
+  if (GetParam().film.settings.frames > 2) options.work.frames = {1, GetParam().film.settings.frames - 1};
   const FilmRun run = run_film(block.bytes(), options);
-  EXPECT_EQ(run.frames.size(), options.farm.frames.size());
+  EXPECT_EQ(run.frames.size(), options.work.frames.size());
   expect_same(run, run_film(block.bytes(), from_scratch()), GetParam().film.settings, "some-frames");
 }
 

@@ -51,7 +51,7 @@ void run(const node::FilmData& data, const Nodes& nodes, SharedRun& out, int slo
   hal::Machines machines(nodes.each);
   RunOptions options;
   options.nodes = nodes.count;
-  options.farm.groups = nodes.groups;
+  options.work.groups = nodes.groups;
   options.memory = memory;
   options.wrap = [&](hal::Backend& inner) { return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type); };
   out.film = run_film(FilmBlock(data).bytes(), options);
@@ -60,7 +60,7 @@ void run(const node::FilmData& data, const Nodes& nodes, SharedRun& out, int slo
 
 FilmRun from_scratch(const node::FilmData& data) {
   RunOptions options;
-  options.farm.coherence = false;
+  options.work.coherence = false;
   return run_film(FilmBlock(data).bytes(), options);
 }
 

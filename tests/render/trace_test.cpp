@@ -37,14 +37,14 @@ class Tracing : public testing::TestWithParam<Case> {
     RunOptions options;
     options.nodes = GetParam().nodes;
     options.memory = GetParam().memory;
-    options.farm.groups = 1;
+    options.work.groups = 1;
     plain_ = run_film(block_.bytes(), options);
     options.farm.trace = &trace_;
     options.wrap = hal::counting(counts_);
     traced_ = run_film(block_.bytes(), options);
     options.farm.trace = nullptr;
-    options.farm.groups = static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
-    options.farm.frames = {0};
+    options.work.groups = static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
+    options.work.frames = {0};
     options.wrap = hal::counting(loading_);
     run_film(block_.bytes(), options);
   }

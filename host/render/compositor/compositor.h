@@ -42,7 +42,7 @@ class Compositor {
   // Part of the MFB goes over it.
   void paste_moving(Frame& frame, std::span<const node::Run> runs,
                     std::span<const std::uint32_t> pixels) const;
-  // It is frame `number`, and told which blocks changed since the frame this compositor finished before.
+  // It is frame `number`; its `changed` says which blocks differ from the frame this compositor finished before.
   void finish_frame(Frame& frame, std::uint32_t number);
 
   // Names the saved background, 0 while no CFB pixel was pasted: a frame with the same name costs least.

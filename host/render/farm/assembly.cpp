@@ -14,25 +14,42 @@ Frame* begun(Frame* frame, const Compositor& compositor) {
 
 }  // namespace
 
-Assembly::Assembly(const Unit& unit, int nodes)
-    : interval_(unit.interval),
-      keyframe_(unit.frames.front()),
-      alone_(unit.frames.size() == 1),
-      not_begun_(unit.frames.size()) {
-  for (const std::uint32_t frame : unit.frames) parts_[frame].artists_left = frame == keyframe_ ? nodes : 1;
+Assembly::Assembly(const Task& task, const hal::Group& group)
+    : group_(group),
+      interval_(task.interval),
+      keyframe_(task.frames.front()),
+      alone_(task.frames.size() == 1),
+      drew_keyframe_(static_cast<std::size_t>(group.count)),
+      not_begun_(task.frames.size()) {
+  parts_[keyframe_].contributors_left = group.count;
+  for (std::size_t k = 1; k < task.frames.size(); ++k) {
+    Parts& parts = parts_[task.frames[k]];
+    parts.contributors_left = 1;
+    parts.contributor = group.first + node::contributor_of_inbetween(task.first_inbetween + k - 1, group.count);
+  }
 }
 
-bool Assembly::wants(std::uint32_t frame) const {
-  const auto found = parts_.find(frame);
-  return found != parts_.end() && found->second.artists_left > 0;
+bool Assembly::wants(const node::Strip& strip) const {
+  const auto found = parts_.find(strip.frame);
+  if (found == parts_.end() || strip.interval != interval_) return false;
+  const auto kind = strip.frame == keyframe_ ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+  return strip.kind == kind && is_contributor(found->second, strip.node);
+}
+
+// And its last strip has not come.
+bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
+  if (parts.contributor != kAll) return parts.contributor == node && parts.contributors_left > 0;
+  const std::int32_t index = node - group_.first;
+  return index >= 0 && index < group_.count && !drew_keyframe_[static_cast<std::size_t>(index)];
 }
 
 void Assembly::receive(StripMessage strip) {
   const node::Strip& header = strip.header();
   Parts& parts = parts_.at(header.frame);
   if (header.last == 1) {
-    --parts.artists_left;
-    parts.artists.push_back(header.node);
+    --parts.contributors_left;
+    parts.contributors.push_back(header.node);
+    if (header.frame == keyframe_) drew_keyframe_[static_cast<std::size_t>(header.node - group_.first)] = true;
   }
   if (parts.strips.empty()) waiting_.push_back(header.frame);
   parts.strips.push_back(std::move(strip));
@@ -49,7 +66,7 @@ bool Assembly::begin(Parts& parts, const Compositor& compositor, SinkPool& sinks
   const std::uint64_t background = compositor.background_name();
   if (prepared_ != nullptr)
     parts.picture = std::exchange(prepared_, nullptr);
-  else if (parts.artists_left == 0)
+  else if (parts.contributors_left == 0)
     parts.picture = begun(sinks.free_frame(background), compositor);
   else
     parts.picture = begun(sinks.early_frame(background), compositor);
@@ -68,16 +85,17 @@ std::optional<Assembly::Pasted> Assembly::paste(Compositor& compositor, SinkPool
   const std::uint32_t number = *ready;
   waiting_.erase(ready);
   Parts& parts = parts_.at(number);
+  Pasted pasted{number, number == keyframe_ ? node::FrameKind::keyframe : node::FrameKind::inbetween, nullptr, {}, {}};
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
+    if (strip.header().last == 0) pasted.sent_more.push_back(strip.header().node);
     store.give_back(strip.release());
   }
   parts.strips.clear();
-  Pasted pasted{number, number == keyframe_ ? node::FrameKind::keyframe : node::FrameKind::inbetween, nullptr, {}};
-  if (parts.artists_left > 0) return pasted;
+  if (parts.contributors_left > 0) return pasted;
   compositor.finish_frame(*parts.picture, number);
   pasted.whole = parts.picture;
-  pasted.nodes = std::move(parts.artists);
+  pasted.contributors = std::move(parts.contributors);
   parts_.erase(number);
   return pasted;
 }

@@ -1,4 +1,4 @@
-// Frames of one unit put together from the strips of its group's nodes, whatever the order of their arrival.
+// Frames of one task put together from the strips of its group's nodes, whatever the order of their arrival.
 // A strip is pasted as soon as its frame has a buffer, and inbetweens when the keyframe is there, whose CFB
 // they show.
 #pragma once
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "host/render/compositor/compositor.h"
-#include "host/render/farm/schedule.h"
+#include "host/render/farm/plan.h"
 #include "host/render/farm/strip_message.h"
 #include "host/render/sinks/sink_pool.h"
 
@@ -18,13 +18,13 @@ namespace mars::host {
 
 class Assembly {
  public:
-  // `nodes`: of the group that draws the unit.
-  Assembly(const Unit& unit, int nodes);
+  // `group` draws the task.
+  Assembly(const Task& task, const hal::Group& group);
 
   std::uint32_t interval() const { return interval_; }
-  // Whether strips of `frame` are still to come.
-  bool wants(std::uint32_t frame) const;
-  // A strip of a frame it wants.
+  // Whether it is a strip that is still to come: of a frame of the task, from a node that draws it.
+  bool wants(const node::Strip& strip) const;
+  // A strip it wants.
   void receive(StripMessage strip);
 
   // From here on it has the group's compositor, whose interval has begun and which nobody else uses until all
@@ -36,8 +36,10 @@ class Assembly {
   struct Pasted {
     std::uint32_t number;
     node::FrameKind kind;
-    Frame* whole;                     // the finished frame; nullptr while strips of it are to come
-    std::vector<std::int32_t> nodes;  // that drew it
+    Frame* whole;  // the finished frame; nullptr while strips of it are to come
+    // Nodes whose strips of it were pasted now, each as often as it had some that were not its last.
+    std::vector<std::int32_t> sent_more;
+    std::vector<std::int32_t> contributors;  // the nodes that drew it, where it is whole
   };
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
   // goes to `store`.
@@ -46,21 +48,27 @@ class Assembly {
   bool done() const { return parts_.empty(); }
 
  private:
+  static constexpr std::int32_t kAll = -1;  // all nodes of the group draw a frame
+
   // What is there of a frame.
   struct Parts {
-    int artists_left = 0;
-    std::vector<std::int32_t> artists;
-    std::vector<StripMessage> strips;  // to be pasted
-    Frame* picture = nullptr;          // where they go; begun
+    std::int32_t contributor = kAll;  // the only node that draws it
+    std::int32_t contributors_left = 0;
+    std::vector<std::int32_t> contributors;  // whose last strip has come
+    std::vector<StripMessage> strips;        // to be pasted
+    Frame* picture = nullptr;                // where they go; begun
   };
 
+  bool is_contributor(const Parts& parts, std::int32_t node) const;
   bool background_there() const { return !parts_.contains(keyframe_); }
   bool begin(Parts& parts, const Compositor& compositor, SinkPool& sinks);
   void paste_strip(const StripMessage& strip, Frame& picture, Compositor& compositor) const;
 
+  hal::Group group_;
   std::uint32_t interval_;
   std::uint32_t keyframe_;
   bool alone_;  // the keyframe has no inbetweens: nobody needs its saved background
+  std::vector<bool> drew_keyframe_;       // by node of the group: its last strip has come
   std::map<std::uint32_t, Parts> parts_;  // of frames that are not finished
   std::deque<std::uint32_t> waiting_;     // those with strips to be pasted, as they came
   std::size_t not_begun_;                 // those without a picture

@@ -2,140 +2,118 @@
 
 #include <algorithm>
 #include <cstring>
-#include <deque>
-#include <string>
+#include <optional>
 #include <unordered_map>
 
-#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "host/render/farm/assembly.h"
-#include "host/render/farm/schedule.h"
+#include "host/render/farm/film_loading.h"
+#include "host/render/farm/group_work.h"
+#include "host/render/farm/node_inbox.h"
 #include "host/render/farm/tracing.h"
 
 namespace mars::host {
 namespace {
 
-constexpr std::int32_t kCredits = 4;         // strips a node may have on the way
-constexpr std::size_t kUnitsAhead = 2;       // given to a group at a time, so that it never waits for the host
+constexpr std::size_t kTasksAhead = 2;  // given to a group at a time, so that it never waits for the host
 
-void send_to_all(long type, const void* data, std::size_t bytes) {
-  for (long node = 0; node < numnodes(); ++node) csend(type, data, static_cast<long>(bytes), node, 0);
-}
-
-[[noreturn]] void receive_fault() {
-  node::Fault fault;
-  crecv(node::kFault, &fault, sizeof fault);
-  fault.reason.back() = '\0';
-  throw NodeFailure(fault.reason.data(), fault.node, fault.frame);
-}
-
-// Waits for a message of `type` from every node; faults end the waiting.
-template <typename Receive>
-void receive_from_all(long type, const Receive& receive) {
-  for (long i = 0; i < numnodes(); ++i) {
-    cprobe(node::any_of(type, long{node::kFault}));
-    if (infotype() == node::kFault) receive_fault();
-    receive();
-  }
-}
-
-std::vector<node::Hello> receive_hellos() {
-  std::vector<node::Hello> hellos(static_cast<std::size_t>(numnodes()));
-  receive_from_all(node::kHello, [&] {
-    node::Hello hello;
-    crecv(node::kHello, &hello, sizeof hello);
-    hellos.at(static_cast<std::size_t>(hello.node)) = hello;
-  });
-  return hellos;
-}
-
-void load_film(std::span<const std::byte> block, const FarmOptions& options, std::span<const node::Hello> hellos,
-               std::size_t groups) {
-  const auto least = std::min_element(hellos.begin(), hellos.end(),
-                                      [](const auto& a, const auto& b) { return a.memory < b.memory; });
-  const SpanOf span(HostSpan::load, block.size());
-  const node::Load load{block.size(), options.memory != 0 ? options.memory : least->memory, kCredits, options.mapping,
-                        static_cast<std::int32_t>(groups), options.trace != nullptr ? 1u : 0u};
-  std::vector<std::byte> message(sizeof load + hellos.size() * sizeof hellos[0].machine);
-  std::memcpy(message.data(), &load, sizeof load);
-  for (std::size_t n = 0; n < hellos.size(); ++n)
-    std::memcpy(message.data() + sizeof load + n * sizeof hellos[n].machine, &hellos[n].machine, sizeof hellos[n].machine);
-  send_to_all(node::kLoad, message.data(), message.size());
-  std::vector<long> sends;
-  for (const node::Hello& hello : hellos)
-    if (hello.machine == hello.node)
-      sends.push_back(isend(node::kFilmBlock, block.data(), static_cast<long>(block.size()), hello.node, 0));
-  receive_from_all(node::kLoaded, [] { crecv(node::kLoaded, nullptr, 0); });
-  for (const long send : sends) msgwait(send);
+void give_credit(std::span<const std::int32_t> nodes) {
+  const node::Credit credit{1};
+  for (const std::int32_t node : nodes) csend(node::kCredit, &credit, sizeof credit, node, 0);
 }
 
 class Farm {
  public:
-  Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sinks, const FarmListener& listener,
-       FarmReport& report, Tracing& tracing);
+  Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, SinkPool& sinks,
+       const FarmListener& listener);
 
-  void run();
+  FarmReport run();
 
  private:
-  // A group's units are composed one after another, so it needs one saved background at most.
-  struct Work {
-    hal::Group group;
-    Compositor compositor;       // the first unit's
-    std::deque<Assembly> units;  // given to the group and not done
-    std::deque<double> given;    // and when, in seconds since the start
-  };
+  bool greet_nodes();
+  bool load_film();
+  void render();
+  void stop_nodes();
 
-  void give_units();
+  void give_tasks();
   void give_when_asked();
-  void give(Work& work);
+  void give(GroupWork& group);
   void receive();
   void receive_strip();
   bool prepare_one();
   bool compose_one();
-  void submit(const Assembly::Pasted& frame, std::uint32_t interval, double given);
+  void submit(const GroupWork::Composed& frame);
   void note_taken();
-  Assembly& assembly_of(const node::Strip& strip);
+  bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
+  std::span<const std::byte> film_block_;
+  const Plan& plan_;
+  const FarmOptions& options_;
   SinkPool& sinks_;
   const FarmListener& listener_;
-  FarmReport& report_;
-  Tracing& tracing_;
+  NodeInbox inbox_;
+  std::optional<Tracing> tracing_;  // once all nodes are there
+  FarmReport report_;
 
-  bool each_frame_;
-  std::vector<Unit> units_;
-  std::size_t next_unit_ = 0;
-  std::vector<Work> work_;
-  struct OnTheWay {
+  std::vector<GroupWork> groups_;
+  std::size_t next_task_ = 0;
+  struct WithSink {
     FinishedFrame frame;
-    std::vector<std::int32_t> nodes;  // whose credit it holds
+    std::vector<std::int32_t> contributors;  // whose credit it holds
   };
-  std::unordered_map<std::uint32_t, OnTheWay> with_sinks_;
+  std::unordered_map<std::uint32_t, WithSink> with_sinks_;
   StripStore store_;
   std::size_t frames_left_;
-  double start_;
+  double start_ = 0;
 };
 
-Farm::Farm(const node::FilmView& film, const FarmOptions& options, SinkPool& sinks, const FarmListener& listener,
-           FarmReport& report, Tracing& tracing)
-    : sinks_(sinks),
+Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, SinkPool& sinks,
+           const FarmListener& listener)
+    : film_block_(film_block),
+      plan_(plan),
+      options_(options),
+      sinks_(sinks),
       listener_(listener),
-      report_(report),
-      tracing_(tracing),
-      each_frame_(options.each_frame),
-      units_(make_units(film, options.frames, options.coherence)),
-      frames_left_(options.frames.size()),
-      start_(dclock()) {
-  const SinkPool::Shape& shape = sinks.shape();
-  const std::uint32_t background = pixel_of(film.settings().background);
-  for (const hal::Group& group : make_groups(static_cast<int>(numnodes()), static_cast<int>(options.groups), units_.size()))
-    work_.push_back({group, Compositor(shape.width, shape.height, shape.block, background), {}, {}});
+      inbox_(sinks.shape().width, sinks.shape().height, options.cancellation),
+      frames_left_(plan.frames()) {
+  const std::uint32_t background = pixel_of(node::FilmView(film_block, "film").settings().background);
+  for (const hal::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape(), background);
 }
 
-void Farm::run() {
-  while (frames_left_ > 0) {
-    give_units();
+FarmReport Farm::run() {
+  if (greet_nodes() && load_film()) render();
+  stop_nodes();
+  report_.cancelled = frames_left_ > 0;
+  return std::move(report_);
+}
+
+bool Farm::greet_nodes() {
+  if (!inbox_.receive_hellos()) return false;
+  report_.nodes = inbox_.hellos();
+  if (listener_.booted) listener_.booted(report_.nodes, plan_.keyframes(), plan_.inbetweens());
+  return true;
+}
+
+bool Farm::load_film() {
+  const double booted = dclock();
+  tracing_.emplace(options_.trace, inbox_, options_.credits);
+  node::Load load{};
+  load.memory = options_.memory;
+  load.credits = options_.credits;
+  load.mapping = options_.mapping;
+  load.groups = static_cast<std::int32_t>(groups_.size());
+  load.traced = options_.trace != nullptr ? 1 : 0;
+  report_.film_bytes = film_block_.size();
+  const bool loaded = host::load_film(film_block_, load, inbox_);
+  report_.load_seconds = dclock() - booted;
+  return loaded;
+}
+
+void Farm::render() {
+  start_ = dclock();
+  while (frames_left_ > 0 && !cancelled()) {
+    give_tasks();
     note_taken();
-    tracing_.drain();
+    tracing_->drain();
     if (compose_one()) continue;
     if (iprobe(node::any_of(node::kStrip, node::kFault, node::kTrace)))
       receive();
@@ -143,127 +121,114 @@ void Farm::run() {
       flick();
   }
   report_.render_seconds = dclock() - start_;
-  const SpanOf span(HostSpan::finish);
+  if (frames_left_ > 0) return;
+  const ScopedSpan span(HostSpan::finish);
   sinks_.finish();
   note_taken();
+  report_.total_seconds = dclock() - start_;
 }
 
-void Farm::give_units() {
+// Nodes that still draw then send no more strips, and end when the keyframes they were given are drawn.
+void Farm::stop_nodes() {
+  if (tracing_ && frames_left_ == 0) tracing_->read_clocks_again();
+  for (long node = 0; node < numnodes(); ++node) csend(node::kStop, nullptr, 0, node, 0);
+  if (tracing_) tracing_->finish();
+}
+
+void Farm::give_tasks() {
   if (listener_.more) return give_when_asked();
   // Every group gets its first before any gets one ahead: there may be few.
-  for (std::size_t ahead = 1; ahead <= kUnitsAhead; ++ahead)
-    for (Work& work : work_)
-      if (work.units.size() < ahead && next_unit_ < units_.size()) give(work);
+  for (std::size_t ahead = 1; ahead <= kTasksAhead; ++ahead)
+    for (GroupWork& group : groups_)
+      if (group.tasks() < ahead && next_task_ < plan_.tasks.size()) give(group);
 }
 
 void Farm::give_when_asked() {
-  if (!work_.front().units.empty() || !with_sinks_.empty() || next_unit_ == units_.size()) return;
+  if (groups_.front().tasks() > 0 || !with_sinks_.empty() || next_task_ == plan_.tasks.size()) return;
   if (listener_.more())
-    give(work_.front());
+    give(groups_.front());
   else
     frames_left_ = 0;
 }
 
-void Farm::give(Work& work) {
-  work.given.push_back(dclock() - start_);
-  const Unit& unit = units_[next_unit_++];
-  const SpanOf span(HostSpan::give, unit.interval);
-  const hal::Group& group = work.group;
-  const auto frames = static_cast<std::uint32_t>(unit.frames.size());
-  const node::Render command{unit.interval, group.first, group.count, frames, unit.first_inbetween};
+void Farm::give(GroupWork& to) {
+  const double given = dclock() - start_;
+  const Task& task = plan_.tasks[next_task_++];
+  const ScopedSpan span(HostSpan::give, task.interval);
+  const hal::Group& group = to.group();
+  const auto frames = static_cast<std::uint32_t>(task.frames.size());
+  const node::Render command{task.interval, group.first, group.count, frames, task.first_inbetween};
   std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
   std::memcpy(message.data(), &command, sizeof command);
-  std::memcpy(message.data() + sizeof command, unit.frames.data(), frames * sizeof(std::uint32_t));
+  std::memcpy(message.data() + sizeof command, task.frames.data(), frames * sizeof(std::uint32_t));
   for (int node = group.first; node < group.first + group.count; ++node)
     csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
-  work.units.emplace_back(unit, group.count);
+  to.give(task, given);
 }
 
 void Farm::receive() {
   switch (infotype()) {
-    case node::kFault: receive_fault();
-    case node::kTrace: tracing_.receive(); break;
+    case node::kFault: inbox_.receive_fault();
+    case node::kTrace: tracing_->receive(); break;
     default: receive_strip();
   }
 }
 
 void Farm::receive_strip() {
-  SpanOf span(HostSpan::strip);
-  StripBytes bytes = store_.take(static_cast<std::size_t>(infocount()));
-  crecv(node::kStrip, bytes.data.get(), static_cast<long>(bytes.size));
-  StripMessage strip(std::move(bytes));
-  const node::Strip header = strip.header();
+  ScopedSpan span(HostSpan::strip);
+  StripMessage strip = inbox_.receive_strip(store_);
+  const node::Strip& header = strip.header();
   span.set_value(header.frame);
-  if (each_frame_ && header.last == 1) report_.strips.push_back(header);
-  assembly_of(header).receive(std::move(strip));
-  // A frame's credit is held until the sinks have it; that of its earlier strips is not.
-  const node::Credit credit{1};
-  if (header.last == 0) csend(node::kCredit, &credit, sizeof credit, header.node, 0);
-}
-
-Assembly& Farm::assembly_of(const node::Strip& strip) {
-  for (Work& work : work_)
-    for (Assembly& unit : work.units)
-      if (unit.wants(strip.frame)) return unit;
-  throw Failure("a strip came for a frame that was not asked for", "frame " + std::to_string(strip.frame),
-                "please report it");
+  const auto wanting = std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
+  if (wanting == groups_.end())
+    inbox_.refuse(header.node, "a strip of frame " + std::to_string(header.frame) + " that it was not asked for");
+  if (options_.each_frame && header.last == 1) report_.strips.push_back(header);
+  wanting->receive(std::move(strip));
 }
 
 // While nothing comes: a buffer for a frame that is being drawn; whether there was one to prepare.
 bool Farm::prepare_one() {
-  SpanOf span(HostSpan::prepare);
-  for (Work& work : work_)
-    if (!work.units.empty() && work.units.front().prepare(work.compositor, sinks_)) return true;
+  ScopedSpan span(HostSpan::prepare);
+  if (std::any_of(groups_.begin(), groups_.end(), [&](GroupWork& group) { return group.prepare(sinks_); })) return true;
   span.forget();
   return false;
 }
 
 // Pastes what came of one frame, if it can be; whether it did.
 bool Farm::compose_one() {
-  SpanOf span(HostSpan::compose);
-  for (Work& work : work_) {
-    if (work.units.empty()) continue;
-    Assembly& unit = work.units.front();
-    const std::optional<Assembly::Pasted> pasted = unit.paste(work.compositor, sinks_, store_);
-    if (!pasted) continue;
-    span.set_value(pasted->number);
-    if (pasted->whole != nullptr) submit(*pasted, unit.interval(), work.given.front());
-    if (unit.done()) {
-      work.units.pop_front();
-      work.given.pop_front();
-      work.compositor.begin_interval();
-    }
+  ScopedSpan span(HostSpan::compose);
+  for (GroupWork& group : groups_) {
+    const auto composed = group.compose(sinks_, store_);
+    if (!composed) continue;
+    span.set_value(composed->pasted.number);
+    give_credit(composed->pasted.sent_more);
+    if (composed->pasted.whole != nullptr) submit(*composed);
     return true;
   }
   span.forget();
   return false;
 }
 
-void Farm::submit(const Assembly::Pasted& frame, std::uint32_t interval, double given) {
-  const FinishedFrame finished{frame.number, interval, frame.kind, dclock() - start_, given};
-  if (each_frame_) report_.frames.push_back(finished);
-  with_sinks_[frame.number] = {finished, frame.nodes};
+void Farm::submit(const GroupWork::Composed& composed) {
+  const Assembly::Pasted& frame = composed.pasted;
+  const FinishedFrame finished{frame.number, composed.interval, frame.kind, dclock() - start_, composed.given};
+  if (options_.each_frame) report_.frames.push_back(finished);
+  with_sinks_[frame.number] = {finished, frame.contributors};
   sinks_.submit(frame.whole);
   --frames_left_;
 }
 
 void Farm::note_taken() {
-  const node::Credit credit{1};
   for (const SinkPool::Taken& taken : sinks_.taken()) {
-    tracing_.taken(taken);
+    tracing_->taken(taken);
     const auto found = with_sinks_.find(taken.number);
-    for (const std::int32_t node : found->second.nodes) csend(node::kCredit, &credit, sizeof credit, node, 0);
+    give_credit(found->second.contributors);
     if (listener_.finished) listener_.finished(found->second.frame);
     with_sinks_.erase(found);
   }
 }
 
 }  // namespace
-
-NodeFailure::NodeFailure(const std::string& reason, int who, int at)
-    : Failure(reason, "node " + std::to_string(who) + (at < 0 ? "" : ", frame " + std::to_string(at)), ""),
-      node(who),
-      frame(at) {}
 
 std::uint32_t pixel_of(const std::array<float, 3>& color) {
   std::uint32_t pixel = 0;
@@ -274,29 +239,9 @@ std::uint32_t pixel_of(const std::array<float, 3>& color) {
   return pixel;
 }
 
-FarmReport render_film(std::span<const std::byte> film_block, const FarmOptions& options, SinkPool& sinks,
-                       const FarmListener& listener) {
-  const node::FilmView film(film_block, "film");
-  FarmReport report;
-  report.film_bytes = film_block.size();
-  report.nodes = receive_hellos();
-  const double booted = dclock();
-  const auto units = static_cast<std::uint32_t>(make_units(film, options.frames, options.coherence).size());
-  if (listener.booted) listener.booted(report.nodes, units, static_cast<std::uint32_t>(options.frames.size()) - units);
-  Tracing tracing(options.trace, report.nodes, kCredits);
-  load_film(film_block, options, report.nodes,
-            make_groups(static_cast<int>(numnodes()), static_cast<int>(options.groups), units).size());
-  report.load_seconds = dclock() - booted;
-  const double start = dclock();
-  Farm(film, options, sinks, listener, report, tracing).run();
-  report.total_seconds = dclock() - start;
-  tracing.read_clocks_again();
-  send_to_all(node::kStop, nullptr, 0);
-  while (tracing.nodes_left() > 0) {
-    cprobe(node::kTrace);
-    tracing.receive();
-  }
-  return report;
+FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
+                       SinkPool& sinks, const FarmListener& listener) {
+  return Farm(film_block, plan, options, sinks, listener).run();
 }
 
 }  // namespace mars::host

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "hal/failure/failure.h"
-
 namespace mars::host {
 
 StripBytes StripStore::take(std::size_t size) {
-  const auto fits = std::find_if(spare_.rbegin(), spare_.rend(), [&](const StripBytes& s) { return s.room >= size; });
+  const auto fits = std::find_if(spare_.rbegin(), spare_.rend(), [&](const StripBytes& s) { return s.capacity >= size; });
   // Where none fits, one that is too small makes way: there are no more than were in use at once.
   StripBytes bytes;
   if (!spare_.empty()) {
@@ -16,29 +14,30 @@ StripBytes StripStore::take(std::size_t size) {
     bytes = std::move(spare_.back());
     spare_.pop_back();
   }
-  if (bytes.room < size) {
-    const std::size_t room = std::bit_ceil(size);  // of which only what is used takes memory
+  if (bytes.capacity < size) {
+    // Of which only what is used takes memory.
+    const std::size_t capacity = std::max(size, std::min(std::bit_ceil(size), node::kMaxStripBytes));
     bytes.data.reset();
-    bytes = {std::make_unique_for_overwrite<std::byte[]>(room), 0, room};
+    bytes = {std::make_unique_for_overwrite<std::byte[]>(capacity), 0, capacity};
   }
   bytes.size = size;
   return bytes;
 }
 
-StripMessage::StripMessage(StripBytes bytes) : bytes_(std::move(bytes)) {
-  const auto require = [](bool holds) {
-    if (!holds) throw Failure("a strip of pixels is not what its header says", "node protocol", "please report it");
-  };
-  require(bytes_.size >= sizeof(node::Strip));
-  const node::Strip& strip = header();
-  const std::uint64_t rest = bytes_.size - sizeof strip;
+std::optional<StripMessage> StripMessage::read(StripBytes bytes) {
+  if (bytes.size < sizeof(node::Strip)) return std::nullopt;
+  StripMessage message(std::move(bytes));
+  const node::Strip& strip = message.header();
+  const std::uint64_t rest = message.bytes_.size - sizeof strip;
   const std::uint64_t run_bytes = (std::uint64_t{strip.constant_runs} + strip.moving_runs) * sizeof(node::Run);
-  require(strip.pixels <= rest / sizeof(std::uint32_t) && rest == strip.pixels * sizeof(std::uint32_t) + run_bytes);
-  require(strip.kind == node::FrameKind::keyframe || strip.constant_runs == 0);
-  std::uint64_t counted = 0;
-  for (const node::Run& run : moving_runs()) counted += run.count;
-  for (const node::Run& run : constant_runs()) constant_pixels_ += run.count;
-  require(constant_pixels_ + counted == strip.pixels);
+  const bool fits = strip.pixels <= rest / sizeof(std::uint32_t) && rest == strip.pixels * sizeof(std::uint32_t) + run_bytes;
+  const bool inbetween = strip.kind == node::FrameKind::inbetween && strip.constant_runs == 0;
+  if (!fits || !(inbetween || strip.kind == node::FrameKind::keyframe)) return std::nullopt;
+  std::uint64_t moving_pixels = 0;
+  for (const node::Run& run : message.moving_runs()) moving_pixels += run.count;
+  for (const node::Run& run : message.constant_runs()) message.constant_pixels_ += run.count;
+  if (message.constant_pixels_ + moving_pixels != strip.pixels) return std::nullopt;
+  return message;
 }
 
 std::span<const std::uint32_t> StripMessage::pixels() const {

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "node/wire/protocol.h"
@@ -15,7 +17,7 @@ namespace mars::host {
 struct StripBytes {
   std::unique_ptr<std::byte[]> data;
   std::size_t size = 0;
-  std::size_t room = 0;  // at least size
+  std::size_t capacity = 0;  // at least size
 };
 
 // Memory of strips that were pasted, for those to come: once warm, nothing is allocated.
@@ -30,8 +32,8 @@ class StripStore {
 
 class StripMessage {
  public:
-  // Throws Failure unless the bytes are exactly what the strip's header promises.
-  explicit StripMessage(StripBytes bytes);
+  // None unless the bytes are exactly what the strip's header promises.
+  static std::optional<StripMessage> read(StripBytes bytes);
 
   const node::Strip& header() const { return *reinterpret_cast<const node::Strip*>(bytes_.data.get()); }
   std::span<const node::Run> runs() const;
@@ -45,6 +47,8 @@ class StripMessage {
   StripBytes release() { return std::move(bytes_); }
 
  private:
+  explicit StripMessage(StripBytes bytes) : bytes_(std::move(bytes)) {}
+
   StripBytes bytes_;
   std::uint64_t constant_pixels_ = 0;
 };

@@ -9,18 +9,17 @@ namespace {
 constexpr std::size_t kHostEvents = 1 << 13;  // more than between two turns of the farm's loop
 constexpr int kReadings = 16;                 // of a node's clock, of which the best counts
 
-ClockReading read_clock_once(int node) {
+ClockReading read_clock_once(int node, NodeInbox& inbox) {
   const double asked = dclock();
   csend(node::kClock, nullptr, 0, node, 0);
-  double told = 0;
-  crecv(node::kClock, &told, sizeof told);
-  return ClockReading::of(asked, told, dclock());
+  const double answer = inbox.receive_time(node);
+  return ClockReading::of(asked, answer, dclock());
 }
 
-ClockReading read_clock(int node) {
-  ClockReading best = read_clock_once(node);
+ClockReading read_clock(int node, NodeInbox& inbox) {
+  ClockReading best = read_clock_once(node, inbox);
   for (int i = 1; i < kReadings && !best.shares_clock(); ++i) {
-    const ClockReading next = read_clock_once(node);
+    const ClockReading next = read_clock_once(node, inbox);
     if (next.error < best.error) best = next;
   }
   return best;
@@ -28,16 +27,16 @@ ClockReading read_clock(int node) {
 
 }  // namespace
 
-Tracing::Tracing(Trace* trace, std::span<const node::Hello> nodes, int credits) : trace_(trace) {
+Tracing::Tracing(Trace* trace, NodeInbox& inbox, int credits) : trace_(trace), inbox_(inbox) {
   if (trace_ == nullptr) return;
-  trace_->begin(nodes, credits, dclock());
-  for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
-    const ClockReading reading = read_clock(node);
+  const std::size_t nodes = inbox.hellos().size();
+  trace_->begin(inbox.hellos(), credits, dclock());
+  for (int node = 0; node < static_cast<int>(nodes); ++node) {
+    const ClockReading reading = read_clock(node, inbox);
     trace_->add(node, reading);
     if (!reading.shares_clock()) foreign_.push_back(node);
   }
-  nodes_left_ = static_cast<int>(nodes.size());
-  recorder_.emplace(kHostEvents + 4 * nodes.size(), node::kTrace);
+  recorder_.emplace(kHostEvents + 4 * nodes, node::kTrace);
 }
 
 Tracing::~Tracing() {
@@ -56,20 +55,29 @@ void Tracing::taken(const SinkPool::Taken& frame) {
 
 void Tracing::receive() {
   const int node = static_cast<int>(infonode());
-  half_.resize(static_cast<std::size_t>(infocount()) / sizeof(hal::Event));
-  crecv(node::kTrace, half_.data(), static_cast<long>(half_.size() * sizeof(hal::Event)));
-  trace_->add(node, half_);
-  if (half_.back().number == 1) --nodes_left_;
+  const auto events = inbox_.receive_events();
+  if (trace_ == nullptr) inbox_.refuse(node, "events of a run that is not traced");
+  trace_->add(node, events);
 }
 
 void Tracing::read_clocks_again() {
-  for (const int node : foreign_) trace_->add(node, read_clock(node));
+  for (const int node : foreign_) trace_->add(node, read_clock(node, inbox_));
 }
 
-SpanOf::SpanOf(HostSpan what, std::uint64_t value)
+void Tracing::finish() {
+  if (trace_ == nullptr) return;
+  for (int node = 0; node < static_cast<int>(inbox_.hellos().size()); ++node) {
+    while (!inbox_.events_ended(node)) {
+      inbox_.wait(node::kTrace);
+      receive();
+    }
+  }
+}
+
+ScopedSpan::ScopedSpan(HostSpan what, std::uint64_t value)
     : what_(what), value_(value), begin_(hal::process().recorder() != nullptr ? dclock() : 0) {}
 
-SpanOf::~SpanOf() {
+ScopedSpan::~ScopedSpan() {
   if (begin_ != 0) hal::record_span(static_cast<int>(what_), begin_, dclock(), value_);
 }
 

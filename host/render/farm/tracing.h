@@ -3,10 +3,10 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "hal/messages/recorder.h"
+#include "host/render/farm/node_inbox.h"
 #include "host/render/trace/trace.h"
 
 namespace mars::host {
@@ -14,7 +14,7 @@ namespace mars::host {
 class Tracing {
  public:
   // `trace` may be nullptr. The calling process is the host, all nodes are there and have no film yet.
-  Tracing(Trace* trace, std::span<const node::Hello> nodes, int credits);
+  Tracing(Trace* trace, NodeInbox& inbox, int credits);
   ~Tracing();
   Tracing(const Tracing&) = delete;
   Tracing& operator=(const Tracing&) = delete;
@@ -26,26 +26,25 @@ class Tracing {
   void receive();
   // When all frames are there and nodes are idle: reads the clocks again where they are not the host's own.
   void read_clocks_again();
-  // Nodes whose last Trace message is still to come.
-  int nodes_left() const { return nodes_left_; }
+  // When Stop was sent to the nodes: receives what they have recorded until then.
+  void finish();
 
  private:
   void empty_recorder(bool last);
 
   Trace* trace_;
+  NodeInbox& inbox_;
   std::optional<hal::Recorder> recorder_;
   std::vector<int> foreign_;  // nodes with clocks of their own
-  std::vector<hal::Event> half_;
-  int nodes_left_ = 0;
 };
 
-// Records its own lifetime as a span of the host's, where somebody does.
-class SpanOf {
+// Records its own lifetime as a span of the host's, where the run is traced.
+class ScopedSpan {
  public:
-  explicit SpanOf(HostSpan what, std::uint64_t value = 0);
-  ~SpanOf();
-  SpanOf(const SpanOf&) = delete;
-  SpanOf& operator=(const SpanOf&) = delete;
+  explicit ScopedSpan(HostSpan what, std::uint64_t value = 0);
+  ~ScopedSpan();
+  ScopedSpan(const ScopedSpan&) = delete;
+  ScopedSpan& operator=(const ScopedSpan&) = delete;
 
   void set_value(std::uint64_t value) { value_ = value; }
   // There was nothing to do.

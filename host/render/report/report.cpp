@@ -23,6 +23,12 @@ ordered_json node_json(const node::Hello& hello) {
           {"memory", hello.memory}};
 }
 
+ordered_json memory_json(const HostMemory& memory) {
+  return {{"budget", memory.budget},           {"frames", memory.frames},   {"frame_bytes", memory.frame_bytes},
+          {"backgrounds", memory.backgrounds}, {"credits", memory.credits}, {"strip_bytes", memory.strip_bytes()},
+          {"most_bytes", memory.most_bytes()}};
+}
+
 // What the furthest neighbours share across each dimension of the hypercube of all nodes.
 ordered_json dimensions_json(const std::vector<node::Hello>& hellos) {
   std::vector<topology::Location> nodes;
@@ -100,6 +106,7 @@ std::string report_text(const ReportHead& head, const FarmReport& report) {
                             {"width", head.width},
                             {"height", head.height},
                             {"film_bytes", report.film_bytes},
+                            {"host_memory", memory_json(head.memory)},
                             {"load_seconds", report.load_seconds},
                             {"render_seconds", report.render_seconds},
                             {"total_seconds", report.total_seconds},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/render/farm/farm.h"
+#include "host/render/farm/host_memory.h"
 
 namespace mars::host {
 
@@ -17,6 +18,7 @@ struct ReportHead {
   std::vector<std::string> arguments;  // the options, as given to the host
   std::uint32_t width = 0;             // pixels
   std::uint32_t height = 0;
+  HostMemory memory;
 };
 
 std::string report_text(const ReportHead& head, const FarmReport& report);

@@ -27,7 +27,7 @@ ProcessName process_name_of(const nlohmann::json& from);
 
 enum class Running { yes, no, unknown };  // unknown: it cannot be seen from here
 
-// As far as the process `seen_from` can tell. One that has ended and waits for its parent does not run.
+// As far as the process `seen_from` can see. One that has ended and waits for its parent does not run.
 Running is_running(const ProcessName& process, const ProcessName& seen_from);
 
 }  // namespace mars::host

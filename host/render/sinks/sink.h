@@ -14,7 +14,7 @@ class Sink {
 };
 
 // Takes frames to nowhere, to measure what comes before.
-class NothingSink : public Sink {
+class NullSink : public Sink {
  public:
   void take(const Frame&) override {}
 };

@@ -49,7 +49,7 @@ Frame* SinkPool::early_frame(std::uint64_t background) {
 // One of the free frames, if more than `left` are.
 Frame* SinkPool::take_free(std::uint64_t background, std::size_t left) {
   std::unique_lock lock(mutex_);
-  tell_failure();
+  throw_failure();
   if (free_.size() + shape_.frames - frames_.size() <= left) return nullptr;
   if (free_.empty()) {
     lock.unlock();
@@ -69,7 +69,7 @@ Frame* SinkPool::take_free(std::uint64_t background, std::size_t left) {
 void SinkPool::submit(Frame* frame) {
   {
     const std::lock_guard lock(mutex_);
-    tell_failure();
+    throw_failure();
     waiting_.push_back({frame, dclock()});
   }
   submitted_.notify_one();
@@ -77,14 +77,14 @@ void SinkPool::submit(Frame* frame) {
 
 std::vector<SinkPool::Taken> SinkPool::taken() {
   const std::lock_guard lock(mutex_);
-  tell_failure();
+  throw_failure();
   return std::exchange(taken_, {});
 }
 
 void SinkPool::finish() {
   std::unique_lock lock(mutex_);
   idle_.wait(lock, [this] { return failure_ || (waiting_.empty() && busy_ == 0); });
-  tell_failure();
+  throw_failure();
 }
 
 void SinkPool::work(std::uint32_t thread) {
@@ -117,7 +117,7 @@ void SinkPool::take(std::unique_lock<std::mutex>& lock, std::uint32_t thread) {
   if (failure && !failure_) failure_ = failure;
 }
 
-void SinkPool::tell_failure() {
+void SinkPool::throw_failure() {
   if (failure_) std::rethrow_exception(failure_);
 }
 

@@ -63,7 +63,7 @@ class SinkPool {
   Frame* take_free(std::uint64_t background, std::size_t left);
   void work(std::uint32_t thread);
   void take(std::unique_lock<std::mutex>& lock, std::uint32_t thread);
-  void tell_failure();
+  void throw_failure();
 
   Sink& sink_;
   const Shape shape_;

@@ -4,8 +4,8 @@
 
 namespace mars::host {
 
-ClockReading ClockReading::of(double asked, double told, double heard) {
-  return {told, (asked + heard) / 2 - told, (heard - asked) / 2};
+ClockReading ClockReading::of(double asked, double answer, double heard) {
+  return {answer, (asked + heard) / 2 - answer, (heard - asked) / 2};
 }
 
 void NodeClock::add(const ClockReading& reading) {

@@ -12,8 +12,8 @@ struct ClockReading {
   double offset = 0;  // to add for the host's
   double error = 0;   // at most so far off, either way
 
-  // Asked and heard by the host's clock, told by the node's.
-  static ClockReading of(double asked, double told, double heard);
+  // Asked and heard by the host's clock; the answer is by the node's.
+  static ClockReading of(double asked, double answer, double heard);
   bool shares_clock() const { return offset <= error && -offset <= error; }
 };
 

@@ -18,7 +18,7 @@ namespace mars::host {
 // Spans of the host's own; their value is a frame's number, or what is said.
 enum class HostSpan : std::int32_t {
   load,     // the film to the nodes; value: its bytes
-  give,     // a unit to a group; value: its interval
+  give,     // a task to a group; value: its interval
   strip,    // a strip received
   prepare,  // the next frame's buffer, before its strips are there
   compose,  // strips pasted into a frame

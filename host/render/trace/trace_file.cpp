@@ -25,6 +25,7 @@ constexpr std::array kPhaseNames{"dice",     "sum",   "map",    "exchange", "fil
 constexpr std::array kHostSpanNames{"load film", "give", "strip", "prepare", "compose", "wait for sinks", "write"};
 constexpr std::array kMessageNames{"",       "Hello", "Load",  "film", "Loaded", "Render",
                                    "Credit", "Strip", "Fault", "Stop", "Clock",  "Trace"};
+constexpr std::array kNodeMessageNames{"triangles", "edge boxes", "CZB"};  // in the order of their types
 constexpr std::array kCounterNames{"credits", "strips on the way", "frames with the sinks"};
 
 // Names contain what people typed, which need not be UTF-8.
@@ -34,8 +35,9 @@ std::string text_of(const ordered_json& value) {
 
 std::string message_name(std::int32_t type) {
   if (type >= hal::kFirstInternalType) return "sums";
-  if (type >= node::triangles_from(0)) return (type - node::triangles_from(0)) % 2 == 0 ? "triangles" : "CZB";
-  return kMessageNames.at(static_cast<std::size_t>(type));
+  if (type >= node::triangles_from(0)) return kNodeMessageNames.at(static_cast<std::size_t>(type - node::triangles_from(0)) % 3);
+  const auto index = static_cast<std::size_t>(type);
+  return index < kMessageNames.size() ? kMessageNames[index] : "type " + std::to_string(type);
 }
 
 class Writer {
@@ -46,7 +48,8 @@ class Writer {
 
  private:
   void names();
-  void name(const char* what, int process, int thread, const std::string& text);
+  void name(const char* what, int process, int thread, const ordered_json& arguments);
+  void event(const ordered_json& event);
   void slice(const TimelineItem& item);
   void arrow(const TimelineItem& item);
   void counter(const CounterStep& step);
@@ -56,9 +59,10 @@ class Writer {
   std::string slice_arguments(const Trace::Record& record) const;
   int thread_of(const Trace::Record& record) const;
 
-  // Begins the next event: {"ph":"X","pid":0,"tid":1,"ts":12.345
+  // Begins the next event by hand, for there are up to millions of them: {"ph":"X","pid":0,"tid":1,"ts":12.345
   void open(char phase, int process, int thread, std::int64_t nanoseconds);
   void put(std::string_view text) { text_ += text; }
+  void begin_line();
   void flush();
 
   const Trace& trace_;
@@ -73,10 +77,20 @@ std::string microseconds(std::int64_t nanoseconds) {
   return {text, static_cast<std::size_t>(length)};
 }
 
-void Writer::open(char phase, int process, int thread, std::int64_t nanoseconds) {
+void Writer::begin_line() {
   if (text_.size() > kBlock) flush();
-  put(first_ ? "\n{\"ph\":\"" : ",\n{\"ph\":\"");
+  put(first_ ? "\n" : ",\n");
   first_ = false;
+}
+
+void Writer::event(const ordered_json& event) {
+  begin_line();
+  put(text_of(event));
+}
+
+void Writer::open(char phase, int process, int thread, std::int64_t nanoseconds) {
+  begin_line();
+  put("{\"ph\":\"");
   text_ += phase;
   put("\",\"pid\":" + std::to_string(process) + ",\"tid\":" + std::to_string(thread) +
       ",\"ts\":" + microseconds(nanoseconds));
@@ -87,29 +101,28 @@ void Writer::flush() {
   text_.clear();
 }
 
-void Writer::name(const char* what, int process, int thread, const std::string& text) {
-  open('M', process, thread, 0);
-  put(std::string(",\"name\":\"") + what + "\",\"args\":" + text + "}");
+void Writer::name(const char* what, int process, int thread, const ordered_json& arguments) {
+  event({{"ph", "M"}, {"pid", process}, {"tid", thread}, {"ts", 0}, {"name", what}, {"args", arguments}});
 }
 
 // The host on top, then the nodes in their order.
 void Writer::names() {
   const auto process = [this](int rank, const std::string& called, int place) {
-    name("process_name", rank, kMainThread, text_of({{"name", called}}));
-    name("process_sort_index", rank, kMainThread, text_of({{"sort_index", place}}));
+    name("process_name", rank, kMainThread, {{"name", called}});
+    name("process_sort_index", rank, kMainThread, {{"sort_index", place}});
   };
   process(trace_.host(), "host", 0);
-  name("thread_name", trace_.host(), kMainThread, text_of({{"name", "farm"}}));
+  name("thread_name", trace_.host(), kMainThread, {{"name", "farm"}});
   for (const node::Hello& node : trace_.nodes()) {
     std::string called = "node " + std::to_string(node.node) + " on " + node.host.data();
     if (node.binding[0] != '\0') called += std::string(", ") + node.binding.data();
     process(node.node, called, node.node + 1);
-    name("thread_name", node.node, kMainThread, text_of({{"name", "node"}}));
+    name("thread_name", node.node, kMainThread, {{"name", "node"}});
   }
   int sinks = 0;
   for (const Trace::Record& record : trace_.records()) sinks = std::max(sinks, thread_of(record) - kMainThread);
   for (int sink = 0; sink < sinks; ++sink)
-    name("thread_name", trace_.host(), kFirstSinkThread + sink, text_of({{"name", "sink " + std::to_string(sink)}}));
+    name("thread_name", trace_.host(), kFirstSinkThread + sink, {{"name", "sink " + std::to_string(sink)}});
 }
 
 int Writer::thread_of(const Trace::Record& record) const {
@@ -178,8 +191,7 @@ void Writer::counter(const CounterStep& step) {
 }
 
 void Writer::instant(const std::string& text, double seconds) {
-  open('i', trace_.host(), kMainThread, static_cast<std::int64_t>(seconds * 1e9));
-  put(",\"s\":\"g\",\"name\":" + text_of(text) + "}");
+  event({{"ph", "i"}, {"pid", trace_.host()}, {"tid", kMainThread}, {"ts", seconds * 1e6}, {"s", "g"}, {"name", text}});
 }
 
 void Writer::write(const TraceHead& head) {

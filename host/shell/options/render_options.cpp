@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -208,6 +209,19 @@ bool takes(Program program, const Entry& entry) {
 }
 
 // What no single option can check.
+// Names that options had before, by their names now.
+constexpr std::array<std::pair<const char*, const char*>, 1> kFormerNames{{{"--cubes", "--groups"}}};
+
+void refuse_former_names(CLI::App& app) {
+  for (const auto& [former, now] : kFormerNames) {
+    const auto refuse = [name = std::string(former), now = std::string(now)](const std::string&) {
+      throw CLI::ValidationError(name, "use " + now);
+    };
+    app.add_option_function<std::string>(former, refuse)->group("");  // not in the help
+  }
+}
+
+// What no single option can tell.
 void check_together(const RenderOptions& options) {
   if (options.folder.empty() && options.sink == SinkKind::png) {
     throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
@@ -226,6 +240,7 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
     if (takes(program, entry)) entry.add(app, options);
   }
   if (program == Program::compile) return;
+  refuse_former_names(app);
   app.parse_complete_callback([&app, &options] {
     if (app.remaining_size() > 0) return;  // unknown words are reported first
     as_usage(app.get_name(), [&] { check_together(options); });

@@ -45,8 +45,8 @@ class Driver {
   Course course_;
   std::string backend_;
   std::string kernels_;
-  host::FarmOptions options_;
-  std::uint32_t frames_a_unit_;
+  host::PlanRequest work_;
+  std::uint32_t frames_a_task_;
   node::FilmSettings settings_;
   LastSink sink_;
   Orders orders_;
@@ -59,14 +59,14 @@ class Driver {
 Driver::Driver(const node::FilmView& film, Course course, const std::string& backend)
     : course_(course),
       backend_(backend),
-      frames_a_unit_(course == Course::whole ? 1 : film.intervals()[0].frame_count),
+      frames_a_task_(course == Course::whole ? 1 : film.intervals()[0].frame_count),
       settings_(film.settings()),
-      sink_(frames_a_unit_),
+      sink_(frames_a_task_),
       orders_([this] { return Picture{settings_.width, settings_.height, sink_.pixels()}; }) {
-  options_.coherence = course == Course::inbetween;
-  options_.groups = 1;
-  options_.frames.resize(settings_.frames);
-  std::iota(options_.frames.begin(), options_.frames.end(), 0u);
+  work_.coherence = course == Course::inbetween;
+  work_.groups = 1;
+  work_.frames.resize(settings_.frames);
+  std::iota(work_.frames.begin(), work_.frames.end(), 0u);
 }
 
 void Driver::run(std::span<const std::byte> block) {
@@ -77,7 +77,7 @@ void Driver::run(std::span<const std::byte> block) {
   listener.finished = [this](const host::FinishedFrame& frame) { finished_.push_back(frame); };
   listener.more = [this] { return more(); };
   host::SinkPool pool(sink_, {settings_.width, settings_.height, 16, 4, 2});
-  host::render_film(block, options_, pool, listener);
+  host::render_film(block, make_plan(node::FilmView(block, "film"), work_, static_cast<int>(numnodes())), {}, pool, listener);
   if (begun_ && left_ > 0) throw std::runtime_error("the film has too few frames for so many orders");
 }
 
@@ -92,8 +92,8 @@ bool Driver::more() {
   if (!go) return false;
   wanted_ = *go;
   left_ = course_ == Course::whole ? wanted_ : 1;
-  if (course_ == Course::inbetween && wanted_ + 1 != static_cast<int>(frames_a_unit_))
-    throw std::runtime_error("an interval of this film has " + std::to_string(frames_a_unit_ - 1) + " inbetweens");
+  if (course_ == Course::inbetween && wanted_ + 1 != static_cast<int>(frames_a_task_))
+    throw std::runtime_error("an interval of this film has " + std::to_string(frames_a_task_ - 1) + " inbetweens");
   finished_.clear();
   return true;
 }
@@ -126,14 +126,15 @@ std::optional<std::uint32_t> frame_of_step(const host::Trace::Record& record, in
 double inbetween_latency(const host::CompiledFilm& film) {
   const node::FilmSettings settings = film.view().settings();
   const node::Interval interval = film.view().intervals()[0];
-  host::NothingSink sink;
+  host::NullSink sink;
   host::SinkPool pool(sink, {settings.width, settings.height, 16, 4, 2});
   host::Trace trace;
   host::FarmOptions options;
   options.trace = &trace;
-  options.frames.resize(interval.frame_count);
-  std::iota(options.frames.begin(), options.frames.end(), interval.first_frame);
-  host::render_film(film.block(), options, pool, {});
+  host::PlanRequest work{std::vector<std::uint32_t>(interval.frame_count)};
+  std::iota(work.frames.begin(), work.frames.end(), interval.first_frame);
+  const host::Plan plan = host::make_plan(film.view(), work, static_cast<int>(numnodes()));
+  host::render_film(film.block(), plan, options, pool, {});
   std::vector<double> seconds(interval.frame_count);
   for (const host::Trace::Record& record : trace.records())
     if (const auto frame = frame_of_step(record, trace.host()))

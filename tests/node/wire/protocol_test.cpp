@@ -10,7 +10,8 @@ namespace {
 
 std::vector<std::int32_t> contributors(const node::Render& render) {
   std::vector<std::int32_t> nodes;
-  for (std::uint32_t k = 0; k + 1 < render.frame_count; ++k) nodes.push_back(contributor_of_inbetween(render, k));
+  for (std::uint32_t k = 0; k + 1 < render.frame_count; ++k) 
+    nodes.push_back(render.group_first + node::contributor_of_inbetween(render.first_inbetween + k, render.group_count));
   return nodes;
 }
 

@@ -51,12 +51,12 @@ void expect_told(const Frame& frame, const Pixels& before) {
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     const auto x = static_cast<std::uint32_t>(i % frame.width);
     const auto y = static_cast<std::uint32_t>(i / frame.width);
-    const bool told = frame.changed.at(x / block, y / block);
-    ASSERT_TRUE(told || frame.pixels[i] == before[i]) << "changed at " << x << ", " << y;
+    const bool marked = frame.changed.at(x / block, y / block);
+    ASSERT_TRUE(marked || frame.pixels[i] == before[i]) << "changed at " << x << ", " << y;
   }
 }
 
-// A compositor and its twin, a strip a step: units of one frame, and units of several with two inbetweens in the
+// A compositor and its twin, a strip a step: tasks of one frame, and tasks of several with two inbetweens in the
 // making at a time.
 class Twins {
  public:

@@ -1,4 +1,4 @@
-// Units of several frames put together from strips in every order that nodes can send them, against pictures
+// Tasks of several frames put together from strips in every order that nodes can send them, against pictures
 // drawn from scratch.
 #include "host/render/farm/assembly.h"
 
@@ -48,29 +48,31 @@ void paste(const Runs& runs, Pixels& picture) {
     for (std::uint32_t x = 0; x < run.count; ++x) picture[run.line * kWidth + run.first + x] = *source++;
 }
 
-// A unit's strips by node, as each sends them, and the pictures they make.
+// A task's strips by node, as each sends them, and the pictures they make.
 struct Drawn {
   std::vector<std::deque<StripBytes>> by_node;
   std::map<std::uint32_t, Pixels> pictures;
 };
 
-Drawn draw(std::mt19937& random, const Unit& unit, int nodes, StripStore& store) {
+Drawn draw(std::mt19937& random, const Task& task, int nodes, StripStore& store) {
   Drawn out;
   out.by_node.resize(static_cast<std::size_t>(nodes));
   Pixels background(kWidth * kHeight, kPlain);
   std::map<std::uint32_t, std::vector<Runs>> moving;
-  for (const std::uint32_t frame : unit.frames) {
-    const bool keyframe = frame == unit.frames.front();
-    const int artists = keyframe ? nodes : 1;
-    for (int artist = 0; artist < artists; ++artist) {
-      const int node = keyframe ? artist : static_cast<int>(frame) % nodes;
+  for (const std::uint32_t frame : task.frames) {
+    const bool keyframe = frame == task.frames.front();
+    const int contributors = keyframe ? nodes : 1;
+    for (int contributor = 0; contributor < contributors; ++contributor) {
+      const std::uint64_t inbetween = task.first_inbetween + frame - task.frames.front() - 1;
+      const int node = keyframe ? contributor : node::contributor_of_inbetween(inbetween, nodes);
       const std::uint32_t passes = 1 + random() % 3;
-      const std::uint32_t parts = static_cast<std::uint32_t>(artists) * passes;
+      const std::uint32_t parts = static_cast<std::uint32_t>(contributors) * passes;
       for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        const std::uint32_t part = static_cast<std::uint32_t>(artist) * passes + pass;
+        const std::uint32_t part = static_cast<std::uint32_t>(contributor) * passes + pass;
         const std::uint32_t top = kHeight * part / parts, bottom = kHeight * (part + 1) / parts;
         node::Strip header{};
         header.frame = frame;
+        header.interval = task.interval;
         header.kind = keyframe ? node::FrameKind::keyframe : node::FrameKind::inbetween;
         header.node = node;
         header.last = pass + 1 == passes;
@@ -82,7 +84,7 @@ Drawn draw(std::mt19937& random, const Unit& unit, int nodes, StripStore& store)
       }
     }
   }
-  for (const std::uint32_t frame : unit.frames) {
+  for (const std::uint32_t frame : task.frames) {
     out.pictures[frame] = background;
     for (const Runs& runs : moving[frame]) paste(runs, out.pictures[frame]);
   }
@@ -100,31 +102,33 @@ void expect_put_together(unsigned seed) {
   const int nodes = 1 + static_cast<int>(random() % 4);
   std::uint32_t next = 0;
   for (std::uint32_t number = 0; number < 4; ++number) {
-    Unit unit{number, {}, 0};
+    Task task{number, {}, random() % 5};
     const std::uint32_t frames = random() % 2 == 0 ? 1 : 2 + random() % 5;
-    while (unit.frames.size() < frames) unit.frames.push_back(next++);
-    Drawn drawn = draw(random, unit, nodes, store);
+    while (task.frames.size() < frames) task.frames.push_back(next++);
+    Drawn drawn = draw(random, task, nodes, store);
     expected.merge(drawn.pictures);
-    Assembly assembly(unit, nodes);
+    Assembly assembly(task, {0, nodes});
     EXPECT_EQ(assembly.interval(), number);
-    std::vector<std::int32_t> artists;
+    std::size_t not_pasted = 0;  // strips that are not a node's last of their frame
     while (!assembly.done()) {
       auto& strips = drawn.by_node[random() % drawn.by_node.size()];
       if (random() % 2 == 0) assembly.prepare(compositor, pool);
       if (!strips.empty()) {
-        StripMessage strip(std::move(strips.front()));
+        std::optional<StripMessage> strip = StripMessage::read(std::move(strips.front()));
         strips.pop_front();
-        ASSERT_TRUE(assembly.wants(strip.header().frame));
-        assembly.receive(std::move(strip));
+        ASSERT_TRUE(strip && assembly.wants(strip->header()));
+        not_pasted += strip->header().last == 0;
+        assembly.receive(std::move(*strip));
       }
       while (auto pasted = assembly.paste(compositor, pool, store)) {
-        EXPECT_EQ(pasted->kind == node::FrameKind::keyframe, pasted->number == unit.frames.front());
+        not_pasted -= pasted->sent_more.size();
+        EXPECT_EQ(pasted->kind == node::FrameKind::keyframe, pasted->number == task.frames.front());
         if (pasted->whole == nullptr) continue;
-        EXPECT_FALSE(assembly.wants(pasted->number));
-        EXPECT_EQ(pasted->nodes.size(), pasted->number == unit.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
+        EXPECT_EQ(pasted->contributors.size(), pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
         pool.submit(pasted->whole);
       }
     }
+    EXPECT_EQ(not_pasted, 0u) << "each was reported when it was pasted";
     compositor.begin_interval();
   }
   pool.finish();
@@ -135,16 +139,16 @@ TEST(Assembly, PutsFramesTogetherFromStripsInAnyOrder) {
   for (unsigned seed = 0; seed < 300 && !testing::Test::HasFailure(); ++seed) expect_put_together(seed);
 }
 
-struct OneUnit {
-  OneUnit(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
-      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, nodes) {}
+struct OneTask {
+  OneTask(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
+      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}) {}
 
   void receive(std::uint32_t frame, int node, bool last = true) {
     node::Strip header{};
     header.frame = frame;
     header.node = node;
     header.last = last;
-    assembly.receive(StripMessage(strip_bytes(header, {}, {{{0, 0, 1}}, {frame}}, store)));
+    assembly.receive(*StripMessage::read(strip_bytes(header, {}, {{{0, 0, 1}}, {frame}}, store)));
   }
   std::optional<Assembly::Pasted> paste() { return assembly.paste(compositor, pool, store); }
 
@@ -156,55 +160,85 @@ struct OneUnit {
 };
 
 TEST(Assembly, PastesAStripBeforeTheOthersAreThere) {
-  OneUnit unit({5}, 2, 2);
-  unit.receive(5, 1);
-  const auto first = unit.paste();
+  OneTask task({5}, 2, 2);
+  task.receive(5, 1);
+  const auto first = task.paste();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->whole, nullptr);
-  EXPECT_FALSE(unit.paste()) << "there is nothing more";
-  EXPECT_TRUE(unit.assembly.wants(5));
-  unit.receive(5, 0);
-  const auto second = unit.paste();
+  EXPECT_FALSE(task.paste()) << "there is nothing more";
+  task.receive(5, 0);
+  const auto second = task.paste();
   ASSERT_TRUE(second && second->whole);
-  EXPECT_EQ(second->nodes, (std::vector<std::int32_t>{1, 0}));
-  EXPECT_TRUE(unit.assembly.done());
+  EXPECT_EQ(second->contributors, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_TRUE(task.assembly.done());
 }
 
 TEST(Assembly, InbetweensWaitForTheKeyframe) {
-  OneUnit unit({0, 1}, 3, 1);
-  unit.receive(1, 0);
-  EXPECT_FALSE(unit.paste());
-  unit.receive(0, 0);
-  EXPECT_EQ(unit.paste()->number, 0u);
-  EXPECT_EQ(unit.paste()->number, 1u);
-  EXPECT_TRUE(unit.assembly.done());
+  OneTask task({0, 1}, 3, 1);
+  task.receive(1, 0);
+  EXPECT_FALSE(task.paste());
+  task.receive(0, 0);
+  EXPECT_EQ(task.paste()->number, 0u);
+  EXPECT_EQ(task.paste()->number, 1u);
+  EXPECT_TRUE(task.assembly.done());
 }
 
 TEST(Assembly, FramesInTheMakingLeaveABufferToThoseThatAreWhole) {
-  OneUnit unit({0, 1, 2}, 2, 1);
-  unit.receive(0, 0);
-  unit.pool.submit(unit.paste()->whole);
-  unit.pool.finish();
-  unit.receive(1, 0, false);
-  ASSERT_TRUE(unit.paste());
-  unit.receive(2, 0);
-  const auto whole = unit.paste();
+  OneTask task({0, 1, 2}, 2, 1);
+  task.receive(0, 0);
+  task.pool.submit(task.paste()->whole);
+  task.pool.finish();
+  task.receive(1, 0, false);
+  ASSERT_TRUE(task.paste());
+  task.receive(2, 0);
+  const auto whole = task.paste();
   ASSERT_TRUE(whole && whole->whole);
   EXPECT_EQ(whole->number, 2u);
-  unit.receive(1, 0);
-  EXPECT_NE(unit.paste()->whole, nullptr);
+  task.receive(1, 0);
+  EXPECT_NE(task.paste()->whole, nullptr);
+}
+
+// Only what the task asks of a node is taken, and each node's last strip of a frame once.
+TEST(Assembly, WantsEachStripFromItsContributorAlone) {
+  OneTask task({4, 5, 6}, 3, 3);
+  const auto wants = [&](std::uint32_t frame, std::int32_t node, std::uint32_t interval = 0) {
+    node::Strip strip{};
+    strip.frame = frame;
+    strip.node = node;
+    strip.interval = interval;
+    strip.kind = frame == 4 ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+    return task.assembly.wants(strip);
+  };
+  for (const int node : {0, 1, 2}) {
+    EXPECT_TRUE(wants(4, node));
+    EXPECT_EQ(wants(5, node), node == 0);
+    EXPECT_EQ(wants(6, node), node == 1);
+  }
+  EXPECT_FALSE(wants(4, 3));
+  EXPECT_FALSE(wants(4, -1));
+  EXPECT_FALSE(wants(7, 0));
+  EXPECT_FALSE(wants(4, 0, 1)) << "of another interval";
+  node::Strip moving{};
+  moving.frame = 4;
+  moving.kind = node::FrameKind::inbetween;
+  EXPECT_FALSE(task.assembly.wants(moving)) << "the first frame is the keyframe";
+  task.receive(4, 2, false);
+  EXPECT_TRUE(wants(4, 2));
+  task.receive(4, 2);
+  EXPECT_FALSE(wants(4, 2)) << "its last has come";
+  EXPECT_TRUE(wants(4, 1));
 }
 
 TEST(Assembly, WithoutABufferStripsWait) {
-  OneUnit unit({0, 1}, 1, 1);
-  unit.receive(0, 0);
-  const auto keyframe = unit.paste();
-  unit.receive(1, 0);
-  EXPECT_FALSE(unit.paste());
-  unit.pool.submit(keyframe->whole);
-  unit.pool.finish();
-  EXPECT_TRUE(unit.paste());
-  EXPECT_TRUE(unit.assembly.done());
+  OneTask task({0, 1}, 1, 1);
+  task.receive(0, 0);
+  const auto keyframe = task.paste();
+  task.receive(1, 0);
+  EXPECT_FALSE(task.paste());
+  task.pool.submit(keyframe->whole);
+  task.pool.finish();
+  EXPECT_TRUE(task.paste());
+  EXPECT_TRUE(task.assembly.done());
 }
 
 }  // namespace

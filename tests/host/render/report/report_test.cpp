@@ -42,12 +42,15 @@ FarmReport two_nodes_two_frames() {
 }
 
 TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
-  const ReportHead head{"film.json", "abc", "mpi", {"film.json", "-o", "x"}, 96, 54};
+  const ReportHead head{"film.json", "abc", "mpi", {"film.json", "-o", "x"}, 96, 54, share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, 2, 1, 4)};
   const json report = json::parse(report_text(head, two_nodes_two_frames()));
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);
   EXPECT_EQ(report["nodes"][1]["binding"], "core 0");
   EXPECT_EQ(report["dimensions"], json({"an L3 cache"}));
+  EXPECT_EQ(report["host_memory"]["budget"], 1 << 30);
+  EXPECT_EQ(report["host_memory"]["frames"], 6);
+  EXPECT_EQ(report["host_memory"]["credits"], 4);
   ASSERT_EQ(report["frames"].size(), 2u);
   const json& keyframe = report["frames"][0];
   EXPECT_EQ(keyframe["frame"], 0);
@@ -63,7 +66,7 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
 }
 
 TEST(Report, NamesNeedNotBeText) {
-  const ReportHead head{"\xff.json", "abc", "mpi", {"\xff.json"}, 96, 54};
+  const ReportHead head{"\xff.json", "abc", "mpi", {"\xff.json"}, 96, 54, {}};
   EXPECT_FALSE(json::parse(report_text(head, FarmReport{})).empty());
 }
 

@@ -65,8 +65,8 @@ TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {
   std::vector<std::uint32_t> odd;
   for (std::uint32_t frame = 1; frame < 400; frame += 2) odd.push_back(frame);
   const ClaimOf claim(film("a.json", 'a', odd), 12345);
-  const std::string told = claim.refuses(film("a.json", 'a', {1}));
-  EXPECT_TRUE(holds(told, "renders 200 frames from 1 to 399 of a.json into this folder since 19")) << told;
+  const std::string refusal = claim.refuses(film("a.json", 'a', {1}));
+  EXPECT_TRUE(holds(refusal, "renders 200 frames from 1 to 399 of a.json into this folder since 19")) << refusal;
   EXPECT_TRUE(holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})), "renders frame 3 of a.json"));
 }
 
@@ -101,10 +101,10 @@ TEST(Claim, FilmsNamesAreToldOnOneLineAndShort) {
   const std::string odd = ClaimOf(film("a\n\033[2J.json", 'a', {1})).refuses(film("x", 'a', {1}));
   EXPECT_TRUE(holds(odd, "renders frame 1 of a??[2J.json into")) << odd;
   const std::string path = std::string(4000, '/') + "film.json";
-  const std::string told = ClaimOf(film(path.c_str(), 'a', {1})).refuses(film("x", 'a', {1}));
-  EXPECT_TRUE(holds(told, "frame 1 of ...//")) << told;
-  EXPECT_TRUE(holds(told, "/film.json into")) << told;
-  EXPECT_LT(told.size(), 500u);
+  const std::string refusal = ClaimOf(film(path.c_str(), 'a', {1})).refuses(film("x", 'a', {1}));
+  EXPECT_TRUE(holds(refusal, "frame 1 of ...//")) << refusal;
+  EXPECT_TRUE(holds(refusal, "/film.json into")) << refusal;
+  EXPECT_LT(refusal.size(), 500u);
 }
 
 TEST(Claim, WhatWasRenderedIsKnownUpToWhereTheRunWasKilled) {

@@ -346,7 +346,7 @@ TEST(FrameFolder, TellsWhereItCannotBe) {
 TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
   const TemporaryFolder folder;
   EXPECT_TRUE(holds(failure_of([&] { read_manifest(folder.path()); }), "it has no frames.json"));
-  const auto told = [&](const std::string& text) {
+  const auto failure_with = [&](const std::string& text) {
     write_whole_file(folder / "frames.json", text);
     const std::string failure = failure_of([&] { read_manifest(folder.path()); });
     EXPECT_TRUE(holds(failure, "frames.json: not a manifest of frames: ")) << text;
@@ -356,10 +356,10 @@ TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
     EXPECT_EQ(read_file(folder / "frames.json"), text);
     return failure;
   };
-  EXPECT_TRUE(holds(told("{\n"), "byte 3 is no JSON, or the end is missing"));
-  EXPECT_TRUE(holds(told("[]"), "a list is not an object"));
-  EXPECT_TRUE(holds(told("{\"film\": 3}"), "film: 3 is not a text"));
-  for (const char* text : {"", "\xff", "null"}) told(text);
+  EXPECT_TRUE(holds(failure_with("{\n"), "byte 3 is no JSON, or the end is missing"));
+  EXPECT_TRUE(holds(failure_with("[]"), "a list is not an object"));
+  EXPECT_TRUE(holds(failure_with("{\"film\": 3}"), "film: 3 is not a text"));
+  for (const char* text : {"", "\xff", "null"}) failure_with(text);
   const std::string head = R"({"film":"x","width":1,"height":1,"rate":24,"film_frames":4,)";
   const std::string sum = "\"checksum\":\"" + std::string(32, 'a') + "\",";
   write_whole_file(folder / "frames.json", head + sum + R"("frames":[[0,1]]})");
@@ -367,11 +367,11 @@ TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
   for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]", "[[2,1]]",
                              R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])",
                              R"([[0,0]],"pixel_hashes":["x"])"})
-    told(head + sum + "\"frames\":" + frames + "}");
-  EXPECT_TRUE(holds(told(head + sum + R"("frames":[[0,1]],"pixel\u001b_hashes":[]})"),
+    failure_with(head + sum + "\"frames\":" + frames + "}");
+  EXPECT_TRUE(holds(failure_with(head + sum + R"("frames":[[0,1]],"pixel\u001b_hashes":[]})"),
                     R"(the key "pixel\u001b_hashes" is unknown)"));
-  EXPECT_TRUE(holds(told(head + R"("frames":[[0,1]]})"), R"(the key "checksum" is missing)"));
-  const std::string of_long = told(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
+  EXPECT_TRUE(holds(failure_with(head + R"("frames":[[0,1]]})"), R"(the key "checksum" is missing)"));
+  const std::string of_long = failure_with(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
   EXPECT_TRUE(holds(of_long, "xxx... is not 32 hexadecimal digits")) << of_long.substr(0, 1000);
   EXPECT_LT(of_long.size(), 400u);
 }

@@ -97,6 +97,15 @@ TEST(RenderOptions, NamesMayBeginWithADash) {
   EXPECT_EQ(reading.options.report, "./-");
 }
 
+TEST(RenderOptions, FormerNamesAreRefusedWithTheNewOne) {
+  for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
+    const Reading reading = read(program, {"film.json", "--cubes", "2"});
+    EXPECT_EQ(reading.code, kUsage);
+    EXPECT_TRUE(holds(reading.told, "--cubes: use --groups")) << reading.told;
+  }
+  EXPECT_FALSE(holds(read(Program::mars, {"--help"}).told, "cubes"));
+}
+
 TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
   const std::pair<Words, const char*> wrong[] = {
       {{"--nodes", "0"}, "not a number from 1"},

@@ -1,4 +1,4 @@
-#include "host/programs/film_of.h"
+#include "host/shell/job/film_of.h"
 
 #include "host/content/animator/check.h"
 #include "host/content/animator/read_film.h"

@@ -1,0 +1,18 @@
+// How a rendering is ended before its last frame: by whoever holds this, from any thread, also from within a sink or a
+// listener. The farm then takes no more strips, all nodes end, and render_film returns what there is.
+#pragma once
+
+#include <atomic>
+
+namespace mars::host {
+
+class Cancellation {
+ public:
+  void cancel() { cancelled_ = true; }
+  bool cancelled() const { return cancelled_; }
+
+ private:
+  std::atomic<bool> cancelled_ = false;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,15 @@
+// The film on its way to the nodes: Load to each, the film block to one node a machine.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "host/render/farm/node_inbox.h"
+
+namespace mars::host {
+
+// `load` without stamp and film's size, which are added, and its memory, if that is 0. Waits until all nodes have the film;
+// false: cancelled before.
+bool load_film(std::span<const std::byte> block, node::Load load, NodeInbox& inbox);
+
+}  // namespace mars::host

@@ -1,0 +1,40 @@
+#include "host/render/farm/group_work.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mars::host {
+
+GroupWork::GroupWork(const hal::Group& group, const SinkPool::Shape& sinks, std::uint32_t background)
+    : group_(group), compositor_(sinks.width, sinks.height, sinks.block, background) {}
+
+void GroupWork::give(const Task& task, double now) { tasks_.push_back({Assembly(task, group_), now}); }
+
+bool GroupWork::wants(const node::Strip& strip) const {
+  return std::any_of(tasks_.begin(), tasks_.end(), [&](const Given& task) { return task.assembly.wants(strip); });
+}
+
+void GroupWork::receive(StripMessage strip) {
+  const auto task = std::find_if(tasks_.begin(), tasks_.end(),
+                                 [&](const Given& each) { return each.assembly.wants(strip.header()); });
+  task->assembly.receive(std::move(strip));
+}
+
+bool GroupWork::prepare(SinkPool& sinks) {
+  return !tasks_.empty() && tasks_.front().assembly.prepare(compositor_, sinks);
+}
+
+std::optional<GroupWork::Composed> GroupWork::compose(SinkPool& sinks, StripStore& store) {
+  if (tasks_.empty()) return std::nullopt;
+  auto& [assembly, given] = tasks_.front();
+  std::optional<Assembly::Pasted> pasted = assembly.paste(compositor_, sinks, store);
+  if (!pasted) return std::nullopt;
+  Composed composed{std::move(*pasted), assembly.interval(), given};
+  if (assembly.done()) {
+    tasks_.pop_front();
+    compositor_.begin_interval();
+  }
+  return composed;
+}
+
+}  // namespace mars::host

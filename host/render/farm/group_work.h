@@ -1,0 +1,50 @@
+// What one group of nodes was given, and the frames that come of it. A group's tasks are composed one after another, so it
+// needs one saved background at most.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "hal/collectives/group.h"
+#include "host/render/compositor/compositor.h"
+#include "host/render/farm/assembly.h"
+
+namespace mars::host {
+
+class GroupWork {
+ public:
+  // For pictures that go to `sinks`. `background`: the pixel where nothing is drawn.
+  GroupWork(const hal::Group& group, const SinkPool::Shape& sinks, std::uint32_t background);
+
+  const hal::Group& group() const { return group_; }
+  // Tasks given and not done.
+  std::size_t tasks() const { return tasks_.size(); }
+  // `now`: in seconds since the first task was given to any group.
+  void give(const Task& task, double now);
+
+  // Whether it is a strip that is still to come.
+  bool wants(const node::Strip& strip) const;
+  void receive(StripMessage strip);
+
+  // As Assembly's, for the first task that is not done.
+  bool prepare(SinkPool& sinks);
+  struct Composed {
+    Assembly::Pasted pasted;
+    std::uint32_t interval;
+    double given;  // when its task was
+  };
+  std::optional<Composed> compose(SinkPool& sinks, StripStore& store);
+
+ private:
+  struct Given {
+    Assembly assembly;
+    double given;
+  };
+
+  hal::Group group_;
+  Compositor compositor_;  // the first task's
+  std::deque<Given> tasks_;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,35 @@
+#include "host/render/farm/host_memory.h"
+
+#include <algorithm>
+
+#include "node/wire/protocol.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::uint64_t kMostForFrames = std::uint64_t{1} << 30;
+constexpr std::uint32_t kLeastFrames = 2;  // one is composed while the other is written
+
+}  // namespace
+
+std::uint64_t HostMemory::strip_bytes() const {
+  return std::uint64_t{nodes} * static_cast<std::uint64_t>(credits) * node::kMaxStripBytes;
+}
+
+std::uint64_t HostMemory::most_bytes() const {
+  return (std::uint64_t{frames} + backgrounds) * frame_bytes + strip_bytes();
+}
+
+HostMemory share_host_memory(std::uint64_t budget, const node::FilmSettings& film, std::uint32_t nodes,
+                             std::uint32_t groups, std::uint32_t sink_threads) {
+  HostMemory memory{budget, std::uint64_t{film.width} * film.height * sizeof(std::uint32_t), kLeastFrames, groups, nodes,
+                    node::kMaxCredits};
+  while (memory.credits > 1 && memory.most_bytes() > budget) --memory.credits;
+  const std::uint64_t left = budget - std::min(budget, memory.most_bytes());
+  const std::uint64_t for_frames = std::min(kMostForFrames, left + kLeastFrames * memory.frame_bytes);
+  const std::uint64_t fit = for_frames / memory.frame_bytes;
+  memory.frames = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fit, kLeastFrames, sink_threads + 2));
+  return memory;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,28 @@
+// The host's memory for one rendering, shared out before it begins: buffers of the sinks, saved backgrounds, and strips that
+// nodes have on the way, which their credits bound. The film and what a file format needs while it is written come on top.
+#pragma once
+
+#include <cstdint>
+
+#include "node/wire/film.h"
+
+namespace mars::host {
+
+struct HostMemory {
+  std::uint64_t budget = 0;       // bytes, as it was given
+  std::uint64_t frame_bytes = 0;  // of one picture
+  std::uint32_t frames = 0;       // buffers of the sinks, at least 2
+  std::uint32_t backgrounds = 0;  // saved ones: one a group
+  std::uint32_t nodes = 0;
+  std::int32_t credits = 0;  // strips that each may have on the way, 1..node::kMaxCredits
+
+  // Bytes of all strips on the way, at most; of all parts. Above the budget only where the least of each part is.
+  std::uint64_t strip_bytes() const;
+  std::uint64_t most_bytes() const;
+};
+
+// Backgrounds come first, then credits, then buffers: two more than the sinks have threads, but no more than fit 1 GiB.
+HostMemory share_host_memory(std::uint64_t budget, const node::FilmSettings& film, std::uint32_t nodes,
+                             std::uint32_t groups, std::uint32_t sink_threads);
+
+}  // namespace mars::host

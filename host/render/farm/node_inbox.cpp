@@ -1,0 +1,188 @@
+#include "host/render/farm/node_inbox.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "hal/nx/nx_messages.h"
+
+namespace mars::host {
+namespace {
+
+template <std::size_t N>
+bool is_text(const std::array<char, N>& text) {
+  return std::find(text.begin(), text.end(), '\0') != text.end();
+}
+
+std::string node_name(int node) { return "node " + std::to_string(node); }
+
+// The name of its machine, which every version's Hello has behind the stamp; "" if there is none.
+std::string machine_in(std::span<const std::byte> hello) {
+  std::array<char, sizeof node::Hello::host> name{};
+  if (hello.size() < sizeof(node::WireStamp) + name.size()) return "";
+  std::memcpy(name.data(), hello.data() + sizeof(node::WireStamp), name.size());
+  return is_text(name) ? name.data() : "";
+}
+
+std::string with_machine(const std::string& machine, int node) {
+  return machine.empty() ? node_name(node) : machine + " (" + node_name(node) + ")";
+}
+
+}  // namespace
+
+NodeFailure::NodeFailure(const std::string& reason, int who, int at)
+    : Failure(reason, node_name(who) + (at < 0 ? "" : ", frame " + std::to_string(at)), ""), node(who), frame(at) {}
+
+NodeFailure::NodeFailure(const std::string& reason, const std::string& where, int who)
+    : Failure(reason, where, "please report it"), node(who), frame(-1) {}
+
+NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, const Cancellation* cancellation)
+    : width_(width),
+      height_(height),
+      cancellation_(cancellation),
+      nodes_(static_cast<int>(numnodes())),
+      hellos_(static_cast<std::size_t>(nodes_)),
+      greeted_(hellos_.size()),
+      loaded_(hellos_.size()),
+      ended_(hellos_.size()) {}
+
+std::string NodeInbox::name_of(int node) const {
+  const auto index = static_cast<std::size_t>(node);
+  return with_machine(greeted_.at(index) ? hellos_[index].host.data() : "", node);
+}
+
+void NodeInbox::refuse(int node, const std::string& what) const {
+  throw NodeFailure("sent " + what, name_of(node), node);
+}
+
+void NodeInbox::require(bool holds, int node, const char* what) const {
+  if (!holds) refuse(node, what);
+}
+
+void NodeInbox::wait(long type) const {
+  cprobe(node::any_of(type, long{node::kFault}));
+  if (infotype() == node::kFault) receive_fault();
+}
+
+bool NodeInbox::wait_unless_cancelled(long type) const {
+  while (cancellation_ != nullptr && iprobe(node::any_of(type, long{node::kFault})) == 0) {
+    if (cancellation_->cancelled()) return false;
+    flick();
+  }
+  wait(type);
+  return true;
+}
+
+bool NodeInbox::receive_hellos() {
+  for (int i = 0; i < nodes_; ++i) {
+    if (!wait_unless_cancelled(node::kHello)) return false;
+    receive_hello();
+  }
+  check_machines();
+  return true;
+}
+
+void NodeInbox::receive_hello() {
+  const int node = static_cast<int>(infonode());
+  std::vector<std::byte> message(static_cast<std::size_t>(infocount()));
+  crecv(node::kHello, message.data(), static_cast<long>(message.size()));
+  node::check_stamp(message, with_machine(machine_in(message), node), "the host");
+  require(message.size() == sizeof(node::Hello), node, "a greeting of another size");
+  node::Hello hello;
+  std::memcpy(&hello, message.data(), sizeof hello);
+  require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd), node, "names without end");
+  const auto index = static_cast<std::size_t>(node);
+  require(hello.node == node && !greeted_[index], node, "another node's greeting");
+  hellos_[index] = hello;
+  greeted_[index] = true;
+}
+
+// The lowest of a machine's nodes gets the film for all.
+void NodeInbox::check_machines() const {
+  for (const node::Hello& hello : hellos_) {
+    const bool known = hello.machine >= 0 && hello.machine <= hello.node &&
+                       hellos_[static_cast<std::size_t>(hello.machine)].machine == hello.machine;
+    require(known, hello.node, "a machine that is not there");
+  }
+}
+
+bool NodeInbox::wait_until_loaded() {
+  for (int i = 0; i < nodes_; ++i) {
+    if (!wait_unless_cancelled(node::kLoaded)) return false;
+    const int node = static_cast<int>(infonode());
+    require(infocount() == 0 && !loaded_[static_cast<std::size_t>(node)], node, "word of the film that makes no sense");
+    loaded_[static_cast<std::size_t>(node)] = true;
+    crecv(node::kLoaded, nullptr, 0);
+  }
+  return true;
+}
+
+StripMessage NodeInbox::receive_strip(StripStore& store) {
+  const int node = static_cast<int>(infonode());
+  const auto size = static_cast<std::size_t>(infocount());
+  require(size >= sizeof(node::Strip) && size <= node::kMaxStripBytes, node, "a strip of an impossible size");
+  StripBytes bytes = store.take(size);
+  crecv(node::kStrip, bytes.data.get(), static_cast<long>(size));
+  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes));
+  require(strip.has_value(), node, "a strip that is not what its header says");
+  check_strip(strip->header(), strip->runs(), node);
+  return std::move(*strip);
+}
+
+void NodeInbox::check_strip(const node::Strip& strip, std::span<const node::Run> runs, int sender) const {
+  require(strip.node == sender, sender, "another node's strip");
+  require(strip.last <= 1, sender, "a strip that is neither the last nor another");
+  require(strip.first_line <= strip.last_line && strip.last_line <= height_, sender, "lines outside the picture");
+  for (const node::Run& run : runs) {
+    require(run.line >= strip.first_line && run.line < strip.last_line, sender, "pixels outside the strip's lines");
+    require(run.count > 0 && std::uint32_t{run.first} + run.count <= width_, sender, "pixels outside the picture");
+  }
+}
+
+std::span<const hal::Event> NodeInbox::receive_events() {
+  const int node = static_cast<int>(infonode());
+  const auto size = static_cast<std::size_t>(infocount());
+  require(size > 0 && size % sizeof(hal::Event) == 0, node, "events of an impossible size");
+  events_.resize(size / sizeof(hal::Event));
+  crecv(node::kTrace, events_.data(), static_cast<long>(size));
+  const auto index = static_cast<std::size_t>(node);
+  const auto recorded = std::span(events_).first(events_.size() - 1);
+  const bool sound = !ended_[index] && events_.back().kind == hal::Event::Kind::lost &&
+                     std::all_of(recorded.begin(), recorded.end(), [this](const auto& e) { return is_event(e); });
+  require(sound, node, "events that make no sense");
+  ended_[index] = events_.back().number == 1;
+  return events_;
+}
+
+bool NodeInbox::is_event(const hal::Event& event) const {
+  using Kind = hal::Event::Kind;
+  switch (event.kind) {
+    case Kind::span: return event.what >= 0 && event.what <= static_cast<int>(node::Phase::inbetween);
+    case Kind::sent:
+    case Kind::taken: return event.what >= 0 && event.peer >= 0 && event.peer <= nodes_;
+    case Kind::waited: return event.what >= -1 && event.peer >= -1 && event.peer <= nodes_;
+    case Kind::lost: return false;
+  }
+  return false;
+}
+
+double NodeInbox::receive_time(int node) {
+  wait(node::kClock);
+  double time = 0;
+  require(infocount() == sizeof time, static_cast<int>(infonode()), "a time of an impossible size");
+  require(infonode() == node, static_cast<int>(infonode()), "a time that was not asked for");
+  crecv(node::kClock, &time, sizeof time);
+  return time;
+}
+
+void NodeInbox::receive_fault() const {
+  const int node = static_cast<int>(infonode());
+  require(infocount() == sizeof(node::Fault), node, "a fault of an impossible size");
+  node::Fault fault;
+  crecv(node::kFault, &fault, sizeof fault);
+  fault.reason.back() = '\0';
+  throw NodeFailure(fault.reason.data(), node, std::max(fault.frame, -1));
+}
+
+}  // namespace mars::host

@@ -1,0 +1,76 @@
+// What nodes send, received and checked before anything of it is used: sizes against structs and counts, counts and ranges
+// against the picture and the job. A node that sends what it must not is a NodeFailure that names it and its machine.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "hal/messages/recorder.h"
+#include "host/render/farm/cancellation.h"
+#include "host/render/farm/strip_message.h"
+#include "node/wire/film.h"
+#include "node/wire/protocol.h"
+
+namespace mars::host {
+
+// A node cannot go on, or sends what makes no sense.
+class NodeFailure : public Failure {
+ public:
+  // `frame` -1: before any.
+  NodeFailure(const std::string& reason, int node, int frame);
+  // `where` names the node and its machine.
+  NodeFailure(const std::string& reason, const std::string& where, int node);
+
+  int node;
+  int frame;
+};
+
+class NodeInbox {
+ public:
+  // Of all nodes of the job, for pictures of this size. `cancellation` may be nullptr.
+  NodeInbox(std::uint32_t width, std::uint32_t height, const Cancellation* cancellation);
+
+  // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
+  bool receive_hellos();
+  const std::vector<node::Hello>& hellos() const { return hellos_; }
+  // Waits until every node has the film. False: cancelled before.
+  bool wait_until_loaded();
+  // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
+  void wait(long type) const;
+
+  // Each receives a message that was probed last.
+  StripMessage receive_strip(StripStore& store);
+  // The sender's events, valid until the next call.
+  std::span<const hal::Event> receive_events();
+  // Whether it has sent its last.
+  bool events_ended(int node) const { return ended_.at(static_cast<std::size_t>(node)); }
+  double receive_time(int node);
+  [[noreturn]] void receive_fault() const;
+
+  // "n3 (node 17)", as far as the node has greeted.
+  std::string name_of(int node) const;
+  [[noreturn]] void refuse(int node, const std::string& what) const;
+
+ private:
+  void require(bool holds, int node, const char* what) const;
+  bool wait_unless_cancelled(long type) const;
+  void receive_hello();
+  void check_machines() const;
+  void check_strip(const node::Strip& strip, std::span<const node::Run> runs, int sender) const;
+  bool is_event(const hal::Event& event) const;
+
+  const std::uint32_t width_;
+  const std::uint32_t height_;
+  const Cancellation* const cancellation_;
+  const int nodes_;
+  std::vector<node::Hello> hellos_;
+  std::vector<bool> greeted_;
+  std::vector<bool> loaded_;
+  std::vector<bool> ended_;  // its trace
+  std::vector<hal::Event> events_;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,49 @@
+#include "host/render/farm/plan.h"
+
+#include <algorithm>
+
+namespace mars::host {
+namespace {
+
+constexpr std::size_t kTasksPerGroup = 4;
+
+}  // namespace
+
+std::uint32_t Plan::inbetweens() const {
+  std::size_t count = 0;
+  for (const Task& task : tasks) count += task.frames.size() - 1;
+  return static_cast<std::uint32_t>(count);
+}
+
+Plan make_plan(const node::FilmView& film, const PlanRequest& request, int nodes) {
+  Plan plan{make_tasks(film, request.frames, request.coherence), {}};
+  plan.groups = make_groups(nodes, static_cast<int>(request.groups), plan.tasks.size());
+  return plan;
+}
+
+std::vector<Task> make_tasks(const node::FilmView& film, std::span<const std::uint32_t> frames, bool coherence) {
+  std::vector<Task> tasks;
+  std::uint64_t inbetweens = 0;
+  std::uint32_t interval = 0;
+  for (const std::uint32_t frame : frames) {
+    const auto end = [&] { return film.intervals()[interval].first_frame + film.intervals()[interval].frame_count; };
+    while (frame >= end()) ++interval;
+    const bool goes_on = coherence && !tasks.empty() && tasks.back().interval == interval;
+    if (goes_on)
+      ++inbetweens;
+    else
+      tasks.push_back({interval, {}, inbetweens});
+    tasks.back().frames.push_back(frame);
+  }
+  return tasks;
+}
+
+std::vector<hal::Group> make_groups(int nodes, int groups, std::size_t tasks) {
+  const std::size_t most = std::min(tasks / kTasksPerGroup, static_cast<std::size_t>(nodes));
+  const int count = std::clamp(groups == 0 ? static_cast<int>(most) : groups, 1, nodes);
+  std::vector<hal::Group> out;
+  for (int i = 0; i < count; ++i) out.push_back(hal::group_of(nodes, count, i));
+  return out;
+}
+
+}  // namespace mars::host

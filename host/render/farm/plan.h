@@ -1,0 +1,46 @@
+// Who draws what, decided once before a rendering: the frames asked for, cut into tasks of one interval each, and the
+// machine's nodes, cut into groups. Each group takes one task after another, whichever is next; within its group a task says
+// by itself who draws which frame (contributor_of_inbetween).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/collectives/group.h"
+#include "node/wire/film.h"
+
+namespace mars::host {
+
+// Frames of one interval for one group: the first is the keyframe, drawn by all its nodes.
+struct Task {
+  std::uint32_t interval;
+  std::vector<std::uint32_t> frames;  // ascending
+  std::uint64_t first_inbetween;      // inbetweens in all tasks before: turns go over the whole film
+};
+
+// What is asked of a plan.
+struct PlanRequest {
+  std::vector<std::uint32_t> frames;  // ascending, within the film
+  bool coherence = true;              // no: every frame is a task of its own
+  std::uint32_t groups = 0;           // that work side by side; 0: see make_groups
+};
+
+struct Plan {
+  std::vector<Task> tasks;
+  std::vector<hal::Group> groups;
+
+  std::uint32_t keyframes() const { return static_cast<std::uint32_t>(tasks.size()); }
+  std::uint32_t inbetweens() const;
+  std::uint32_t frames() const { return keyframes() + inbetweens(); }
+};
+
+Plan make_plan(const node::FilmView& film, const PlanRequest& request, int nodes);
+
+std::vector<Task> make_tasks(const node::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);
+
+// `nodes` nodes as `groups` groups of about equal size, side by side. 0 groups: one for every four tasks, so that what one
+// task takes longer than another evens out; with fewer than eight tasks one group of all nodes, as in the thesis.
+std::vector<hal::Group> make_groups(int nodes, int groups, std::size_t tasks);
+
+}  // namespace mars::host

@@ -1,0 +1,43 @@
+#include "host/render/session/event_reporter.h"
+
+#include <iostream>
+#include <set>
+#include <span>
+
+namespace mars::host {
+namespace {
+
+Booted booted_event(std::span<const node::Hello> hellos, const std::string& backend) {
+  Booted event;
+  event.backend = backend;
+  std::set<std::int32_t> machines;
+  for (const node::Hello& hello : hellos) {
+    machines.insert(hello.machine);
+    event.nodes.push_back({hello.node, hello.host.data(), hello.rank, hello.binding.data(), hello.simd.data()});
+  }
+  event.machines = static_cast<std::uint32_t>(machines.size());
+  return event;
+}
+
+}  // namespace
+
+void EventReporter::report(const Event& event) const { std::cout << line_of(event) << std::flush; }
+
+FarmListener EventReporter::listener(std::size_t intervals) {
+  progress_.intervals = static_cast<std::uint32_t>(intervals);
+  FarmListener listener;
+  listener.booted = [this](std::span<const node::Hello> hellos, std::uint32_t keyframes, std::uint32_t inbetweens) {
+    progress_.keyframes.of = keyframes;
+    progress_.inbetweens.of = inbetweens;
+    report(booted_event(hellos, backend_));
+    report(progress_);
+  };
+  listener.finished = [this](const FinishedFrame& frame) {
+    report(FrameTaken{frame.number, frame.interval, frame.kind});
+    progress_.count(frame.kind, frame.interval, frame.seconds);
+    report(progress_);
+  };
+  return listener;
+}
+
+}  // namespace mars::host

@@ -1,0 +1,25 @@
+// Reports what happens on standard output (host/render/events), and how far the rendering is.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "host/render/events/events.h"
+#include "host/render/farm/farm.h"
+
+namespace mars::host {
+
+class EventReporter {
+ public:
+  explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
+
+  void report(const Event& event) const;
+  // What the farm's listener hears, of a film of so many intervals. The reporter outlives the listener.
+  FarmListener listener(std::size_t intervals);
+
+ private:
+  const std::string backend_;
+  Progress progress_;
+};
+
+}  // namespace mars::host

@@ -1,0 +1,39 @@
+// One rendering, as the host's process does it from a film to the last frame: the same in every program that renders.
+// It knows no command line: RenderJob says what a person asked for.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/content/film/compile.h"
+#include "host/content/film/frame_set.h"
+#include "node/wire/protocol.h"
+
+namespace mars::host {
+
+struct RenderJob {
+  std::string film;  // its file, as the person gave it
+  // Reads and compiles it, which may take long; `warn` takes one line about what a person would want to mend.
+  std::function<CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
+  std::string folder;  // for the frames; "": they go nowhere
+  FrameSet frames;
+  node::Mapping mapping = node::Mapping::greedy;
+  bool coherence = true;
+  std::uint32_t block = 16;  // side of the compositor's blocks, pixels
+  std::uint32_t groups = 0;  // as in PlanRequest
+  std::string report;        // file for the measurements; "": none
+  std::string trace;         // file for a picture of the run; "": none
+  std::string backend;       // its name: mpi or threads
+  std::vector<std::string> arguments;  // all this, as it was given to the host
+  // The command that does it again with so many nodes; of all frames, or of one.
+  std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
+};
+
+// The calling HAL process is the host. Reports events on standard output. A failure is reported as a fault event, and thrown
+// for the caller, which ends the run.
+void run_session(const RenderJob& job);
+
+}  // namespace mars::host

@@ -1,0 +1,14 @@
+// From a person's options to the rendering they describe.
+#pragma once
+
+#include <string>
+
+#include "host/render/session/session.h"
+#include "host/shell/options/render_options.h"
+
+namespace mars::host {
+
+// `backend` is the name of the one that carries messages.
+RenderJob job_of(const RenderOptions& options, const std::string& backend);
+
+}  // namespace mars::host

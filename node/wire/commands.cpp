@@ -1,0 +1,86 @@
+#include "node/wire/commands.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "hal/collectives/group.h"
+#include "hal/failure/failure.h"
+
+namespace mars::node {
+namespace {
+
+void require(bool holds, const char* command, const char* rule) {
+  if (!holds)
+    throw Failure(std::string("the host's command ") + command + " does not make sense: " + rule, "", "please report it");
+}
+
+// A struct and `count` items behind it, and nothing else.
+bool has_size(std::span<const std::byte> message, std::size_t head, std::size_t count, std::size_t item) {
+  return message.size() >= head && (message.size() - head) / item == count && (message.size() - head) % item == 0;
+}
+
+template <typename Item>
+std::span<const Item> items_behind(std::span<const std::byte> message, std::size_t head) {
+  return {reinterpret_cast<const Item*>(message.data() + head), (message.size() - head) / sizeof(Item)};
+}
+
+// Whether the node belongs to the group, and the group is one of those that the nodes form.
+bool is_group_of(const Render& render, int node, int nodes, int groups) {
+  for (int i = 0; i < groups; ++i) {
+    const hal::Group group = hal::group_of(nodes, groups, i);
+    if (node >= group.first && node < group.first + group.count)
+      return render.group_first == group.first && render.group_count == group.count;
+  }
+  return false;
+}
+
+bool ascend_within(std::span<const std::uint32_t> frames, const Interval& interval) {
+  const bool ascend = std::adjacent_find(frames.begin(), frames.end(), std::greater_equal<>()) == frames.end();
+  return ascend && frames.front() >= interval.first_frame && frames.back() - interval.first_frame < interval.frame_count;
+}
+
+}  // namespace
+
+LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver) {
+  check_stamp(message, "the host", receiver);
+  constexpr auto kName = "Load";
+  require(has_size(message, sizeof(Load), static_cast<std::size_t>(nodes), sizeof(std::int32_t)), kName, "its size");
+  const auto& load = *reinterpret_cast<const Load*>(message.data());
+  const auto machines = items_behind<std::int32_t>(message, sizeof(Load));
+  require(load.film_bytes > 0, kName, "the film's size");
+  require(load.credits >= 1 && load.credits <= kMaxCredits, kName, "credits");
+  require(load.mapping == Mapping::greedy || load.mapping == Mapping::optimal, kName, "the mapping");
+  require(load.groups >= 1 && load.groups <= nodes, kName, "the number of groups");
+  require(load.traced <= 1, kName, "whether to trace");
+  for (std::int32_t node = 0; node < nodes; ++node) {
+    const std::int32_t machine = machines[static_cast<std::size_t>(node)];
+    require(machine >= 0 && machine <= node && machines[static_cast<std::size_t>(machine)] == machine, kName, "machines");
+  }
+  return {load, machines};
+}
+
+RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups) {
+  constexpr auto kName = "Render";
+  require(message.size() >= sizeof(Render), kName, "its size");
+  const auto& render = *reinterpret_cast<const Render*>(message.data());
+  require(has_size(message, sizeof render, render.frame_count, sizeof(std::uint32_t)), kName, "its size");
+  const auto frames = items_behind<std::uint32_t>(message, sizeof render);
+  require(render.interval < film.intervals().size(), kName, "the interval");
+  require(is_group_of(render, node, nodes, groups), kName, "the group");
+  require(!frames.empty() && ascend_within(frames, film.intervals()[render.interval]), kName, "the frames");
+  return {render, frames};
+}
+
+std::int32_t read_credit(std::span<const std::byte> message, std::int32_t missing) {
+  constexpr auto kName = "Credit";
+  require(message.size() == sizeof(Credit), kName, "its size");
+  const std::int32_t count = reinterpret_cast<const Credit*>(message.data())->count;
+  require(count >= 1 && count <= missing, kName, "the count");
+  return count;
+}
+
+void check_size(const char* command, std::size_t bytes, std::size_t expected) {
+  require(bytes == expected, command, "its size");
+}
+
+}  // namespace mars::node

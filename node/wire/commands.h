@@ -1,0 +1,37 @@
+// The host's commands as they arrived, checked before anything of them is used: sizes against counts, counts and ranges
+// against the film and the node's group. What does not fit is a Failure. What is returned lies within the message.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "node/wire/film.h"
+#include "node/wire/protocol.h"
+
+namespace mars::node {
+
+struct LoadCommand {
+  const Load& load;
+  std::span<const std::int32_t> machines;  // each node's
+};
+
+struct RenderCommand {
+  const Render& render;
+  std::span<const std::uint32_t> frames;
+};
+
+// For one of `nodes` nodes, which `receiver` names where the host is of another version: "n3 (node 17)".
+LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
+
+// For node `node` of `nodes`, which form `groups` groups.
+RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups);
+
+// For a node that has given away `missing` credits.
+std::int32_t read_credit(std::span<const std::byte> message, std::int32_t missing);
+
+// Stop and Clock, which say all by their type, and others that must have just so many bytes.
+void check_size(const char* command, std::size_t bytes, std::size_t expected);
+
+}  // namespace mars::node

@@ -1,0 +1,43 @@
+// A compiled film with nothing to see, for tests of what the host does with one.
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "node/wire/film.h"
+
+namespace mars::host {
+
+class EmptyFilm {
+ public:
+  // Intervals of so many frames; the block has more than `bytes`.
+  explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
+                     std::size_t bytes = 0) {
+    node::FilmData film;
+    for (const std::uint32_t frames : intervals) {
+      film.intervals.push_back({film.settings.frames, frames, 0, 0});
+      film.settings.frames += frames;
+    }
+    film.settings.width = width;
+    film.settings.height = height;
+    film.settings.rate = 24;
+    film.settings.camera = {0, 1};
+    film.cameras = {{{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}, 2, 0.1, 100}};
+    film.changes = {{0, 0}};
+    film.names.resize(bytes);
+    const std::vector<std::byte> block = node::pack(film);
+    words_.resize((block.size() + 7) / 8);
+    size_ = block.size();
+    std::memcpy(words_.data(), block.data(), size_);
+  }
+
+  std::span<const std::byte> block() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
+  node::FilmView view() const { return {block(), "empty film"}; }
+
+ private:
+  std::vector<std::uint64_t> words_;  // aligned as FilmView wants it
+  std::size_t size_;
+};
+
+}  // namespace mars::host

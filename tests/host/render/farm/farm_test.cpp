@@ -1,0 +1,244 @@
+// The farm with nodes that follow a script.
+#include "host/render/farm/farm.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "host/render/farm/node_inbox.h"
+#include "tests/host/render/farm/scripted_node.h"
+
+namespace mars::host {
+namespace {
+
+void sound_node() {
+  ScriptedNode node;
+  node.boot();
+  node.draw_all();
+}
+
+// Frames of intervals over nodes in groups: all arrive, each as its contributors drew it.
+void expect_all_frames(const EmptyFilm& film, int nodes, std::uint32_t groups, const std::vector<std::uint32_t>& frames) {
+  ScriptedRun run;
+  run.nodes = nodes;
+  run.work = {frames, true, groups};
+  const FarmReport report = run.render(film, sound_node);
+  EXPECT_EQ(run.sink.pixels, pixels_of(frames)) << nodes << " nodes, " << groups << " groups";
+  EXPECT_FALSE(report.cancelled);
+  EXPECT_TRUE(report.strips.empty() && report.frames.empty()) << "nobody asked for a report";
+}
+
+TEST(Farm, EveryFrameComes) {
+  const EmptyFilm film({5, 5, 2});
+  for (const int nodes : {1, 2, 5}) {
+    expect_all_frames(film, nodes, 1, frames_to(12));
+    expect_all_frames(film, nodes, 2, frames_to(12));
+    expect_all_frames(film, nodes, 5, frames_to(12));  // more groups than tasks
+  }
+  expect_all_frames(film, 3, 1, {7});
+  expect_all_frames(film, 3, 3, {0, 4, 11});
+}
+
+TEST(Farm, ReportsEachFrameWhereItIsAskedTo) {
+  const EmptyFilm film({3, 2});
+  ScriptedRun run;
+  run.nodes = 2;
+  run.work = {frames_to(5), true, 1};
+  run.farm.each_frame = true;
+  const FarmReport report = run.render(film, sound_node);
+  EXPECT_EQ(report.frames.size(), 5u);
+  EXPECT_EQ(report.strips.size(), 2u * 2 + 3) << "keyframes from both, inbetweens from one";
+  EXPECT_EQ(report.nodes.size(), 2u);
+  EXPECT_EQ(report.nodes[1].host.data(), std::string("n1"));
+}
+
+// Each node sends what it has of two tasks, the later first, inbetweens before keyframes.
+TEST(Farm, StripsMayComeInAnyOrder) {
+  const EmptyFilm film({2, 2});
+  ScriptedRun run;
+  run.nodes = 2;
+  run.work = {frames_to(4), true, 1};
+  run.render(film, [] {
+    ScriptedNode node;
+    node.boot();
+    const std::vector<ScriptedNode::Command> commands{*node.next_command(), *node.next_command()};
+    for (const int task : {1, 0}) {
+      std::vector<std::uint32_t> frames = ScriptedNode::own_frames(commands[static_cast<std::size_t>(task)]);
+      for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame)
+        node.send_strip(ScriptedNode::strip_of(commands[static_cast<std::size_t>(task)], *frame), 1000 + *frame);
+    }
+    EXPECT_FALSE(node.next_command());
+  });
+  EXPECT_EQ(run.sink.pixels, pixels_of(frames_to(4)));
+}
+
+// A frame in 40 strips with few credits.
+TEST(Farm, CreditsComeBack) {
+  const EmptyFilm film({2, 2});
+  for (const std::int32_t credits : {1, 2, node::kMaxCredits}) {
+    ScriptedRun run;
+    run.nodes = 2;
+    run.work = {frames_to(4), true, 1};
+    run.farm.credits = credits;
+    run.buffers = 2;
+    run.render(film, [credits] {
+      ScriptedNode node;
+      node.boot();
+      EXPECT_EQ(node.load.credits, credits);
+      node.credits = credits;
+      while (const auto command = node.next_command())
+        for (const std::uint32_t frame : ScriptedNode::own_frames(*command)) {
+          for (std::uint32_t number = 0; number < 40; ++number) {
+            while (node.credits == 0) node.take_credit();
+            node::Strip strip = ScriptedNode::strip_of(*command, frame);
+            strip.number = number;
+            strip.last = number == 39;
+            node.send_strip(strip, 1000 + frame);
+          }
+        }
+      EXPECT_EQ(node.credits, credits) << "all are back when the host says stop";
+    });
+    EXPECT_EQ(run.sink.pixels, pixels_of(frames_to(4)));
+  }
+}
+
+// Node 1 sends its keyframe's strips only when node 0 has used up its credits with inbetweens: these wait in the host.
+TEST(Farm, StripsThatWaitHoldTheirCredits) {
+  const EmptyFilm film({12});
+  ScriptedRun run;
+  run.nodes = 2;
+  run.work = {frames_to(12), true, 1};
+  run.farm.credits = 2;
+  std::atomic<bool> used_up = false;
+  run.render(film, [&] {
+    ScriptedNode node;
+    node.boot();
+    node.credits = 2;
+    const auto command = node.next_command();
+    for (const std::uint32_t frame : ScriptedNode::own_frames(*command)) {
+      if (mynode() == 1 && frame == 0)
+        while (!used_up) flick();
+      if (mynode() == 0 && node.credits == 0 && !used_up) {
+        EXPECT_EQ(iprobe(node::kCredit), 0) << "a keyframe of which a part is missing has not been taken";
+        used_up = true;
+      }
+      while (node.credits == 0) node.take_credit();
+      node.send_strip(ScriptedNode::strip_of(*command, frame), 1000 + frame);
+    }
+    EXPECT_FALSE(node.next_command());
+  });
+  EXPECT_EQ(run.sink.pixels, pixels_of(frames_to(12)));
+}
+
+TEST(Farm, ANodesFaultEndsTheRun) {
+  const EmptyFilm film({4});
+  ScriptedRun run;
+  run.nodes = 3;
+  run.work = {frames_to(4)};
+  try {
+    run.render(film, [] {
+      ScriptedNode node;
+      node.boot();
+      node.next_command();
+      if (mynode() == 2) {
+        node::Fault fault{};
+        fault.node = 2;
+        fault.frame = 3;
+        std::memcpy(fault.reason.data(), "out of clay", 11);
+        ScriptedNode::send(node::kFault, fault);
+      }
+      ScriptedNode::receive(node::kStop);
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const NodeFailure& failure) {
+    EXPECT_EQ(failure.what(), std::string("node 2, frame 3: out of clay"));
+    EXPECT_EQ(failure.node, 2);
+    EXPECT_EQ(failure.frame, 3);
+  }
+}
+
+// From a sink, from a listener, and while nobody answers at all.
+TEST(Farm, CanBeCancelledFromWithinASink) {
+  const EmptyFilm film(std::vector<std::uint32_t>(50, 4));
+  Cancellation cancellation;
+  ScriptedRun run;
+  run.nodes = 3;
+  run.work = {frames_to(200), true, 2};
+  run.farm.cancellation = &cancellation;
+  run.sink.taken = [&](std::uint32_t frame) {
+    if (frame == 9) cancellation.cancel();
+  };
+  std::atomic<int> stopped = 0;
+  const FarmReport report = run.render(film, [&] {
+    sound_node();
+    ++stopped;
+  });
+  EXPECT_TRUE(report.cancelled);
+  EXPECT_LT(run.sink.pixels.size(), 200u);
+  EXPECT_EQ(stopped, 3) << "Stop reached every node";
+}
+
+TEST(Farm, CancelledAfterTheLastFrameItIsNot) {
+  const EmptyFilm film({4});
+  Cancellation cancellation;
+  ScriptedRun run;
+  run.work = {frames_to(4)};
+  run.farm.cancellation = &cancellation;
+  run.listener.finished = [&](const FinishedFrame& frame) {
+    if (run.sink.pixels.size() == 4 && frame.number == 3) cancellation.cancel();
+  };
+  EXPECT_FALSE(run.render(film, sound_node).cancelled);
+}
+
+TEST(Farm, CancelEndsTheWaitForANodeThatNeverAnswers) {
+  const EmptyFilm film({4});
+  // Never a greeting, never word of the film, never a strip.
+  for (const int silent_after : {0, 1, 2}) {
+    Cancellation cancellation;
+    ScriptedRun run;
+    run.nodes = 2;
+    run.work = {frames_to(4)};
+    run.farm.cancellation = &cancellation;
+    std::thread canceller;
+    const FarmReport report = run.render(film, [&] {
+      ScriptedNode node;
+      if (mynode() == 0 || silent_after > 1) {
+        node.boot();
+      } else if (silent_after == 1) {
+        ScriptedNode::send(node::kHello, ScriptedNode::hello());
+        node.take_load();
+      }
+      if (mynode() == 1) canceller = std::thread([&] { cancellation.cancel(); });
+      ScriptedNode::receive(node::kStop);
+    });
+    canceller.join();
+    EXPECT_TRUE(report.cancelled);
+    EXPECT_TRUE(run.sink.pixels.empty());
+  }
+}
+
+// In pieces, for messages have less than 2 GiB; once a machine.
+TEST(Farm, TheFilmTravelsInPieces) {
+  const EmptyFilm film({4}, 16, 8, 2 * node::kFilmPiece);
+  const std::size_t bytes = film.block().size();
+  ScriptedRun run;
+  run.nodes = 2;
+  run.work = {{0}};
+  run.render(film, [&] {
+    ScriptedNode node;
+    node.boot();
+    EXPECT_EQ(node.load.film_bytes, bytes);
+    EXPECT_EQ(node.film_pieces.size(), 3u);
+    std::vector<std::byte> whole;
+    for (const auto& piece : node.film_pieces) {
+      EXPECT_LE(piece.size(), node::kFilmPiece);
+      whole.insert(whole.end(), piece.begin(), piece.end());
+    }
+    EXPECT_TRUE(std::equal(whole.begin(), whole.end(), film.block().begin(), film.block().end()));
+    node.draw_all();
+  });
+}
+
+}  // namespace
+}  // namespace mars::host

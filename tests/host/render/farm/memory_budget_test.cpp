@@ -1,0 +1,53 @@
+#include "host/render/farm/host_memory.h"
+
+#include <gtest/gtest.h>
+
+#include "node/wire/protocol.h"
+
+namespace mars::host {
+namespace {
+
+constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+
+node::FilmSettings picture(std::uint32_t width, std::uint32_t height) {
+  node::FilmSettings settings{};
+  settings.width = width;
+  settings.height = height;
+  return settings;
+}
+
+TEST(SharedHostMemory, OrdinaryFilmsHaveAllTheyCanUse) {
+  const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), 64, 8, 16);
+  EXPECT_EQ(memory.frames, 18u) << "two more than threads";
+  EXPECT_EQ(memory.credits, node::kMaxCredits);
+  EXPECT_EQ(memory.backgrounds, 8u);
+  EXPECT_EQ(memory.strip_bytes(), 64u * 4 * node::kMaxStripBytes);
+  EXPECT_LT(memory.most_bytes(), memory.budget);
+}
+
+TEST(SharedHostMemory, BuffersTakeOneGiBAtMost) {
+  EXPECT_EQ(share_host_memory(64 * kGiB, picture(16384, 8192), 1, 1, 16).frames, 2u);
+  EXPECT_EQ(share_host_memory(64 * kGiB, picture(8192, 8192), 1, 1, 16).frames, 4u);
+}
+
+TEST(SharedHostMemory, ManyNodesHaveFewerCredits) {
+  std::int32_t before = node::kMaxCredits;
+  for (const std::uint32_t nodes : {256u, 1024u, 2048u, 4096u}) {
+    const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), nodes, 1, 16);
+    EXPECT_LE(memory.credits, before);
+    EXPECT_GE(memory.credits, 1);
+    EXPECT_LE(memory.most_bytes(), memory.budget);
+    before = memory.credits;
+  }
+  EXPECT_LT(before, node::kMaxCredits);
+}
+
+TEST(SharedHostMemory, HoweverSmallTheBudgetWorkGoesOn) {
+  const HostMemory memory = share_host_memory(0, picture(1920, 1080), 8, 2, 16);
+  EXPECT_EQ(memory.frames, 2u);
+  EXPECT_EQ(memory.credits, 1);
+  EXPECT_GT(memory.most_bytes(), memory.budget);
+}
+
+}  // namespace
+}  // namespace mars::host

@@ -1,0 +1,197 @@
+// Nodes that follow a test's script in place of the firmware: threads that say by NX calls what a node would, or what none
+// should. And renderings by such nodes.
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hal/nx/nx_messages.h"
+#include "hal/threads/run_threads.h"
+#include "host/render/farm/farm.h"
+#include "tests/host/render/farm/empty_film.h"
+#include "tests/host/render/farm/strips.h"
+
+namespace mars::host {
+
+class ScriptedNode {
+ public:
+  // A sound one; every node is a machine of its own, n0, n1, ...
+  static node::Hello hello() {
+    node::Hello hello{};
+    hello.stamp = node::own_stamp();
+    hello.node = hello.machine = static_cast<std::int32_t>(mynode());
+    hello.memory = 1 << 20;
+    const std::string name = "n" + std::to_string(mynode());
+    std::memcpy(hello.host.data(), name.data(), name.size());
+    return hello;
+  }
+
+  template <typename Message>
+  static void send(long type, const Message& message) {
+    csend(type, &message, sizeof message, myhost(), 0);
+  }
+
+  // Greets and takes the film, unless the host says stop.
+  void boot() {
+    send(node::kHello, hello());
+    if (take_load()) csend(node::kLoaded, nullptr, 0, myhost(), 0);
+  }
+
+  // Its clock is asked first where the run is traced.
+  bool take_load() {
+    while (true) {
+      cprobe(node::any_of(node::kLoad, node::kClock, node::kStop));
+      if (infotype() == node::kStop) return false;
+      if (infotype() == node::kLoad) break;
+      receive(node::kClock);
+      send(node::kClock, dclock());
+    }
+    const std::vector<std::byte> message = receive(node::kLoad);
+    std::memcpy(&load, message.data(), sizeof load);
+    for (std::uint64_t at = 0; at < load.film_bytes; at += film_pieces.back().size())
+      film_pieces.push_back(receive(node::kFilmBlock));
+    return true;
+  }
+
+  static std::vector<std::byte> receive(long type) {
+    cprobe(type);
+    std::vector<std::byte> message(static_cast<std::size_t>(infocount()));
+    crecv(type, message.data(), static_cast<long>(message.size()));
+    return message;
+  }
+
+  // The next command; none: stop.
+  struct Command {
+    node::Render render;
+    std::vector<std::uint32_t> frames;
+  };
+  std::optional<Command> next_command() {
+    while (true) {
+      cprobe(node::any_of(node::kRender, node::kCredit, node::kStop));
+      if (infotype() == node::kStop) {
+        receive(node::kStop);
+        return std::nullopt;
+      }
+      if (infotype() == node::kRender) break;
+      take_credit();
+    }
+    const std::vector<std::byte> message = receive(node::kRender);
+    Command command;
+    std::memcpy(&command.render, message.data(), sizeof command.render);
+    command.frames.resize((message.size() - sizeof command.render) / sizeof(std::uint32_t));
+    std::memcpy(command.frames.data(), message.data() + sizeof command.render, command.frames.size() * sizeof(std::uint32_t));
+    return command;
+  }
+
+  void take_credit() {
+    receive(node::kCredit);
+    ++credits;
+  }
+
+  // The header of this node's only strip of a frame.
+  static node::Strip strip_of(const Command& command, std::uint32_t frame) {
+    node::Strip strip{};
+    strip.frame = frame;
+    strip.interval = command.render.interval;
+    strip.kind = frame == command.frames.front() ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+    strip.node = static_cast<std::int32_t>(mynode());
+    strip.last = 1;
+    strip.last_line = 8;
+    return strip;
+  }
+
+  // One pixel, in line and column 0.
+  void send_strip(const node::Strip& header, std::uint32_t pixel) {
+    StripStore store;
+    const StripBytes bytes = strip_bytes(header, {}, {{{0, 0, 1}}, {pixel}}, store);
+    csend(node::kStrip, bytes.data.get(), static_cast<long>(bytes.size), myhost(), 0);
+    --credits;
+  }
+
+  // This node's frames of a task: the keyframe and its inbetweens.
+  static std::vector<std::uint32_t> own_frames(const Command& command) {
+    std::vector<std::uint32_t> own{command.frames.front()};
+    const node::Render& render = command.render;
+    for (std::size_t k = 1; k < command.frames.size(); ++k)
+      if (render.group_first + node::contributor_of_inbetween(render.first_inbetween + k - 1, render.group_count) == mynode())
+        own.push_back(command.frames[k]);
+    return own;
+  }
+
+  // Draws all that it is given, each frame as a pixel of the frame's number and 1000, until the host says stop.
+  void draw_all() {
+    while (const auto command = next_command())
+      for (const std::uint32_t frame : own_frames(*command)) {
+        if (!wait_for_credit()) return;
+        send_strip(strip_of(*command, frame), 1000 + frame);
+      }
+  }
+
+  // False: the host says stop.
+  bool wait_for_credit() {
+    while (credits == 0) {
+      cprobe(node::any_of(node::kCredit, node::kStop));
+      if (infotype() == node::kStop) return false;
+      take_credit();
+    }
+    return true;
+  }
+
+  node::Load load{};
+  std::vector<std::vector<std::byte>> film_pieces;
+  int credits = node::kMaxCredits;
+};
+
+// Keeps the first pixel of each frame.
+class FirstPixels : public Sink {
+ public:
+  void take(const Frame& frame) override {
+    if (taken) taken(frame.number);
+    const std::lock_guard lock(mutex_);
+    pixels[frame.number] = frame.pixels.front();
+  }
+  std::map<std::uint32_t, std::uint32_t> pixels;
+  std::function<void(std::uint32_t frame)> taken;
+
+ private:
+  std::mutex mutex_;
+};
+
+struct ScriptedRun {
+  int nodes = 1;
+  PlanRequest work;
+  FarmOptions farm;
+  std::uint32_t buffers = 3;
+  FarmListener listener;
+  FirstPixels sink;
+
+  FarmReport render(const EmptyFilm& film, const std::function<void()>& node) {
+    const Plan plan = make_plan(film.view(), work, nodes);
+    FarmReport report;
+    const auto host = [&] {
+      SinkPool pool(sink, {film.view().settings().width, film.view().settings().height, 8, buffers, 1});
+      report = render_film(film.block(), plan, farm, pool, listener);
+    };
+    hal::run_threads(nodes, host, node);
+    return report;
+  }
+};
+
+inline std::vector<std::uint32_t> frames_to(std::uint32_t end) {
+  std::vector<std::uint32_t> frames(end);
+  for (std::uint32_t frame = 0; frame < end; ++frame) frames[frame] = frame;
+  return frames;
+}
+
+// As ScriptedNode::draw_all makes them.
+inline std::map<std::uint32_t, std::uint32_t> pixels_of(const std::vector<std::uint32_t>& frames) {
+  std::map<std::uint32_t, std::uint32_t> pixels;
+  for (const std::uint32_t frame : frames) pixels[frame] = 1000 + frame;
+  return pixels;
+}
+
+}  // namespace mars::host

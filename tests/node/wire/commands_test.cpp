@@ -1,0 +1,162 @@
+// Commands as a host should not send them: each is refused before anything of it is used.
+#include "node/wire/commands.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "tests/node/wire/small_film.h"
+
+namespace mars::node {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+template <typename Head, typename Item>
+Bytes message(const Head& head, const std::vector<Item>& items) {
+  Bytes bytes(sizeof head + items.size() * sizeof(Item));
+  std::memcpy(bytes.data(), &head, sizeof head);
+  if (!items.empty()) std::memcpy(bytes.data() + sizeof head, items.data(), items.size() * sizeof(Item));
+  return bytes;
+}
+
+// What `read` says against it; "" if nothing.
+std::string refusal(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+class LoadCommands : public testing::Test {
+ protected:
+  LoadCommands() {
+    load_.stamp = own_stamp();
+    load_.film_bytes = 1000;
+    load_.credits = 2;
+    load_.groups = 2;
+  }
+  std::string said() const {
+    return refusal([this] { read_load(message(load_, machines_), 3, "n1 (node 1)"); });
+  }
+
+  Load load_{};
+  std::vector<std::int32_t> machines_{0, 0, 2};
+};
+
+TEST_F(LoadCommands, SoundOnesAreTaken) {
+  EXPECT_EQ(said(), "");
+  const Bytes bytes = message(load_, machines_);
+  const LoadCommand command = read_load(bytes, 3, "n1 (node 1)");
+  EXPECT_EQ(command.load.credits, 2);
+  EXPECT_EQ(command.machines[2], 2);
+}
+
+TEST_F(LoadCommands, AnotherVersionIsSeenFirst) {
+  load_.stamp.wire = 200;
+  machines_.clear();
+  EXPECT_NE(said().find("the host runs MARS"), std::string::npos);
+  EXPECT_NE(said().find("(wire 200), n1 (node 1) runs MARS"), std::string::npos);
+  EXPECT_NE(refusal([] { read_load({}, 3, "n1 (node 1)"); }).find("the host is not MARS"), std::string::npos);
+}
+
+TEST_F(LoadCommands, OfAnotherSize) {
+  machines_.pop_back();
+  EXPECT_NE(said().find("its size"), std::string::npos);
+  machines_ = {0, 0, 0, 0};
+  EXPECT_NE(said().find("its size"), std::string::npos);
+  Bytes bytes = message(load_, std::vector<std::int32_t>{0, 0, 0});
+  bytes.pop_back();
+  EXPECT_NE(refusal([&] { read_load(bytes, 3, ""); }).find("its size"), std::string::npos);
+}
+
+TEST_F(LoadCommands, WithValuesThatMakeNoSense) {
+  const auto refused = [this](const auto& spoil) {
+    const Load sound = load_;
+    const auto machines = machines_;
+    spoil();
+    const bool is = !said().empty();
+    load_ = sound;
+    machines_ = machines;
+    return is;
+  };
+  EXPECT_TRUE(refused([&] { load_.film_bytes = 0; }));
+  EXPECT_TRUE(refused([&] { load_.credits = 0; }));
+  EXPECT_TRUE(refused([&] { load_.credits = kMaxCredits + 1; }));
+  EXPECT_TRUE(refused([&] { load_.groups = 0; }));
+  EXPECT_TRUE(refused([&] { load_.groups = 4; }));
+  EXPECT_TRUE(refused([&] { load_.traced = 2; }));
+  EXPECT_TRUE(refused([&] { load_.mapping = static_cast<Mapping>(2); }));
+  EXPECT_TRUE(refused([&] { machines_[0] = 1; }));
+  EXPECT_TRUE(refused([&] { machines_[2] = -1; }));
+  EXPECT_TRUE(refused([&] { machines_[2] = 1; })) << "node 1 is on machine 0";
+  EXPECT_FALSE(refused([] {}));
+}
+
+// Of a film of intervals 0-1 and 2; node 1 of five, which form two groups: 0-1 and 2-4.
+class RenderCommands : public testing::Test {
+ protected:
+  RenderCommands() : block_(pack(test::small_film())) {
+    words_.resize((block_.size() + 7) / 8);
+    std::memcpy(words_.data(), block_.data(), block_.size());
+  }
+  FilmView film() const { return {std::as_bytes(std::span(words_)).first(block_.size()), "film"}; }
+  bool refused(const Render& render, const std::vector<std::uint32_t>& frames) const {
+    return !refusal([&] { read_render(message(render, frames), film(), 1, 5, 2); }).empty();
+  }
+
+  std::vector<std::byte> block_;
+  std::vector<std::uint64_t> words_;
+  const Render sound_{0, 0, 2, 2, 7};
+};
+
+TEST_F(RenderCommands, SoundOnesAreTaken) {
+  const Bytes bytes = message(sound_, std::vector<std::uint32_t>{0, 1});
+  const RenderCommand command = read_render(bytes, film(), 1, 5, 2);
+  EXPECT_EQ(command.render.first_inbetween, 7u);
+  EXPECT_EQ(command.frames[1], 1u);
+  EXPECT_FALSE(refused({1, 0, 2, 1, 0}, {2}));
+}
+
+TEST_F(RenderCommands, OfAnotherSize) {
+  EXPECT_TRUE(refused(sound_, {0}));
+  EXPECT_TRUE(refused(sound_, {0, 1, 1}));
+  EXPECT_TRUE(refused({0, 0, 2, 0, 0}, {}));
+  EXPECT_TRUE(refused({0, 0, 2, 0xffffffff, 0}, {0, 1}));
+  EXPECT_FALSE(refusal([this] { read_render({}, film(), 1, 5, 2); }).empty());
+  Bytes bytes = message(sound_, std::vector<std::uint32_t>{0, 1});
+  bytes.push_back({});
+  EXPECT_FALSE(refusal([&] { read_render(bytes, film(), 1, 5, 2); }).empty());
+}
+
+TEST_F(RenderCommands, ForOthersOrOfNoSuchFrames) {
+  EXPECT_TRUE(refused({2, 0, 2, 1, 0}, {2})) << "no such interval";
+  EXPECT_TRUE(refused({0, 2, 3, 2, 0}, {0, 1})) << "another group's";
+  EXPECT_TRUE(refused({0, 0, 3, 2, 0}, {0, 1})) << "no group";
+  EXPECT_TRUE(refused({0, -1, 3, 2, 0}, {0, 1}));
+  EXPECT_TRUE(refused(sound_, {1, 0}));
+  EXPECT_TRUE(refused(sound_, {1, 1}));
+  EXPECT_TRUE(refused(sound_, {1, 2})) << "beyond the interval";
+  EXPECT_TRUE(refused({1, 0, 2, 1, 0}, {1})) << "before the interval";
+}
+
+TEST(CreditCommands, GiveBackWhatIsMissing) {
+  const auto given = [](std::int32_t count) {
+    const Credit credit{count};
+    return read_credit(std::as_bytes(std::span(&credit, 1)), 3);
+  };
+  EXPECT_EQ(given(1), 1);
+  EXPECT_EQ(given(3), 3);
+  EXPECT_THROW(given(0), Failure);
+  EXPECT_THROW(given(-1), Failure);
+  EXPECT_THROW(given(4), Failure);
+  EXPECT_THROW(read_credit({}, 3), Failure);
+}
+
+}  // namespace
+}  // namespace mars::node
