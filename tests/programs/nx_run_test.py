@@ -13,7 +13,7 @@ import unittest
 import harness
 from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
 
-LIBRARY = PROGRAMS.parent / "hal"
+LIBRARY = PROGRAMS.parent / "hal/program"
 MARS_NX = PROGRAMS / "mars-nx"
 
 # What a node does is the last argument.
