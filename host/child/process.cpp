@@ -75,8 +75,8 @@ Process::Process(const Command& command, const ProcessSetup& setup) : leads_grou
   Preparation prepared(setup);
   Pipe reasons = make_pipe();
   const int answer = fcntl(reasons.writing.number(), F_DUPFD_CLOEXEC, kFree);
-  reasons.writing = Descriptor(answer);
   if (answer < 0) fail_to_start(command.words.front(), errno);
+  reasons.writing = Descriptor(answer);
   id_ = fork();
   if (id_ == 0) {
     if (set_up(prepared.setup, prepared.parent, prepared.sources)) arguments.execute();

@@ -56,8 +56,8 @@ TEST(Diagnosis, OfALostMachine) {
   EXPECT_EQ(message(failed_with({"ORTE has lost communication with a remote daemon.", "",
                                  "  HNP daemon   : [[6456,0],0] on node n1",
                                  "  Remote daemon: [[6456,0],2] on node n3"})),
-            "machine n3: does not answer any more (see whether it still runs and can be reached; "
-            "--frames renders what is missing)");
+            "machine n3: does not answer any more (check whether it still runs and can be reached; "
+            "render the missing frames with --frames)");
 }
 
 // The ssh of a machine's daemon may end before the daemon is missed.
