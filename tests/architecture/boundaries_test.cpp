@@ -214,44 +214,6 @@ TEST(Boundaries, OnePlaceStartsProcesses) {
   EXPECT_EQ(files, (Files{"host/child/exec.cpp", "host/child/process.cpp"}));
 }
 
-using Graph = std::map<std::string, std::set<std::string>>;
-
-// Those of the graph that reach themselves again.
-Files in_circles(const Graph& graph) {
-  Files found;
-  for (const auto& [start, first] : graph) {
-    std::vector<std::string> waiting(first.begin(), first.end());
-    Files seen;
-    while (!waiting.empty()) {
-      const std::string at = waiting.back();
-      waiting.pop_back();
-      if (!seen.insert(at).second || !graph.contains(at)) continue;
-      waiting.insert(waiting.end(), graph.at(at).begin(), graph.at(at).end());
-    }
-    if (seen.contains(start)) found.insert(start);
-  }
-  return found;
-}
-
-// A header and its implementation are one module.
-TEST(Boundaries, NoCircleOfIncludes) {
-  const auto module = [](const std::string& path) { return path.substr(0, path.rfind('.')); };
-  const auto folder = [](const std::string& path) { return path.substr(0, path.rfind('/')); };
-  Graph modules, folders;
-  for (const Source& source : sources()) {
-    if (begins(source.path, "tests/")) continue;
-    for (const std::string& include : source.includes) {
-      if (!is_ours(include)) continue;
-      if (module(include) != module(source.path)) modules[module(source.path)].insert(module(include));
-      if (folder(include) != folder(source.path)) folders[folder(source.path)].insert(folder(include));
-    }
-  }
-  EXPECT_GT(modules.size(), 300u) << "nothing to scan: the test is broken";
-  EXPECT_EQ(in_circles(modules), Files{});
-  EXPECT_EQ(in_circles(folders), Files{});
-  EXPECT_EQ(in_circles({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), (Files{"b", "c"}));
-}
-
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide
 // CPU's copy of an inline function for all.
 TEST(Boundaries, KernelsIncludeLittle) {

@@ -22,9 +22,6 @@ using mars::test::sources;
 using Graph = std::map<std::string, std::set<std::string>>;
 using Path = std::vector<std::string>;
 
-// Below these, circles are still allowed.
-const std::vector<std::string> kExcepted = {"host/", "node/"};
-
 std::string module_of(const std::string& file) { return fs::path(file).replace_extension().generic_string(); }
 std::string folder_of(const std::string& file) { return fs::path(file).parent_path().generic_string(); }
 
@@ -83,17 +80,9 @@ std::vector<Path> circles_in(const Graph& graph) {
   return circles;
 }
 
-bool excepted(const Path& circle) {
-  return std::any_of(kExcepted.begin(), kExcepted.end(), [&](const std::string& folder) {
-    return std::all_of(circle.begin(), circle.end(),
-                       [&](const std::string& each) { return (each + "/").rfind(folder, 0) == 0; });
-  });
-}
-
 void expect_no_circles(const Graph& graph) {
   EXPECT_GT(graph.size(), 15u) << "nothing to scan: the test is broken";
   for (const Path& circle : circles_in(graph)) {
-    if (excepted(circle)) continue;
     std::string text;
     for (const std::string& each : circle) text += each + " -> ";
     ADD_FAILURE() << text << circle.front();
