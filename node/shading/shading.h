@@ -8,7 +8,7 @@
 #include "node/geometry/triangle.h"
 #include "node/shape/vertices.h"
 #include "node/wire/film_parts.h"
-#include "node/wire/protocol.h"
+#include "node/wire/run.h"
 
 namespace mars::node {
 

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "node/wire/run.h"
 #include "node/wire/stamp.h"
 
 namespace mars::node {
@@ -158,13 +159,6 @@ struct Strip {
   double load_ratio;              // max / average load of the mapping (keyframes; 1 for an inbetween)
   PhaseTimes times;
   WorkCounts work;
-};
-
-// `count` pixels of line `line` from column `first`.
-struct Run {
-  std::uint32_t line;
-  std::uint16_t first;
-  std::uint16_t count;
 };
 
 // Why a node cannot go on; the whole run stops.

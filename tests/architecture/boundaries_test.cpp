@@ -221,7 +221,7 @@ TEST(Boundaries, KernelsIncludeLittle) {
                        "node/raster/edge_box.h",    "node/raster/kernels.h",    "node/shading/kernels.h",
                        "node/shading/shading.h",    "node/shape/kernels.h",     "node/shape/vertices.h",
                        "node/simd/vector_slack.h",  "node/simd/vectors.h",      "node/wire/film_parts.h",
-                       "node/wire/protocol.h"};
+                       "node/wire/run.h"};
   const Files standard = {"array", "bit", "cstddef", "cstdint", "cstring"};
   const std::regex kernels("^node/(\\w+/)+kernels/"), functions("^node/\\w+/kernels/functions\\.h$");
   int seen = 0;
