@@ -176,7 +176,7 @@ class Animate(ProgramTest):
         self.assertIn("its keys stand at 0, 12", self.refused("move", "robot", "--frame", "3-5", "--to", 9))
         self.assertIn("name an actor or camera, or use --all", self.refused("delete", "--frame", 0))
         self.assertIn("--all and 'robot'", self.refused("delete", "robot", "--all", "--frame", 0))
-        self.assertIn("say one of --ease", self.refused("time", "robot", "--frame", 0))
+        self.assertIn("use one of --ease", self.refused("time", "robot", "--frame", 0))
         self.assertIn("is no frame", self.refused("key", "robot", "--frame", "twelve"))
         self.assertIn("ends before it begins", self.refused("delete", "robot", "--frame", "12-3"))
         self.assertIn("did you mean 'both'", self.refused("time", "robot", "--frame", 0, "--ease", "boht"))

@@ -251,7 +251,7 @@ class Starting(ProgramTest):
                          env=dict(ENVIRONMENT, OMPI_MCA_orte_default_hostfile=str(hosts)))
         if "--oversubscribe" in done.stdout:
             self.skipTest("one core: mars asks for more than there is")
-        self.assertClear(done.stderr, "no room for the host and so many nodes")
+        self.assertClear(done.stderr, "too few slots for the host and the nodes")
 
     @needs_mpi
     def test_a_half_of_the_job_alone(self):

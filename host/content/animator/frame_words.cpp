@@ -18,7 +18,8 @@ constexpr const char* kEaseRemedy = "write --ease 0.4,0,0.6,1";
 std::uint32_t frame_of(const std::string& digits, const std::string& text) {
   const auto frame = number_in<std::uint32_t>(digits);
   if (!frame || *frame > node::kMostFrames)
-    throw Failure("is no frame", "'" + text + "'", "write a frame from 0 to 1000000, or a range: 24-48, or 24- to the end");
+    throw Failure("is no frame", "'" + text + "'",
+                  "write a frame from 0 to 1000000, or a range: 24-48, or 24- to the end");
   return *frame;
 }
 

@@ -87,7 +87,8 @@ std::string seconds(std::chrono::seconds time) { return std::to_string(time.coun
 // Why a process without an answer ended so.
 std::string reason_of(const Ending& ending, bool too_late, const ApartLimits& limits) {
   if (too_late) return "takes more than " + seconds(std::chrono::ceil<std::chrono::seconds>(limits.time)) + " to read";
-  if (ending.signal == SIGXCPU) return "takes more than " + seconds(limits.processor_time) + " of processor time to read";
+  if (ending.signal == SIGXCPU)
+    return "takes more than " + seconds(limits.processor_time) + " of processor time to read";
   if (ending.code == kHasNoMemory) return "takes more than " + mebibytes(limits.memory) + " of memory to read";
   if (ending.signal != 0) return "cannot be read: its reader crashed";
   return "cannot be read: its reader ended with code " + std::to_string(ending.code);

@@ -259,7 +259,8 @@ Finding check_start(const Trial& trial) {
   const Booted& booted = trial.booted;
   return {State::good, "a start",
           counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") + " (" +
-              booted.backend + ") booted in " + formatted("%.1f", trial.boot_seconds) + " s, rendered " + counted(trial.frames, "frame"),
+              booted.backend + ") booted in " + formatted("%.1f", trial.boot_seconds) + " s, rendered " +
+              counted(trial.frames, "frame"),
           ""};
 }
 

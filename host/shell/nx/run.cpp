@@ -40,8 +40,7 @@ NxPrograms programs_of(NxRun& job) {
   if (job.host || job.words.size() >= 2) programs.host = program_file(job.words[used++]);
   const char* remedy = used == 0 ? "" : "arguments of the programs come after --";
   if (used < job.words.size()) programs.node = program_file(job.words[used++], remedy);
-  job.arguments.insert(job.arguments.begin(),
-                           job.words.begin() + static_cast<std::ptrdiff_t>(used), job.words.end());
+  job.arguments.insert(job.arguments.begin(), job.words.begin() + static_cast<std::ptrdiff_t>(used), job.words.end());
   return programs;
 }
 

@@ -107,7 +107,7 @@ TEST(Diagnosis, ShowsTheLastOfManyWords) {
 TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {
   for (const char* words : {"There are not enough slots available in the system to satisfy the 9",
                             "All nodes which are allocated for this job are already filled."}) {
-    EXPECT_TRUE(holds(message(failed_with({words})), "no room for the host and so many nodes"));
+    EXPECT_TRUE(holds(message(failed_with({words})), "too few slots for the host and the nodes"));
   }
 }
 

@@ -93,7 +93,7 @@ TEST(Script, SaysLineAndRemedyOfWhatIsWrong) {
             "a.script:2: this line begins with 'from', which is no cue "
             "(begin with at TIME, then, after NAME, or let)");
   EXPECT_EQ(failure("at 3 gren spin"),
-            "a.script:1: this line names 'gren', who is no actor of the film (did you mean 'green'?)");
+            "a.script:1: this line names 'gren', which is no actor of the film (did you mean 'green'?)");
   EXPECT_EQ(failure("at 3 green spinn"),
             "a.script:1: this line has 'spinn', which is no action (did you mean 'spin'?)");
   EXPECT_EQ(failure("at 3 green spin axes x"),
