@@ -42,45 +42,45 @@ class Firmware {
   void send_time();
   Renderer& renderer();
 
-  InstructionSet instruction_set_;
+  simd::InstructionSet instruction_set_;
   const std::string name_;  // as in failures
-  std::optional<hal::SharedMemory> film_block_;
-  std::optional<FilmView> film_;
+  std::optional<messages::SharedMemory> film_block_;
+  std::optional<wire::FilmView> film_;
   std::optional<Renderer> renderer_;
   int groups_ = 1;
   std::vector<std::byte> command_;  // the one at hand
 };
 
 Firmware::Firmware(const NodeIdentity& identity)
-    : instruction_set_(best_instruction_set(identity.simd)),
+    : instruction_set_(simd::best_instruction_set(identity.simd)),
       name_(identity.host + " (node " + std::to_string(mynode()) + ")") {
-  Hello hello{};
-  hello.stamp = own_stamp();
+  wire::Hello hello{};
+  hello.stamp = wire::own_stamp();
   hello.node = static_cast<std::int32_t>(mynode());
-  hello.machine = hal::neighbourhood().machine;
-  hello.rank = hal::neighbourhood().rank;
+  hello.machine = messages::neighbourhood().machine;
+  hello.rank = messages::neighbourhood().rank;
   hello.seat = identity.seat;
   hello.memory = identity.memory;
   copy_text(identity.host, hello.host);
   copy_text(identity.binding, hello.binding);
-  copy_text(name_of(instruction_set_), hello.simd);
-  csend(kHello, &hello, sizeof hello, myhost(), 0);
+  copy_text(simd::name_of(instruction_set_), hello.simd);
+  csend(wire::kHello, &hello, sizeof hello, myhost(), 0);
 }
 
 void Firmware::obey() {
   for (;;) {
     led(0);
-    cprobe(any_of(kLoad, kRender, kCredit, kStop, kClock));
+    cprobe(wire::any_of(wire::kLoad, wire::kRender, wire::kCredit, wire::kStop, wire::kClock));
     led(1);
     switch (infotype()) {
-      case kLoad: load(); break;
-      case kRender: render(); break;
-      case kCredit: renderer().outbox().receive_credit(); break;
-      case kStop:
-        check_size("Stop", receive(kStop).size(), 0);
+      case wire::kLoad: load(); break;
+      case wire::kRender: render(); break;
+      case wire::kCredit: renderer().outbox().receive_credit(); break;
+      case wire::kStop:
+        wire::check_size("Stop", receive(wire::kStop).size(), 0);
         if (renderer_) renderer_->finish();
         return;
-      case kClock: send_time(); break;
+      case wire::kClock: send_time(); break;
     }
   }
 }
@@ -94,38 +94,38 @@ std::span<const std::byte> Firmware::receive(long type) {
 
 // The machine's first node takes the film from the host; the others read it there.
 void Firmware::load() {
-  const auto [load, machines] = read_load(receive(kLoad), static_cast<int>(numnodes()), name_);
+  const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
   film_block_.emplace(load.film_bytes);
   const auto block = film_block_->bytes();
-  if (hal::neighbourhood().index == 0) receive_film(block);
+  if (messages::neighbourhood().index == 0) receive_film(block);
   gsync();
   film_.emplace(block, "film", true);
   renderer_.emplace(*film_, load, machines, instruction_set_);
   groups_ = load.groups;
-  command_.reserve(sizeof(Render) + film_->settings().frames * sizeof(std::uint32_t));
-  csend(kLoaded, nullptr, 0, myhost(), 0);
+  command_.reserve(sizeof(wire::Render) + film_->settings().frames * sizeof(std::uint32_t));
+  csend(wire::kLoaded, nullptr, 0, myhost(), 0);
 }
 
 void Firmware::receive_film(std::span<std::byte> block) {
   while (!block.empty()) {
-    const std::size_t bytes = std::min<std::size_t>(block.size(), kFilmPiece);
-    crecv(kFilmBlock, block.data(), static_cast<long>(bytes));
-    check_size("FilmBlock", static_cast<std::size_t>(infocount()), bytes);
+    const std::size_t bytes = std::min<std::size_t>(block.size(), wire::kFilmPiece);
+    crecv(wire::kFilmBlock, block.data(), static_cast<long>(bytes));
+    wire::check_size("FilmBlock", static_cast<std::size_t>(infocount()), bytes);
     block = block.subspan(bytes);
   }
 }
 
 void Firmware::render() {
   Renderer& renderer = this->renderer();
-  const auto [command, frames] = read_render(receive(kRender), *film_, static_cast<int>(mynode()),
+  const auto [command, frames] = wire::read_render(receive(wire::kRender), *film_, static_cast<int>(mynode()),
                                              static_cast<int>(numnodes()), groups_);
   renderer.render(command, frames);
 }
 
 void Firmware::send_time() {
-  check_size("Clock", receive(kClock).size(), 0);
+  wire::check_size("Clock", receive(wire::kClock).size(), 0);
   const double now = dclock();
-  csend(kClock, &now, sizeof now, myhost(), 0);
+  csend(wire::kClock, &now, sizeof now, myhost(), 0);
 }
 
 Renderer& Firmware::renderer() {
@@ -134,12 +134,12 @@ Renderer& Firmware::renderer() {
 }
 
 void Firmware::report_fault(const std::string& reason) {
-  Fault fault{};
+  wire::Fault fault{};
   fault.node = static_cast<std::int32_t>(mynode());
   if (renderer_) renderer_->send_trace();
   fault.frame = renderer_ ? static_cast<std::int32_t>(renderer_->frame()) : -1;
   copy_text(reason, fault.reason);
-  csend(kFault, &fault, sizeof fault, myhost(), 0);
+  csend(wire::kFault, &fault, sizeof fault, myhost(), 0);
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ void run_node(const NodeIdentity& identity) {
     firmware.obey();
   } catch (const std::exception& failure) {
     firmware.report_fault(reason_of(failure));
-    crecv(kStop, nullptr, 0);  // the host ends the run; leaving first would take the reason with it
+    crecv(wire::kStop, nullptr, 0);  // the host ends the run; leaving first would take the reason with it
     throw;
   }
 }

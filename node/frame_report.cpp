@@ -6,10 +6,10 @@
 
 namespace mars::node {
 
-void FrameReport::begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval) {
+void FrameReport::begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t interval) {
   begin_ = clock_ = dclock();
-  hal::record_frame(static_cast<std::int32_t>(frame));
-  sent_before_ = hal::traffic().to_nodes.bytes;
+  messages::record_frame(static_cast<std::int32_t>(frame));
+  sent_before_ = messages::traffic().to_nodes.bytes;
   strip_ = {};
   strip_.frame = frame;
   strip_.interval = interval;
@@ -17,26 +17,26 @@ void FrameReport::begin(FrameKind kind, std::uint32_t frame, std::uint32_t inter
   strip_.node = static_cast<std::int32_t>(mynode());
 }
 
-void FrameReport::clock(Phase phase) {
+void FrameReport::clock(wire::Phase phase) {
   const double now = dclock();
   strip_.times.*kPhaseTimes[static_cast<std::size_t>(phase)] += now - clock_;
-  hal::record_span(static_cast<int>(phase), clock_, now);
+  messages::record_span(static_cast<int>(phase), clock_, now);
   clock_ = now;
 }
 
 void FrameReport::skip_clock() { clock_ = dclock(); }
 
-void FrameReport::set_strip(const LineRange& lines, bool last, std::uint64_t memory) {
+void FrameReport::set_strip(const geometry::LineRange& lines, bool last, std::uint64_t memory) {
   strip_.last = last ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;
   strip_.work.memory = memory;
-  strip_.work.bytes_to_nodes = hal::traffic().to_nodes.bytes - sent_before_;
+  strip_.work.bytes_to_nodes = messages::traffic().to_nodes.bytes - sent_before_;
 }
 
 void FrameReport::end() const {
-  const Phase whole = is_keyframe() ? Phase::keyframe : Phase::inbetween;
-  hal::record_span(static_cast<int>(whole), begin_, clock_, strip_.interval);
+  const wire::Phase whole = is_keyframe() ? wire::Phase::keyframe : wire::Phase::inbetween;
+  messages::record_span(static_cast<int>(whole), begin_, clock_, strip_.interval);
 }
 
 }  // namespace mars::node

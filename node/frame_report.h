@@ -10,29 +10,29 @@
 namespace mars::node {
 
 // Where PhaseTimes has each step, by Phase.
-inline constexpr std::array kPhaseTimes{&PhaseTimes::dice,     &PhaseTimes::sum,  &PhaseTimes::map,
-                                        &PhaseTimes::exchange, &PhaseTimes::fill, &PhaseTimes::scanline,
-                                        &PhaseTimes::depth,    &PhaseTimes::credit};
+inline constexpr std::array kPhaseTimes{&wire::PhaseTimes::dice,     &wire::PhaseTimes::sum,  &wire::PhaseTimes::map,
+                                        &wire::PhaseTimes::exchange, &wire::PhaseTimes::fill, &wire::PhaseTimes::scanline,
+                                        &wire::PhaseTimes::depth,    &wire::PhaseTimes::credit};
 
 class FrameReport {
  public:
   // A new frame. Its clock starts.
-  void begin(FrameKind kind, std::uint32_t frame, std::uint32_t interval);
+  void begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t interval);
   // Adds the time since the last call to `phase`, and records it as a span.
-  void clock(Phase phase);
+  void clock(wire::Phase phase);
   // The time since the last call is no phase's, or somebody else has added it.
   void skip_clock();
   // Prepares the header of the frame's next strip; `memory`: bytes in use at the peak.
-  void set_strip(const LineRange& lines, bool last, std::uint64_t memory);
+  void set_strip(const geometry::LineRange& lines, bool last, std::uint64_t memory);
   // Records the frame as a span.
   void end() const;
 
-  Strip& strip() { return strip_; }
-  const Strip& strip() const { return strip_; }
-  bool is_keyframe() const { return strip_.kind == FrameKind::keyframe; }
+  wire::Strip& strip() { return strip_; }
+  const wire::Strip& strip() const { return strip_; }
+  bool is_keyframe() const { return strip_.kind == wire::FrameKind::keyframe; }
 
  private:
-  Strip strip_{};
+  wire::Strip strip_{};
   std::uint64_t sent_before_ = 0;  // bytes to nodes
   double begin_ = 0;
   double clock_ = 0;

@@ -8,7 +8,7 @@
 
 namespace mars::node {
 
-Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines, InstructionSet set)
+Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set)
     : scene_(film),
       mapping_(load.mapping),
       tessellator_(set),
@@ -27,14 +27,14 @@ Renderer::Renderer(const FilmView& film, const Load& load, std::span<const std::
   if (load.traced == 1) tracer_.emplace();
 }
 
-void Renderer::render(const Render& command, std::span<const std::uint32_t> frames) {
+void Renderer::render(const wire::Render& command, std::span<const std::uint32_t> frames) {
   const auto inbetweens = frames.subspan(1);
   begin_interval(command, inbetweens);
-  draw_frame(FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count});
+  draw_frame(wire::FrameKind::keyframe, command.interval, frames.front(), {command.group_first, command.group_count});
   const int self = static_cast<int>(mynode());
   for (std::size_t k = 0; k < inbetweens.size() && !outbox_.stopped(); ++k)
-    if (command.group_first + contributor_of_inbetween(command.first_inbetween + k, command.group_count) == self)
-      draw_frame(FrameKind::inbetween, command.interval, inbetweens[k], {self, 1});
+    if (command.group_first + wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count) == self)
+      draw_frame(wire::FrameKind::inbetween, command.interval, inbetweens[k], {self, 1});
 }
 
 void Renderer::send_trace() {
@@ -46,25 +46,25 @@ void Renderer::finish() {
   if (tracer_) tracer_->finish();
 }
 
-void Renderer::begin_interval(const Render& command, std::span<const std::uint32_t> inbetweens) {
+void Renderer::begin_interval(const wire::Render& command, std::span<const std::uint32_t> inbetweens) {
   scene_.set_interval(command.interval);
   moving_line_bounds_ = scene_.moving_line_bounds(inbetweens);
   std::ranges::fill(contributes_, std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k)
-    contributes_[static_cast<std::size_t>(contributor_of_inbetween(command.first_inbetween + k, command.group_count))] = 1;
+    contributes_[static_cast<std::size_t>(wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count))] = 1;
 }
 
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes
 // them with moving parts only, by one node, which is the home of all lines.
-void Renderer::draw_frame(FrameKind kind, std::uint32_t interval, std::uint32_t frame, const hal::Group& group) {
+void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group) {
   group_ = group;
   report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
   Tessellation own = tessellate_all();
-  Pass pass{0, map_to_homes(own.made)};
+  group::Pass pass{0, map_to_homes(own.made)};
   for (; pass.number < pass.count; ++pass.number) {
     if (pass.count > 1) own = tessellate_part(pass);
-    const LineBoxes boxes = exchange_triangles(own.polygons, pass);
+    const raster::LineBoxes boxes = exchange_triangles(own.polygons, pass);
     draw_lines(boxes, own.polygons.triangles, pass);
     if (!pass.is_last()) send_trace();
   }
@@ -84,9 +84,9 @@ Tessellation Renderer::tessellate_all() {
 }
 
 // For passes, triangles of some lines are made again.
-Tessellation Renderer::tessellate_part(const Pass& pass) {
+Tessellation Renderer::tessellate_part(const group::Pass& pass) {
   arena_.clear();
-  mark_lines(homes(), pass, wanted_lines_);
+  group::mark_lines(homes(), pass, wanted_lines_);
   const Tessellation own = tessellate();
   check(own.all_stored, "a pass's triangles fit the memory planned for it");
   return own;
@@ -96,63 +96,63 @@ Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
   const Tessellation own =
       tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_}, arena_, report_.strip().work);
-  report_.clock(Phase::dice);
+  report_.clock(wire::Phase::dice);
   return own;
 }
 
-std::uint32_t Renderer::map_to_homes(const MadeCounts& made) {
-  sums_.add_up(group_, line_counts_, own_bytes(made, group_));
+std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
+  sums_.add_up(group_, line_counts_, group::own_bytes(made, group_));
   report_.strip().edge_box_total = sums_.ebc().back();
-  report_.clock(Phase::sum);
-  map_lines(mapping_, sums_.ebc(), homes());
-  report_.strip().load_ratio = load_ratio(sums_.ebc(), homes());
-  const std::uint32_t passes = agree_on_passes(
+  report_.clock(wire::Phase::sum);
+  group::map_lines(mapping_, sums_.ebc(), homes());
+  report_.strip().load_ratio = group::load_ratio(sums_.ebc(), homes());
+  const std::uint32_t passes = group::agree_on_passes(
       {group_, sums_.ebc(), homes(), sums_.own_bytes(), line_counts_, made.triangles}, arena_.size());
   report_.strip().work.passes = passes;
-  report_.clock(Phase::map);
+  report_.clock(wire::Phase::map);
   return passes;
 }
 
 // Edge boxes of all nodes on the caller's lines. While others' are on their way, the own ones are put into their lines.
-LineBoxes Renderer::exchange_triangles(const Polygons& own, const Pass& pass) {
+raster::LineBoxes Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
   const auto homes_now = std::span(pass_homes_).first(homes().size());
-  std::ranges::transform(homes(), homes_now.begin(), [&](const LineRange& home) { return part_of(home, pass); });
+  std::ranges::transform(homes(), homes_now.begin(), [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
   triangle_exchange_.send_triangles(group_, own, homes_now, line_counts_, arena_);
-  report_.clock(Phase::exchange);
-  LineFiller filler(homes_now[member()], sums_.ebc(), own.triangles, arena_);
+  report_.clock(wire::Phase::exchange);
+  raster::LineFiller filler(homes_now[member()], sums_.ebc(), own.triangles, arena_);
   filler.add(own);
-  report_.clock(Phase::fill);
+  report_.clock(wire::Phase::fill);
   for (int number = 1; number < group_.count; ++number) {
-    const Polygons others = triangle_exchange_.receive_triangles(group_, number, arena_);
-    report_.clock(Phase::exchange);
+    const raster::Polygons others = triangle_exchange_.receive_triangles(group_, number, arena_);
+    report_.clock(wire::Phase::exchange);
     filler.add(others);
-    report_.clock(Phase::fill);
+    report_.clock(wire::Phase::fill);
   }
-  const LineBoxes boxes = filler.finish();
+  const raster::LineBoxes boxes = filler.finish();
   report_.strip().work.edge_boxes += boxes.boxes.size();
   return boxes;
 }
 
-void Renderer::draw_lines(const LineBoxes& boxes, const Triangle* triangles, const Pass& pass) {
-  const Shading shades = shading(triangles);
+void Renderer::draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles, const group::Pass& pass) {
+  const shading::Shading shades = shading(triangles);
   const bool constant = boxes.any_stationary();
-  LineRange strip{boxes.lines.first, boxes.lines.first};
+  geometry::LineRange strip{boxes.lines.first, boxes.lines.first};
   do {
-    StripBuffer& buffer = outbox_.begin(constant);
-    report_.clock(Phase::credit);
+    raster::StripBuffer& buffer = outbox_.begin(constant);
+    report_.clock(wire::Phase::credit);
     strip = {strip.last, draw_strip(boxes, strip.last, shades, buffer)};
-    report_.clock(Phase::scanline);
+    report_.clock(wire::Phase::scanline);
     const bool drawn = strip.last == boxes.lines.last;
     if (drawn) finish_exchange(pass);
     send_strip(strip, drawn && pass.is_last());
   } while (strip.last < boxes.lines.last);
 }
 
-std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& shading,
-                                   StripBuffer& out) {
+std::uint32_t Renderer::draw_strip(const raster::LineBoxes& boxes, std::uint32_t first, const shading::Shading& shading,
+                                   raster::StripBuffer& out) {
   std::uint32_t line = first;
   while (line < boxes.lines.last && out.lines_that_fit() > 0) {
-    const LineRange part{line, std::min(line + out.lines_that_fit(), boxes.lines.last)};
+    const geometry::LineRange part{line, std::min(line + out.lines_that_fit(), boxes.lines.last)};
     if (report_.is_keyframe())
       z_buffer_.draw_keyframe(boxes, part, shading, moving_line_bounds_, czb_, out);
     else
@@ -162,15 +162,15 @@ std::uint32_t Renderer::draw_strip(const LineBoxes& boxes, std::uint32_t first, 
   return line;
 }
 
-void Renderer::finish_exchange(const Pass& pass) {
+void Renderer::finish_exchange(const group::Pass& pass) {
   triangle_exchange_.finish();
-  report_.clock(Phase::exchange);
+  report_.clock(wire::Phase::exchange);
   if (!pass.is_last() || !report_.is_keyframe() || group_.count == 1) return;
   depth_exchange_.complete({group_, homes(), moving_line_bounds_, contributes_}, czb_);
-  report_.clock(Phase::depth);
+  report_.clock(wire::Phase::depth);
 }
 
-void Renderer::send_strip(const LineRange& lines, bool last) {
+void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.set_strip(lines, last, arena_.peak());
   outbox_.send(report_.strip());
   ++report_.strip().number;
@@ -179,7 +179,7 @@ void Renderer::send_strip(const LineRange& lines, bool last) {
 
 std::size_t Renderer::member() const { return static_cast<std::size_t>(mynode() - group_.first); }
 
-Shading Renderer::shading(const Triangle* triangles) const {
+shading::Shading Renderer::shading(const geometry::Triangle* triangles) const {
   return {triangles, scene_.film().materials().data(), scene_.lights().data(),
           static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }

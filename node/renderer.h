@@ -26,63 +26,63 @@ namespace mars::node {
 class Renderer {
  public:
   // `machines`: each node's. Collective over a machine's nodes.
-  Renderer(const FilmView& film, const Load& load, std::span<const std::int32_t> machines, InstructionSet set);
+  Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set);
 
   // Draws the caller's share of `frames` (see Render) and sends it.
-  void render(const Render& command, std::span<const std::uint32_t> frames);
+  void render(const wire::Render& command, std::span<const std::uint32_t> frames);
 
   // Sends what was recorded so far, where the run is traced.
   void send_trace();
   // When there are no more frames: waits until what was sent is gone.
   void finish();
 
-  Outbox& outbox() { return outbox_; }
+  group::Outbox& outbox() { return outbox_; }
   // The frame at hand, for a fault's report.
   std::uint32_t frame() const { return report_.strip().frame; }
 
  private:
-  void begin_interval(const Render& command, std::span<const std::uint32_t> inbetweens);
-  void draw_frame(FrameKind kind, std::uint32_t interval, std::uint32_t frame, const hal::Group& group);
+  void begin_interval(const wire::Render& command, std::span<const std::uint32_t> inbetweens);
+  void draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group);
 
   Tessellation tessellate_all();
-  Tessellation tessellate_part(const Pass& pass);
+  Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
   // Returns the number of passes.
-  std::uint32_t map_to_homes(const MadeCounts& made);
-  LineBoxes exchange_triangles(const Polygons& own, const Pass& pass);
-  void draw_lines(const LineBoxes& boxes, const Triangle* triangles, const Pass& pass);
+  std::uint32_t map_to_homes(const group::MadeCounts& made);
+  raster::LineBoxes exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
+  void draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles, const group::Pass& pass);
   // Draws lines from `first` on until the strip is full or all are drawn; one past the last of them.
-  std::uint32_t draw_strip(const LineBoxes& boxes, std::uint32_t first, const Shading& shading, StripBuffer& out);
+  std::uint32_t draw_strip(const raster::LineBoxes& boxes, std::uint32_t first, const shading::Shading& shading, raster::StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
-  void finish_exchange(const Pass& pass);
-  void send_strip(const LineRange& lines, bool last);
+  void finish_exchange(const group::Pass& pass);
+  void send_strip(const geometry::LineRange& lines, bool last);
 
   std::size_t member() const;  // the caller's index in the group
-  std::span<LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
-  Shading shading(const Triangle* triangles) const;
+  std::span<geometry::LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
+  shading::Shading shading(const geometry::Triangle* triangles) const;
 
   std::optional<Tracer> tracer_;
-  Scene scene_;
-  Mapping mapping_;
+  geometry::Scene scene_;
+  wire::Mapping mapping_;
   Tessellator tessellator_;
-  Arena arena_;
-  ZBuffer z_buffer_;
-  Czb czb_;
-  GroupSums sums_;
-  TriangleExchange triangle_exchange_;
-  DepthExchange depth_exchange_;
-  Outbox outbox_;
+  raster::Arena arena_;
+  raster::ZBuffer z_buffer_;
+  raster::Czb czb_;
+  group::GroupSums sums_;
+  group::TriangleExchange triangle_exchange_;
+  group::DepthExchange depth_exchange_;
+  group::Outbox outbox_;
 
   // Of the interval at hand.
-  LineRange moving_line_bounds_;           // in its inbetweens
+  geometry::LineRange moving_line_bounds_;           // in its inbetweens
   std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
 
   // Of the frame at hand.
-  hal::Group group_;                        // that draws it
+  collectives::Group group_;                        // that draws it
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<std::uint8_t> wanted_lines_;
-  std::vector<LineRange> homes_;
-  std::vector<LineRange> pass_homes_;
+  std::vector<geometry::LineRange> homes_;
+  std::vector<geometry::LineRange> pass_homes_;
   FrameReport report_;
 };
 

@@ -29,27 +29,27 @@ struct LineTable {
 };
 
 struct Tessellation {
-  Polygons polygons;
-  MadeCounts made;  // on wanted lines, whether stored or not
+  raster::Polygons polygons;
+  group::MadeCounts made;  // on wanted lines, whether stored or not
   bool all_stored;  // else memory was short
 };
 
 class Tessellator {
  public:
-  explicit Tessellator(InstructionSet set);
+  explicit Tessellator(simd::InstructionSet set);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
   // keyframe, of the moving ones in an inbetween. They lie in `arena`. Sets `lines.counts`, and the patches and
   // vertices of `work`.
-  Tessellation tessellate(const Scene& scene, FrameKind kind, const Scatter& scatter, const LineTable& lines,
-                          Arena& arena, WorkCounts& work);
+  Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter, const LineTable& lines,
+                          raster::Arena& arena, wire::WorkCounts& work);
 
  private:
-  void add(const Scene& scene, bool moving, const Scatter& scatter, SetUps& out, WorkCounts& work);
+  void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out, wire::WorkCounts& work);
 
-  InstructionSet instruction_set_;
-  Dicer dicer_;
-  MeshletPlacer placer_;
+  simd::InstructionSet instruction_set_;
+  shape::Dicer dicer_;
+  geometry::MeshletPlacer placer_;
 };
 
 }  // namespace mars::node

@@ -12,7 +12,7 @@ std::size_t events_planned() { return 1024 + 12 * static_cast<std::size_t>(numno
 
 }  // namespace
 
-Tracer::Tracer() : recorder_(events_planned(), kTrace) {}
+Tracer::Tracer() : recorder_(events_planned(), wire::kTrace) {}
 
 void Tracer::send() {
   if (message_ >= 0 && msgdone(message_) == 0) return;
@@ -28,7 +28,7 @@ void Tracer::finish() {
 
 void Tracer::send_half(bool last) {
   const auto events = recorder_.turn(last);
-  message_ = isend(kTrace, events.data(), static_cast<long>(events.size_bytes()), myhost(), 0);
+  message_ = isend(wire::kTrace, events.data(), static_cast<long>(events.size_bytes()), myhost(), 0);
 }
 
 }  // namespace mars::node

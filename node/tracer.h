@@ -19,7 +19,7 @@ class Tracer {
  private:
   void send_half(bool last);
 
-  hal::Recorder recorder_;
+  messages::Recorder recorder_;
   long message_ = -1;  // -1: nothing on the way
 };
 

@@ -10,7 +10,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 namespace {
 
 constexpr char kCall[] = "an exchange of parcels";
@@ -64,20 +64,20 @@ void CrystalRouter::split(const Load& from, Load& wanted, Load& others, const Wa
 }
 
 void CrystalRouter::send(int to, const Load& load) {
-  process().send_internal(to, load.buffer.data(), load.size);
+  messages::process().send_internal(to, load.buffer.data(), load.size);
 }
 
-Ticket CrystalRouter::start(int to, const Load& load) {
-  return process().start_internal(to, load.buffer.data(), load.size);
+messages::Ticket CrystalRouter::start(int to, const Load& load) {
+  return messages::process().start_internal(to, load.buffer.data(), load.size);
 }
 
 // Behind what is there.
 void CrystalRouter::receive(int from, Load& load) {
-  load.size += process().receive_internal(kCall, from, load.buffer, load.size);
+  load.size += messages::process().receive_internal(kCall, from, load.buffer, load.size);
 }
 
 void CrystalRouter::by_crystal(const Group& group) {
-  const int me = process().backend().rank() - group.first;
+  const int me = messages::process().backend().rank() - group.first;
   const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(group.count)));
   const auto position = [&](const Head& head) { return head.to - group.first; };
   if (me >= corners) {
@@ -91,9 +91,9 @@ void CrystalRouter::by_crystal(const Group& group) {
     split(held_, out_, next_,
           [&](const Head& head) { return ((position(head) & (corners - 1)) & bit) != (me & bit); });
     std::swap(held_, next_);
-    const Ticket sending = start(group.first + (me ^ bit), out_);
+    const messages::Ticket sending = start(group.first + (me ^ bit), out_);
     receive(group.first + (me ^ bit), held_);
-    process().wait_sent(sending);
+    messages::process().wait_sent(sending);
   }
   if (!folds) return;
   split(held_, out_, next_, [&](const Head& head) { return position(head) != me; });
@@ -102,7 +102,7 @@ void CrystalRouter::by_crystal(const Group& group) {
 }
 
 void CrystalRouter::directly(const Group& group) {
-  const int me = process().backend().rank() - group.first;
+  const int me = messages::process().backend().rank() - group.first;
   loads_.resize(std::max(loads_.size(), static_cast<std::size_t>(group.count)));
   for (Load& load : loads_) load.size = 0;
   visit(held_, [&](const Head& head, const std::byte* bytes) {
@@ -116,12 +116,12 @@ void CrystalRouter::directly(const Group& group) {
   }
   std::swap(held_, loads_[static_cast<std::size_t>(me)]);
   for (int i = 1; i < group.count; ++i) receive(group.first + (me + group.count - i) % group.count, held_);
-  for (const Ticket ticket : tickets_) process().wait_sent(ticket);
+  for (const messages::Ticket ticket : tickets_) messages::process().wait_sent(ticket);
 }
 
 // First the lengths, then the loads.
 bool CrystalRouter::by_network(const Group& group) {
-  Backend& backend = process().backend();
+  messages::Backend& backend = messages::process().backend();
   const auto count = static_cast<std::size_t>(group.count);
   if (group != Group{0, backend.nodes()}) return false;
   lengths_.assign(2 * count, 0);
@@ -131,7 +131,7 @@ bool CrystalRouter::by_network(const Group& group) {
   to_.resize(count);
   from_.resize(count);
   for (std::size_t i = 0; i < count; ++i) to_[i] = from_[i] = {i * sizeof(std::size_t), sizeof(std::size_t)};
-  if (!process().all_to_all(lengths_.data(), to_, lengths_.data() + count, from_)) return false;
+  if (!messages::process().all_to_all(lengths_.data(), to_, lengths_.data() + count, from_)) return false;
   std::size_t sent = 0, received = 0;
   for (std::size_t i = 0; i < count; ++i) {
     to_[i] = {std::exchange(sent, sent + lengths_[i]), lengths_[i]};
@@ -151,7 +151,7 @@ bool CrystalRouter::by_network(const Group& group) {
   });
   if (held_.buffer.size() < received) held_.buffer.resize(received);
   held_.size = received;
-  return process().all_to_all(out_.buffer.data(), to_, held_.buffer.data(), from_);
+  return messages::process().all_to_all(out_.buffer.data(), to_, held_.buffer.data(), from_);
 }
 
 std::span<const Parcel> CrystalRouter::sorted() {
@@ -167,16 +167,16 @@ std::span<const Parcel> CrystalRouter::sorted() {
 std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<const Parcel> parcels,
                                                 Route route) {
   DimensionExchange membership(kCall, group);  // fails on who is no member
-  const int me = process().backend().rank();
+  const int me = messages::process().backend().rank();
   held_.size = 0;
   for (const Parcel& parcel : parcels) {
     check(group.first <= parcel.node && parcel.node < group.first + group.count,
           "a parcel is for a node of the group");
     add(held_, {me, parcel.node, parcel.bytes.size()}, parcel.bytes.data());
   }
-  if (route == Route::automatic && process().collectives() == CollectiveMethod::network)
+  if (route == Route::automatic && messages::process().collectives() == messages::CollectiveMethod::network)
     route = Route::network;
-  if (route == Route::automatic && process().collectives() == CollectiveMethod::cube) route = Route::crystal;
+  if (route == Route::automatic && messages::process().collectives() == messages::CollectiveMethod::cube) route = Route::crystal;
   if (route == Route::automatic && group.count >= kFewNodes) {
     auto most = static_cast<unsigned long>(held_.size), work = 0ul;
     reduce(membership, operation<unsigned long, higher>, &most, 1, &work);
@@ -190,4 +190,4 @@ std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<co
   return sorted();
 }
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

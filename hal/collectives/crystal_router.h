@@ -11,7 +11,7 @@
 #include "hal/collectives/group.h"
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 
 // Bytes for a node, or from one; ids.
 struct Parcel {
@@ -55,7 +55,7 @@ class CrystalRouter {
   template <class Wanted>
   static void split(const Load& from, Load& wanted, Load& others, const Wanted& is_wanted);
   static void send(int to, const Load& load);
-  static Ticket start(int to, const Load& load);
+  static messages::Ticket start(int to, const Load& load);
   static void receive(int from, Load& load);
 
   void by_crystal(const Group& group);
@@ -65,10 +65,10 @@ class CrystalRouter {
 
   Load held_, next_, out_;
   std::vector<Load> loads_;  // by position
-  std::vector<ByteRange> to_, from_;
+  std::vector<messages::ByteRange> to_, from_;
   std::vector<std::size_t> lengths_;
-  std::vector<Ticket> tickets_;
+  std::vector<messages::Ticket> tickets_;
   std::vector<Parcel> parcels_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -7,7 +7,7 @@
 #include "hal/messages/call_failure.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 namespace {
 
 // From here on a copy costs more than what it takes to do without one.
@@ -18,11 +18,11 @@ constexpr char kSpoilt = 0;
 }  // namespace
 
 DimensionExchange::DimensionExchange(const char* call, const Group& group)
-    : call_(call), process_(process()), group_(group) {
-  const Backend& backend = process_.backend();
+    : call_(call), process_(messages::process()), group_(group) {
+  const messages::Backend& backend = process_.backend();
   const int rank = backend.rank();
   if (rank == backend.host())
-    process_.fail(call, kNoSuchNode, "the host takes no part in collectives", "call it on nodes only");
+    process_.fail(call, messages::kNoSuchNode, "the host takes no part in collectives", "call it on nodes only");
   check(0 <= group.first && 0 < group.count && group.first + group.count <= backend.nodes(),
         "a group lies within the nodes");
   position_ = rank - group.first;
@@ -50,7 +50,7 @@ void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, v
     send(with, out, out_bytes);
     receive(with, in, in_bytes);
   } else {
-    const Ticket ticket = process_.start_internal(group_.first + with, out, out_bytes);
+    const messages::Ticket ticket = process_.start_internal(group_.first + with, out, out_bytes);
     receive(with, in, in_bytes);
     process_.wait_sent(ticket);
   }
@@ -60,10 +60,10 @@ void DimensionExchange::check_came(int from, std::size_t came, std::size_t bytes
   if (came == bytes) return;
   const char* remedy = "all nodes call the same collectives in the same order with the same lengths";
   if (came == spoilt_length(bytes))
-    return spoil(kBadLength, std::string("another node's ") + call_ + " failed", remedy);
-  spoil(kBadLength,
-        rank_name(group_.first + from, process_.backend().host()) + " gave " + bytes_text(came) + " where " +
-            bytes_text(bytes) + " belong",
+    return spoil(messages::kBadLength, std::string("another node's ") + call_ + " failed", remedy);
+  spoil(messages::kBadLength,
+        messages::rank_name(group_.first + from, process_.backend().host()) + " gave " + messages::bytes_text(came) + " where " +
+            messages::bytes_text(bytes) + " belong",
         remedy);
 }
 
@@ -73,4 +73,4 @@ void DimensionExchange::spoil(int code, const std::string& what, const std::stri
 
 void DimensionExchange::fail() const { process_.fail(call_, fault_->code, fault_->what, fault_->remedy); }
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

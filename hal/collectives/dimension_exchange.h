@@ -10,9 +10,11 @@
 
 #include "hal/collectives/group.h"
 
-namespace mars::hal {
-
+namespace mars::messages {
 class Process;
+}
+
+namespace mars::collectives {
 
 class DimensionExchange {
  public:
@@ -51,11 +53,11 @@ class DimensionExchange {
   [[noreturn]] void fail() const;
 
   const char* call_;
-  Process& process_;
+  messages::Process& process_;
   Group group_;
   int position_ = 0;
   int corners_ = 1;
   std::optional<Fault> fault_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::hal {
+namespace mars::collectives {
 namespace {
 
 // The parts of a run of positions.
@@ -48,4 +48,4 @@ void gather(DimensionExchange& exchange, void* y, const std::vector<std::size_t>
   }
 }
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

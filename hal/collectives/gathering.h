@@ -6,10 +6,10 @@
 
 #include "hal/collectives/dimension_exchange.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 
 // The part of position p is bytes [offsets[p], offsets[p + 1]) of y. Gathers all parts on all nodes, each node's own
 // being in place already. All members call with the same offsets.
 void gather(DimensionExchange& exchange, void* y, const std::vector<std::size_t>& offsets);
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

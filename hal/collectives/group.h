@@ -1,7 +1,7 @@
 // Nodes [first, first + count), which work on one interval together.
 #pragma once
 
-namespace mars::hal {
+namespace mars::collectives {
 
 struct Group {
   int first = 0;
@@ -16,4 +16,4 @@ constexpr Group group_of(int nodes, int groups, int number) {
   return {first, nodes * (number + 1) / groups - first};
 }
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -5,7 +5,7 @@
 #include "hal/collectives/reduction.h"
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 namespace {
 
 void reduce_in(const char* call, const Group& group, const Operation& operation, std::span<double> values,
@@ -26,4 +26,4 @@ void group_high(const Group& group, std::span<double> values, std::span<double> 
   reduce_in("group_high", group, operation<double, higher>, values, work);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

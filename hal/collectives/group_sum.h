@@ -7,7 +7,7 @@
 
 #include "hal/collectives/group.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 
 // Element-wise sum of every member's `values`, left in `values` on all of them. All members call, in the
 // same order, with equal lengths; `work` is as long as `values`. Every member gets the same bits. Order of
@@ -19,4 +19,4 @@ void group_sum(const Group& group, std::span<double> values, std::span<double> w
 // Element-wise maximum, likewise.
 void group_high(const Group& group, std::span<double> values, std::span<double> work);
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -2,7 +2,7 @@
 
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 namespace {
 
 // Bytes from which on sharing the work is worth twice the messages: docs/messages.md has the measurements.
@@ -68,10 +68,10 @@ void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::
 
 }  // namespace
 
-bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x,
+bool reduce_by_network(const DimensionExchange& exchange, const messages::Reduction& reduction, void* x,
                        std::size_t n) {
-  Process& self = process();
-  if (self.collectives() != CollectiveMethod::network || exchange.spoilt()) return false;
+  messages::Process& self = messages::process();
+  if (self.collectives() != messages::CollectiveMethod::network || exchange.spoilt()) return false;
   return exchange.count() == self.backend().nodes() && self.reduce(reduction, x, n);
 }
 
@@ -96,4 +96,4 @@ void reduce(DimensionExchange& exchange, const Operation& operation, void* x, st
   if (exchange.folds()) exchange.send(me + corners, x, bytes);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -10,7 +10,7 @@
 #include "hal/collectives/dimension_exchange.h"
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 
 // An operation on `n` elements: x = x op theirs, or theirs op x where mine is not first; `theirs` may be
 // changed.
@@ -37,9 +37,9 @@ inline constexpr auto higher = [](auto a, auto b) { return a < b ? b : a; };
 
 // By the network's own means if the process's collectives are to be so, the backend has them and all nodes
 // take part; false: nothing was done. The order is then the network's.
-bool reduce_by_network(const DimensionExchange& exchange, const Reduction& reduction, void* x, std::size_t n);
+bool reduce_by_network(const DimensionExchange& exchange, const messages::Reduction& reduction, void* x, std::size_t n);
 
 // `x` and `work` have `n` elements; all members call, with the same n.
 void reduce(DimensionExchange& exchange, const Operation& operation, void* x, std::size_t n, void* work);
 
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -3,7 +3,7 @@
 #include "hal/fortran/fortran.h"
 #include "hal/nx/nx_files.h"
 
-using namespace mars::hal::fortran;
+using namespace mars::fortran;
 
 extern "C" {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::hal::fortran {
+namespace mars::fortran {
 
 using Integer = std::int32_t;
 using CharacterLength = std::size_t;
@@ -24,4 +24,4 @@ inline std::string text(const char* characters, CharacterLength length) {
   return std::string(all.substr(0, all.find_last_not_of(' ') + 1));
 }
 
-}  // namespace mars::hal::fortran
+}  // namespace mars::fortran

@@ -5,7 +5,7 @@
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 
-using namespace mars::hal::fortran;
+using namespace mars::fortran;
 
 namespace {
 

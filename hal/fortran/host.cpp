@@ -2,7 +2,7 @@
 #include "hal/fortran/fortran.h"
 #include "hal/nx/nx_host.h"
 
-using namespace mars::hal::fortran;
+using namespace mars::fortran;
 
 extern "C" {
 

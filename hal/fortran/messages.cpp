@@ -3,7 +3,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/nx_paragon.h"
 
-using namespace mars::hal::fortran;
+using namespace mars::fortran;
 
 namespace {
 

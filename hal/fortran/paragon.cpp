@@ -8,7 +8,7 @@
 
 #include "hal/fortran/fortran.h"
 
-using namespace mars::hal::fortran;
+using namespace mars::fortran;
 
 namespace {
 

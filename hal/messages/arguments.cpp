@@ -3,7 +3,7 @@
 #include "hal/messages/call_failure.h"
 #include "hal/messages/message_types.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 // Failures are apart from the checks, which are the quicker for it.
@@ -89,4 +89,4 @@ ReceiveBuffer check_receive_buffer(const Caller& caller, const char* call, void*
   return {buffer, check_buffer(caller, call, buffer, length)};
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

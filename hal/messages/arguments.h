@@ -7,7 +7,7 @@
 #include "hal/messages/caller.h"
 #include "hal/messages/selection.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // Ranks [first, last), without the sender if it is one of several.
 struct Receivers {
@@ -40,4 +40,4 @@ ReceiveBuffer check_receive_buffer(const Caller& caller, const char* call, void*
 // "1 byte", "7 bytes".
 std::string bytes_text(std::size_t bytes);
 
-}  // namespace mars::hal
+}  // namespace mars::messages

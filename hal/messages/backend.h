@@ -14,7 +14,7 @@
 
 #include "hal/messages/neighbourhood.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 struct Envelope {
   int from = 0;
@@ -111,4 +111,4 @@ class Backend {
   [[noreturn]] virtual void abort(const std::string& reason) = 0;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

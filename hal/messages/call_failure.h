@@ -6,7 +6,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // What can be wrong with a call: the numbers that nx_errno.h has under NX's names (hal/nx/guard.cpp compares
 // them).
@@ -29,4 +29,4 @@ class CallFailure : public Failure {
   int code;  // a CallError, or an errno of the system
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -2,7 +2,7 @@
 
 #include "hal/messages/call_failure.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 std::string rank_name(int rank, int host) {
   return rank == host ? "the host" : "node " + std::to_string(rank);
@@ -12,4 +12,4 @@ void Caller::fail(const char* call, int code, const std::string& what, const std
   throw CallFailure(code, what, rank_name(backend_.rank(), backend_.host()) + ", " + call, remedy);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

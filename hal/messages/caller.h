@@ -5,7 +5,7 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class Caller {
  public:
@@ -29,4 +29,4 @@ class Caller {
 // "node 3" or "the host".
 std::string rank_name(int rank, int host);
 
-}  // namespace mars::hal
+}  // namespace mars::messages

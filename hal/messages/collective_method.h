@@ -1,7 +1,7 @@
 // By which means the nodes' collectives work.
 #pragma once
 
-namespace mars::hal {
+namespace mars::messages {
 
 enum class CollectiveMethod {
   automatic,  // what was measured to be quicker: docs/messages.md
@@ -9,4 +9,4 @@ enum class CollectiveMethod {
   network,    // the network's own, where the backend has them
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

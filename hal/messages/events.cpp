@@ -1,6 +1,6 @@
 #include "hal/messages/events.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 EventBuffer::EventBuffer(const Backend& backend, std::size_t capacity, int silent_type)
     : backend_(backend), capacity_(capacity), silent_type_(silent_type), events_(2 * (capacity + 1)) {}
@@ -31,4 +31,4 @@ std::span<const Event> EventBuffer::turn(bool last) {
   return full;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

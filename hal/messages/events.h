@@ -9,7 +9,7 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // Plain and little-endian, for processes send events to each other.
 struct Event {
@@ -64,4 +64,4 @@ class EventBuffer {
   std::int32_t frame_ = -1;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

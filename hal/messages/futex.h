@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <ctime>
 
-namespace mars::hal {
+namespace mars::messages {
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "processes share these");
 
@@ -19,4 +19,4 @@ inline void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t
   syscall(SYS_futex, reinterpret_cast<std::uint32_t*>(&word), operation, value, timeout, nullptr, 0);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

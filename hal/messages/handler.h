@@ -3,7 +3,7 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // Either of two forms, or none.
 struct Handler {
@@ -19,4 +19,4 @@ struct Handler {
   }
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

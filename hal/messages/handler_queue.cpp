@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mars::hal {
+namespace mars::messages {
 
 void HandlerQueue::sort_due(std::ptrdiff_t from) {
   std::sort(due_.begin() + from, due_.end(),
@@ -19,4 +19,4 @@ Request* HandlerQueue::next() {
 
 bool HandlerQueue::mask(bool masked) { return std::exchange(masked_, masked); }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

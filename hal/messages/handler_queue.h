@@ -8,7 +8,7 @@
 
 #include "hal/messages/requests.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class HandlerQueue {
  public:
@@ -55,4 +55,4 @@ class HandlerQueue {
   bool running_ = false;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -1,6 +1,6 @@
 #include "hal/messages/ledger.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 std::uint32_t Ledger::sent(const Envelope& to, double begin) {
   Traffic::Count& count = to.from == host_ ? traffic_.to_host : traffic_.to_nodes;
@@ -23,4 +23,4 @@ void Ledger::waited(const Envelope& came, double begin) {
 
 double Ledger::begin() const { return recorder_ == nullptr ? 0 : recorder_->now(); }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

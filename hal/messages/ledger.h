@@ -8,7 +8,7 @@
 #include "hal/messages/backend.h"
 #include "hal/messages/events.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // What a process has sent, messages inside collectives included.
 struct Traffic {
@@ -50,4 +50,4 @@ class Ledger {
   EventBuffer* recorder_ = nullptr;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

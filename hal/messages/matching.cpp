@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::hal {
+namespace mars::messages {
 
 // From the end: what is given up was often posted last.
 void Matching::unpost(const Request& request) {
@@ -15,4 +15,4 @@ Request* Matching::posted_for(const Envelope& envelope) const {
   return at == posted_.end() ? nullptr : *at;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

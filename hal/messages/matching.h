@@ -10,7 +10,7 @@
 #include "hal/messages/requests.h"
 #include "hal/messages/selection.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class Matching {
  public:
@@ -36,4 +36,4 @@ class Matching {
   std::uint64_t arrivals_ = 0;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 constexpr int kSmallestClass = 6;  // 64 bytes: a cache line
@@ -95,4 +95,4 @@ void MessagePool::grow(int size_class) {
   }
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

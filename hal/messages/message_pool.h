@@ -11,7 +11,7 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // An envelope, and behind it as many bytes as it says or more.
 struct alignas(64) Message {
@@ -72,4 +72,4 @@ class MessagePool {
   std::vector<std::unique_ptr<std::byte, FreeSlab>> slabs_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace mars::hal {
+namespace mars::messages {
 
 enum class TypeClass { ordinary, force, reserved };
 
@@ -31,4 +31,4 @@ constexpr bool selects(std::int32_t typesel, std::int32_t type) {
   return (static_cast<std::uint32_t>(typesel) >> bit & 1u) != 0;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

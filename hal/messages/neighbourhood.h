@@ -1,7 +1,7 @@
 // Which nodes are on one machine.
 #pragma once
 
-namespace mars::hal {
+namespace mars::messages {
 
 // The nodes of one node's machine.
 struct Neighbourhood {
@@ -12,4 +12,4 @@ struct Neighbourhood {
   bool placed = false;  // whoever started them gave them processors of their own: do not bind them again
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -6,7 +6,7 @@
 
 #include "hal/failure/explain.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 PrivateMemory::PrivateMemory(std::size_t bytes) {
   if (bytes == 0) return;
@@ -22,4 +22,4 @@ void PrivateMemory::prefer_large_pages() { madvise(block_.get(), block_.get_dele
 
 void PrivateMemory::Release::operator()(std::byte* block) const { munmap(block, size); }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-namespace mars::hal {
+namespace mars::messages {
 
 class PrivateMemory {
  public:
@@ -27,4 +27,4 @@ class PrivateMemory {
   std::unique_ptr<std::byte, Release> block_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -4,7 +4,7 @@
 
 #include "hal/messages/call_failure.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 // At a time, for what else there may be to look at than messages, which wake.
@@ -337,4 +337,4 @@ void Process::finish() {
   }
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

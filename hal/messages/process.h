@@ -16,7 +16,7 @@
 #include "hal/messages/collective_method.h"
 #include "hal/messages/progress.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class Process : public Progress {
  public:
@@ -129,4 +129,4 @@ double seconds();
 // What the calling process has sent so far.
 const Traffic& traffic();
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -5,7 +5,7 @@
 
 #include "hal/messages/call_failure.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 // At a time: a message wakes.
@@ -356,4 +356,4 @@ std::uint32_t Progress::take(const Envelope& envelope, void* buffer) {
   return ledger_.taken(envelope, begin);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -15,7 +15,7 @@
 #include "hal/messages/rendezvous.h"
 #include "hal/messages/requests.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class Progress : public Caller {
  public:
@@ -82,4 +82,4 @@ class Progress : public Caller {
   int quiet_turns_ = 0;     // flicks since anything arrived
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

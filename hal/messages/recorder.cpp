@@ -3,7 +3,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 Recorder::Recorder(std::size_t capacity, int silent_type)
     : process_(process()), events_(process_.backend(), capacity, silent_type) {
@@ -21,4 +21,4 @@ void record_frame(std::int32_t frame) {
   if (EventBuffer* events = process().recorder()) events->frame(frame);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

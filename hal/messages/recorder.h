@@ -9,7 +9,7 @@
 
 #include "hal/messages/events.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class Process;
 
@@ -34,4 +34,4 @@ class Recorder {
 void record_span(int what, double begin, double end, std::uint64_t value = 0);
 void record_frame(std::int32_t frame);
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -6,7 +6,7 @@
 
 #include "hal/messages/arguments.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 void Rendezvous::expect(int rank, std::uint32_t number, Request& request) {
   expected_.push_back({rank, number, &request});
@@ -59,4 +59,4 @@ void Rendezvous::report_wait(const Caller& caller, const Request& request) {
                me.c_str(), silence.count(), request.call, awaited(caller, request).c_str(), kBuffered);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

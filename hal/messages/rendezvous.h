@@ -14,7 +14,7 @@
 #include "hal/messages/message_types.h"
 #include "hal/messages/requests.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class Rendezvous {
  public:
@@ -58,4 +58,4 @@ class Rendezvous {
   bool reported_ = false;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -1,6 +1,6 @@
 #include "hal/messages/requests.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 constexpr int kSlotBits = 17;
@@ -56,4 +56,4 @@ void RequestTable::release(Request& request) {
   free_.push_back(request.slot);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -12,7 +12,7 @@
 #include "hal/messages/handler.h"
 #include "hal/messages/selection.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // How many ids one process has at once.
 inline constexpr int kMessageIds = 1 << 16;
@@ -70,4 +70,4 @@ class RequestTable {
   int ids_ = 0;                   // in use
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

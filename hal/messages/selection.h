@@ -6,15 +6,15 @@
 #include "hal/messages/backend.h"
 #include "hal/messages/message_types.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 struct Selection {
   std::int32_t typesel = -1;
   int from = -1;  // -1: any rank
 
   bool selects(const Envelope& envelope) const {
-    return hal::selects(typesel, envelope.type) && (from == -1 || from == envelope.from);
+    return messages::selects(typesel, envelope.type) && (from == -1 || from == envelope.from);
   }
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

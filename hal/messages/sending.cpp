@@ -1,7 +1,7 @@
 // How messages leave.
 #include "hal/messages/progress.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 void Progress::send_now(const char* call, const Outgoing& message) {
   if (!rendezvous_.concerns(message.type, message.length)) return send_copies(message, nullptr);
@@ -55,4 +55,4 @@ void Progress::acknowledge(const Envelope& envelope, std::uint32_t number) {
   ledger_.sent({envelope.from, acknowledgement_, sizeof number}, begin);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -11,7 +11,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
@@ -156,4 +156,4 @@ std::string settings_text() {
   return text;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

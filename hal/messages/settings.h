@@ -10,7 +10,7 @@
 
 #include "hal/messages/collective_method.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 struct Setting {
   const char* name;
@@ -55,4 +55,4 @@ std::vector<std::string> unknown_settings();
 // The table as text, for help and documentation.
 std::string settings_text();
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -8,7 +8,7 @@
 
 #include "hal/messages/neighbourhood.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // Of the calling node.
 Neighbourhood neighbourhood();
@@ -29,4 +29,4 @@ class SharedMemory {
   std::size_t size_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -6,7 +6,7 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class World {
  public:
@@ -44,4 +44,4 @@ class World {
   virtual void wait_for_end() = 0;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

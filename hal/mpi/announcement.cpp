@@ -5,7 +5,7 @@
 
 #include "hal/mpi/mpi_call.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 constexpr char kMark[] = "MARS announces a message of so many bytes:\x01\xfe\x02";
@@ -48,4 +48,4 @@ BytesType::BytesType(std::size_t bytes) {
 
 BytesType::~BytesType() { MPI_Type_free(&type_); }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -10,7 +10,7 @@
 
 #include <mpi.h>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 // Of a length that few messages have, for those are looked at more closely.
 struct Announcement {
@@ -41,4 +41,4 @@ class BytesType {
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

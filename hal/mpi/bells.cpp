@@ -7,7 +7,7 @@
 #include "hal/messages/futex.h"
 #include "hal/mpi/mpi_call.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
 static_assert(std::atomic<std::int32_t>::is_always_lock_free, "processes share these");
 
@@ -48,7 +48,7 @@ void Bells::ring(int id) {
   if (bell == nullptr) return;
   std::atomic_thread_fence(std::memory_order_seq_cst);
   if (bell->armed.load(std::memory_order_relaxed) == 0) return;
-  if (bell->armed.exchange(0) == 1) futex(bell->armed, FUTEX_WAKE, 1, nullptr);
+  if (bell->armed.exchange(0) == 1) messages::futex(bell->armed, FUTEX_WAKE, 1, nullptr);
 }
 
 void Bells::arm() {
@@ -60,7 +60,7 @@ bool Bells::armed() const { return mine_->armed.load(std::memory_order_relaxed) 
 
 void Bells::sleep(std::chrono::microseconds longest) {
   const timespec timeout{0, static_cast<long>(std::chrono::nanoseconds(longest).count())};
-  futex(mine_->armed, FUTEX_WAIT, 1, &timeout);
+  messages::futex(mine_->armed, FUTEX_WAIT, 1, &timeout);
 }
 
 void Bells::await(std::int32_t type) {
@@ -76,4 +76,4 @@ bool Bells::claim(int id, std::int32_t type) {
 
 void Bells::take_down() { MPI_Win_free(&window_); }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

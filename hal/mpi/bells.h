@@ -11,7 +11,7 @@
 
 #include <mpi.h>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 class Bells {
  public:
@@ -54,4 +54,4 @@ class Bells {
   std::vector<Bell*> of_;  // by id; null: on another machine
 };
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -4,7 +4,7 @@
 
 #include "hal/mpi/mpi_call.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
 Control::Control(MPI_Comm ranks) : id_(rank_in(ranks)), ended_(static_cast<std::size_t>(size_of(ranks))) {
   succeed(MPI_Comm_dup(ranks, &comm_), "MPI_Comm_dup");
@@ -65,4 +65,4 @@ void Control::ask_all() {
     if (id != id_) send(id, {Note::ask, 0, 0});
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -11,7 +11,7 @@
 
 #include <mpi.h>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 class Control {
  public:
@@ -73,4 +73,4 @@ class Control {
   int still_rounds_ = 0;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -24,7 +24,7 @@
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
@@ -60,9 +60,9 @@ class JoinedBackend : public MpiBackend {
 
   bool has_host() const override { return host_; }
   void send(int to, int type, const void* data, std::size_t length) override;
-  std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override;
-  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
-  std::optional<Envelope> peek() override;
+  std::optional<messages::Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override;
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  std::optional<messages::Envelope> peek() override;
   void idle(int turn, std::chrono::microseconds longest) override;
 
  private:
@@ -70,11 +70,11 @@ class JoinedBackend : public MpiBackend {
   const bool host_;
 };
 
-class MpiWorld final : public World {
+class MpiWorld final : public messages::World {
  public:
   MpiWorld(std::optional<bool> host, bool two_threads);
 
-  Backend& backend() override;
+  messages::Backend& backend() override;
   bool is_host() const override { return has_host_ && rank_ == 0; }
   void leave(int code) override;
   [[noreturn]] void fail(const std::string& reason) override;
@@ -118,17 +118,17 @@ void JoinedBackend::send(int to, int type, const void* data, std::size_t length)
   MpiBackend::send(to, type, data, length);
 }
 
-std::optional<Ticket> JoinedBackend::send_or_start(int to, int type, const void* data, std::size_t length) {
+std::optional<messages::Ticket> JoinedBackend::send_or_start(int to, int type, const void* data, std::size_t length) {
   world_.begin();
   return MpiBackend::send_or_start(to, type, data, length);
 }
 
-Ticket JoinedBackend::start_send(int to, int type, const void* data, std::size_t length) {
+messages::Ticket JoinedBackend::start_send(int to, int type, const void* data, std::size_t length) {
   world_.begin();
   return MpiBackend::start_send(to, type, data, length);
 }
 
-std::optional<Envelope> JoinedBackend::peek() {
+std::optional<messages::Envelope> JoinedBackend::peek() {
   world_.begin();
   return MpiBackend::peek();
 }
@@ -192,7 +192,7 @@ void MpiWorld::make_cube() {
   control_.emplace(by_id);
 }
 
-Backend& MpiWorld::backend() {
+messages::Backend& MpiWorld::backend() {
   if (backend_ == nullptr) make_cube();
   if (!begun_ && !is_host()) await_start();
   return *backend_;
@@ -247,13 +247,13 @@ void MpiWorld::kill(int node) {
   for (int id = first; id < last; ++id)
     while (runs(id) && std::chrono::steady_clock::now() < deadline) wait_for_end();
   std::vector<std::byte> nothing;
-  while (const std::optional<Envelope> next = backend_->MpiBackend::peek()) {
+  while (const std::optional<messages::Envelope> next = backend_->MpiBackend::peek()) {
     nothing.resize(next->length);
     backend_->take(nothing.data());
   }
 }
 
-World::Status MpiWorld::status(int node) {
+messages::World::Status MpiWorld::status(int node) {
   backend();
   look(false);
   if (!started_[static_cast<std::size_t>(node)]) return {State::nothing, 0};
@@ -271,7 +271,7 @@ void MpiWorld::look(bool waits) {
   if (control_->killed() && !left_) end_now(-SIGKILL);
   if (control_->stands_still())
     fail("every process waits for a message, and none is on its way; " +
-         rank_name(backend_->rank(), has_host_ ? backend_->host() : -1) + " has ended with exit code " +
+         messages::rank_name(backend_->rank(), has_host_ ? backend_->host() : -1) + " has ended with exit code " +
          std::to_string(*left_));
 }
 
@@ -295,7 +295,7 @@ void MpiWorld::leave(int code) {
     left_ = code;
     if (has_host_ && !is_host()) control_->report_end(backend_->host(), code);
     if (code > 0) control_->watch();
-    process().finish();
+    messages::process().finish();
   }
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Ibarrier(MPI_COMM_WORLD, &request), "MPI_Ibarrier");
@@ -314,8 +314,8 @@ void MpiWorld::fail(const std::string& reason) {
 
 }  // namespace
 
-std::unique_ptr<World> join_mpi(std::optional<bool> host, bool two_threads) {
+std::unique_ptr<messages::World> join_mpi(std::optional<bool> host, bool two_threads) {
   return std::make_unique<MpiWorld>(host, two_threads);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

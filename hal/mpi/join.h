@@ -8,10 +8,10 @@
 
 #include "hal/messages/world.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
 // Collective over all ranks. `host`: whether rank 0 is the host; none: it is if its program is no other
 // rank's. `two_threads` of this program are to make NX calls, one at a time: a Failure where MPI forbids it.
-std::unique_ptr<World> join_mpi(std::optional<bool> host, bool two_threads);
+std::unique_ptr<messages::World> join_mpi(std::optional<bool> host, bool two_threads);
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

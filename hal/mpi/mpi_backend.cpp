@@ -16,7 +16,7 @@
 #include "topology/machine.h"
 #include "topology/placement.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 constexpr std::size_t kAlignment = 64;
@@ -116,9 +116,9 @@ MpiBackend::~MpiBackend() {
   MPI_Comm_free(&all_);
 }
 
-double MpiBackend::seconds() const { return mpi_waits_well() ? MPI_Wtime() : machine_seconds(); }
+double MpiBackend::seconds() const { return mpi_waits_well() ? MPI_Wtime() : messages::machine_seconds(); }
 
-Neighbourhood MpiBackend::neighbourhood() {
+messages::Neighbourhood MpiBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");
   return neighbourhood_;
 }
@@ -198,4 +198,4 @@ bool MpiBackend::finish() {
 
 void MpiBackend::abort(const std::string& reason) { abort_job(reason); }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

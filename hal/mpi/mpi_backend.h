@@ -16,9 +16,9 @@
 #include "hal/mpi/bells.h"
 #include "hal/mpi/overflow.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
-class MpiBackend : public Backend {
+class MpiBackend : public messages::Backend {
  public:
   // Collective over `ranks`, among which `host_rank` is the host's; -1: there is none. Nodes get their ids by
   // place.
@@ -31,18 +31,18 @@ class MpiBackend : public Backend {
   int rank() const override { return rank_; }
   int nodes() const override { return nodes_; }
   void send(int to, int type, const void* data, std::size_t length) override;
-  std::optional<Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override;
-  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
-  bool sent(Ticket ticket) override;
-  std::optional<Envelope> peek() override;
+  std::optional<messages::Ticket> send_or_start(int to, int type, const void* data, std::size_t length) override;
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(messages::Ticket ticket) override;
+  std::optional<messages::Envelope> peek() override;
   void take(void* buffer) override;
-  bool receive_soon(int type, void* buffer, std::size_t capacity, Envelope& came) override;
-  std::optional<Ticket> start_reduce(const Reduction& reduction, void* x, std::size_t n) override;
-  std::optional<Ticket> start_all_to_all(const void* out, std::span<const ByteRange> to, void* in,
-                                         std::span<const ByteRange> from) override;
+  bool receive_soon(int type, void* buffer, std::size_t capacity, messages::Envelope& came) override;
+  std::optional<messages::Ticket> start_reduce(const messages::Reduction& reduction, void* x, std::size_t n) override;
+  std::optional<messages::Ticket> start_all_to_all(const void* out, std::span<const messages::ByteRange> to, void* in,
+                                         std::span<const messages::ByteRange> from) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override;
-  Neighbourhood neighbourhood() override;
+  messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
@@ -58,7 +58,7 @@ class MpiBackend : public Backend {
   // A copy on its way.
   struct Pending {
     MPI_Request request;
-    Message* message;
+    messages::Message* message;
   };
   enum class Ending { not_yet, counting, leaving, ended };
 
@@ -67,16 +67,16 @@ class MpiBackend : public Backend {
   MPI_Request isend(int to, int type, const void* data, std::size_t length);
   MPI_Request isend_plain(int to, int tag, const void* data, std::size_t length);
   void announce(int to, int type, std::size_t length);
-  Message* with_type(std::int32_t type, const void* data, std::size_t length);
-  void open(const Envelope& whole, int tag);
-  Envelope open_wide(const Envelope& whole);
-  void receive(void* buffer, const Envelope& envelope, int tag);
-  void receive_body(void* buffer, const Envelope& envelope);
+  messages::Message* with_type(std::int32_t type, const void* data, std::size_t length);
+  void open(const messages::Envelope& whole, int tag);
+  messages::Envelope open_wide(const messages::Envelope& whole);
+  void receive(void* buffer, const messages::Envelope& envelope, int tag);
+  void receive_body(void* buffer, const messages::Envelope& envelope);
   void reclaim_some();
-  Ticket ticket_for(MPI_Request request);
-  Ticket ticket_of_collective(MPI_Request request);
-  void send_copy(int to, int type, Message* copy);
-  void release_when_sent(MPI_Request request, Message* copy);
+  messages::Ticket ticket_for(MPI_Request request);
+  messages::Ticket ticket_of_collective(MPI_Request request);
+  void send_copy(int to, int type, messages::Message* copy);
+  void release_when_sent(MPI_Request request, messages::Message* copy);
   bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
   bool catch_soon(int type, MPI_Status& status);
   bool give_up(MPI_Request& request, MPI_Status& status);
@@ -99,18 +99,18 @@ class MpiBackend : public Backend {
   std::size_t longest_plain_ = 0;  // messages that are longer are announced
   bool oversubscribed_ = false;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
-  Neighbourhood neighbourhood_;
+  messages::Neighbourhood neighbourhood_;
 
-  MessagePool pool_;
+  messages::MessagePool pool_;
   std::vector<Pending> pending_;
   std::size_t next_pending_ = 0;      // to look at
   std::vector<MPI_Request> tickets_;  // by ticket
-  std::vector<Ticket> free_tickets_;
+  std::vector<messages::Ticket> free_tickets_;
   std::vector<int> counts_;  // of an all-to-all under way: lengths to, offsets to, lengths from, offsets from
   std::vector<std::byte>
       operands_;  // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
-  std::optional<Envelope> peeked_;
-  Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
+  std::optional<messages::Envelope> peeked_;
+  messages::Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length
   bool announced_ = false;     // the peeked message's bytes are still to be received
   Overflow caught_;            // where messages come whose length is not known before
 
@@ -121,4 +121,4 @@ class MpiBackend : public Backend {
   std::int64_t expected_ = 0;  // messages sent to this rank in all
 };
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

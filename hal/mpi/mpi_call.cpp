@@ -5,7 +5,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
 void fail_in_mpi(int code, const char* call) {
   char reason[MPI_MAX_ERROR_STRING] = "";
@@ -40,4 +40,4 @@ void abort_job(const std::string& reason) {
   std::_Exit(1);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -5,7 +5,7 @@
 
 #include <mpi.h>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 // Throws a Failure naming `call` and MPI's own reason for `code`.
 [[noreturn]] void fail_in_mpi(int code, const char* call);
@@ -23,4 +23,4 @@ int rank_in(MPI_Comm comm);
 // Prints `reason` on standard error and ends all ranks with exit code 1, waiting for none.
 [[noreturn]] void abort_job(const std::string& reason);
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -8,55 +8,55 @@
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
-MPI_Datatype datatype(Reduction::Element element) {
+MPI_Datatype datatype(messages::Reduction::Element element) {
   switch (element) {
-    case Reduction::Element::real64:
+    case messages::Reduction::Element::real64:
       return MPI_DOUBLE;
-    case Reduction::Element::real32:
+    case messages::Reduction::Element::real32:
       return MPI_FLOAT;
-    case Reduction::Element::whole:
+    case messages::Reduction::Element::whole:
       return MPI_LONG;
   }
   return MPI_DATATYPE_NULL;
 }
 
-MPI_Op operation(Reduction::Rule rule) {
+MPI_Op operation(messages::Reduction::Rule rule) {
   switch (rule) {
-    case Reduction::Rule::sum:
+    case messages::Reduction::Rule::sum:
       return MPI_SUM;
-    case Reduction::Rule::product:
+    case messages::Reduction::Rule::product:
       return MPI_PROD;
-    case Reduction::Rule::high:
+    case messages::Reduction::Rule::high:
       return MPI_MAX;
-    case Reduction::Rule::low:
+    case messages::Reduction::Rule::low:
       return MPI_MIN;
-    case Reduction::Rule::bit_and:
+    case messages::Reduction::Rule::bit_and:
       return MPI_BAND;
-    case Reduction::Rule::bit_or:
+    case messages::Reduction::Rule::bit_or:
       return MPI_BOR;
-    case Reduction::Rule::bit_xor:
+    case messages::Reduction::Rule::bit_xor:
       return MPI_BXOR;
   }
   return MPI_OP_NULL;
 }
 
-bool fits(std::span<const ByteRange> ranges) {
+bool fits(std::span<const messages::ByteRange> ranges) {
   return std::all_of(ranges.begin(), ranges.end(),
-                     [](const ByteRange& each) { return each.offset + each.length <= INT_MAX; });
+                     [](const messages::ByteRange& each) { return each.offset + each.length <= INT_MAX; });
 }
 
 }  // namespace
 
 // Where MPI waits well, nobody need look again.
-Ticket MpiBackend::ticket_of_collective(MPI_Request request) {
+messages::Ticket MpiBackend::ticket_of_collective(MPI_Request request) {
   if (mpi_waits_well()) succeed(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
   return ticket_for(request);
 }
 
-std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void* x, std::size_t n) {
+std::optional<messages::Ticket> MpiBackend::start_reduce(const messages::Reduction& reduction, void* x, std::size_t n) {
   if (n > INT_MAX) return std::nullopt;
   const MPI_Datatype type = datatype(reduction.element);
   int bytes = 0;
@@ -70,15 +70,15 @@ std::optional<Ticket> MpiBackend::start_reduce(const Reduction& reduction, void*
   return ticket_of_collective(request);
 }
 
-std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const ByteRange> to, void* in,
-                                                   std::span<const ByteRange> from) {
+std::optional<messages::Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const messages::ByteRange> to, void* in,
+                                                   std::span<const messages::ByteRange> from) {
   if (!fits(to) || !fits(from))
     throw Failure("an exchange of more bytes than MPI carries at once", "node " + std::to_string(rank_),
                   "exchange less than 2 GB at once, or set MARS_NX_COLLECTIVES to cube");
   counts_.clear();
-  for (const std::span<const ByteRange> ranges : {to, from}) {
-    for (const ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.length));
-    for (const ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.offset));
+  for (const std::span<const messages::ByteRange> ranges : {to, from}) {
+    for (const messages::ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.length));
+    for (const messages::ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.offset));
   }
   const int* counts = counts_.data();
   const std::size_t n = to.size();
@@ -89,4 +89,4 @@ std::optional<Ticket> MpiBackend::start_all_to_all(const void* out, std::span<co
   return ticket_of_collective(request);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -12,7 +12,7 @@
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 // Every few calls look at as many of the copies on their way: all are seen soon, at a small price each.
@@ -36,13 +36,13 @@ std::size_t length_of(const MPI_Status& status) {
 // An MPI need not have tags as large as types are. Internal types have the highest but one that it has;
 // others that are too large for it have the highest, and travel behind their message's bytes.
 int MpiBackend::tag(int type) const {
-  if (type < kFirstInternalType && type <= last_tag_) return type;
-  if (type_class(type) == TypeClass::reserved) return last_tag_ + 1 + (type - kFirstInternalType);
+  if (type < messages::kFirstInternalType && type <= last_tag_) return type;
+  if (messages::type_class(type) == messages::TypeClass::reserved) return last_tag_ + 1 + (type - messages::kFirstInternalType);
   return type <= last_tag_ ? type : wide_tag_;
 }
 
 int MpiBackend::type(int tag) const {
-  return tag <= last_tag_ ? tag : kFirstInternalType + (tag - last_tag_ - 1);
+  return tag <= last_tag_ ? tag : messages::kFirstInternalType + (tag - last_tag_ - 1);
 }
 
 // Whether such a message goes as it is.
@@ -71,7 +71,7 @@ MPI_Request MpiBackend::isend_plain(int to, int tag, const void* data, std::size
 
 void MpiBackend::announce(int to, int type, std::size_t length) {
   const Announcement announcement = Announcement::of(length);
-  Message* copy = tag(type) == wide_tag_ ? with_type(type, &announcement, sizeof announcement)
+  messages::Message* copy = tag(type) == wide_tag_ ? with_type(type, &announcement, sizeof announcement)
                                          : pool_.copy({rank_, type, sizeof announcement}, &announcement);
   release_when_sent(isend_plain(to, tag(type), copy->bytes(), copy->envelope.length), copy);
 }
@@ -93,15 +93,15 @@ void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
 void MpiBackend::send(int to, int type, const void* data, std::size_t length) {
   if (tag(type) != wide_tag_ || !plain(data, length))
     return send_copy(to, type, pool_.copy({rank_, type, length}, data));
-  Message* copy = with_type(type, data, length);
+  messages::Message* copy = with_type(type, data, length);
   release_when_sent(isend_plain(to, wide_tag_, copy->bytes(), copy->envelope.length), copy);
 }
 
-void MpiBackend::send_copy(int to, int type, Message* copy) {
+void MpiBackend::send_copy(int to, int type, messages::Message* copy) {
   release_when_sent(isend(to, type, copy->bytes(), copy->envelope.length), copy);
 }
 
-void MpiBackend::release_when_sent(MPI_Request request, Message* copy) {
+void MpiBackend::release_when_sent(MPI_Request request, messages::Message* copy) {
   if (test(request)) {
     pool_.release(copy);
   } else {
@@ -111,12 +111,12 @@ void MpiBackend::release_when_sent(MPI_Request request, Message* copy) {
 }
 
 // Looks between parts of the copy whether it is needed at all.
-std::optional<Ticket> MpiBackend::send_or_start(int to, int type, const void* data, std::size_t length) {
+std::optional<messages::Ticket> MpiBackend::send_or_start(int to, int type, const void* data, std::size_t length) {
   if (length < kLong || !bells_->reaches(to) || tag(type) == wide_tag_) {
     send(to, type, data, length);
     return std::nullopt;
   }
-  Message* copy = pool_.acquire({rank_, type, length});
+  messages::Message* copy = pool_.acquire({rank_, type, length});
   for (std::size_t done = 0; done < length; done += kCopiedAtOnce) {
     if (bells_->claim(to, type)) {
       pool_.release(copy);
@@ -129,8 +129,8 @@ std::optional<Ticket> MpiBackend::send_or_start(int to, int type, const void* da
   return std::nullopt;
 }
 
-Message* MpiBackend::with_type(std::int32_t type, const void* data, std::size_t length) {
-  Message* message = pool_.acquire({rank_, type, length + sizeof type});
+messages::Message* MpiBackend::with_type(std::int32_t type, const void* data, std::size_t length) {
+  messages::Message* message = pool_.acquire({rank_, type, length + sizeof type});
   if (length > 0) std::memcpy(message->bytes(), data, length);
   std::memcpy(message->bytes() + length, &type, sizeof type);
   return message;
@@ -155,31 +155,31 @@ void MpiBackend::reclaim_some() {
   }
 }
 
-Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
+messages::Ticket MpiBackend::start_send(int to, int type, const void* data, std::size_t length) {
   if (tag(type) != wide_tag_ || !plain(data, length)) return ticket_for(isend(to, type, data, length));
   send(to, type, data, length);
   return ticket_for(MPI_REQUEST_NULL);
 }
 
-Ticket MpiBackend::ticket_for(MPI_Request request) {
+messages::Ticket MpiBackend::ticket_for(MPI_Request request) {
   if (free_tickets_.empty()) {
-    free_tickets_.push_back(static_cast<Ticket>(tickets_.size()));
+    free_tickets_.push_back(static_cast<messages::Ticket>(tickets_.size()));
     tickets_.push_back(MPI_REQUEST_NULL);
     free_tickets_.reserve(tickets_.size());
   }
-  const Ticket ticket = free_tickets_.back();
+  const messages::Ticket ticket = free_tickets_.back();
   free_tickets_.pop_back();
   tickets_[ticket] = request;
   return ticket;
 }
 
-bool MpiBackend::sent(Ticket ticket) {
+bool MpiBackend::sent(messages::Ticket ticket) {
   if (!test(tickets_[ticket])) return false;
   free_tickets_.push_back(ticket);
   return true;
 }
 
-std::optional<Envelope> MpiBackend::peek() {
+std::optional<messages::Envelope> MpiBackend::peek() {
   reclaim_some();
   if (peeked_) return peeked_;
   int arrived = 0;
@@ -190,7 +190,7 @@ std::optional<Envelope> MpiBackend::peek() {
     succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
   if (arrived == 0) return std::nullopt;
   bells_->await(Bells::kNothing);
-  peeked_ = Envelope{status.MPI_SOURCE, type(status.MPI_TAG), length_of(status)};
+  peeked_ = messages::Envelope{status.MPI_SOURCE, type(status.MPI_TAG), length_of(status)};
   if (status.MPI_TAG == wide_tag_)
     peeked_ = open_wide(*peeked_);
   else if (peeked_->length == sizeof(Announcement))
@@ -205,12 +205,12 @@ std::optional<Envelope> MpiBackend::peek() {
   return peeked_;
 }
 
-void MpiBackend::open(const Envelope& whole, int tag) {
+void MpiBackend::open(const messages::Envelope& whole, int tag) {
   opened_ = pool_.acquire(whole);
   receive(opened_->bytes(), whole, tag);
 }
 
-Envelope MpiBackend::open_wide(const Envelope& whole) {
+messages::Envelope MpiBackend::open_wide(const messages::Envelope& whole) {
   open(whole, wide_tag_);
   std::int32_t type = 0;
   const std::size_t length = whole.length - sizeof type;
@@ -218,7 +218,7 @@ Envelope MpiBackend::open_wide(const Envelope& whole) {
   return {whole.from, type, length};
 }
 
-void MpiBackend::receive(void* buffer, const Envelope& envelope, int tag) {
+void MpiBackend::receive(void* buffer, const messages::Envelope& envelope, int tag) {
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Irecv(buffer, static_cast<int>(envelope.length), MPI_BYTE, envelope.from, tag, all_, &request),
           "MPI_Irecv");
@@ -228,7 +228,7 @@ void MpiBackend::receive(void* buffer, const Envelope& envelope, int tag) {
 }
 
 // The next of its tag, for its sender has sent it right behind the announcement, and nobody has looked since.
-void MpiBackend::receive_body(void* buffer, const Envelope& envelope) {
+void MpiBackend::receive_body(void* buffer, const messages::Envelope& envelope) {
   const BytesType bytes(envelope.length);
   MPI_Request request = MPI_REQUEST_NULL;
   succeed(MPI_Irecv(buffer, 1, bytes.get(), envelope.from, tag(envelope.type), all_, &request), "MPI_Irecv");
@@ -251,7 +251,7 @@ void MpiBackend::take(void* buffer) {
 }
 
 // A short one is received without a look before. Senders of a long one learn that it need not be copied.
-bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, Envelope& came) {
+bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, messages::Envelope& came) {
   if (peeked_ || tag(type) == wide_tag_ || mpi_waits_well()) return false;
   if (capacity >= kLong || caught_.bytes() == nullptr) {
     if (!peek()) bells_->await(type);
@@ -261,12 +261,12 @@ bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, Enve
   if (!catch_soon(type, status)) return false;
   const std::size_t length = length_of(status);
   if (const auto announced = Announcement::read(caught_.bytes(), length)) {
-    peeked_ = Envelope{status.MPI_SOURCE, type, *announced};
+    peeked_ = messages::Envelope{status.MPI_SOURCE, type, *announced};
     announced_ = true;
     return false;
   }
   if (length > capacity) {
-    peeked_ = Envelope{status.MPI_SOURCE, type, length};
+    peeked_ = messages::Envelope{status.MPI_SOURCE, type, length};
     opened_ = pool_.copy(*peeked_, caught_.bytes());
     caught_.trim(length);
     if (length >= kLong) bells_->ring(peeked_->from);  // as in receive
@@ -320,4 +320,4 @@ void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
     bells_->sleep(std::min(kLongestBlindSleep, longest));
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

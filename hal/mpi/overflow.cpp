@@ -4,7 +4,7 @@
 
 #include <climits>
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 constexpr std::size_t kCapacity = INT_MAX;
@@ -26,4 +26,4 @@ void Overflow::trim(std::size_t length) {
   if (length > kRetained) madvise(bytes_ + kRetained, length - kRetained, MADV_DONTNEED);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 class Overflow {
  public:
@@ -22,4 +22,4 @@ class Overflow {
   std::byte* bytes_ = nullptr;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 struct Patience {
@@ -38,4 +38,4 @@ int turns_at_once(bool oversubscribed) { return patience(oversubscribed).at_once
 
 bool mpi_waits_well() { return false; }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <optional>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 // Makes the short sleeps of this thread short: Linux adds 50 microseconds to each unless told not to.
 void prepare_to_wait();
@@ -22,4 +22,4 @@ int turns_at_once(bool oversubscribed);
 // Whether MPI's own waiting takes no processor, as where SimGrid simulates ranks, whose time is MPI's then.
 bool mpi_waits_well();
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -6,7 +6,7 @@
 
 #include "hal/mpi/mpi_call.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
 // One rank runs at a time, and gives way to others in calls of SimGrid and MPI only.
 struct Bells::Bell {
@@ -48,4 +48,4 @@ void Bells::take_down() {
   delete mine_;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

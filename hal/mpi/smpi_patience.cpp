@@ -1,7 +1,7 @@
 // Of ranks that SimGrid simulates: a sleep that a bell ends takes nobody's time.
 #include "hal/mpi/patience.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 
 void prepare_to_wait() {}
 
@@ -11,4 +11,4 @@ int turns_at_once(bool) { return 0; }
 
 bool mpi_waits_well() { return true; }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

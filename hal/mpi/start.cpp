@@ -16,7 +16,7 @@
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 struct Roles {
@@ -59,8 +59,8 @@ int run_rank(Role role, const std::function<int()>& body, std::string& name) {
     return 1;
   }
   MpiBackend backend(roles.host_rank);
-  name = rank_name(backend.rank(), backend.host());
-  Process process(backend);
+  name = messages::rank_name(backend.rank(), backend.host());
+  messages::Process process(backend);
   const int code = body();
   process.finish();
   return code;
@@ -92,4 +92,4 @@ int run_mpi(int& argc, char**& argv, Role role, const std::function<int(int argc
   return code;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace mars::hal {
+namespace mars::mpi {
 
 enum class Role {
   host,
@@ -19,4 +19,4 @@ enum class Role {
 // failure is printed on standard error and all ranks are ended, with exit code 1.
 int run_mpi(int& argc, char**& argv, Role role, const std::function<int(int argc, char** argv)>& body);
 
-}  // namespace mars::hal
+}  // namespace mars::mpi

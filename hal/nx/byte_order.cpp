@@ -6,14 +6,14 @@ namespace {
 
 template <class Number>
 void to_cube(Number array[], long n) {
-  mars::hal::reorder(std::span(array, n > 0 ? static_cast<std::size_t>(n) : 0), mars::hal::kHostOrder,
-                     mars::hal::kNodeOrder);
+  mars::nx::reorder(std::span(array, n > 0 ? static_cast<std::size_t>(n) : 0), mars::nx::kHostOrder,
+                     mars::nx::kNodeOrder);
 }
 
 template <class Number>
 void to_host(Number array[], long n) {
-  mars::hal::reorder(std::span(array, n > 0 ? static_cast<std::size_t>(n) : 0), mars::hal::kNodeOrder,
-                     mars::hal::kHostOrder);
+  mars::nx::reorder(std::span(array, n > 0 ? static_cast<std::size_t>(n) : 0), mars::nx::kNodeOrder,
+                     mars::nx::kHostOrder);
 }
 
 }  // namespace

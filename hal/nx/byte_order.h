@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace mars::hal {
+namespace mars::nx {
 
 // Of this machine's kind, and so of its host programs and of its nodes.
 inline constexpr std::endian kHostOrder = std::endian::native;
@@ -18,4 +18,4 @@ void reorder(std::span<Number> numbers, std::endian from, std::endian to) {
   for (Number& number : numbers) std::ranges::reverse(std::as_writable_bytes(std::span(&number, 1)));
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -1,6 +1,6 @@
 #include "hal/nx/call_lock.h"
 
-namespace mars::hal {
+namespace mars::nx {
 
 void CallLock::need(std::mutex* mutex) {
   if (depth_ > 0 && mutex_ != nullptr) mutex_->unlock();
@@ -8,4 +8,4 @@ void CallLock::need(std::mutex* mutex) {
   if (depth_ > 0 && mutex_ != nullptr) mutex_->lock();
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

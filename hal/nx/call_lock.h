@@ -5,7 +5,7 @@
 
 #include <mutex>
 
-namespace mars::hal {
+namespace mars::nx {
 
 class CallLock {
  public:
@@ -26,4 +26,4 @@ class CallLock {
   static constinit inline thread_local std::mutex* mutex_ = nullptr;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -5,8 +5,8 @@
 #include "hal/nx/pid.h"
 #include "topology/hypercube.h"
 
-using mars::hal::plain;
-using mars::hal::process;
+using mars::nx::plain;
+using mars::messages::process;
 
 extern "C" {
 
@@ -83,7 +83,7 @@ long numnodes(void) {
 long nodedim(void) {
   return plain([]() -> long { return mars::topology::dimension(process().backend().nodes()); });
 }
-long mypid(void) { return mars::hal::own_pid; }
+long mypid(void) { return mars::nx::own_pid; }
 long myhost(void) {
   return plain([]() -> long { return process().backend().host(); });
 }
@@ -92,7 +92,7 @@ long myhost(void) {
 long gray(long n) { return mars::topology::gray(static_cast<int>(n & 0x7fffffff)); }
 long ginv(long code) { return mars::topology::inverse_gray(static_cast<int>(code & 0x7fffffff)); }
 
-double dclock(void) { return mars::hal::seconds(); }
+double dclock(void) { return mars::messages::seconds(); }
 unsigned long mclock(void) { return static_cast<unsigned long>(dclock() * 1000); }
 void hwclock(esize_t* ticks) {
   const auto count = static_cast<long long>(dclock() * 1e9);

@@ -16,7 +16,7 @@
 #include "hal/collectives/group_sum.h"
 #include "hal/nx/nx_errno.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 const char* remedy(int code) {
@@ -111,7 +111,7 @@ off_t Files::move(const char* call, FilesPointer& pointer, const std::function<o
 }
 
 std::vector<Files::Word> Files::agree(const char* call, const Word& mine) const {
-  const Backend& backend = process_.backend();
+  const messages::Backend& backend = process_.backend();
   if (backend.rank() == backend.host())
     process_.fail(call, EQNODE, "the host takes no part", "call it on nodes only");
   const auto nodes = static_cast<std::size_t>(backend.nodes());
@@ -120,7 +120,7 @@ std::vector<Files::Word> Files::agree(const char* call, const Word& mine) const 
   std::vector<Word> words(nodes);
   std::vector<double> work(nodes * kParts);
   words[me] = mine;
-  group_sum({0, backend.nodes()}, {&words[0].error, work.size()}, work);
+  collectives::group_sum({0, backend.nodes()}, {&words[0].error, work.size()}, work);
   if (mine.error != 0) fail(call, static_cast<int>(mine.error));
   for (std::size_t node = 0; node < nodes; ++node) {
     const std::string name = "node " + std::to_string(node);
@@ -316,7 +316,7 @@ void Files::set_mode(const char* call, int fd, int mode) {
 
 // Node 0 makes it and says by which number; when all share in it, it needs no name on one machine.
 std::unique_ptr<FilesPointer> Files::share_pointer(const char* call, int fd) {
-  Backend& backend = process_.backend();
+  messages::Backend& backend = process_.backend();
   const bool one_machine = backend.neighbourhood().count == backend.nodes();
   std::unique_ptr<FilesPointer> pointer;
   Word word;
@@ -345,11 +345,11 @@ std::unique_ptr<FilesPointer> Files::share_pointer(const char* call, int fd) {
 }
 
 // The only extension of a process.
-Files& files_of(Process& process) {
+Files& files_of(messages::Process& process) {
   if (process.extension() == nullptr) process.extend(std::make_unique<Files>(process));
   return static_cast<Files&>(*process.extension());
 }
 
-void end_files(Process& process) { process.extend(nullptr); }
+void end_files(messages::Process& process) { process.extend(nullptr); }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

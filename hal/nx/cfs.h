@@ -17,11 +17,11 @@
 #include "hal/nx/files_pointer.h"
 #include "hal/nx/files_worker.h"
 
-namespace mars::hal {
+namespace mars::nx {
 
-class Files : public Process::Extension {
+class Files : public messages::Process::Extension {
  public:
-  explicit Files(Process& process) : process_(process) {}
+  explicit Files(messages::Process& process) : process_(process) {}
 
   long read(const char* call, int fd, void* buffer, long length);
   long write(const char* call, int fd, const void* buffer, long length);
@@ -68,14 +68,14 @@ class Files : public Process::Extension {
   off_t place(const char* call, const Shared* file, int fd) const;
   [[noreturn]] void fail(const char* call, int code) const;
 
-  Process& process_;
+  messages::Process& process_;
   FilesWorker worker_;
   std::map<int, Shared> shared_;  // by descriptor
 };
 
 // The files of `process`, made with the first call for them; they end with the process, or by end_files,
 // which waits for all transfers.
-Files& files_of(Process& process);
-void end_files(Process& process);
+Files& files_of(messages::Process& process);
+void end_files(messages::Process& process);
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -7,16 +7,16 @@
 #include "hal/nx/guard.h"
 #include "hal/nx/nx_files.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
-Files& files() { return files_of(process()); }
+Files& files() { return files_of(messages::process()); }
 
 off_t place_of(const char* call, const esize_t& size) {
   const bool fits =
       size.slow >= INT32_MIN && size.slow <= UINT32_MAX && size.shigh >= INT32_MIN && size.shigh <= INT32_MAX;
   if (!fits)
-    process().fail(call, EINVAL, "a place's parts have 32 bits each", "put what is above 32 bits into shigh");
+    messages::process().fail(call, EINVAL, "a place's parts have 32 bits each", "put what is above 32 bits into shigh");
   return static_cast<off_t>(size.shigh) * (1L << 32) + static_cast<std::uint32_t>(size.slow);
 }
 
@@ -29,9 +29,9 @@ esize_t seek(const char* call, int fd, const esize_t& offset, int whence) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx
 
-using namespace mars::hal;
+using namespace mars::nx;
 
 extern "C" {
 

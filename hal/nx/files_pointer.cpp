@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
@@ -96,4 +96,4 @@ void FilesPointer::store(const Content& content) const {
   if (::pwrite(fd_, &content, sizeof content, 0) != sizeof content) fail("writing a shared file pointer");
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -11,7 +11,7 @@
 #include <functional>
 #include <string>
 
-namespace mars::hal {
+namespace mars::nx {
 
 // Where the pointer of the file open as `fd` lies; throws std::system_error. All nodes get the same from the
 // same `tag`.
@@ -46,4 +46,4 @@ class FilesPointer {
   int fd_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <utility>
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 constexpr std::size_t kIds = 4096;  // at a time
@@ -104,4 +104,4 @@ Transferred FilesWorker::wait(long id) {
   return *jobs_.extract(id).mapped().came;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

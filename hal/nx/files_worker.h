@@ -12,7 +12,7 @@
 #include <optional>
 #include <thread>
 
-namespace mars::hal {
+namespace mars::nx {
 
 struct Transfer {
   int fd;
@@ -62,4 +62,4 @@ class FilesWorker {
   std::thread thread_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -14,7 +14,7 @@
 #include "hal/messages/process.h"
 #include "hal/nx/guard.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 // Whole numbers wrap around.
@@ -23,11 +23,11 @@ using Bits = unsigned long;
 constexpr auto product = [](auto a, auto b) { return a * b; };
 constexpr auto lower = [](auto a, auto b) { return b < a ? b : a; };
 
-Group all_nodes() { return {0, process().backend().nodes()}; }
+collectives::Group all_nodes() { return {0, messages::process().backend().nodes()}; }
 
 // What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there
 // is none.
-std::size_t checked_count(DimensionExchange& exchange, const void* x, const void* work, long n) {
+std::size_t checked_count(collectives::DimensionExchange& exchange, const void* x, const void* work, long n) {
   if (n < 0)
     exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
   if (n > 0 && x == nullptr)
@@ -38,34 +38,34 @@ std::size_t checked_count(DimensionExchange& exchange, const void* x, const void
 }
 
 template <class T>
-constexpr Reduction::Element element_of = std::is_same_v<T, double>  ? Reduction::Element::real64
-                                          : std::is_same_v<T, float> ? Reduction::Element::real32
-                                                                     : Reduction::Element::whole;
+constexpr messages::Reduction::Element element_of = std::is_same_v<T, double>  ? messages::Reduction::Element::real64
+                                          : std::is_same_v<T, float> ? messages::Reduction::Element::real32
+                                                                     : messages::Reduction::Element::whole;
 
 template <class T>
-void reduce_all(const char* call, const Operation& operation, Reduction::Rule rule, T* x, long n, T* work) {
-  DimensionExchange exchange(call, all_nodes());
+void reduce_all(const char* call, const collectives::Operation& operation, messages::Reduction::Rule rule, T* x, long n, T* work) {
+  collectives::DimensionExchange exchange(call, all_nodes());
   const std::size_t count = checked_count(exchange, x, work, n);
-  if (!reduce_by_network(exchange, {element_of<T>, rule}, x, count))
-    reduce(exchange, operation, x, count, work);
+  if (!collectives::reduce_by_network(exchange, {element_of<T>, rule}, x, count))
+    collectives::reduce(exchange, operation, x, count, work);
   exchange.conclude();
 }
 
 // Of 0 and 1, truth is a matter of bits.
 template <auto combine>
-void reduce_truths(const char* call, Reduction::Rule rule, long* x, long n, long* work) {
+void reduce_truths(const char* call, messages::Reduction::Rule rule, long* x, long n, long* work) {
   for (long i = 0; x != nullptr && i < n; ++i) x[i] = x[i] != 0;
-  reduce_all(call, operation<long, combine>, rule, x, n, work);
+  reduce_all(call, collectives::operation<long, combine>, rule, x, n, work);
 }
 
 void synchronize() {
-  DimensionExchange exchange("gsync", all_nodes());
-  reduce(exchange, operation<long, higher>, nullptr, 0, nullptr);
+  collectives::DimensionExchange exchange("gsync", all_nodes());
+  collectives::reduce(exchange, collectives::operation<long, collectives::higher>, nullptr, 0, nullptr);
   exchange.conclude();
 }
 
 // The operand of the lower position is `x` on both sides, so that both get the same bits.
-void merge_by_own(const Operation& operation, void* x, void* theirs, std::size_t, bool mine_first) {
+void merge_by_own(const collectives::Operation& operation, void* x, void* theirs, std::size_t, bool mine_first) {
   if (!mine_first) {
     auto* mine = static_cast<std::byte*>(x);
     std::swap_ranges(mine, mine + operation.element, static_cast<std::byte*>(theirs));
@@ -74,10 +74,10 @@ void merge_by_own(const Operation& operation, void* x, void* theirs, std::size_t
 }
 
 void operate_all(void* x, long xlen, void* work, nx_operation fn) {
-  DimensionExchange exchange("gopf", all_nodes());
+  collectives::DimensionExchange exchange("gopf", all_nodes());
   const std::size_t bytes = checked_count(exchange, x, work, xlen);
   if (fn == nullptr) exchange.spoil(EQPBUF, "the operation is a null pointer", "give a function");
-  reduce(exchange, {bytes, merge_by_own, fn}, x, 1, work);
+  collectives::reduce(exchange, {bytes, merge_by_own, fn}, x, 1, work);
   exchange.conclude();
 }
 
@@ -92,18 +92,18 @@ struct Scratch {
 };
 thread_local Scratch scratch;
 
-void check_buffer(DimensionExchange& exchange, const void* buffer, long length) {
+void check_buffer(collectives::DimensionExchange& exchange, const void* buffer, long length) {
   if (length < 0)
     exchange.spoil(EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
   if (length > 0 && buffer == nullptr)
     exchange.spoil(EQPBUF,
-                   "the buffer of " + bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
+                   "the buffer of " + messages::bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
                    "give a buffer, or length 0");
 }
 
 // offsets[i] = bytes before node i's part, offsets[nodes] = all, from each node's length; none where spoilt.
 template <class LengthOf>
-const std::vector<std::size_t>& add_up(const DimensionExchange& exchange, LengthOf length_of) {
+const std::vector<std::size_t>& add_up(const collectives::DimensionExchange& exchange, LengthOf length_of) {
   std::vector<std::size_t>& offsets = scratch.offsets;
   offsets.assign(static_cast<std::size_t>(exchange.count()) + 1, 0);
   for (std::size_t i = 0; i + 1 < offsets.size() && !exchange.spoilt(); ++i)
@@ -111,17 +111,17 @@ const std::vector<std::size_t>& add_up(const DimensionExchange& exchange, Length
   return offsets;
 }
 
-void concatenate(DimensionExchange& exchange, const void* x, const std::vector<std::size_t>& offsets,
+void concatenate(collectives::DimensionExchange& exchange, const void* x, const std::vector<std::size_t>& offsets,
                  void* y) {
   const auto me = static_cast<std::size_t>(exchange.position());
   const std::size_t size = offsets[me + 1] - offsets[me];
   if (size > 0) std::memmove(static_cast<std::byte*>(y) + offsets[me], x, size);
-  gather(exchange, y, offsets);
+  collectives::gather(exchange, y, offsets);
   exchange.conclude();
 }
 
 void concatenate_known(const void* x, const long* xlens, void* y) {
-  DimensionExchange exchange("gcolx", all_nodes());
+  collectives::DimensionExchange exchange("gcolx", all_nodes());
   if (xlens == nullptr)
     exchange.spoil(EQPBUF, "the lengths are a null pointer", "give the length of each node's part");
   long all = 0;
@@ -134,7 +134,7 @@ void concatenate_known(const void* x, const long* xlens, void* y) {
 
 // All nodes know all lengths and capacities before they go on, and so fail together.
 void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
-  DimensionExchange exchange("gcol", all_nodes());
+  collectives::DimensionExchange exchange("gcol", all_nodes());
   check_buffer(exchange, x, xlen);
   check_buffer(exchange, y, ylen);
   if (ncnt == nullptr)
@@ -145,13 +145,13 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   std::vector<std::size_t>& places = scratch.offsets;
   places.resize(parts.size() + 1);
   for (std::size_t i = 0; i < places.size(); ++i) places[i] = i * sizeof(Scratch::Part);
-  gather(exchange, parts.data(), places);
+  collectives::gather(exchange, parts.data(), places);
   exchange.conclude();
   const auto& offsets = add_up(exchange, [&parts](std::size_t i) { return parts[i].length; });
   const long all = static_cast<long>(offsets.back());
   for (std::size_t node = 0; node < parts.size(); ++node) {
     if (all <= parts[node].capacity) continue;
-    process().fail("gcol", EQMSGLONG,
+    messages::process().fail("gcol", EQMSGLONG,
                    "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
                        std::to_string(parts[node].capacity) + " that node " + std::to_string(node) +
                        " has room for",
@@ -163,23 +163,23 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
 
 void send_to_list(long type, const void* x, long xlen, const long* nodes, long n) {
   if (n < 0)
-    process().fail("gsendx", EQLEN, "length " + std::to_string(n) + " is negative",
+    messages::process().fail("gsendx", EQLEN, "length " + std::to_string(n) + " is negative",
                    "give the number of nodes");
   if (n > 0 && nodes == nullptr)
-    process().fail("gsendx", EQPBUF, "the nodes are a null pointer", "give a list of nodes");
-  const auto check = [&](long node) { check_send(process(), "gsendx", type, x, xlen, node, 0); };
+    messages::process().fail("gsendx", EQPBUF, "the nodes are a null pointer", "give a list of nodes");
+  const auto check = [&](long node) { messages::check_send(messages::process(), "gsendx", type, x, xlen, node, 0); };
   for (long i = 0; i < n; ++i) {
     check(nodes[i]);
     if (nodes[i] < 0)
-      process().fail("gsendx", EQNODE, "there is no node " + std::to_string(nodes[i]), "name each node");
+      messages::process().fail("gsendx", EQNODE, "there is no node " + std::to_string(nodes[i]), "name each node");
   }
-  for (long i = 0; i < n; ++i) process().csend(type, x, xlen, nodes[i], 0);
+  for (long i = 0; i < n; ++i) messages::process().csend(type, x, xlen, nodes[i], 0);
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx
 
-using namespace mars::hal;
+using namespace mars::nx;
 
 // A call and its twin.
 #define VECTOR_CALL(name, T, call)        \
@@ -190,23 +190,23 @@ using namespace mars::hal;
     return twin([&] { call; });           \
   }
 #define REDUCTION(name, T, As, combine, rule) \
-  VECTOR_CALL(name, T, (reduce_all(#name, operation<As, combine>, Reduction::Rule::rule, x, n, work)))
+  VECTOR_CALL(name, T, (reduce_all(#name, mars::collectives::operation<As, combine>, mars::messages::Reduction::Rule::rule, x, n, work)))
 #define TRUTHS(name, combine, rule) \
-  VECTOR_CALL(name, long, (reduce_truths<combine>(#name, Reduction::Rule::rule, x, n, work)))
+  VECTOR_CALL(name, long, (reduce_truths<combine>(#name, mars::messages::Reduction::Rule::rule, x, n, work)))
 
 extern "C" {
 
 REDUCTION(gdsum, double, double, std::plus<double>{}, sum)
 REDUCTION(gdprod, double, double, product, product)
-REDUCTION(gdhigh, double, double, higher, high)
+REDUCTION(gdhigh, double, double, mars::collectives::higher, high)
 REDUCTION(gdlow, double, double, lower, low)
 REDUCTION(gssum, float, float, std::plus<float>{}, sum)
 REDUCTION(gsprod, float, float, product, product)
-REDUCTION(gshigh, float, float, higher, high)
+REDUCTION(gshigh, float, float, mars::collectives::higher, high)
 REDUCTION(gslow, float, float, lower, low)
 REDUCTION(gisum, long, Bits, std::plus<Bits>{}, sum)
 REDUCTION(giprod, long, Bits, product, product)
-REDUCTION(gihigh, long, long, higher, high)
+REDUCTION(gihigh, long, long, mars::collectives::higher, high)
 REDUCTION(gilow, long, long, lower, low)
 REDUCTION(giand, long, Bits, std::bit_and<Bits>{}, bit_and)
 REDUCTION(gior, long, Bits, std::bit_or<Bits>{}, bit_or)

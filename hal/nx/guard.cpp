@@ -6,13 +6,13 @@
 #include "hal/failure/explain.h"
 #include "hal/nx/nx_errno.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 // One list of errors: its numbers here, its names for C in nx_errno.h.
-static_assert(kMessageTooLong == EQMSGLONG && kBadType == EQTYPE && kNoSuchNode == EQNODE &&
-              kNoSuchPid == EQPID && kBadLength == EQLEN && kNoSuchId == EQMID && kNoFreeId == EQNOMID &&
-              kNullBuffer == EQPBUF);
+static_assert(messages::kMessageTooLong == EQMSGLONG && messages::kBadType == EQTYPE && messages::kNoSuchNode == EQNODE &&
+              messages::kNoSuchPid == EQPID && messages::kBadLength == EQLEN && messages::kNoSuchId == EQMID && messages::kNoFreeId == EQNOMID &&
+              messages::kNullBuffer == EQPBUF);
 
 EndProgram end_program = nullptr;
 
@@ -32,15 +32,15 @@ void fail_plainly() {
   std::terminate();
 }
 
-long fail_by_errno(const CallFailure& failure) {
+long fail_by_errno(const messages::CallFailure& failure) {
   last_failure = failure.what();
   errno = failure.code;
   return -1;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx
 
 extern "C" void nx_perror(const char* text) {
-  const std::string& reason = mars::hal::last_failure;
+  const std::string& reason = mars::nx::last_failure;
   std::fprintf(stderr, "%s: %s\n", text, reason.empty() ? "no call has failed" : reason.c_str());
 }

@@ -9,7 +9,7 @@
 #include "hal/messages/call_failure.h"
 #include "hal/nx/call_lock.h"
 
-namespace mars::hal {
+namespace mars::nx {
 
 // From now on a plain call that fails calls `end` with the reason; `end` ends this program and all other
 // ranks and never returns. For C programs, set before their first call; without it plain calls throw.
@@ -19,7 +19,7 @@ void end_program_on_failure(EndProgram end);
 // For the exception at hand, in a catch clause: ends the program, or throws it again.
 [[noreturn]] void fail_plainly();
 // Stores the text for nx_perror, sets errno, returns -1.
-long fail_by_errno(const CallFailure& failure);
+long fail_by_errno(const messages::CallFailure& failure);
 
 template <class Call>
 auto plain(Call call) try {
@@ -40,10 +40,10 @@ long twin(Call call) try {
   } else {
     return static_cast<long>(call());
   }
-} catch (const CallFailure& failure) {
+} catch (const messages::CallFailure& failure) {
   return fail_by_errno(failure);
 } catch (...) {
   fail_plainly();
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -5,9 +5,9 @@
 #include "hal/messages/process.h"
 #include "hal/nx/guard.h"
 
-using mars::hal::plain;
-using mars::hal::process;
-using mars::hal::twin;
+using mars::nx::plain;
+using mars::messages::process;
+using mars::nx::twin;
 
 namespace {
 

@@ -1,8 +1,8 @@
 // The pid of a C program: what the host gave itself by setpid, 0 on nodes.
 #pragma once
 
-namespace mars::hal {
+namespace mars::nx {
 
 inline long own_pid = 0;
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -7,14 +7,14 @@
 #include "hal/nx/call_lock.h"
 #include "hal/nx/guard.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 constexpr std::chrono::microseconds kRest{500};
 
 }  // namespace
 
-ProgressThread::ProgressThread(Process& process) : process_(process) {
+ProgressThread::ProgressThread(messages::Process& process) : process_(process) {
   CallLock::need(&calls_);
   thread_ = std::thread([this] { run(); });
 }
@@ -53,4 +53,4 @@ void ProgressThread::run() try {
   }
 }
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -10,13 +10,13 @@
 
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::nx {
 
 class ProgressThread {
  public:
   // On the process's thread, as is the destructor, which waits for the handler that runs. A handler that fails ends all
   // ranks.
-  explicit ProgressThread(Process& process);
+  explicit ProgressThread(messages::Process& process);
   ~ProgressThread();
   ProgressThread(const ProgressThread&) = delete;
   ProgressThread& operator=(const ProgressThread&) = delete;
@@ -25,7 +25,7 @@ class ProgressThread {
   void run();
   bool rest();
 
-  Process& process_;
+  messages::Process& process_;
   std::mutex calls_;
   std::mutex ending_mutex_;
   std::condition_variable ending_news_;
@@ -33,4 +33,4 @@ class ProgressThread {
   std::thread thread_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -5,8 +5,8 @@
 #include "hal/nx/pid.h"
 #include "topology/hypercube.h"
 
-using mars::hal::process;
-using mars::hal::twin;
+using mars::messages::process;
+using mars::nx::twin;
 
 extern "C" {
 
@@ -84,7 +84,7 @@ long _numnodes(void) {
 long _nodedim(void) {
   return twin([] { return mars::topology::dimension(process().backend().nodes()); });
 }
-long _mypid(void) { return mars::hal::own_pid; }
+long _mypid(void) { return mars::nx::own_pid; }
 long _myhost(void) {
   return twin([] { return process().backend().host(); });
 }

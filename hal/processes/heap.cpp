@@ -7,7 +7,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::processes {
 namespace {
 
 constexpr std::uint32_t kSmallestClass = 6;  // 64 bytes: a cache line
@@ -118,4 +118,4 @@ void Heap::hollow(Block& block, Offset offset) {
   block.touched = 0;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::processes

@@ -7,7 +7,7 @@
 
 #include "hal/processes/segment.h"
 
-namespace mars::hal {
+namespace mars::processes {
 
 class Heap {
  public:
@@ -34,4 +34,4 @@ class Heap {
   std::array<Offset, 48> free_{};  // by size class, last given back first
 };
 
-}  // namespace mars::hal
+}  // namespace mars::processes

@@ -20,7 +20,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/caller.h"
 
-namespace mars::hal {
+namespace mars::processes {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -246,7 +246,7 @@ void Job::note_failure(const std::string& reason) {
   segment_.stop(reason);
 }
 
-std::string Job::name(int index) const { return rank_name(index, segment_.nodes()); }
+std::string Job::name(int index) const { return messages::rank_name(index, segment_.nodes()); }
 
 // A host may go on after a failure, when it has killed the nodes; without it nobody can.
 void Job::hurry() {
@@ -263,4 +263,4 @@ void Job::kill_all(int signal) {
   for (pid_t child; list >> child;) kill(child, SIGKILL);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::processes

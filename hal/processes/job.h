@@ -16,7 +16,7 @@
 #include "hal/processes/place.h"
 #include "hal/processes/segment.h"
 
-namespace mars::hal {
+namespace mars::processes {
 
 struct JobPlan {
   int nodes = 1;
@@ -82,4 +82,4 @@ class Job {
   std::optional<std::chrono::steady_clock::time_point> deadline_;  // for what should end by itself
 };
 
-}  // namespace mars::hal
+}  // namespace mars::processes

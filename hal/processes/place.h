@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace mars::hal {
+namespace mars::processes {
 
 struct Place {
   int index = 0;     // of its slot
@@ -30,4 +30,4 @@ struct Asking {
   char file[4096];
 };
 
-}  // namespace mars::hal
+}  // namespace mars::processes

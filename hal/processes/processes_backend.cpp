@@ -13,7 +13,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::processes {
 namespace {
 
 constexpr std::size_t kPage = 4096;
@@ -76,7 +76,7 @@ void ProcessesBackend::send(int to, int type, const void* data, std::size_t leng
 }
 
 // Were the sender to end, its buffer would be gone under the receiver's hands: a copy is needed here too.
-Ticket ProcessesBackend::start_send(int to, int type, const void* data, std::size_t length) {
+messages::Ticket ProcessesBackend::start_send(int to, int type, const void* data, std::size_t length) {
   send(to, type, data, length);
   return 0;
 }
@@ -105,12 +105,12 @@ bool ProcessesBackend::see_arrived() {
   return true;
 }
 
-std::optional<Envelope> ProcessesBackend::peek() {
+std::optional<messages::Envelope> ProcessesBackend::peek() {
   check_running();
   const Offset offset = first_seen();
   if (offset == 0) return std::nullopt;
   const Block& block = segment_.block(offset);
-  return Envelope{id(static_cast<int>(block.from)), block.type, block.length};
+  return messages::Envelope{id(static_cast<int>(block.from)), block.type, block.length};
 }
 
 void ProcessesBackend::take(void* buffer) {
@@ -141,7 +141,7 @@ void ProcessesBackend::idle(int turn, std::chrono::microseconds longest) {
   slot_.asleep = 0;
 }
 
-Neighbourhood ProcessesBackend::neighbourhood() {
+messages::Neighbourhood ProcessesBackend::neighbourhood() {
   check(rank() != host(), "the host is not one of a machine's nodes");
   return {0, rank(), nodes(), rank(), false};
 }
@@ -198,4 +198,4 @@ void ProcessesBackend::abort(const std::string& reason) {
   std::_Exit(1);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::processes

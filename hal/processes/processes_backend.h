@@ -8,9 +8,9 @@
 #include "hal/processes/heap.h"
 #include "hal/processes/segment.h"
 
-namespace mars::hal {
+namespace mars::processes {
 
-class ProcessesBackend : public Backend {
+class ProcessesBackend : public messages::Backend {
  public:
   // The rank whose slot is the `index`-th; `segment` outlives it. One a slot and time.
   ProcessesBackend(const Segment& segment, int index);
@@ -19,12 +19,12 @@ class ProcessesBackend : public Backend {
   int nodes() const override { return segment_.header().cube; }
   bool has_host() const override { return segment_.header().has_host; }
   void send(int to, int type, const void* data, std::size_t length) override;
-  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
-  bool sent(Ticket) override { return true; }
-  std::optional<Envelope> peek() override;
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(messages::Ticket) override { return true; }
+  std::optional<messages::Envelope> peek() override;
   void take(void* buffer) override;
   void idle(int turn, std::chrono::microseconds longest) override;
-  Neighbourhood neighbourhood() override;
+  messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
@@ -51,4 +51,4 @@ class ProcessesBackend : public Backend {
   bool finishing_ = false;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::processes

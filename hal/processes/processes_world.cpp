@@ -15,7 +15,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::processes {
 namespace {
 
 constexpr std::uint64_t kAlone = std::uint64_t{1} << 32;  // bytes that a node alone may send itself
@@ -31,7 +31,7 @@ class HostBackend : public ProcessesBackend {
     world_.begin();
     ProcessesBackend::send(to, type, data, length);
   }
-  std::optional<Envelope> peek() override {
+  std::optional<messages::Envelope> peek() override {
     world_.begin();
     return ProcessesBackend::peek();
   }
@@ -122,7 +122,7 @@ void ProcessesWorld::load(const std::string& file, int node) {
   if (status(node).state == State::running)
     throw Failure("node " + std::to_string(node) + " still runs another program", "",
                   "wait for its end or kill it first");
-  process().reset_peer(node);
+  messages::process().reset_peer(node);
   const int error = ask(Asking::What::load, node, program);
   if (error != 0) throw Failure(std::strerror(error), file, "");
 }
@@ -132,7 +132,7 @@ void ProcessesWorld::kill(int node) {
   if (node < 0) segment_.flush(place_.index);
 }
 
-World::Status ProcessesWorld::status(int node) {
+messages::World::Status ProcessesWorld::status(int node) {
   const Slot& slot = segment_.slot(node);
   switch (slot.life.load()) {
     case Life::none:
@@ -154,4 +154,4 @@ void ProcessesWorld::wait_for_end() {
   slot_.waiting = Waiting::no;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::processes

@@ -9,15 +9,15 @@
 #include "hal/processes/processes_backend.h"
 #include "hal/processes/segment.h"
 
-namespace mars::hal {
+namespace mars::processes {
 
-class ProcessesWorld : public World {
+class ProcessesWorld : public messages::World {
  public:
   explicit ProcessesWorld(const Place& place);
   // One node alone.
   ProcessesWorld();
 
-  Backend& backend() override { return *backend_; }
+  messages::Backend& backend() override { return *backend_; }
   bool is_host() const override { return place_.socket >= 0; }
   void leave(int code) override;
   [[noreturn]] void fail(const std::string& reason) override;
@@ -40,4 +40,4 @@ class ProcessesWorld : public World {
   bool begun_ = false;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::processes

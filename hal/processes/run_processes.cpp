@@ -7,7 +7,7 @@
 #include "hal/processes/job.h"
 #include "hal/processes/processes_backend.h"
 
-namespace mars::hal {
+namespace mars::processes {
 namespace {
 
 void print(const std::string& line) {
@@ -22,7 +22,7 @@ int run_rank(const Place& place, const std::function<int()>& body) {
   slot.life = Life::joined;
   try {
     ProcessesBackend backend(segment, place.index);
-    Process process(backend);
+    messages::Process process(backend);
     const int code = body();
     process.finish();
     slot.life = Life::left;
@@ -51,4 +51,4 @@ int run_processes(int nodes, const std::function<int()>& host_body, const std::f
   return Job(plan).run();
 }
 
-}  // namespace mars::hal
+}  // namespace mars::processes

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace mars::hal {
+namespace mars::processes {
 
 // Runs `host_body` and on each of `nodes` nodes `node_body`, each in a process of its own in which NX calls
 // work, and returns the worst exit code that they return. If one throws or dies, the reason is printed on
@@ -14,4 +14,4 @@ namespace mars::hal {
 int run_processes(int nodes, const std::function<int()>& host_body, const std::function<int()>& node_body,
                   std::uint64_t limit = std::uint64_t{1} << 32);
 
-}  // namespace mars::hal
+}  // namespace mars::processes

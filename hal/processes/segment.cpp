@@ -12,7 +12,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/futex.h"
 
-namespace mars::hal {
+namespace mars::processes {
 namespace {
 
 static_assert(std::atomic<Offset>::is_always_lock_free, "processes share these");
@@ -93,13 +93,13 @@ void Segment::flush(int index) const {
 
 void Segment::sleep(Slot& slot, std::int64_t nanoseconds) {
   const timespec timeout{nanoseconds / 1'000'000'000, nanoseconds % 1'000'000'000};
-  futex(slot.asleep, FUTEX_WAIT, 1, &timeout);
+  messages::futex(slot.asleep, FUTEX_WAIT, 1, &timeout);
 }
 
 // What it is woken for was written before; the sleeper looks for it after it has written `asleep`: one sees
 // the other.
 void Segment::wake(Slot& slot) {
-  if (slot.asleep.load() == 1 && slot.asleep.exchange(0) == 1) futex(slot.asleep, FUTEX_WAKE, 1, nullptr);
+  if (slot.asleep.load() == 1 && slot.asleep.exchange(0) == 1) messages::futex(slot.asleep, FUTEX_WAKE, 1, nullptr);
 }
 
 void Segment::wake_all() const {
@@ -127,4 +127,4 @@ void Segment::go_on() const {
   header().stopping = 0;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::processes

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <string>
 
-namespace mars::hal {
+namespace mars::processes {
 
 using Offset = std::uint64_t;  // from the segment's begin; 0: none
 
@@ -140,4 +140,4 @@ class Segment {
   Offset heaps_ = 0;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::processes

@@ -13,7 +13,7 @@
 #include "hal/nx/pid.h"
 #include "hal/program/program.h"
 
-namespace mars::hal {
+namespace mars::program {
 namespace {
 
 struct HeldCube {
@@ -30,8 +30,8 @@ std::vector<bool>::reference reported(int node) {
 }
 
 [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) {
-  if (!world().is_host()) process().fail(call, code, what, remedy);
-  throw CallFailure(code, what, std::string("the host, ") + call, remedy);
+  if (!world().is_host()) messages::process().fail(call, code, what, remedy);
+  throw messages::CallFailure(code, what, std::string("the host, ") + call, remedy);
 }
 
 void check_host(const char* call) {
@@ -131,7 +131,7 @@ void set_pid(const char* call, long pid) {
   if (pid < 0 || (pid > 0 && !world().is_host()))
     fail(call, EQPID, "pid " + std::to_string(pid) + " cannot be had",
          world().is_host() ? "the host's pid is 0 or more" : "a node's pid is 0");
-  own_pid = pid;
+  nx::own_pid = pid;
 }
 
 void load_nodes(const char* call, const char* file, long node, long pid) {
@@ -149,9 +149,9 @@ void load_nodes(const char* call, const char* file, long node, long pid) {
 int ended_one(const char* call, const Nodes& nodes) {
   bool some = false;
   for (int node = nodes.first; node < nodes.last; ++node) {
-    const World::State state = world().status(node).state;
-    if (reported(node) || state == World::State::nothing) continue;
-    if (state == World::State::ended) return node;
+    const messages::World::State state = world().status(node).state;
+    if (reported(node) || state == messages::World::State::nothing) continue;
+    if (state == messages::World::State::ended) return node;
     some = true;
   }
   if (!some)
@@ -173,7 +173,7 @@ void wait_all(const char* call, long node, long pid) {
   const Nodes nodes = check_nodes(call, node, pid);
   world().begin();
   for (int each = nodes.first; each < nodes.last; ++each) {
-    while (world().status(each).state == World::State::running) world().wait_for_end();
+    while (world().status(each).state == messages::World::State::running) world().wait_for_end();
     reported(each) = true;
   }
 }
@@ -209,72 +209,72 @@ long list_cubes(const char* call, cubetable* table, long slots) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::program
 
-using namespace mars::hal;
+using namespace mars::program;
 
 extern "C" {
 
 void getcube(const char* name, const char* cubetype, const char*, long) {
-  plain([&] { get_cube("getcube", name, cubetype); });
+  mars::nx::plain([&] { get_cube("getcube", name, cubetype); });
 }
 void attachcube(const char* name) {
-  plain([&] { attach_cube("attachcube", name); });
+  mars::nx::plain([&] { attach_cube("attachcube", name); });
 }
 void relcube(const char* name) {
-  plain([&] { release_cube("relcube", name); });
+  mars::nx::plain([&] { release_cube("relcube", name); });
 }
 void setpid(long pid) {
-  plain([&] { set_pid("setpid", pid); });
+  mars::nx::plain([&] { set_pid("setpid", pid); });
 }
 void load(const char* file, long node, long pid) {
-  plain([&] { load_nodes("load", file, node, pid); });
+  mars::nx::plain([&] { load_nodes("load", file, node, pid); });
 }
 void waitall(long node, long pid) {
-  plain([&] { wait_all("waitall", node, pid); });
+  mars::nx::plain([&] { wait_all("waitall", node, pid); });
 }
 void waitone(long node, long pid, long* cnode, long* cpid, long* ccode) {
-  plain([&] { wait_one("waitone", node, pid, cnode, cpid, ccode); });
+  mars::nx::plain([&] { wait_one("waitone", node, pid, cnode, cpid, ccode); });
 }
 void killproc(long node, long pid) {
-  plain([&] { kill_nodes("killproc", node, pid, false); });
+  mars::nx::plain([&] { kill_nodes("killproc", node, pid, false); });
 }
 void killcube(long node, long pid) {
-  plain([&] { kill_nodes("killcube", node, pid, true); });
+  mars::nx::plain([&] { kill_nodes("killcube", node, pid, true); });
 }
 long cubeinfo(cubetable table[], long slots, long) {
-  return plain([&] { return list_cubes("cubeinfo", table, slots); });
+  return mars::nx::plain([&] { return list_cubes("cubeinfo", table, slots); });
 }
 
 long _getcube(const char* name, const char* cubetype, const char*, long) {
-  return twin([&] { get_cube("getcube", name, cubetype); });
+  return mars::nx::twin([&] { get_cube("getcube", name, cubetype); });
 }
 long _attachcube(const char* name) {
-  return twin([&] { attach_cube("attachcube", name); });
+  return mars::nx::twin([&] { attach_cube("attachcube", name); });
 }
 long _relcube(const char* name) {
-  return twin([&] { release_cube("relcube", name); });
+  return mars::nx::twin([&] { release_cube("relcube", name); });
 }
 long _setpid(long pid) {
-  return twin([&] { set_pid("setpid", pid); });
+  return mars::nx::twin([&] { set_pid("setpid", pid); });
 }
 long _load(const char* file, long node, long pid) {
-  return twin([&] { load_nodes("load", file, node, pid); });
+  return mars::nx::twin([&] { load_nodes("load", file, node, pid); });
 }
 long _waitall(long node, long pid) {
-  return twin([&] { wait_all("waitall", node, pid); });
+  return mars::nx::twin([&] { wait_all("waitall", node, pid); });
 }
 long _waitone(long node, long pid, long* cnode, long* cpid, long* ccode) {
-  return twin([&] { wait_one("waitone", node, pid, cnode, cpid, ccode); });
+  return mars::nx::twin([&] { wait_one("waitone", node, pid, cnode, cpid, ccode); });
 }
 long _killproc(long node, long pid) {
-  return twin([&] { kill_nodes("killproc", node, pid, false); });
+  return mars::nx::twin([&] { kill_nodes("killproc", node, pid, false); });
 }
 long _killcube(long node, long pid) {
-  return twin([&] { kill_nodes("killcube", node, pid, true); });
+  return mars::nx::twin([&] { kill_nodes("killcube", node, pid, true); });
 }
 long _cubeinfo(cubetable table[], long slots, long) {
-  return twin([&] { return list_cubes("cubeinfo", table, slots); });
+  return mars::nx::twin([&] { return list_cubes("cubeinfo", table, slots); });
 }
 
 }  // extern "C"

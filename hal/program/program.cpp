@@ -20,16 +20,16 @@
 #include "hal/mpi/join.h"
 #endif
 
-namespace mars::hal {
+namespace mars::program {
 namespace {
 
 // After which a strict program reports what it waits for.
 constexpr std::chrono::seconds kPatience{5};
 
 struct Program {
-  std::unique_ptr<World> world;
-  std::optional<Process> process;
-  std::optional<ProgressThread> progress;  // of the process
+  std::unique_ptr<messages::World> world;
+  std::optional<messages::Process> process;
+  std::optional<nx::ProgressThread> progress;  // of the process
   std::thread::id thread;
   pid_t id = 0;  // of the process that is the rank: the first, or the one that made the first call
 };
@@ -51,32 +51,32 @@ Program& program() {
 void leave(int code, void*) try {
 #ifdef MARS_NX_MPI
   // The others wait for it.
-  if (program().world == nullptr && program().id == getpid() && started_by_mpi()) world();
+  if (program().world == nullptr && program().id == getpid() && messages::started_by_mpi()) world();
 #endif
   if (program().world == nullptr || program().id != getpid()) return;
   std::fflush(nullptr);
   program().progress.reset();
-  if (program().process) end_files(*program().process);
+  if (program().process) nx::end_files(*program().process);
   program().world->leave(code);
 } catch (const std::exception& failure) {
   end(reason_of(failure));
 }
 
-std::unique_ptr<World> connect() {
-  if (const std::optional<Place> place = take_place()) return std::make_unique<ProcessesWorld>(*place);
+std::unique_ptr<messages::World> connect() {
+  if (const std::optional<processes::Place> place = processes::take_place()) return std::make_unique<processes::ProcessesWorld>(*place);
 #ifdef MARS_NX_MPI
-  if (started_by_mpi()) {
-    const Settings settings = read_settings();
-    return join_mpi(settings.nx_host, settings.nx_handler_thread);
+  if (messages::started_by_mpi()) {
+    const messages::Settings settings = messages::read_settings();
+    return mpi::join_mpi(settings.nx_host, settings.nx_handler_thread);
   }
 #endif
-  return std::make_unique<ProcessesWorld>();
+  return std::make_unique<processes::ProcessesWorld>();
 }
 
-Process& find_process() {
-  Backend& backend = world().backend();
+messages::Process& find_process() {
+  messages::Backend& backend = world().backend();
   if (!program().process) {
-    const Settings settings = read_settings();
+    const messages::Settings settings = messages::read_settings();
     program().process.emplace(backend);
     program().process->set_collectives(settings.nx_collectives);
     if (settings.nx_strict) program().process->set_strict(kPatience);
@@ -90,15 +90,15 @@ Process& find_process() {
   // Each line is printed as it is written, and is not lost with a process that is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   program().id = getpid();
-  find_process_by(find_process);
-  end_program_on_failure(end);
+  messages::find_process_by(find_process);
+  nx::end_program_on_failure(end);
   on_exit(leave, nullptr);
 }
 
 }  // namespace
 
-World& world() {
-  Program& program = hal::program();
+messages::World& world() {
+  Program& program = program::program();
   if (program.world == nullptr) {
     program.thread = std::this_thread::get_id();
     program.id = getpid();
@@ -115,4 +115,4 @@ void renew_process() {
   program().process.reset();
 }
 
-}  // namespace mars::hal
+}  // namespace mars::program

@@ -5,13 +5,13 @@
 #include "hal/messages/process.h"
 #include "hal/messages/world.h"
 
-namespace mars::hal {
+namespace mars::program {
 
 // The calling program's job; connects it. A Failure on any thread but the first that called.
-World& world();
+messages::World& world();
 
 // The next message call makes a new process for the program, with nothing sent or received: after the cube
 // has changed.
 void renew_process();
 
-}  // namespace mars::hal
+}  // namespace mars::program

@@ -9,7 +9,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::hal {
+namespace mars::transport_template {
 namespace {
 
 constexpr std::align_val_t kAlignment{64};
@@ -26,24 +26,24 @@ void TemplateBackend::send(int to, int type, const void* data, std::size_t lengt
 
 // With many ranks: where the transport takes bytes from where they lie, begin that, and remember under the
 // ticket how its end shows. Copying is always allowed.
-Ticket TemplateBackend::start_send(int to, int type, const void* data, std::size_t length) {
+messages::Ticket TemplateBackend::start_send(int to, int type, const void* data, std::size_t length) {
   send(to, type, data, length);
   return 0;
 }
 
 // With many ranks: move the transport on a little, for nothing else may; true once, then the ticket is free.
-bool TemplateBackend::sent(Ticket) { return true; }
+bool TemplateBackend::sent(messages::Ticket) { return true; }
 
 // With many ranks: take what the transport has brought, from each sender in the order sent, and return the
 // first. The same until it is taken.
-std::optional<Envelope> TemplateBackend::peek() {
+std::optional<messages::Envelope> TemplateBackend::peek() {
   if (arrived_.empty()) return std::nullopt;
   return arrived_.front()->envelope;
 }
 
 // With many ranks: here a long message may be fetched from its sender, straight to where it is wanted.
 void TemplateBackend::take(void* buffer) {
-  Message* message = arrived_.pop();
+  messages::Message* message = arrived_.pop();
   if (message->envelope.length > 0) std::memcpy(buffer, message->bytes(), message->envelope.length);
   pool_.release(message);
 }
@@ -56,7 +56,7 @@ void TemplateBackend::idle(int turn, std::chrono::microseconds longest) {
 
 // With many ranks: which nodes are on one machine. Its own answer for each node is allowed: nothing is shared
 // then.
-Neighbourhood TemplateBackend::neighbourhood() { return {rank(), 0, 1, rank(), false}; }
+messages::Neighbourhood TemplateBackend::neighbourhood() { return {rank(), 0, 1, rank(), false}; }
 
 // With many nodes a machine: memory they all see, made and given back by all of them together.
 std::shared_ptr<std::byte> TemplateBackend::share(std::size_t bytes) {
@@ -80,4 +80,4 @@ void TemplateBackend::abort(const std::string& reason) {
   std::_Exit(1);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::transport_template

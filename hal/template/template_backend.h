@@ -11,31 +11,31 @@
 #include "hal/messages/backend.h"
 #include "hal/messages/message_pool.h"
 
-namespace mars::hal {
+namespace mars::transport_template {
 
-class TemplateBackend : public Backend {
+class TemplateBackend : public messages::Backend {
  public:
   int rank() const override { return 0; }
   int nodes() const override { return 1; }
   bool has_host() const override { return false; }
 
   void send(int to, int type, const void* data, std::size_t length) override;
-  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
-  bool sent(Ticket ticket) override;
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(messages::Ticket ticket) override;
 
-  std::optional<Envelope> peek() override;
+  std::optional<messages::Envelope> peek() override;
   void take(void* buffer) override;
   void idle(int turn, std::chrono::microseconds longest) override;
 
-  Neighbourhood neighbourhood() override;
+  messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
 
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
 
  private:
-  MessagePool pool_;
-  MessageList arrived_;  // in order of arrival
+  messages::MessagePool pool_;
+  messages::MessageList arrived_;  // in order of arrival
 };
 
-}  // namespace mars::hal
+}  // namespace mars::transport_template

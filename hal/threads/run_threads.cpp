@@ -8,14 +8,14 @@
 #include "hal/messages/process.h"
 #include "hal/threads/threads_backend.h"
 
-namespace mars::hal {
+namespace mars::threads {
 namespace {
 
 // One rank's whole life.
 void run_rank(ThreadsWorld& world, int rank, const std::function<void()>& body, const WrapBackend& wrap) try {
   ThreadsBackend& backend = world.rank(rank);
-  const std::unique_ptr<Backend> wrapped = wrap ? wrap(backend) : nullptr;
-  Process process(wrapped ? *wrapped : backend);
+  const std::unique_ptr<messages::Backend> wrapped = wrap ? wrap(backend) : nullptr;
+  messages::Process process(wrapped ? *wrapped : backend);
   body();
   process.finish();
 } catch (...) {
@@ -49,4 +49,4 @@ void run_threads(int nodes, const std::function<void()>& host_body, const std::f
   if (const std::exception_ptr failure = world.failure()) std::rethrow_exception(failure);
 }
 
-}  // namespace mars::hal
+}  // namespace mars::threads

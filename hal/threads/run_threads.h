@@ -6,10 +6,10 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::threads {
 
 // Something put between a rank's process and its backend, which outlives it (to count, to delay ...).
-using WrapBackend = std::function<std::unique_ptr<Backend>(Backend& backend)>;
+using WrapBackend = std::function<std::unique_ptr<messages::Backend>(messages::Backend& backend)>;
 
 // Runs `host_body` as the host on the calling thread and `node_body` on a thread for each of `nodes` nodes,
 // in which NX calls work. Returns when all have ended. If one throws, the others' NX calls throw too, all
@@ -17,4 +17,4 @@ using WrapBackend = std::function<std::unique_ptr<Backend>(Backend& backend)>;
 void run_threads(int nodes, const std::function<void()>& host_body, const std::function<void()>& node_body,
                  const WrapBackend& wrap = {});
 
-}  // namespace mars::hal
+}  // namespace mars::threads

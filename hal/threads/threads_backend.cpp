@@ -7,7 +7,7 @@
 
 #include "hal/failure/explain.h"
 
-namespace mars::hal {
+namespace mars::threads {
 namespace {
 
 constexpr std::size_t kAlignment = 64;
@@ -34,12 +34,12 @@ void ThreadsBackend::send(int to, int type, const void* data, std::size_t length
 }
 
 // A copy is needed here too: were the sender stopped, its buffer would be gone under the receiver's hands.
-Ticket ThreadsBackend::start_send(int to, int type, const void* data, std::size_t length) {
+messages::Ticket ThreadsBackend::start_send(int to, int type, const void* data, std::size_t length) {
   send(to, type, data, length);
   return 0;
 }
 
-std::optional<Envelope> ThreadsBackend::peek() {
+std::optional<messages::Envelope> ThreadsBackend::peek() {
   world_.check_running();
   if (inbox_.empty()) {
     const std::lock_guard lock(mutex_);
@@ -50,7 +50,7 @@ std::optional<Envelope> ThreadsBackend::peek() {
 }
 
 void ThreadsBackend::take(void* buffer) {
-  Message* message = inbox_.pop();
+  messages::Message* message = inbox_.pop();
   if (message->envelope.length > 0) std::memcpy(buffer, message->bytes(), message->envelope.length);
   world_.rank(message->envelope.from).give_back(message);
 }
@@ -63,7 +63,7 @@ void ThreadsBackend::idle(int turn, std::chrono::microseconds longest) {
   has_news_ = false;
 }
 
-void ThreadsBackend::deliver(Message* message) {
+void ThreadsBackend::deliver(messages::Message* message) {
   {
     const std::lock_guard lock(mutex_);
     arrived_.push(message);
@@ -72,7 +72,7 @@ void ThreadsBackend::deliver(Message* message) {
   news_.notify_one();
 }
 
-void ThreadsBackend::give_back(Message* message) {
+void ThreadsBackend::give_back(messages::Message* message) {
   const std::lock_guard lock(mutex_);
   returned_.push(message);
 }
@@ -85,7 +85,7 @@ void ThreadsBackend::wake() {
   news_.notify_one();
 }
 
-Neighbourhood ThreadsBackend::neighbourhood() {
+messages::Neighbourhood ThreadsBackend::neighbourhood() {
   check(rank_ != host(), "the host is not one of a machine's nodes");
   return {0, rank_, nodes(), rank_, false};
 }
@@ -149,4 +149,4 @@ std::shared_ptr<std::byte> ThreadsWorld::share(int index, std::size_t bytes) {
   return mine;
 }
 
-}  // namespace mars::hal
+}  // namespace mars::threads

@@ -15,30 +15,30 @@
 #include "hal/messages/backend.h"
 #include "hal/messages/message_pool.h"
 
-namespace mars::hal {
+namespace mars::threads {
 
 class ThreadsWorld;
 
-class ThreadsBackend : public Backend {
+class ThreadsBackend : public messages::Backend {
  public:
   ThreadsBackend(ThreadsWorld& world, int rank) : world_(world), rank_(rank) {}
 
   int rank() const override { return rank_; }
   int nodes() const override;
   void send(int to, int type, const void* data, std::size_t length) override;
-  Ticket start_send(int to, int type, const void* data, std::size_t length) override;
-  bool sent(Ticket) override { return true; }
-  std::optional<Envelope> peek() override;
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override;
+  bool sent(messages::Ticket) override { return true; }
+  std::optional<messages::Envelope> peek() override;
   void take(void* buffer) override;
   void idle(int turn, std::chrono::microseconds longest) override;
-  Neighbourhood neighbourhood() override;
+  messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
 
   // From any thread: a message of this rank's mailbox or pool; news that end a wait.
-  void deliver(Message* message);
-  void give_back(Message* message);
+  void deliver(messages::Message* message);
+  void give_back(messages::Message* message);
   void wake();
 
  private:
@@ -46,16 +46,16 @@ class ThreadsBackend : public Backend {
   const int rank_;
 
   // This thread's alone.
-  MessagePool pool_;
-  MessageList inbox_;  // arrived and seen
+  messages::MessagePool pool_;
+  messages::MessageList inbox_;  // arrived and seen
   int shared_ = 0;     // blocks of shared memory so far
   bool finishing_ = false;
 
   std::mutex mutex_;  // of what follows
   std::condition_variable news_;
   bool has_news_ = false;
-  MessageList arrived_;
-  MessageList returned_;  // of pool_
+  messages::MessageList arrived_;
+  messages::MessageList returned_;  // of pool_
 };
 
 // What the ranks have in common. Outlives their threads.
@@ -96,4 +96,4 @@ class ThreadsWorld {
   std::deque<Block> blocks_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::threads

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace mars::host {
+namespace mars::child {
 
 namespace {
 
@@ -152,4 +152,4 @@ void fail_if_stopped(const Child& child) {
   if (child.passed_on() != 0) throw Failure("stopped by " + std::string(strsignal(child.passed_on())), "", "");
 }
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -17,7 +17,7 @@
 #include "host/child/process.h"
 #include "host/child/signal_relay.h"
 
-namespace mars::host {
+namespace mars::child {
 
 class Child {
  public:
@@ -75,4 +75,4 @@ class Child {
 // Throws Failure where a signal to us ended the child.
 void fail_if_stopped(const Child& child);
 
-}  // namespace mars::host
+}  // namespace mars::child

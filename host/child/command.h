@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace mars::host {
+namespace mars::child {
 
 struct Command {
   std::vector<std::pair<std::string, std::string>> environment;
@@ -15,4 +15,4 @@ struct Command {
   bool operator==(const Command&) const = default;
 };
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -9,7 +9,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::child {
 namespace {
 
 [[noreturn]] void fail() {
@@ -63,4 +63,4 @@ std::string content_of(const Descriptor& file) {
   return bytes;
 }
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace mars::host {
+namespace mars::child {
 
 // Closed at its end. Programs do not inherit it.
 class Descriptor {
@@ -41,4 +41,4 @@ bool write_all(const Descriptor& to, std::string_view bytes);
 
 std::string content_of(const Descriptor& file);
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace mars::host {
+namespace mars::child {
 
 std::vector<char*> pointers_to(std::vector<std::string>& lines) {
   std::vector<char*> pointers;
@@ -41,4 +41,4 @@ std::string temporary_folder(const Environment& environment) {
   return "/tmp";
 }
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::host {
+namespace mars::child {
 
 // For exec: valid as long as the lines and these unchanged.
 std::vector<char*> pointers_to(std::vector<std::string>& lines);
@@ -31,4 +31,4 @@ std::string program_path(const Environment& environment);
 // Where temporary files go, as Open MPI looks for it; a variable that is set but empty counts as not set.
 std::string temporary_folder(const Environment& environment);
 
-}  // namespace mars::host
+}  // namespace mars::child

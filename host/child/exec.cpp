@@ -7,7 +7,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::child {
 namespace {
 
 Environment environment_for(const Command& command) {
@@ -34,4 +34,4 @@ void become(const Command& command, const std::string& remedy) {
   throw Failure(std::string("cannot be started: ") + std::strerror(errno), command.words.front(), remedy);
 }
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -7,7 +7,7 @@
 #include "host/child/command.h"
 #include "host/child/environment.h"
 
-namespace mars::host {
+namespace mars::child {
 
 // A command's words and its whole environment, as exec takes them.
 class ExecArguments {
@@ -29,4 +29,4 @@ class ExecArguments {
 // This process becomes that program. Throws Failure with this remedy where it cannot.
 [[noreturn]] void become(const Command& command, const std::string& remedy = "");
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -18,7 +18,7 @@
 #include "host/child/exec.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::child {
 namespace {
 
 constexpr std::chrono::seconds kLongestKill{1};  // until what the kernel holds is left
@@ -132,4 +132,4 @@ void run_detached(const std::function<void()>& work) {
   Process(leave, {}).wait();
 }
 
-}  // namespace mars::host
+}  // namespace mars::child

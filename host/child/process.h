@@ -13,7 +13,7 @@
 
 #include "host/child/command.h"
 
-namespace mars::host {
+namespace mars::child {
 
 // How a process ended.
 struct Ending {
@@ -74,4 +74,4 @@ class Process {
 // process ends. Throws Failure where no process can be started.
 void run_detached(const std::function<void()>& work);
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace mars::host {
+namespace mars::child {
 
 namespace fs = std::filesystem;
 
@@ -30,4 +30,4 @@ std::optional<fs::path> find_first_program(std::span<const std::string_view> nam
   return std::nullopt;
 }
 
-}  // namespace mars::host
+}  // namespace mars::child

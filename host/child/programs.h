@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace mars::host {
+namespace mars::child {
 
 // A file that may be executed. Folders that we may not look into have none for us.
 bool runnable(const std::filesystem::path& file);
@@ -18,4 +18,4 @@ std::optional<std::filesystem::path> find_program(const std::string& name, const
 // In the first folder of `path` that has any of `names`, the first of these.
 std::optional<std::filesystem::path> find_first_program(std::span<const std::string_view> names, std::string_view path);
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -7,7 +7,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::child {
 
 namespace {
 
@@ -74,4 +74,4 @@ int SignalRelay::count() const { return relay_count; }
 int SignalRelay::first() const { return relay_first; }
 void SignalRelay::forget_group() { relay_group = 0; }
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -9,7 +9,7 @@
 #include <array>
 #include <chrono>
 
-namespace mars::host {
+namespace mars::child {
 
 class SignalRelay {
  public:
@@ -40,4 +40,4 @@ class SignalRelay {
 // `signal` to a process group. Wakes what was stopped, which would not hear it.
 void signal_group(pid_t group, int signal);
 
-}  // namespace mars::host
+}  // namespace mars::child

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
-namespace mars::host {
+namespace mars::images {
 
 struct PictureSize {
-  std::uint32_t width;  // pixels, 1..node::kMaxSide
+  std::uint32_t width;  // pixels, 1..wire::kMaxSide
   std::uint32_t height;
 
   bool operator==(const PictureSize&) const = default;
@@ -16,4 +16,4 @@ struct PictureSize {
 // From "960x540". Throws Failure where that is no size.
 PictureSize read_picture_size(const std::string& text);
 
-}  // namespace mars::host
+}  // namespace mars::images

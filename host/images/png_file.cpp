@@ -12,12 +12,12 @@
 #include "host/content/document/file.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::images {
 
 namespace {
 
 // Of the largest picture, not compressed, with 4 channels of 16 bits; the rest is for what else a file holds.
-constexpr std::uintmax_t kLargestPng = std::uintmax_t{8} * node::kMaxSide * node::kMaxSide + (1 << 24);
+constexpr std::uintmax_t kLargestPng = std::uintmax_t{8} * wire::kMaxSide * wire::kMaxSide + (1 << 24);
 
 // libpng leaves a failing call by longjmp, which must not pass a C++ object: the functions between setjmp and
 // libpng hold plain data only, and what grows lives with their caller.
@@ -115,7 +115,7 @@ class Reader {
   bool begin(Source* source, Image* image) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_read_fn(png_, source, take_bytes);
-    png_set_user_limits(png_, node::kMaxSide, node::kMaxSide);
+    png_set_user_limits(png_, wire::kMaxSide, wire::kMaxSide);
     png_read_info(png_, info_);
     image->width = png_get_image_width(png_, info_);
     image->height = png_get_image_height(png_, info_);
@@ -165,7 +165,7 @@ std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
 }
 
 Image read_png(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path, kLargestPng);
+  const std::string bytes = document::read_file(path, kLargestPng);
   return decode_png(std::as_bytes(std::span(bytes)), path.string());
 }
 
@@ -182,4 +182,4 @@ Image decode_png(std::span<const std::byte> bytes, const std::string& name) {
   return image;
 }
 
-}  // namespace mars::host
+}  // namespace mars::images

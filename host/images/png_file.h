@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::images {
 
 // Rows from the top, each pixel red in the lowest byte, then green, blue, 0.
 struct Image {
@@ -27,4 +27,4 @@ Image read_png(const std::filesystem::path& path);
 // Likewise from a file's bytes; `name` stands for the file in failures.
 Image decode_png(std::span<const std::byte> bytes, const std::string& name);
 
-}  // namespace mars::host
+}  // namespace mars::images

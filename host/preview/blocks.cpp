@@ -3,7 +3,7 @@
 
 #include "host/preview/terminal_picture.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr std::string_view kUpperHalf = "\xe2\x96\x80";
@@ -35,12 +35,12 @@ class Blocks : public TerminalPicture {
     }
   }
 
-  PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
-    const PictureSize cells = terminal.cells();
+  images::PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
+    const images::PictureSize cells = terminal.cells();
     return {cells.width, 2 * (cells.height > lines ? cells.height - lines : 1)};
   }
 
-  const std::string& shown(const Image& image) override {
+  const std::string& shown(const images::Image& image) override {
     text_ = "\x1b[?2026h";
     upper_ = lower_ = kNone;
     const std::uint32_t rows = (image.height + 1) / 2;
@@ -57,7 +57,7 @@ class Blocks : public TerminalPicture {
     std::uint32_t upper, lower;  // pixels, or numbers of colours
   };
 
-  void show_row(const Image& image, std::uint32_t row) {
+  void show_row(const images::Image& image, std::uint32_t row) {
     const std::uint32_t* upper = &image.pixels[std::size_t{2} * row * image.width];
     const std::uint32_t* lower = 2 * row + 1 < image.height ? upper + image.width : nullptr;
     Cell* cells = &cells_[std::size_t{row} * image.width];
@@ -124,4 +124,4 @@ std::unique_ptr<TerminalPicture> make_terminal_picture(Graphics graphics) {
   return make_blocks(graphics == Graphics::blocks);
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr float kDimmest = 0.28f;  // of a colour at the far end
@@ -35,7 +35,7 @@ Drawing::Drawing(std::uint32_t width, std::uint32_t height)
     : image_{width, height, std::vector<std::uint32_t>(std::size_t{width} * height)},
       closest_(image_.pixels.size()) {}
 
-void Drawing::begin(const node::Camera& camera, const Color& background, double nearest, double farthest) {
+void Drawing::begin(const wire::Camera& camera, const Color& background, double nearest, double farthest) {
   look(camera);
   nearest_ = static_cast<float>(std::max(nearest, camera.near));
   fade_ = (1 - kDimmest) / std::max(static_cast<float>(farthest) - nearest_, 1e-6f);
@@ -44,7 +44,7 @@ void Drawing::begin(const node::Camera& camera, const Color& background, double 
   std::fill(closest_.begin(), closest_.end(), 0.0f);
 }
 
-void Drawing::look(const node::Camera& camera) {
+void Drawing::look(const wire::Camera& camera) {
   camera_ = camera;
   near_ = static_cast<float>(camera.near);
 }
@@ -172,4 +172,4 @@ std::uint32_t Drawing::dimmed(std::uint32_t color, float closeness) const {
   return mixed(0xff00ff) | mixed(0x00ff00);
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

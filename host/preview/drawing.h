@@ -9,7 +9,7 @@
 #include "host/preview/view.h"
 #include "host/images/png_file.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 struct Stroke {
   std::uint32_t line = 1;  // pixels wide
@@ -22,12 +22,12 @@ class Drawing {
 
   // An empty picture, seen by `camera`; lines are full bright at `nearest` and dim at `farthest` (distances along
   // its axis).
-  void begin(const node::Camera& camera, const Color& background, double nearest, double farthest);
+  void begin(const wire::Camera& camera, const Color& background, double nearest, double farthest);
   // What follows is seen by another camera.
-  void look(const node::Camera& camera);
+  void look(const wire::Camera& camera);
   void draw(const Lines& lines, const Placing& to_world, const Color& color, const Stroke& stroke = {});
 
-  const Image& image() const { return image_; }
+  const images::Image& image() const { return image_; }
 
  private:
   // On the screen, pixels from the top left corner; `closeness` is 1 / distance along the camera's axis, 0 or less:
@@ -48,15 +48,15 @@ class Drawing {
   void plot(std::uint32_t x, std::uint32_t y, float closeness, std::uint32_t color);
   std::uint32_t dimmed(std::uint32_t color, float closeness) const;
 
-  Image image_;
+  images::Image image_;
   Stroke stroke_;
   std::vector<float> closest_;  // of each pixel; 0: nothing there
   std::vector<Spot> spots_;
   Placing to_screen_{};  // of the lines being drawn: x, y before the division and w
-  node::Camera camera_{};
+  wire::Camera camera_{};
   float near_ = 0;
   float nearest_ = 0, fade_ = 0;
   std::uint32_t background_ = 0;
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

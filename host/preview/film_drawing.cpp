@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr Placing kWorld{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -43,7 +43,7 @@ Color dim(Color color) {
   return color;
 }
 
-double distance_along(const node::Camera& camera, const glm::dvec3& place) {
+double distance_along(const wire::Camera& camera, const glm::dvec3& place) {
   const auto& row = camera.world_to_eye.m[2];
   return -(row[0] * place.x + row[1] * place.y + row[2] * place.z + row[3]);
 }
@@ -64,7 +64,7 @@ FilmDrawing::FilmDrawing(const View& view) : view_(view), grid_(ground_under(vie
   for (const Part& part : view.parts[0]) moving_ = moving_ || part.motion.count > 1;
 }
 
-void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
+void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen,
                        bool ground) const {
   const double middle = distance_along(camera, view_.subject.center);
   drawing.begin(camera, kPaper, middle - view_.subject.radius, middle + view_.subject.radius);
@@ -83,9 +83,9 @@ void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const node:
 }
 
 // Each axis as a little stick near the lower left corner, before everything else.
-void FilmDrawing::draw_axes(Drawing& drawing, const node::Camera& camera, std::uint32_t pen) const {
+void FilmDrawing::draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const {
   const auto width = static_cast<float>(drawing.image().width), height = static_cast<float>(drawing.image().height);
-  node::Camera still = camera;
+  wire::Camera still = camera;
   for (auto& row : still.world_to_eye.m) row[3] = 0;
   const double distance = 4 * camera.near, scale = camera.focal * height / 2 / distance;  // pixels a length there
   const double size = 0.06 * height / scale, margin = 0.09 * height;
@@ -102,8 +102,8 @@ void FilmDrawing::draw_axes(Drawing& drawing, const node::Camera& camera, std::u
   }
 }
 
-Image halved(const Image& image) {
-  Image half{image.width / 2, image.height / 2, {}};
+images::Image halved(const images::Image& image) {
+  images::Image half{image.width / 2, image.height / 2, {}};
   half.pixels.reserve(std::size_t{half.width} * half.height);
   for (std::size_t y = 0; y < half.height; ++y) {
     const std::uint32_t* top = &image.pixels[2 * y * image.width];
@@ -120,4 +120,4 @@ Image halved(const Image& image) {
   return half;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -4,7 +4,7 @@
 #include "host/preview/drawing.h"
 #include "host/preview/view.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 inline constexpr Color kPaper{0.07f, 0.08f, 0.10f};
 
@@ -18,11 +18,11 @@ class FilmDrawing {
 
   // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at
   // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue).
-  void draw(Drawing& drawing, As as, std::uint32_t frame, const node::Camera& camera, std::uint32_t pen,
+  void draw(Drawing& drawing, As as, std::uint32_t frame, const wire::Camera& camera, std::uint32_t pen,
             bool ground) const;
 
  private:
-  void draw_axes(Drawing& drawing, const node::Camera& camera, std::uint32_t pen) const;
+  void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;
 
   const View& view_;
   Lines grid_;
@@ -30,6 +30,6 @@ class FilmDrawing {
 };
 
 // Half as wide and high, each pixel the mean of four: lines two pixels wide become smooth ones. Sizes are even.
-Image halved(const Image& image);
+images::Image halved(const images::Image& image);
 
-}  // namespace mars::host
+}  // namespace mars::preview

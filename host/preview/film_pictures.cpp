@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr std::array<As, 4> kAll{As::stick, As::vertices, As::prisms, As::surface};
@@ -18,7 +18,7 @@ const char* name_of(const std::optional<As>& as) {
   return names[static_cast<std::size_t>(*as)];
 }
 
-void paste(const Image& from, Image& to, std::uint32_t x, std::uint32_t y) {
+void paste(const images::Image& from, images::Image& to, std::uint32_t x, std::uint32_t y) {
   for (std::uint32_t line = 0; line < from.height; ++line)
     std::copy_n(&from.pixels[std::size_t{line} * from.width], from.width,
                 &to.pixels[std::size_t{y + line} * to.width + x]);
@@ -37,39 +37,39 @@ void FilmPictures::change_film(const View& view, SurfaceSource& surface) {
   aim_.reset();
 }
 
-node::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
+wire::Camera FilmPictures::camera(std::uint32_t frame, double aspect) const {
   if (look_.from != From::camera || orbit_) {
     Orbit orbit = orbit_ ? *orbit_ : orbit_from(look_.from, view_->subject, aspect);
     orbit.distance /= zoom_;
     return camera_of(orbit);
   }
-  node::Camera camera = view_->camera_at(frame);
+  wire::Camera camera = view_->camera_at(frame);
   camera.focal *= zoom_;
   return camera;
 }
 
-SharedImage FilmPictures::picture(std::uint32_t frame, PictureSize extent) {
+SharedImage FilmPictures::picture(std::uint32_t frame, images::PictureSize extent) {
   frame_ = frame;
   complete_ = true;
   aspect_ = double(extent.width) / extent.height;
   return look_.as ? one(*look_.as, frame, extent) : all(frame, extent);
 }
 
-SharedImage FilmPictures::one(As as, std::uint32_t frame, PictureSize extent) {
+SharedImage FilmPictures::one(As as, std::uint32_t frame, images::PictureSize extent) {
   if (as == As::surface) return rendered(frame, extent);
-  return std::make_shared<const Image>(drawn(as, frame, extent));
+  return std::make_shared<const images::Image>(drawn(as, frame, extent));
 }
 
-Image FilmPictures::drawn(As as, std::uint32_t frame, PictureSize extent) {
+images::Image FilmPictures::drawn(As as, std::uint32_t frame, images::PictureSize extent) {
   const std::uint32_t pen = look_.smooth ? 2 : 1;
-  const Image* old = drawing_ ? &drawing_->image() : nullptr;
+  const images::Image* old = drawing_ ? &drawing_->image() : nullptr;
   if (old == nullptr || old->width != pen * extent.width || old->height != pen * extent.height)
     drawing_.emplace(pen * extent.width, pen * extent.height);
   lines_->draw(*drawing_, as, frame, camera(frame, double(extent.width) / extent.height), pen, look_.ground);
   return look_.smooth ? halved(drawing_->image()) : drawing_->image();
 }
 
-SharedImage FilmPictures::rendered(std::uint32_t frame, PictureSize extent) {
+SharedImage FilmPictures::rendered(std::uint32_t frame, images::PictureSize extent) {
   Aim aim{extent, std::nullopt};
   if (look_.from != From::camera || orbit_ || zoom_ != 1)
     aim.camera = camera(frame, double(extent.width) / extent.height);
@@ -89,16 +89,16 @@ SharedImage FilmPictures::rendered(std::uint32_t frame, PictureSize extent) {
 }
 
 // In a row where they fit, else two above two.
-SharedImage FilmPictures::all(std::uint32_t frame, PictureSize extent) {
+SharedImage FilmPictures::all(std::uint32_t frame, images::PictureSize extent) {
   const std::uint32_t columns = extent.width >= 2 * extent.height ? 4 : 2;
-  const PictureSize panel{std::max(extent.width / columns, 1u), std::max(extent.height * columns / 4, 1u)};
-  Image whole{columns * panel.width, 4 / columns * panel.height, {}};
+  const images::PictureSize panel{std::max(extent.width / columns, 1u), std::max(extent.height * columns / 4, 1u)};
+  images::Image whole{columns * panel.width, 4 / columns * panel.height, {}};
   whole.pixels.resize(std::size_t{whole.width} * whole.height);
   for (std::uint32_t i = 0; i < 4; ++i) {
     const SharedImage part = one(kAll[i], frame, panel);
     if (part) paste(*part, whole, i % columns * panel.width, i / columns * panel.height);
   }
-  return std::make_shared<const Image>(std::move(whole));
+  return std::make_shared<const images::Image>(std::move(whole));
 }
 
 Orbit& FilmPictures::orbit() {
@@ -159,4 +159,4 @@ std::string FilmPictures::keys() const {
          " c camera  f front  s side  t top  arrows turn  + - zoom\n";
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

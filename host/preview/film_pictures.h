@@ -9,7 +9,7 @@
 #include "host/preview/surface_source.h"
 #include "host/preview/viewpoint.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 struct Look {
   std::optional<As> as = As::prisms;  // none: all four
@@ -30,28 +30,28 @@ class FilmPictures : public Pictures {
 
   std::uint32_t frames() const override { return view_->frames; }
   double rate() const override { return view_->rate; }
-  PictureSize extent() const override { return {view_->width, view_->height}; }
-  SharedImage picture(std::uint32_t frame, PictureSize extent) override;
+  images::PictureSize extent() const override { return {view_->width, view_->height}; }
+  SharedImage picture(std::uint32_t frame, images::PictureSize extent) override;
   bool complete() const override { return complete_; }
   bool obey(const KeyPress& key) override;
   std::string state() const override;
   std::string keys() const override;
 
   // Where the film is seen from at a frame.
-  node::Camera camera(std::uint32_t frame, double aspect) const;
+  wire::Camera camera(std::uint32_t frame, double aspect) const;
 
  private:
   struct Aim {
-    PictureSize extent;
-    std::optional<node::Camera> camera;
+    images::PictureSize extent;
+    std::optional<wire::Camera> camera;
 
     bool operator==(const Aim&) const = default;
   };
 
-  Image drawn(As as, std::uint32_t frame, PictureSize extent);
-  SharedImage rendered(std::uint32_t frame, PictureSize extent);
-  SharedImage one(As as, std::uint32_t frame, PictureSize extent);
-  SharedImage all(std::uint32_t frame, PictureSize extent);
+  images::Image drawn(As as, std::uint32_t frame, images::PictureSize extent);
+  SharedImage rendered(std::uint32_t frame, images::PictureSize extent);
+  SharedImage one(As as, std::uint32_t frame, images::PictureSize extent);
+  SharedImage all(std::uint32_t frame, images::PictureSize extent);
   bool turn(double degrees, double up);
   bool look_from(From from);
   Orbit& orbit();
@@ -69,4 +69,4 @@ class FilmPictures : public Pictures {
   std::optional<Aim> aim_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

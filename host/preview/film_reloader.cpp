@@ -2,14 +2,14 @@
 
 #include "hal/failure/explain.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 }  // namespace
 
-FilmReloader::FilmReloader(std::filesystem::path film, FileStamps read)
+FilmReloader::FilmReloader(std::filesystem::path film, document::FileStamps read)
     : film_(std::move(film)), files_(std::move(read)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::unique_ptr<Previewed> FilmReloader::take() {
@@ -61,7 +61,7 @@ void FilmReloader::look(const std::stop_token& stop) {
 void FilmReloader::load() {
   std::unique_ptr<Previewed> film;
   std::string trouble;
-  RecordedReads reads;
+  document::RecordedReads reads;
   try {
     film = std::make_unique<Previewed>(load_previewed(film_));
   } catch (const std::exception& failure) {
@@ -76,4 +76,4 @@ void FilmReloader::load() {
   trouble_ = std::move(trouble);
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

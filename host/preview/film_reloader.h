@@ -13,12 +13,12 @@
 #include "host/preview/load.h"
 #include "host/preview/watched_files.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 class FilmReloader {
  public:
   // `read`: the files that the film was loaded from.
-  FilmReloader(std::filesystem::path film, FileStamps read);
+  FilmReloader(std::filesystem::path film, document::FileStamps read);
   // Waits until a film that is being loaded is.
   ~FilmReloader() = default;
 
@@ -50,4 +50,4 @@ class FilmReloader {
   std::jthread thread_;  // the last, so that it ends before the others
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -7,7 +7,7 @@
 #include "host/preview/pictures.h"
 #include "host/render/sinks/frame_folder.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 class FolderPictures : public Pictures {
  public:
@@ -16,14 +16,14 @@ class FolderPictures : public Pictures {
 
   std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest_.frames.size()); }
   double rate() const override { return manifest_.rate; }
-  PictureSize extent() const override { return {manifest_.width, manifest_.height}; }
+  images::PictureSize extent() const override { return {manifest_.width, manifest_.height}; }
   // By its place among the folder's frames, from 0. Throws Failure where its file is missing or torn.
-  SharedImage picture(std::uint32_t place, PictureSize extent) override;
+  SharedImage picture(std::uint32_t place, images::PictureSize extent) override;
   std::string state() const override { return folder_.string(); }
 
  private:
   std::filesystem::path folder_;
-  Manifest manifest_;
+  sinks::Manifest manifest_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

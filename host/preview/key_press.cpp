@@ -1,6 +1,6 @@
 #include "host/preview/key_press.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 // ESC [ A, or ESC O A of terminals in another mode.
@@ -38,4 +38,4 @@ std::vector<KeyPress> take_keys(std::string& bytes) {
   return keys;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::preview {
 
 enum class Special { none, up, down, left, right, home, end };
 
@@ -19,4 +19,4 @@ struct KeyPress {
 // the end stays in `bytes`.
 std::vector<KeyPress> take_keys(std::string& bytes);
 
-}  // namespace mars::host
+}  // namespace mars::preview

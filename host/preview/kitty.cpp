@@ -3,7 +3,7 @@
 
 #include "host/preview/terminal_picture.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr std::size_t kChunk = 4096;  // bytes of text at a time, as the protocol wants
@@ -24,13 +24,13 @@ std::string base64(std::span<const std::byte> bytes) {
 
 class Kitty : public TerminalPicture {
  public:
-  PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
-    const PictureSize cells = terminal.cells(), cell = terminal.cell();
+  images::PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
+    const images::PictureSize cells = terminal.cells(), cell = terminal.cell();
     return {cells.width * cell.width, (cells.height > lines ? cells.height - lines : 1) * cell.height};
   }
 
-  const std::string& shown(const Image& image) override {
-    const std::string picture = base64(encode_png(image.width, image.height, image.pixels));
+  const std::string& shown(const images::Image& image) override {
+    const std::string picture = base64(images::encode_png(image.width, image.height, image.pixels));
     const int before = number_;
     number_ = 3 - number_;
     text_ = "\x1b[?2026h\x1b[H";
@@ -53,4 +53,4 @@ class Kitty : public TerminalPicture {
 
 std::unique_ptr<TerminalPicture> make_kitty() { return std::make_unique<Kitty>(); }
 
-}  // namespace mars::host
+}  // namespace mars::preview

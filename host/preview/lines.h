@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace mars::host {
+namespace mars::preview {
 
 struct Lines {
   std::vector<float> points;         // x, y, z of each
@@ -12,4 +12,4 @@ struct Lines {
   std::uint32_t dots = 0;            // so many points, from the first, are marked: joints, control vertices
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

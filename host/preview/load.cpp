@@ -6,32 +6,32 @@
 #include "host/content/modeler/model_file.h"
 #include "host/preview/viewpoint.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
-bool is_model(const Element& root) {
-  return root.kind() == Kind::object && (root.find("joints") || root.find("from")) && !root.find("actors");
+bool is_model(const document::Element& root) {
+  return root.kind() == document::Kind::object && (root.find("joints") || root.find("from")) && !root.find("actors");
 }
 
-Film read_film_or_model(const std::filesystem::path& path) {
-  const Document document = read_document(path);
-  const Element root = document.root();
-  if (is_model(root)) return turntable(read_own_model(root), path.string());
-  return read_film(root, path.parent_path());
+animator::Film read_film_or_model(const std::filesystem::path& path) {
+  const document::Document document = document::read_document(path);
+  const document::Element root = document.root();
+  if (is_model(root)) return turntable(modeler::read_own_model(root), path.string());
+  return animator::read_film(root, path.parent_path());
 }
 
 }  // namespace
 
 Previewed load_previewed(const std::filesystem::path& path) {
-  if (is_compiled_film(path)) {
-    CompiledFilm film = load_compiled_film(path);
+  if (film::is_compiled_film(path)) {
+    film::CompiledFilm film = film::load_compiled_film(path);
     View view = view_of(film, nullptr);
     return {std::move(film), std::move(view)};
   }
-  const Film source = read_film_or_model(path);
-  CompiledFilm film = compile(source);
+  const animator::Film source = read_film_or_model(path);
+  film::CompiledFilm film = film::compile(source);
   View view = view_of(film, &source);
   return {std::move(film), std::move(view)};
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

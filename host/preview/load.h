@@ -6,14 +6,14 @@
 
 #include "host/preview/view.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 struct Previewed {
-  CompiledFilm film;  // for the renderer
+  film::CompiledFilm film;  // for the renderer
   View view;          // for everything else
 };
 
 // A model becomes the film of a turn around it. Throws Failure as the readers do.
 Previewed load_previewed(const std::filesystem::path& path);
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-namespace mars::host {
+namespace mars::preview {
 
-PictureSize fitted(PictureSize film, PictureSize space) {
+images::PictureSize fitted(images::PictureSize film, images::PictureSize space) {
   const double scale = std::min(double(space.width) / film.width, double(space.height) / film.height);
   const auto side = [&](std::uint32_t length, std::uint32_t most) {
     return std::clamp(static_cast<std::uint32_t>(std::lround(scale * length)), 1u, std::max(most, 1u));
@@ -14,9 +14,9 @@ PictureSize fitted(PictureSize film, PictureSize space) {
   return {side(film.width, space.width), side(film.height, space.height)};
 }
 
-Image scaled(const Image& image, PictureSize extent) {
-  if (PictureSize{image.width, image.height} == extent) return image;
-  Image out{extent.width, extent.height, {}};
+images::Image scaled(const images::Image& image, images::PictureSize extent) {
+  if (images::PictureSize{image.width, image.height} == extent) return image;
+  images::Image out{extent.width, extent.height, {}};
   out.pixels.reserve(std::size_t{out.width} * out.height);
   // Of each new column or row, the first old one under it and the one behind its last.
   const auto under = [](std::uint32_t at, std::uint32_t from, std::uint32_t to) {
@@ -43,4 +43,4 @@ Image scaled(const Image& image, PictureSize extent) {
   return out;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -10,9 +10,9 @@
 #include "host/images/png_file.h"
 #include "host/preview/key_press.h"
 
-namespace mars::host {
+namespace mars::preview {
 
-using SharedImage = std::shared_ptr<const Image>;
+using SharedImage = std::shared_ptr<const images::Image>;
 
 class Pictures {
  public:
@@ -20,10 +20,10 @@ class Pictures {
 
   virtual std::uint32_t frames() const = 0;
   virtual double rate() const = 0;    // frames a second
-  virtual PictureSize extent() const = 0;  // the film's own
+  virtual images::PictureSize extent() const = 0;  // the film's own
 
   // The frame at another size, of about the same shape. nullptr: it is not ready yet.
-  virtual SharedImage picture(std::uint32_t frame, PictureSize extent) = 0;
+  virtual SharedImage picture(std::uint32_t frame, images::PictureSize extent) = 0;
 
   // Whether nothing of the last picture is still to come.
   virtual bool complete() const { return true; }
@@ -40,9 +40,9 @@ class Pictures {
 };
 
 // The film's picture as large as fits into `space`, at least one pixel each way.
-PictureSize fitted(PictureSize film, PictureSize space);
+images::PictureSize fitted(images::PictureSize film, images::PictureSize space);
 
 // By the mean of the pixels under each new one, or the nearest where it grows.
-Image scaled(const Image& image, PictureSize extent);
+images::Image scaled(const images::Image& image, images::PictureSize extent);
 
-}  // namespace mars::host
+}  // namespace mars::preview

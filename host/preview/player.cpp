@@ -9,16 +9,16 @@
 #include "host/preview/terminal_picture.h"
 #include "host/preview/text_lines.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
+constexpr images::PictureSize kLargest{1280, 720};  // pixels, of terminals that have many
 constexpr std::string_view kTroubleColor = "\x1b[1;31m";
 constexpr std::string_view kOwnKeys = " space pause  , . step  home end  [ ] speed  l loop  h help  q quit";
 
-Image upper_part(const Image& image, std::uint32_t height) {
+images::Image upper_part(const images::Image& image, std::uint32_t height) {
   const auto end = image.pixels.begin() + static_cast<std::ptrdiff_t>(std::size_t{height} * image.width);
   return {image.width, height, {image.pixels.begin(), end}};
 }
@@ -88,23 +88,23 @@ class Player {
 
   // Its size leaves a line for the status; what would be behind `notes` lines more is left out.
   void show_picture(std::uint32_t now, std::size_t notes) {
-    const PictureSize space = picture_->space(terminal_, 1);
-    const PictureSize most{std::min(space.width, kLargest.width), std::min(space.height, kLargest.height)};
+    const images::PictureSize space = picture_->space(terminal_, 1);
+    const images::PictureSize most{std::min(space.width, kLargest.width), std::min(space.height, kLargest.height)};
     SharedImage image = pictures_.picture(now, fitted(pictures_.extent(), most));
     missing_ = !pictures_.complete();
     if (!image) return;
-    if (PictureSize{image->width, image->height} != extent_) {
+    if (images::PictureSize{image->width, image->height} != extent_) {
       terminal_.write("\x1b[2J");
       empty();
       extent_ = {image->width, image->height};
     }
     const std::uint32_t height = picture_->space(terminal_, 1 + static_cast<std::uint32_t>(notes)).height;
-    if (image->height > height) image = std::make_shared<const Image>(upper_part(*image, height));
+    if (image->height > height) image = std::make_shared<const images::Image>(upper_part(*image, height));
     terminal_.write(picture_->shown(*image));
   }
 
   std::string status(std::uint32_t now) const {
-    const std::string numbers = formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
+    const std::string numbers = document::formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
                                           pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
     return cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit"),
                   terminal_.cells().width);
@@ -112,7 +112,7 @@ class Player {
 
   // What stands between the picture and the status.
   std::vector<std::string> notes() const {
-    const PictureSize cells = terminal_.cells();
+    const images::PictureSize cells = terminal_.cells();
     std::vector<std::string> notes;
     if (help_) {
       std::istringstream keys(pictures_.keys() + std::string(kOwnKeys));
@@ -176,11 +176,11 @@ class Player {
   std::uint32_t shown_frame_ = 0;
   std::vector<std::string> notes_;  // as they stand on the screen
   std::string status_;
-  PictureSize extent_{0, 0};
+  images::PictureSize extent_{0, 0};
 };
 
 }  // namespace
 
 int play(Pictures& pictures, Terminal& terminal) { return Player(pictures, terminal).play(); }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -4,9 +4,9 @@
 
 #include "host/preview/terminal.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 // Until a person ends it. Returns the signal that ended it, 0: none.
 int play(Pictures& pictures, Terminal& terminal);
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -1,13 +1,13 @@
 #include "host/preview/reloading_pictures.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr std::chrono::milliseconds kSoon{300};  // what takes no longer is not worth a word
 
 }  // namespace
 
-ReloadingPictures::ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film, FileStamps read,
+ReloadingPictures::ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film, document::FileStamps read,
                                      MakeSurface make_surface, const Look& look)
     : film_(std::move(film)),
       make_surface_(std::move(make_surface)),
@@ -30,4 +30,4 @@ std::string ReloadingPictures::state() const {
   return pictures_.state() + (loading && *loading > kSoon ? "  loading ..." : "");
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

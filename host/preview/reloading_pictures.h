@@ -7,20 +7,20 @@
 #include "host/preview/film_pictures.h"
 #include "host/preview/film_reloader.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 class ReloadingPictures : public Pictures {
  public:
-  using MakeSurface = std::function<std::unique_ptr<SurfaceSource>(const CompiledFilm&)>;
+  using MakeSurface = std::function<std::unique_ptr<SurfaceSource>(const film::CompiledFilm&)>;
 
   // `film`: what was loaded from `path`, by reading `read`. Has a thread from now on.
-  ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film, FileStamps read,
+  ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film, document::FileStamps read,
                     MakeSurface make_surface, const Look& look);
 
   std::uint32_t frames() const override { return pictures_.frames(); }
   double rate() const override { return pictures_.rate(); }
-  PictureSize extent() const override { return pictures_.extent(); }
-  SharedImage picture(std::uint32_t frame, PictureSize extent) override { return pictures_.picture(frame, extent); }
+  images::PictureSize extent() const override { return pictures_.extent(); }
+  SharedImage picture(std::uint32_t frame, images::PictureSize extent) override { return pictures_.picture(frame, extent); }
   bool complete() const override { return pictures_.complete(); }
   bool renew() override;
   std::string trouble() const override { return reloader_.trouble(); }
@@ -39,4 +39,4 @@ class ReloadingPictures : public Pictures {
   FilmReloader reloader_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

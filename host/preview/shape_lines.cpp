@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 using Point = std::array<float, 3>;
@@ -29,7 +29,7 @@ void add_point(Lines& lines, const glm::dvec3& point) {
 
 class Net {
  public:
-  void add(const node::Patch& patch) {
+  void add(const wire::Patch& patch) {
     std::array<std::uint32_t, 16> numbers;
     for (std::size_t i = 0; i < 16; ++i) numbers[i] = number_of(patch.points[i]);
     for (std::size_t row = 0; row < 4; ++row)
@@ -39,10 +39,10 @@ class Net {
       }
   }
 
-  void add(std::span<const Point> vertices, std::span<const node::MeshTriangle> triangles) {
+  void add(std::span<const Point> vertices, std::span<const wire::MeshTriangle> triangles) {
     std::vector<std::uint32_t> numbers;
     for (const Point& vertex : vertices) numbers.push_back(number_of(vertex));
-    for (const node::MeshTriangle& corners : triangles)
+    for (const wire::MeshTriangle& corners : triangles)
       for (std::size_t i = 0; i < 3; ++i) join(numbers[corners[i]], numbers[corners[(i + 1) % 3]]);
   }
 
@@ -70,7 +70,7 @@ class Net {
 };
 
 // The middle of the box's face that is farthest from the joint, in the unit cube.
-glm::dvec3 far_end(const Box& sbb) {
+glm::dvec3 far_end(const modeler::Box& sbb) {
   glm::dvec3 end(0.5);
   double farthest = -1;
   for (int axis = 0; axis < 3; ++axis)
@@ -84,10 +84,10 @@ glm::dvec3 far_end(const Box& sbb) {
 }
 
 // A place in the joint's frame, in the unit cube of its segment if it has one.
-glm::dvec3 in_own(const Joint& joint, const glm::dvec3& place) {
+glm::dvec3 in_own(const modeler::Joint& joint, const glm::dvec3& place) {
   if (!joint.segment) return place;
   const glm::dmat3 axes(joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis));
-  const Box& sbb = joint.segment->sbb;
+  const modeler::Box& sbb = joint.segment->sbb;
   return (glm::inverse(axes) * place - sbb.min) / (sbb.max - sbb.min);
 }
 
@@ -99,10 +99,10 @@ void add_stick(Lines& lines, const glm::dvec3& end) {
 
 }  // namespace
 
-Lines control_net(const node::FilmView& film, const node::Shape& shape) {
+Lines control_net(const wire::FilmView& film, const wire::Shape& shape) {
   Net net;
-  for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) net.add(patch);
-  for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
+  for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) net.add(patch);
+  for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
     net.add(film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count),
             film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count));
   return net.take();
@@ -130,13 +130,13 @@ Lines cube_axis(int axis) {
   return lines;
 }
 
-std::vector<Lines> sticks_of(const Model& model) {
+std::vector<Lines> sticks_of(const modeler::Model& model) {
   std::vector<Lines> sticks(model.joints.size());
   for (std::size_t number = 0; number < model.joints.size(); ++number) {
-    const Joint& joint = model.joints[number];
+    const modeler::Joint& joint = model.joints[number];
     add_point(sticks[number], in_own(joint, {0, 0, 0}));
     sticks[number].dots = 1;
-    if (joint.parent != kNone) add_stick(sticks[joint.parent], in_own(model.joints[joint.parent], joint.place));
+    if (joint.parent != modeler::kNone) add_stick(sticks[joint.parent], in_own(model.joints[joint.parent], joint.place));
   }
   for (std::size_t number = 0; number < model.joints.size(); ++number)
     if (const auto& segment = model.joints[number].segment; segment && sticks[number].ends.empty())
@@ -144,4 +144,4 @@ std::vector<Lines> sticks_of(const Model& model) {
   return sticks;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

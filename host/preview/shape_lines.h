@@ -7,11 +7,11 @@
 #include "host/preview/lines.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 // The control points of a shape's patches, joined along u and v, and the vertices of its meshes, joined along edges.
 // Each point and each line once; lines of no length are left out. All points are dots.
-Lines control_net(const node::FilmView& film, const node::Shape& shape);
+Lines control_net(const wire::FilmView& film, const wire::Shape& shape);
 
 // The 12 edges of the unit cube, which a T-matrix makes a segment's prism.
 Lines cube_edges();
@@ -21,6 +21,6 @@ Lines cube_axis(int axis);
 
 // Of each joint: from it (a dot) to each of its children; from the last of a limb to the far end of its segment. In
 // the unit cube of the joint's segment, or in the joint's own frame where it has none.
-std::vector<Lines> sticks_of(const Model& model);
+std::vector<Lines> sticks_of(const modeler::Model& model);
 
-}  // namespace mars::host
+}  // namespace mars::preview

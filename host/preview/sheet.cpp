@@ -8,7 +8,7 @@
 #include "hal/failure/failure.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 // Rows of three pixels from the top, the leftmost in the highest bit.
@@ -27,7 +27,7 @@ constexpr std::uint32_t kGap = 6;      // between pictures
 constexpr std::uint32_t kLabel = 18;   // high, beneath each picture
 constexpr std::uint32_t kPaperPixel = 0x1a1512, kInk = 0xa8a098;
 
-void write_number(Image& sheet, std::uint32_t number, std::uint32_t x, std::uint32_t y) {
+void write_number(images::Image& sheet, std::uint32_t number, std::uint32_t x, std::uint32_t y) {
   for (const char digit : std::to_string(number)) {
     const auto& rows = kDigits[static_cast<std::size_t>(digit - '0')];
     for (std::uint32_t dy = 0; dy < 5 * kDot; ++dy)
@@ -40,9 +40,9 @@ void write_number(Image& sheet, std::uint32_t number, std::uint32_t x, std::uint
 
 }  // namespace
 
-Image contact_sheet(const std::vector<SheetPicture>& pictures, std::uint32_t columns) {
+images::Image contact_sheet(const std::vector<SheetPicture>& pictures, std::uint32_t columns) {
   check(!pictures.empty(), "a sheet has pictures");
-  const Image& first = *pictures.front().image;
+  const images::Image& first = *pictures.front().image;
   const std::uint64_t count = pictures.size();
   if (columns == 0)
     columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(double(count) * first.height / first.width)));
@@ -50,10 +50,10 @@ Image contact_sheet(const std::vector<SheetPicture>& pictures, std::uint32_t col
   const std::uint64_t rows = (count + columns - 1) / columns;
   const std::uint64_t width = kGap + std::uint64_t{columns} * (first.width + kGap);
   const std::uint64_t height = kGap + rows * (first.height + kLabel);
-  if (width > node::kMaxSide || height > node::kMaxSide)
+  if (width > wire::kMaxSide || height > wire::kMaxSide)
     throw Failure("would have " + std::to_string(width) + "x" + std::to_string(height) + " pixels", "contact sheet",
                   "ask for fewer frames with --every or --frames, or smaller ones with --size");
-  Image sheet{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+  images::Image sheet{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
   sheet.pixels.assign(width * height, kPaperPixel);
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t x = kGap + i % columns * (first.width + kGap), y = kGap + i / columns * (first.height + kLabel);
@@ -65,4 +65,4 @@ Image contact_sheet(const std::vector<SheetPicture>& pictures, std::uint32_t col
   return sheet;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -6,7 +6,7 @@
 
 #include "host/preview/pictures.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 struct SheetPicture {
   std::uint32_t frame;
@@ -14,6 +14,6 @@ struct SheetPicture {
 };
 
 // `columns` 0: about as many as rows. Throws Failure where the sheet would be larger than a picture can be.
-Image contact_sheet(const std::vector<SheetPicture>& pictures, std::uint32_t columns);
+images::Image contact_sheet(const std::vector<SheetPicture>& pictures, std::uint32_t columns);
 
-}  // namespace mars::host
+}  // namespace mars::preview

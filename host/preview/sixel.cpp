@@ -5,7 +5,7 @@
 
 #include "host/preview/terminal_picture.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr std::size_t kColors = 255;
@@ -18,7 +18,7 @@ std::size_t bucket_of(std::uint32_t pixel) {
 // The colours that a picture has most of, and for each colour that it has the nearest of them.
 class Palette {
  public:
-  void choose(const Image& image) {
+  void choose(const images::Image& image) {
     counts_.assign(kBuckets, 0);
     nearest_.resize(kBuckets);
     for (const std::uint32_t pixel : image.pixels) ++counts_[bucket_of(pixel)];
@@ -68,12 +68,12 @@ class Palette {
 class Sixel : public TerminalPicture {
  public:
   // One line less than there is: a picture that reaches the last one would scroll.
-  PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
-    const PictureSize cells = terminal.cells(), cell = terminal.cell();
+  images::PictureSize space(const Terminal& terminal, std::uint32_t lines) const override {
+    const images::PictureSize cells = terminal.cells(), cell = terminal.cell();
     return {cells.width * cell.width, (cells.height > lines + 1 ? cells.height - lines - 1 : 1) * cell.height};
   }
 
-  const std::string& shown(const Image& image) override {
+  const std::string& shown(const images::Image& image) override {
     palette_.choose(image);
     text_ = "\x1b[?2026h\x1b[H\x1bP0;1q\"1;1;";
     add_number(image.width);
@@ -95,7 +95,7 @@ class Sixel : public TerminalPicture {
 
  private:
   // Six rows: for each colour that is in them, a character of six bits for every column.
-  void add_band(const Image& image, std::uint32_t top) {
+  void add_band(const images::Image& image, std::uint32_t top) {
     masks_.resize(palette_.size());
     std::array<bool, 256> seen{};
     present_.clear();
@@ -153,4 +153,4 @@ class Sixel : public TerminalPicture {
 
 std::unique_ptr<TerminalPicture> make_sixel() { return std::make_unique<Sixel>(); }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -8,7 +8,7 @@
 #include "host/preview/pictures.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 class SurfaceSource {
  public:
@@ -16,7 +16,7 @@ class SurfaceSource {
 
   // From now on renders these frames, in this order, at this size, seen by `camera` or else the film's; what was
   // being rendered is dropped.
-  virtual void aim(PictureSize extent, const std::optional<node::Camera>& camera,
+  virtual void aim(images::PictureSize extent, const std::optional<wire::Camera>& camera,
                    std::vector<std::uint32_t> frames) = 0;
 
   // nullptr: not rendered yet. Throws what ended the rendering.
@@ -25,4 +25,4 @@ class SurfaceSource {
   virtual SharedImage wait_for(std::uint32_t number) = 0;
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

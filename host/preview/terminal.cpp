@@ -13,7 +13,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -241,4 +241,4 @@ TerminalEvents Terminal::wait(std::chrono::nanoseconds time) {
   return events;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

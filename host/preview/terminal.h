@@ -14,7 +14,7 @@
 #include "host/preview/key_press.h"
 #include "host/preview/pictures.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 // How pictures are shown, best first: the terminal's own graphics, or two pixels a character in colours.
 enum class Graphics { automatic, kitty, sixel, blocks, blocks256 };
@@ -35,8 +35,8 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   Graphics graphics() const { return graphics_; }
-  PictureSize cells() const { return cells_; }
-  PictureSize cell() const { return cell_; }  // pixels of one, where graphics have pixels
+  images::PictureSize cells() const { return cells_; }
+  images::PictureSize cell() const { return cell_; }  // pixels of one, where graphics have pixels
   // Waits while the terminal takes nothing, but for no longer than until a signal wants us to end; what is left is then
   // dropped.
   void write(std::string_view bytes);
@@ -60,8 +60,8 @@ class Terminal {
   std::string answers(std::string_view questions);
 
   Graphics graphics_;
-  PictureSize cells_{80, 24};
-  PictureSize cell_{10, 20};
+  images::PictureSize cells_{80, 24};
+  images::PictureSize cell_{10, 20};
   termios before_{};
   sigset_t signals_before_{};
   int signals_ = -1;  // a signalfd
@@ -72,4 +72,4 @@ class Terminal {
   std::string unread_;  // of a key that is not complete
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

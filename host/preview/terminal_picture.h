@@ -8,16 +8,16 @@
 #include "host/preview/pictures.h"
 #include "host/preview/terminal.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 class TerminalPicture {
  public:
   virtual ~TerminalPicture() = default;
 
   // Room of the terminal for pictures, without `lines` lines of text beneath, in pixels.
-  virtual PictureSize space(const Terminal& terminal, std::uint32_t lines) const = 0;
+  virtual images::PictureSize space(const Terminal& terminal, std::uint32_t lines) const = 0;
   // What shows `image` in the upper left corner, where the last one stood.
-  virtual const std::string& shown(const Image& image) = 0;
+  virtual const std::string& shown(const images::Image& image) = 0;
   // The screen is empty again.
   virtual void forget() {}
 };
@@ -31,4 +31,4 @@ std::unique_ptr<TerminalPicture> make_sixel();
 
 std::unique_ptr<TerminalPicture> make_terminal_picture(Graphics graphics);
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -5,7 +5,7 @@
 
 #include "host/content/document/text.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 using Characters = std::vector<std::string_view>;
@@ -49,7 +49,7 @@ std::size_t line_length(std::span<const std::string_view> characters, std::size_
 
 std::string cut_to(std::string_view text, std::size_t columns) {
   const Characters characters = characters_of(text);
-  return joined(std::span(characters).first(std::min(columns, characters.size())), "");
+  return document::joined(std::span(characters).first(std::min(columns, characters.size())), "");
 }
 
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std::size_t lines) {
@@ -57,16 +57,16 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std
   std::vector<std::string> result;
   for (std::span rest(characters); !rest.empty();) {
     if (result.size() + 1 == lines && rest.size() > columns) {
-      result.push_back(joined(rest.first(columns - std::min(columns, kMore.size())), ""));
+      result.push_back(document::joined(rest.first(columns - std::min(columns, kMore.size())), ""));
       result.back() += kMore.substr(0, columns);
       break;
     }
     const std::size_t length = line_length(rest, columns);
-    result.push_back(joined(rest.first(length), ""));
+    result.push_back(document::joined(rest.first(length), ""));
     rest = rest.subspan(length);
     if (!rest.empty() && rest.front() == " ") rest = rest.subspan(1);
   }
   return result;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

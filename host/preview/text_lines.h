@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::host {
+namespace mars::preview {
 
 // The first `columns` characters.
 std::string cut_to(std::string_view text, std::size_t columns);
@@ -14,4 +14,4 @@ std::string cut_to(std::string_view text, std::size_t columns);
 // left out, and "..." stands for it. Both at least 1.
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std::size_t lines);
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -14,12 +14,12 @@
 #include "host/child/programs.h"
 #include "host/content/document/whole_file.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr int kOutput = 3;  // of ffmpeg
 
-Command command(const std::string& program, bool gif, PictureSize extent, double rate) {
+child::Command command(const std::string& program, bool gif, images::PictureSize extent, double rate) {
   std::array<char, 40> number{};
   std::to_chars(number.data(), number.data() + number.size() - 1, rate);
   std::vector<std::string> words{program, "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb0", "-s",
@@ -39,23 +39,23 @@ Command command(const std::string& program, bool gif, PictureSize extent, double
 
 }  // namespace
 
-Video::Video(std::filesystem::path path, PictureSize extent, double rate) : path_(std::move(path)) {
-  check_can_write(path_);  // better now than after the last frame
+Video::Video(std::filesystem::path path, images::PictureSize extent, double rate) : path_(std::move(path)) {
+  document::check_can_write(path_);  // better now than after the last frame
   start(extent, rate);
 }
 
-void Video::start(PictureSize extent, double rate) {
-  const auto program = find_program("ffmpeg", program_path(own_environment()));
+void Video::start(images::PictureSize extent, double rate) {
+  const auto program = child::find_program("ffmpeg", child::program_path(child::own_environment()));
   if (!program)
     throw Failure("needs the program ffmpeg, which is not installed", path_.string(),
                   "install it (Debian: apt install ffmpeg), or write a contact sheet: -o sheet.png");
   int ends[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Failure(std::strerror(errno), "starting ffmpeg", "");
-  input_ = Descriptor(ends[0]);
-  const Descriptor its_input(ends[1]);
+  input_ = child::Descriptor(ends[0]);
+  const child::Descriptor its_input(ends[1]);
   // MARS ignores SIGXFSZ; ffmpeg, which would cut the video short without a word, must die of it.
-  const ProcessSetup setup{.streams = {{0, its_input.number()},
+  const child::ProcessSetup setup{.streams = {{0, its_input.number()},
                                        {1, errors_.number()},
                                        {2, errors_.number()},
                                        {kOutput, output_.number()}},
@@ -63,7 +63,7 @@ void Video::start(PictureSize extent, double rate) {
   process_.emplace(command(program->string(), path_.extension() == ".gif", extent, rate), setup);
 }
 
-void Video::add(const Image& image) {
+void Video::add(const images::Image& image) {
   const auto* next = reinterpret_cast<const char*>(image.pixels.data());
   std::size_t left = image.pixels.size() * sizeof(std::uint32_t);
   while (left > 0) {
@@ -77,16 +77,16 @@ void Video::add(const Image& image) {
 
 void Video::finish() {
   input_.close();
-  const Ending ending = process_->wait();
-  if (ending.signal == SIGXFSZ) fail_file("write", path_, EFBIG);
+  const child::Ending ending = process_->wait();
+  if (ending.signal == SIGXFSZ) document::fail_file("write", path_, EFBIG);
   if (!ending.well()) fail();
-  write_whole_file(path_, content_of(output_));
+  document::write_whole_file(path_, child::content_of(output_));
 }
 
 void Video::fail() {
-  const std::string reason = content_of(errors_);
+  const std::string reason = child::content_of(errors_);
   throw Failure("ffmpeg ended without a video" + (reason.empty() ? "" : ": " + reason.substr(0, reason.find('\n'))),
                 path_.string(), "see whether it can write such files: ffmpeg -formats, ffmpeg -encoders");
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -9,7 +9,7 @@
 #include "host/content/animator/figure.h"
 #include "host/preview/shape_lines.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr Color kGrey{0.7f, 0.7f, 0.7f};  // of joints that no segment lends its colour
@@ -21,7 +21,7 @@ Placing placing(const std::array<std::array<Number, 4>, 3>& rows) {
   return flat;
 }
 
-Placing placing(const Axes& frame) {
+Placing placing(const modeler::Axes& frame) {
   Placing flat;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) flat[4 * row + column] = static_cast<float>(frame.turn[column][row]);
@@ -30,12 +30,12 @@ Placing placing(const Axes& frame) {
   return flat;
 }
 
-glm::dvec3 column_of(const node::Matrix& matrix, std::size_t column) {
+glm::dvec3 column_of(const wire::Matrix& matrix, std::size_t column) {
   return {matrix.m[0][column], matrix.m[1][column], matrix.m[2][column]};
 }
 
 // From the middle of a prism, which may be sheared, to its farthest corner.
-double radius_of(const node::Matrix& matrix) {
+double radius_of(const wire::Matrix& matrix) {
   const glm::dvec3 x = column_of(matrix, 0), y = column_of(matrix, 1), z = column_of(matrix, 2);
   return 0.5 * std::max(std::max(glm::length(x + y + z), glm::length(x + y - z)),
                         std::max(glm::length(x - y + z), glm::length(x - y - z)));
@@ -44,7 +44,7 @@ double radius_of(const node::Matrix& matrix) {
 // Grows to hold balls: exact in the box of their middles, generous with their radii.
 class Holder {
  public:
-  void add(const node::Matrix& matrix) {
+  void add(const wire::Matrix& matrix) {
     glm::dvec3 middle;
     for (int r = 0; r < 3; ++r) {
       const auto& row = matrix.m[static_cast<std::size_t>(r)];
@@ -68,13 +68,13 @@ class Holder {
 
 class Maker {
  public:
-  Maker(const CompiledFilm& film, const Film* source) : film_(film.view()), source_(source) {}
+  Maker(const film::CompiledFilm& film, const animator::Film* source) : film_(film.view()), source_(source) {}
 
   View make() {
     take_values();
     take_segments();
     if (source_ != nullptr)
-      for (const Actor& actor : source_->actors) add_sticks(actor);
+      for (const animator::Actor& actor : source_->actors) add_sticks(actor);
     else
       add_prism_axes();
     find_balls();
@@ -83,7 +83,7 @@ class Maker {
 
  private:
   void take_values() {
-    const node::FilmSettings& settings = film_.settings();
+    const wire::FilmSettings& settings = film_.settings();
     view_.frames = settings.frames;
     view_.rate = settings.rate;
     view_.width = settings.width;
@@ -92,8 +92,8 @@ class Maker {
     view_.camera = settings.camera;
     view_.cameras.assign(film_.cameras().begin(), film_.cameras().end());
     view_.changes.assign(film_.changes().begin(), film_.changes().end());
-    for (const node::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix.m));
-    for (const node::Material& material : film_.materials()) view_.colors.push_back(material.color);
+    for (const wire::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix.m));
+    for (const wire::Material& material : film_.materials()) view_.colors.push_back(material.color);
   }
 
   std::uint32_t add_lines(Lines lines) {
@@ -102,9 +102,9 @@ class Maker {
   }
 
   void take_segments() {
-    for (const node::Shape& shape : film_.shapes()) add_lines(control_net(film_, shape));
+    for (const wire::Shape& shape : film_.shapes()) add_lines(control_net(film_, shape));
     const std::uint32_t cube = add_lines(cube_edges());
-    for (const node::Segment& segment : film_.segments()) {
+    for (const wire::Segment& segment : film_.segments()) {
       parts(As::vertices).push_back({segment.shape, segment.motion, segment.look});
       parts(As::prisms).push_back({cube, segment.motion, segment.look});
     }
@@ -121,28 +121,28 @@ class Maker {
   }
 
   // The film's segments come actor by actor, joint by joint.
-  void add_sticks(const Actor& actor) {
-    const Model& model = source_->models[actor.model];
+  void add_sticks(const animator::Actor& actor) {
+    const modeler::Model& model = source_->models[actor.model];
     const std::vector<std::uint32_t>& lines = model_sticks(actor.model);
     std::vector<std::size_t> bare;  // joints without a segment
-    std::vector<node::Track> looks;
+    std::vector<wire::Track> looks;
     for (std::size_t number = 0; number < model.joints.size(); ++number) {
-      const Joint& joint = model.joints[number];
+      const modeler::Joint& joint = model.joints[number];
       if (joint.segment) {
-        const node::Segment& segment = film_.segments()[next_segment_++];
+        const wire::Segment& segment = film_.segments()[next_segment_++];
         parts(As::stick).push_back({lines[number], segment.motion, segment.look});
         looks.push_back(segment.look);
       } else {
-        looks.push_back(joint.parent == kNone ? grey() : looks[joint.parent]);
+        looks.push_back(joint.parent == modeler::kNone ? grey() : looks[joint.parent]);
         if (actor.matrices.empty()) bare.push_back(number);
       }
     }
     if (!bare.empty()) add_bare_joints(actor, bare, lines, looks);
   }
 
-  node::Track grey() {
+  wire::Track grey() {
     if (!grey_) {
-      grey_ = node::Track{static_cast<std::uint32_t>(view_.changes.size()), 1};
+      grey_ = wire::Track{static_cast<std::uint32_t>(view_.changes.size()), 1};
       view_.changes.push_back({0, static_cast<std::uint32_t>(view_.colors.size())});
       view_.colors.push_back(kGrey);
     }
@@ -150,10 +150,10 @@ class Maker {
   }
 
   // Where joints without segments stand, only what changes.
-  void add_bare_joints(const Actor& actor, const std::vector<std::size_t>& joints,
-                       const std::vector<std::uint32_t>& lines, const std::vector<node::Track>& looks) {
-    Figure figure(source_->models[actor.model], actor.motion);
-    std::vector<std::vector<node::Change>> changes(joints.size());
+  void add_bare_joints(const animator::Actor& actor, const std::vector<std::size_t>& joints,
+                       const std::vector<std::uint32_t>& lines, const std::vector<wire::Track>& looks) {
+    animator::Figure figure(source_->models[actor.model], actor.motion);
+    std::vector<std::vector<wire::Change>> changes(joints.size());
     const std::uint32_t frames = figure.still() ? 1 : source_->frames;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       if (!figure.move_to(frame)) continue;
@@ -164,7 +164,7 @@ class Maker {
       }
     }
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const node::Track track{static_cast<std::uint32_t>(view_.changes.size()),
+      const wire::Track track{static_cast<std::uint32_t>(view_.changes.size()),
                               static_cast<std::uint32_t>(changes[i].size())};
       view_.changes.insert(view_.changes.end(), changes[i].begin(), changes[i].end());
       parts(As::stick).push_back({lines[joints[i]], track, looks[joints[i]]});
@@ -174,8 +174,8 @@ class Maker {
   void add_prism_axes() {
     view_.sticks_of_prisms = true;
     const std::array<std::uint32_t, 3> axes{add_lines(cube_axis(0)), add_lines(cube_axis(1)), add_lines(cube_axis(2))};
-    for (const node::Segment& segment : film_.segments()) {
-      const node::Matrix& matrix = film_.matrix_at(segment, 0);
+    for (const wire::Segment& segment : film_.segments()) {
+      const wire::Matrix& matrix = film_.matrix_at(segment, 0);
       std::size_t longest = 0;
       for (const std::size_t axis : {1u, 2u})
         if (glm::length(column_of(matrix, axis)) > glm::length(column_of(matrix, longest))) longest = axis;
@@ -185,9 +185,9 @@ class Maker {
 
   void find_balls() {
     Holder all, moving;
-    for (const node::Segment& segment : film_.segments())
+    for (const wire::Segment& segment : film_.segments())
       for (std::uint32_t i = 0; i < segment.motion.count; ++i) {
-        const node::Matrix& matrix = film_.matrices()[film_.changes()[segment.motion.first + i].value];
+        const wire::Matrix& matrix = film_.matrices()[film_.changes()[segment.motion.first + i].value];
         all.add(matrix);
         if (segment.motion.count > 1) moving.add(matrix);
       }
@@ -195,23 +195,23 @@ class Maker {
     view_.subject = moving.empty() ? view_.whole : moving.ball();
   }
 
-  const node::FilmView film_;
-  const Film* source_;
+  const wire::FilmView film_;
+  const animator::Film* source_;
   View view_;
   std::vector<std::vector<std::uint32_t>> model_sticks_;  // of each model, by joint; made when asked
   std::size_t next_segment_ = 0;
-  std::optional<node::Track> grey_;
+  std::optional<wire::Track> grey_;
 };
 
 }  // namespace
 
-std::uint32_t View::value_at(const node::Track& track, std::uint32_t frame) const {
+std::uint32_t View::value_at(const wire::Track& track, std::uint32_t frame) const {
   const auto first = changes.begin() + track.first, last = first + track.count;
   const auto after = std::upper_bound(first, last, frame,
-                                      [](std::uint32_t f, const node::Change& change) { return f < change.frame; });
+                                      [](std::uint32_t f, const wire::Change& change) { return f < change.frame; });
   return (after - 1)->value;
 }
 
-View view_of(const CompiledFilm& film, const Film* source) { return Maker(film, source).make(); }
+View view_of(const film::CompiledFilm& film, const animator::Film* source) { return Maker(film, source).make(); }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -17,7 +17,7 @@
 #include "host/preview/lines.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 enum class As { stick, vertices, prisms, surface };
 inline constexpr std::size_t kOfLines = 3;  // representations before `surface`, which the renderer draws
@@ -25,11 +25,11 @@ inline constexpr std::size_t kOfLines = 3;  // representations before `surface`,
 // One instance of lines: numbers of `lines`, and tracks over `changes` of numbers of `matrices` and `colors`.
 struct Part {
   std::uint32_t lines;
-  node::Track motion;
-  node::Track look;
+  wire::Track motion;
+  wire::Track look;
 };
 
-// Affine map, row by row, as node::Matrix.
+// Affine map, row by row, as wire::Matrix.
 using Placing = std::array<float, 12>;
 using Color = std::array<float, 3>;  // 0..1
 
@@ -47,19 +47,19 @@ struct View {
   std::array<std::vector<Part>, kOfLines> parts;  // by As
   std::vector<Placing> matrices;
   std::vector<Color> colors;
-  std::vector<node::Camera> cameras;
-  std::vector<node::Change> changes;
-  node::Track camera{};  // numbers of `cameras`
+  std::vector<wire::Camera> cameras;
+  std::vector<wire::Change> changes;
+  wire::Track camera{};  // numbers of `cameras`
   Ball whole;            // holds every segment at every frame
   Ball subject;          // likewise what moves, or everything where nothing does
   bool sticks_of_prisms = false;  // a .mars file knows no joints: each stick is its prism's long axis
 
   // The number that a track has at `frame`.
-  std::uint32_t value_at(const node::Track& track, std::uint32_t frame) const;
-  const node::Camera& camera_at(std::uint32_t frame) const { return cameras[value_at(camera, frame)]; }
+  std::uint32_t value_at(const wire::Track& track, std::uint32_t frame) const;
+  const wire::Camera& camera_at(std::uint32_t frame) const { return cameras[value_at(camera, frame)]; }
 };
 
 // `source`: what `film` was compiled from, which alone knows the joints; nullptr where that is not at hand.
-View view_of(const CompiledFilm& film, const Film* source);
+View view_of(const film::CompiledFilm& film, const animator::Film* source);
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -10,31 +10,31 @@
 
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr double kFov = 30;     // vertical, degrees
 constexpr double kMargin = 1.08;
 constexpr double kNearPlane = 1e-9, kFarPlane = 1e12;  // that a compiled film allows
 
-const double kFocal = 1 / std::tan(kFov / 2 * kDegree);
+const double kFocal = 1 / std::tan(kFov / 2 * modeler::kDegree);
 
 glm::dvec3 outward(const Orbit& orbit) {
-  const double turn = orbit.turn * kDegree, height = orbit.height * kDegree;
+  const double turn = orbit.turn * modeler::kDegree, height = orbit.height * modeler::kDegree;
   return {std::cos(height) * std::cos(turn), std::cos(height) * std::sin(turn), std::sin(height)};
 }
 
 // Plain ones in place of those that a model leaves to its film.
-std::vector<MaterialMotion> lent_materials(const Model& model) {
+std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model) {
   std::set<std::string> names;
-  for (const Joint& joint : model.joints)
+  for (const modeler::Joint& joint : model.joints)
     if (joint.segment && !joint.segment->material.empty()) names.insert(joint.segment->material);
-  for (const NamedMaterial& own : model.materials) names.erase(own.name);
-  std::vector<MaterialMotion> materials;
+  for (const modeler::NamedMaterial& own : model.materials) names.erase(own.name);
+  std::vector<animator::MaterialMotion> materials;
   for (const std::string& name : names) {
-    const node::Material& m = kDefaultMaterial;
-    materials.push_back({name, constant(glm::dvec3(m.color[0], m.color[1], m.color[2])), constant(double(m.ambient)),
-                         constant(double(m.diffuse)), constant(double(m.specular)), constant(double(m.exponent)),
+    const wire::Material& m = modeler::kDefaultMaterial;
+    materials.push_back({name, animator::constant(glm::dvec3(m.color[0], m.color[1], m.color[2])), animator::constant(double(m.ambient)),
+                         animator::constant(double(m.diffuse)), animator::constant(double(m.specular)), animator::constant(double(m.exponent)),
                          m.sides});
   }
   return materials;
@@ -52,7 +52,7 @@ Orbit orbit_from(From from, const Ball& subject, double aspect) {
   return orbit;
 }
 
-Orbit orbit_near(const node::Camera& camera, const Ball& subject) {
+Orbit orbit_near(const wire::Camera& camera, const Ball& subject) {
   const auto& m = camera.world_to_eye.m;
   glm::dvec3 eye(0);  // -R^T t
   for (std::size_t row = 0; row < 3; ++row) eye -= m[row][3] * glm::dvec3(m[row][0], m[row][1], m[row][2]);
@@ -60,19 +60,19 @@ Orbit orbit_near(const node::Camera& camera, const Ball& subject) {
   const double flat = std::hypot(out.x, out.y);
   Orbit orbit;
   orbit.center = subject.center;
-  orbit.turn = std::atan2(out.y, out.x) / kDegree;
-  orbit.height = std::atan2(out.z, flat) / kDegree;
+  orbit.turn = std::atan2(out.y, out.x) / modeler::kDegree;
+  orbit.height = std::atan2(out.z, flat) / modeler::kDegree;
   // As large as the camera showed it.
   orbit.distance = std::max(glm::length(out) * kFocal / camera.focal, 1e-6);
   return orbit;
 }
 
-node::Camera camera_of(const Orbit& orbit) {
-  const double turn = orbit.turn * kDegree;
+wire::Camera camera_of(const Orbit& orbit) {
+  const double turn = orbit.turn * modeler::kDegree;
   const glm::dvec3 out = outward(orbit), right(-std::sin(turn), std::cos(turn), 0);
   const glm::dvec3 eye = orbit.center + orbit.distance * out;
   const std::array<glm::dvec3, 3> axes{right, glm::cross(out, right), out};
-  node::Camera camera;
+  wire::Camera camera;
   for (std::size_t row = 0; row < 3; ++row)
     camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
   camera.focal = kFocal;
@@ -81,51 +81,51 @@ node::Camera camera_of(const Orbit& orbit) {
   return camera;
 }
 
-Film turntable(Model model, const std::string& source) {
+animator::Film turntable(modeler::Model model, const std::string& source) {
   constexpr std::uint32_t kFrames = 96;
-  Film film;
+  animator::Film film;
   film.source = source;
   film.frames = kFrames;
   film.background = {0.12, 0.14, 0.20};
-  film.lights.push_back({true, constant(glm::dvec3(0, 0, 1)), constant(glm::dvec3(1)), constant(1.2)});
+  film.lights.push_back({true, animator::constant(glm::dvec3(0, 0, 1)), animator::constant(glm::dvec3(1)), animator::constant(1.2)});
   film.materials = lent_materials(model);
-  Actor actor;
+  animator::Actor actor;
   actor.name = "model";
   actor.model = 0;
-  actor.motion = {constant(glm::dvec3(0)), constant(glm::dvec3(0)), {}};
+  actor.motion = {animator::constant(glm::dvec3(0)), animator::constant(glm::dvec3(0)), {}};
   actor.motion.pose.resize(model.joints.size());
   film.models.push_back(std::move(model));
   film.actors.push_back(std::move(actor));
-  film.camera.eye = constant(glm::dvec3(1, 0, 0));
-  film.camera.at = constant(glm::dvec3(0));
-  film.camera.up = constant(glm::dvec3(0, 0, 1));
-  film.camera.fov = constant(kFov);
+  film.camera.eye = animator::constant(glm::dvec3(1, 0, 0));
+  film.camera.at = animator::constant(glm::dvec3(0));
+  film.camera.up = animator::constant(glm::dvec3(0, 0, 1));
+  film.camera.fov = animator::constant(kFov);
   film.frames = 1;
-  const Ball ball = view_of(compile(film), &film).whole;  // its size is known when it is compiled
+  const Ball ball = view_of(film::compile(film), &film).whole;  // its size is known when it is compiled
   film.frames = kFrames;
   Orbit orbit = orbit_from(From::front, ball, 1);
   orbit.height = 12;
-  film.camera.at = constant(ball.center);
+  film.camera.at = animator::constant(ball.center);
   film.camera.eye.clear();
   film.lights.front().vector.clear();
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
     orbit.turn = 360.0 * frame / kFrames - 30;
-    film.camera.eye.push_back({frame, ball.center + orbit.distance * outward(orbit), kLinear});
-    film.lights.front().vector.push_back({frame, outward({{}, orbit.turn - 35, 40}), kLinear});
+    film.camera.eye.push_back({frame, ball.center + orbit.distance * outward(orbit), animator::kLinear});
+    film.lights.front().vector.push_back({frame, outward({{}, orbit.turn - 35, 40}), animator::kLinear});
   }
   film.camera.near = std::max(orbit.distance / 1000, kNearPlane);
   film.camera.far = std::min(orbit.distance * 1000, kFarPlane);
   return film;
 }
 
-CompiledFilm as_seen(const CompiledFilm& film, std::array<std::uint32_t, 2> size, const node::Camera* camera) {
-  CompiledFilm seen = film;
-  const node::FilmView view = seen.view();
+film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size, const wire::Camera* camera) {
+  film::CompiledFilm seen = film;
+  const wire::FilmView view = seen.view();
   std::byte* const block = reinterpret_cast<std::byte*>(seen.lines.data());
   const auto put = [&](const void* at, const void* value, std::size_t bytes) {
     std::memcpy(block + (static_cast<const std::byte*>(at) - seen.block().data()), value, bytes);
   };
-  node::FilmSettings settings = view.settings();
+  wire::FilmSettings settings = view.settings();
   settings.width = size[0];
   settings.height = size[1];
   if (camera != nullptr) {
@@ -136,4 +136,4 @@ CompiledFilm as_seen(const CompiledFilm& film, std::array<std::uint32_t, 2> size
   return seen;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

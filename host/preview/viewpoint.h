@@ -10,7 +10,7 @@
 #include "host/preview/view.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 enum class From { camera, front, side, top };
 
@@ -27,14 +27,14 @@ struct Orbit {
 Orbit orbit_from(From from, const Ball& subject, double aspect);
 
 // The orbit nearest to where a camera stands.
-Orbit orbit_near(const node::Camera& camera, const Ball& subject);
+Orbit orbit_near(const wire::Camera& camera, const Ball& subject);
 
-node::Camera camera_of(const Orbit& orbit);
+wire::Camera camera_of(const Orbit& orbit);
 
 // A model's turntable: the film, `frames` long, of a camera going once around it.
-Film turntable(Model model, const std::string& source);
+animator::Film turntable(modeler::Model model, const std::string& source);
 
 // The film at another size and, if there is a camera, seen by it through all frames.
-CompiledFilm as_seen(const CompiledFilm& film, std::array<std::uint32_t, 2> size, const node::Camera* camera);
+film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size, const wire::Camera* camera);
 
-}  // namespace mars::host
+}  // namespace mars::preview

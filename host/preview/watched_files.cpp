@@ -2,22 +2,22 @@
 
 #include <utility>
 
-namespace mars::host {
+namespace mars::preview {
 
-void WatchedFiles::set_read(FileStamps read) {
+void WatchedFiles::set_read(document::FileStamps read) {
   read_ = std::move(read);
   last_look_ = read_;
 }
 
-FileStamps WatchedFiles::stamps_now() const {
-  FileStamps stamps;
-  for (const auto& [path, stamp] : read_) stamps.emplace(path, stamp_of(path));
+document::FileStamps WatchedFiles::stamps_now() const {
+  document::FileStamps stamps;
+  for (const auto& [path, stamp] : read_) stamps.emplace(path, document::stamp_of(path));
   return stamps;
 }
 
 bool WatchedFiles::changed_and_settled() {
-  const FileStamps before = std::exchange(last_look_, stamps_now());
+  const document::FileStamps before = std::exchange(last_look_, stamps_now());
   return last_look_ == before && last_look_ != read_;
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -4,14 +4,14 @@
 
 #include "host/content/document/recorded_reads.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 class WatchedFiles {
  public:
-  explicit WatchedFiles(FileStamps read) { set_read(std::move(read)); }
+  explicit WatchedFiles(document::FileStamps read) { set_read(std::move(read)); }
 
   // The files were read again; those that are no longer among them are not looked at any more.
-  void set_read(FileStamps read);
+  void set_read(document::FileStamps read);
 
   // Looks at them. True if they are others than those that were read, and the same as at the last look: editors that
   // empty a file and then fill it, or remove it and then make it, must have time to do so.
@@ -21,9 +21,9 @@ class WatchedFiles {
   bool are_as_read() const { return stamps_now() == read_; }
 
  private:
-  FileStamps stamps_now() const;
+  document::FileStamps stamps_now() const;
 
-  FileStamps read_, last_look_;
+  document::FileStamps read_, last_look_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::preview

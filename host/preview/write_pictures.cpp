@@ -7,26 +7,26 @@
 #include "host/preview/sheet.h"
 #include "host/preview/video.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
-constexpr PictureSize kLargestGif{960, 540};  // unless a size is asked for: they are large files
-constexpr PictureSize kOnSheet{320, 180};
+constexpr images::PictureSize kLargestGif{960, 540};  // unless a size is asked for: they are large files
+constexpr images::PictureSize kOnSheet{320, 180};
 
 bool is_picture(const WriteWishes& wishes) { return wishes.file.extension() == ".png"; }
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-  write_whole_file(file, encode_png(image.width, image.height, image.pixels));
+void write_png(const std::filesystem::path& file, const images::Image& image) {
+  document::write_whole_file(file, images::encode_png(image.width, image.height, image.pixels));
 }
 
-SharedImage ready(Pictures& pictures, std::uint32_t frame, PictureSize extent) {
+SharedImage ready(Pictures& pictures, std::uint32_t frame, images::PictureSize extent) {
   SharedImage image = pictures.picture(frame, extent);
   check(image != nullptr, "pictures to be written are ready");
   return image;
 }
 
 void write_video(Pictures& pictures, const WriteWishes& wishes, const std::vector<std::uint32_t>& frames,
-                 PictureSize extent) {
+                 images::PictureSize extent) {
   SharedImage image = ready(pictures, frames.front(), extent);
   Video video(wishes.file, {image->width, image->height}, pictures.rate() / wishes.every);
   for (const std::uint32_t frame : frames)
@@ -44,7 +44,7 @@ void check_kind(const std::filesystem::path& file) {
 }
 
 std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint32_t film_frames) {
-  const std::vector<std::uint32_t> asked = wishes.frames.value_or(FrameSet()).of_film(film_frames);
+  const std::vector<std::uint32_t> asked = wishes.frames.value_or(film::FrameSet()).of_film(film_frames);
   std::vector<std::uint32_t> frames;
   for (std::size_t i = 0; i < asked.size(); i += wishes.every) frames.push_back(asked[i]);
   if (!is_picture(wishes) || wishes.frames || wishes.every > 1 || frames.size() <= kSheetFrames) return frames;
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint3
   return some;
 }
 
-PictureSize extent_to_write(const WriteWishes& wishes, PictureSize film, std::size_t frames) {
+images::PictureSize extent_to_write(const WriteWishes& wishes, images::PictureSize film, std::size_t frames) {
   if (wishes.extent) return *wishes.extent;
   if (is_picture(wishes) && frames > 1) return fitted(film, kOnSheet);
   const bool large = film.width > kLargestGif.width || film.height > kLargestGif.height;
@@ -62,12 +62,12 @@ PictureSize extent_to_write(const WriteWishes& wishes, PictureSize film, std::si
 
 void write_pictures(Pictures& pictures, const WriteWishes& wishes) {
   const std::vector<std::uint32_t> frames = frames_to_write(wishes, pictures.frames());
-  const PictureSize extent = extent_to_write(wishes, pictures.extent(), frames.size());
-  check_can_write(wishes.file);  // better now than after the last frame
+  const images::PictureSize extent = extent_to_write(wishes, pictures.extent(), frames.size());
+  document::check_can_write(wishes.file);  // better now than after the last frame
   if (!is_picture(wishes)) return write_video(pictures, wishes, frames, extent);
   std::vector<SheetPicture> shown;
   for (const std::uint32_t frame : frames) shown.push_back({frame, ready(pictures, frame, extent)});
   write_png(wishes.file, shown.size() == 1 ? *shown.front().image : contact_sheet(shown, wishes.columns));
 }
 
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -9,14 +9,14 @@
 #include "host/content/film/frame_set.h"
 #include "host/preview/pictures.h"
 
-namespace mars::host {
+namespace mars::preview {
 
 struct WriteWishes {
   std::filesystem::path file;      // .png, .gif or .mp4
-  std::optional<FrameSet> frames;  // none: all, or for a sheet kSheetFrames at most
+  std::optional<film::FrameSet> frames;  // none: all, or for a sheet kSheetFrames at most
   std::uint32_t every = 1;         // of these, each so manieth
   std::uint32_t columns = 0;       // of a sheet; 0: about as many as rows
-  std::optional<PictureSize> extent;    // of each picture; none: the film's, smaller on a sheet and in a GIF
+  std::optional<images::PictureSize> extent;    // of each picture; none: the film's, smaller on a sheet and in a GIF
 };
 
 inline constexpr std::uint32_t kSheetFrames = 12;
@@ -26,9 +26,9 @@ void check_kind(const std::filesystem::path& file);
 
 // What is written of so many frames, ascending.
 std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint32_t film_frames);
-PictureSize extent_to_write(const WriteWishes& wishes, PictureSize film, std::size_t frames);
+images::PictureSize extent_to_write(const WriteWishes& wishes, images::PictureSize film, std::size_t frames);
 
 // `pictures` must have every picture ready.
 void write_pictures(Pictures& pictures, const WriteWishes& wishes);
 
-}  // namespace mars::host
+}  // namespace mars::preview

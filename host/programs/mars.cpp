@@ -30,7 +30,7 @@
 #include "host/programs/surface_frames.h"
 #include "host/render/sinks/verify.h"
 
-namespace mars::host {
+namespace mars::programs {
 namespace {
 
 constexpr const char* kWayIn = R"(MARS models, animates and renders films in parallel.
@@ -70,19 +70,19 @@ struct Verifying {
 std::filesystem::path own_file() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
 // Exit code 0 in any case; prints nothing if no frame is missing.
-void print_missing(const Verdict& verdict) {
+void print_missing(const sinks::Verdict& verdict) {
   std::vector<std::uint32_t> frames;
-  for (const Verdict::Trouble& trouble : verdict.troubles) frames.push_back(trouble.frame);
-  if (!frames.empty()) std::cout << FrameSet(frames).text() << '\n';
+  for (const sinks::Verdict::Trouble& trouble : verdict.troubles) frames.push_back(trouble.frame);
+  if (!frames.empty()) std::cout << film::FrameSet(frames).text() << '\n';
 }
 
-int print_verdict(const Verdict& verdict) {
-  for (const Verdict::Trouble& trouble : verdict.troubles) {
+int print_verdict(const sinks::Verdict& verdict) {
+  for (const sinks::Verdict::Trouble& trouble : verdict.troubles) {
     std::cout << "frame " << trouble.frame << ": " << trouble.reason << '\n';
   }
   if (!verdict.troubles.empty()) {
     std::cout << verdict.troubles.size() << " of " << verdict.expected << " frames are missing or wrong\n";
-    return kFailed;
+    return options::kFailed;
   }
   std::cout << verdict.expected << " frames, all there";
   std::cout << (verdict.compared ? " and whole\n"
@@ -92,30 +92,30 @@ int print_verdict(const Verdict& verdict) {
 }
 
 std::string info_of(const std::string& path) {
-  RenderOptions options;
+  options::RenderOptions options;
   options.film = path;
   std::string warnings;
-  const CompiledFilm film =
-      load_film_of(options, [&](const std::string& line) { warnings += "warning     " + line + "\n"; });
-  return describe(film) + warnings;
+  const film::CompiledFilm film =
+      job::load_film_of(options, [&](const std::string& line) { warnings += "warning     " + line + "\n"; });
+  return film::describe(film) + warnings;
 }
 
-void add_render(CLI::App& app, RenderOptions& options) {
+void add_render(CLI::App& app, options::RenderOptions& options) {
   CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
-  add_render_options(*command, options, Program::mars);
-  command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kEnds);
-  command->callback([&options] { launch_render(options, own_file(), adviser(own_file())); });
+  options::add_render_options(*command, options, options::Program::mars);
+  command->footer("Environment variables:\n" + messages::settings_text() + "\n" + kEnds);
+  command->callback([&options] { launch::launch_render(options, own_file(), doctor::adviser(own_file())); });
 }
 
-void add_compile(CLI::App& app, RenderOptions& options, std::string& output) {
+void add_compile(CLI::App& app, options::RenderOptions& options, std::string& output) {
   CLI::App* command = app.add_subcommand("compile", "Compute a film's motion once, to a .mars file");
-  add_render_options(*command, options, Program::compile);
+  options::add_render_options(*command, options, options::Program::compile);
   command->add_option("-o,--output", output, "The compiled film. Example: -o film.mars")
       ->required()
       ->type_name("FILE");
   command->callback([&] {
-    refuse_same_file(options.film, output);
-    save_film(load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }), output);
+    document::refuse_same_file(options.film, output);
+    film::save_film(job::load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }), output);
   });
 }
 
@@ -137,7 +137,7 @@ void add_verify(CLI::App& app, Verifying& verifying, int& code) {
                   "  missing=$(mars verify DIR --missing)\n"
                   "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
   command->callback([&] {
-    const Verdict verdict = verify_folder(verifying.folder);
+    const sinks::Verdict verdict = sinks::verify_folder(verifying.folder);
     if (verifying.missing)
       print_missing(verdict);
     else
@@ -145,7 +145,7 @@ void add_verify(CLI::App& app, Verifying& verifying, int& code) {
   });
 }
 
-void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
+void add_doctor(CLI::App& app, doctor::DoctorOptions& options, int& code) {
   CLI::App* command = app.add_subcommand(
       "doctor", "Check whether films can be rendered here, and print remedies");
   command->add_option("--nodes", options.nodes,
@@ -155,7 +155,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options, int& code) {
       ->type_name("N");
   command->add_flag("--this-machine", options.this_machine)->group("");  // asked by itself, on other machines
   command->footer(kEnds);
-  command->callback([&] { code = run_doctor(options, own_file()) ? 0 : kFailed; });
+  command->callback([&] { code = doctor::run_doctor(options, own_file()) ? 0 : options::kFailed; });
 }
 
 void add_bench(CLI::App& app, std::string& name, const std::vector<std::string>& own_words) {
@@ -164,9 +164,9 @@ void add_bench(CLI::App& app, std::string& name, const std::vector<std::string>&
   command->footer("mars bench NAME --help prints the benchmark's own options.\n");
   command->callback([&] {
     if (name.empty())
-      std::cout << list_benchmarks(own_file());
+      std::cout << launch::list_benchmarks(own_file());
     else
-      run_benchmark(own_file(), name, own_words);
+      launch::run_benchmark(own_file(), name, own_words);
   });
 }
 
@@ -192,7 +192,7 @@ int run(int argc, char** argv) {
   CLI::App app("Models, animates and renders films in parallel", "mars");
   app.set_version_flag("--version", "mars " MARS_VERSION, "Print the version. Example: --version");
   app.require_subcommand(0, 1);
-  RenderOptions options;
+  options::RenderOptions options;
   std::string compiled_film, film, benchmark;
   Verifying verifying;
   int code = 0;
@@ -200,13 +200,13 @@ int run(int argc, char** argv) {
   add_compile(app, options, compiled_film);
   add_info(app, film);
   add_verify(app, verifying, code);
-  add_import(app);
-  add_preview(app, [](const CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
-  add_play(app);
-  add_animate(app, code);
-  add_plot(app);
-  add_model(app);
-  DoctorOptions doctor;
+  commands::add_import(app);
+  commands::add_preview(app, [](const film::CompiledFilm& film) { return std::make_unique<SurfaceFrames>(film); });
+  commands::add_play(app);
+  commands::add_animate(app, code);
+  commands::add_plot(app);
+  commands::add_model(app);
+  doctor::DoctorOptions doctor;
   doctor.reserved_cores = kCoresForHost;
   doctor.version = MARS_VERSION;
   add_doctor(app, doctor, code);
@@ -215,22 +215,22 @@ int run(int argc, char** argv) {
   add_bench(app, benchmark, benchmark_words);
   // Last, or each command would have it.
   app.footer(std::string("mars COMMAND --help prints every option with an example.\n") + kEnds);
-  if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
+  if (const auto ended = options::read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::programs
 
 int main(int argc, char** argv) {
-  using namespace mars::host;
+  using namespace mars::programs;
   open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // beyond ulimit -f a write fails then, and MARS says so
   try {
-    return exit_code(run(argc, argv));
+    return mars::launch::exit_code(run(argc, argv));
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << mars::reason_of(failure) << '\n';
-    return exit_code(kFailed);
+    return mars::launch::exit_code(mars::options::kFailed);
   }
 }

@@ -6,13 +6,13 @@ int main(int argc, char** argv) {
   using namespace mars;
   constexpr const char* kPurpose =
       "The host of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node";
-  host::RenderOptions options;
+  options::RenderOptions options;
   if (const auto code =
-          host::read_render_options(host::Program::host, "mars-host", kPurpose, options, argc, argv)) {
+          options::read_render_options(options::Program::host, "mars-host", kPurpose, options, argc, argv)) {
     return *code;
   }
-  return hal::run_mpi(argc, argv, hal::Role::host, [&](int, char**) {
-    host::run_session(host::job_of(options, "mpi"));
+  return mpi::run_mpi(argc, argv, mpi::Role::host, [&](int, char**) {
+    session::run_session(job::job_of(options, "mpi"));
     return 0;
   });
 }

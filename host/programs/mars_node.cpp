@@ -8,9 +8,9 @@
 int main(int argc, char** argv) {
   using namespace mars;
   CLI::App app("A node of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node", "mars-node");
-  if (const auto code = host::read_command_line(app, argc, argv)) return *code;
-  return hal::run_mpi(argc, argv, hal::Role::node, [](int, char**) {
-    host::run_node_job();
+  if (const auto code = options::read_command_line(app, argc, argv)) return *code;
+  return mpi::run_mpi(argc, argv, mpi::Role::node, [](int, char**) {
+    programs::run_node_job();
     return 0;
   });
 }

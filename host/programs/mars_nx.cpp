@@ -16,7 +16,7 @@
 #include "host/shell/nx/run.h"
 #include "host/shell/options/command_line.h"
 
-namespace mars::host {
+namespace mars::programs {
 namespace {
 
 constexpr const char* kWayIn = R"(Runs programs that are written for NX, the message passing of the iPSC/2.
@@ -43,49 +43,49 @@ Exit codes: the highest of all programs', 128 and the signal for one that died
 of it, 1 where a message call failed; 2 the command line is wrong.
 )";
 
-Over over_of(const std::string& word) {
-  if (word == "auto") return Over::automatic;
-  if (word == "processes") return Over::processes;
-  if (word == "mpi") return Over::mpi;
+nx_jobs::Over over_of(const std::string& word) {
+  if (word == "auto") return nx_jobs::Over::automatic;
+  if (word == "processes") return nx_jobs::Over::processes;
+  if (word == "mpi") return nx_jobs::Over::mpi;
   throw CLI::ValidationError("--over", "'" + word + "' is not auto or processes or mpi");
 }
 
 // Nothing, or what is wrong with the word.
 std::string is_count(const std::string& word) {
-  const int count = number_in<int>(word).value_or(0);
-  return count >= 1 && count <= kMostNxNodes
+  const int count = document::number_in<int>(word).value_or(0);
+  return count >= 1 && count <= nx_jobs::kMostNxNodes
              ? ""
-             : "'" + word + "' is not a number from 1 to " + std::to_string(kMostNxNodes);
+             : "'" + word + "' is not a number from 1 to " + std::to_string(nx_jobs::kMostNxNodes);
 }
 
 // In its own process; returns where it cannot.
 int become_program(const std::filesystem::path& file, const std::vector<std::string>& arguments, bool reads) try {
-  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return kFailed;
-  Command command{{}, {file.string()}};
+  if (!reads && std::freopen("/dev/null", "r", stdin) == nullptr) return options::kFailed;
+  child::Command command{{}, {file.string()}};
   command.words.insert(command.words.end(), arguments.begin(), arguments.end());
-  become(command);
+  child::become(command);
 } catch (const Failure& failure) {
   std::cerr << "mars-nx: " << failure.what() << '\n';
-  return kFailed;
+  return options::kFailed;
 }
 
-int run_processes(const NxRun& job, const NxPrograms& programs, std::uint64_t limit) {
-  hal::JobPlan plan;
+int run_processes(const nx_jobs::NxRun& job, const nx_jobs::NxPrograms& programs, std::uint64_t limit) {
+  processes::JobPlan plan;
   plan.nodes = job.nodes;
   plan.host = !programs.host.empty();
-  if (plan.host) plan.begin = programs.node.empty() ? hal::JobPlan::Begin::never : hal::JobPlan::Begin::later;
+  if (plan.host) plan.begin = programs.node.empty() ? processes::JobPlan::Begin::never : processes::JobPlan::Begin::later;
   plan.limit = limit;
-  plan.become = [&](const hal::Place& place, const std::string& file) {
+  plan.become = [&](const processes::Place& place, const std::string& file) {
     const bool host = plan.host && place.index == job.nodes;
-    hal::leave_place(place);
+    processes::leave_place(place);
     const std::filesystem::path& program = host ? programs.host : file.empty() ? programs.node : std::filesystem::path(file);
     return become_program(program, job.arguments, plan.host ? host : place.index == 0);
   };
   plan.report = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
-  return hal::Job(plan).run();
+  return processes::Job(plan).run();
 }
 
-void add_run(CLI::App& app, NxRun& options, int& code) {
+void add_run(CLI::App& app, nx_jobs::NxRun& options, int& code) {
   CLI::App* command = app.add_subcommand("run", "Start a host and its nodes, or nodes alone");
   command
       ->add_option("PROGRAM", options.words,
@@ -111,8 +111,8 @@ void add_run(CLI::App& app, NxRun& options, int& code) {
       ->add_option("--hostfile", options.hostfile,
                    "Open MPI's file of the machines to use. Example: --hostfile hosts")
       ->type_name("FILE");
-  command->footer("Environment variables:\n" + hal::settings_text() + "\n" + kStarts);
-  command->callback([&] { code = run_nx(options, run_processes); });
+  command->footer("Environment variables:\n" + messages::settings_text() + "\n" + kStarts);
+  command->callback([&] { code = nx_jobs::run_nx(options, run_processes); });
 }
 
 // What follows -- is not ours.
@@ -129,24 +129,24 @@ int run_command(int argc, char** argv) {
   CLI::App app("Runs programs written for NX", "mars-nx");
   app.set_version_flag("--version", "mars-nx " MARS_VERSION, "Print the version. Example: --version");
   app.require_subcommand(0, 1);
-  NxRun options;
+  nx_jobs::NxRun options;
   int code = 0;
   std::vector<const char*> words(argv, argv + argc);
   options.arguments = take_arguments(words);
   add_run(app, options, code);
-  if (const auto ended = read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
+  if (const auto ended = options::read_command_line(app, static_cast<int>(words.size()), words.data())) return *ended;
   if (app.get_subcommands().empty()) std::cout << kWayIn;
   return code;
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::programs
 
 int main(int argc, char** argv) {
   try {
-    return mars::host::run_command(argc, argv);
+    return mars::programs::run_command(argc, argv);
   } catch (const std::exception& failure) {
     std::cerr << "mars-nx: " << mars::reason_of(failure) << '\n';
-    return mars::host::kFailed;
+    return mars::options::kFailed;
   }
 }

@@ -8,16 +8,16 @@ int main(int argc, char** argv) {
   using namespace mars;
   constexpr const char* kPurpose =
       "Host and nodes in one program, by rank: mpirun -n 5 mars-ranks FILM -o DIR";
-  host::RenderOptions options;
+  options::RenderOptions options;
   if (const auto code =
-          host::read_render_options(host::Program::ranks, "mars-ranks", kPurpose, options, argc, argv)) {
+          options::read_render_options(options::Program::ranks, "mars-ranks", kPurpose, options, argc, argv)) {
     return *code;
   }
-  return hal::run_mpi(argc, argv, hal::Role::by_rank, [&](int, char**) {
+  return mpi::run_mpi(argc, argv, mpi::Role::by_rank, [&](int, char**) {
     if (mynode() == myhost())
-      host::run_session(host::job_of(options, "mpi"));
+      session::run_session(job::job_of(options, "mpi"));
     else
-      host::run_node_job();
+      programs::run_node_job();
     return 0;
   });
 }

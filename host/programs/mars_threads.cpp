@@ -12,21 +12,21 @@
 
 int main(int argc, char** argv) {
   using namespace mars;
-  host::open_standard_streams();
+  programs::open_standard_streams();
   constexpr const char* kPurpose = "Host and nodes in one process: mars-threads FILM -o DIR --nodes 4";
-  host::RenderOptions options;
+  options::RenderOptions options;
   if (const auto code =
-          host::read_render_options(host::Program::threads, "mars-threads", kPurpose, options, argc, argv)) {
+          options::read_render_options(options::Program::threads, "mars-threads", kPurpose, options, argc, argv)) {
     return *code;
   }
   try {
     if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
-    host::check_memory_limit(options.nodes);
-    hal::run_threads(static_cast<int>(options.nodes), [&] { host::run_session(host::job_of(options, "threads")); },
-                     [&] { host::run_node_job(options.nodes); });
+    programs::check_memory_limit(options.nodes);
+    threads::run_threads(static_cast<int>(options.nodes), [&] { session::run_session(job::job_of(options, "threads")); },
+                     [&] { programs::run_node_job(options.nodes); });
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << reason_of(failure) << '\n';
-    return host::kFailed;
+    return options::kFailed;
   }
 }

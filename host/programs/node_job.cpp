@@ -13,7 +13,7 @@
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::programs {
 namespace {
 
 std::string host_name() {
@@ -23,7 +23,7 @@ std::string host_name() {
 }
 
 // Binds the calling thread to its share of the machine, unless its launcher has, or there is none.
-void bind(const topology::Machine& machine, const hal::Neighbourhood& here) {
+void bind(const topology::Machine& machine, const messages::Neighbourhood& here) {
   if (here.placed) return;
   if (const auto place = machine.place(here.index, here.count, kCoresForHost, here.machine)) machine.bind_thread(*place);
 }
@@ -44,8 +44,8 @@ void check_memory_limit(std::uint32_t nodes) {
 }
 
 void run_node_job(std::uint32_t threads) {
-  const hal::Settings settings = hal::read_settings();
-  const hal::Neighbourhood here = hal::neighbourhood();
+  const messages::Settings settings = messages::read_settings();
+  const messages::Neighbourhood here = messages::neighbourhood();
   const topology::Machine machine = topology::Machine::here();
   const std::uint64_t memory = settings.memory.value_or(
       topology::memory_share(machine.memory(), topology::memory_limit(), here.count, static_cast<int>(threads)));
@@ -54,4 +54,4 @@ void run_node_job(std::uint32_t threads) {
   node::run_node({host_name(), binding.cores, binding.seat, memory, settings.simd});
 }
 
-}  // namespace mars::host
+}  // namespace mars::programs

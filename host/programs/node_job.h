@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace mars::host {
+namespace mars::programs {
 
 // Left to the host's sinks on a machine that has more cores than nodes.
 inline constexpr int kCoresForHost = 1;
@@ -16,4 +16,4 @@ void check_memory_limit(std::uint32_t nodes);
 // `threads`: of the nodes, how many are threads of this process.
 void run_node_job(std::uint32_t threads = 1);
 
-}  // namespace mars::host
+}  // namespace mars::programs

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace mars::host {
+namespace mars::programs {
 
 void open_standard_streams() {
   int file = open("/dev/null", O_RDWR);  // gets the least number that is free
@@ -11,4 +11,4 @@ void open_standard_streams() {
   if (file >= 0) close(file);
 }
 
-}  // namespace mars::host
+}  // namespace mars::programs

@@ -10,13 +10,13 @@
 #include "host/images/png_file.h"
 #include "topology/machine.h"
 
-namespace mars::host {
-class SurfaceFrames::Taker : public Sink {
+namespace mars::programs {
+class SurfaceFrames::Taker : public sinks::Sink {
  public:
   explicit Taker(SurfaceFrames& frames) : frames_(frames) {}
 
-  void take(const Frame& frame) override {
-    std::vector<std::byte> bytes = encode_png(frame.width, frame.height, frame.pixels);
+  void take(const compositor::Frame& frame) override {
+    std::vector<std::byte> bytes = images::encode_png(frame.width, frame.height, frame.pixels);
     const std::lock_guard lock(frames_.mutex_);
     frames_.taken_[frame.number] = std::move(bytes);
     frames_.changed_.notify_all();
@@ -26,14 +26,14 @@ class SurfaceFrames::Taker : public Sink {
   SurfaceFrames& frames_;
 };
 
-void SurfaceFrames::aim(PictureSize extent, const std::optional<node::Camera>& camera,
+void SurfaceFrames::aim(images::PictureSize extent, const std::optional<wire::Camera>& camera,
                         std::vector<std::uint32_t> frames) {
   stop();
   taken_.clear();
   failure_ = nullptr;
   cancellation_.emplace();
-  const node::Camera* by = camera ? &*camera : nullptr;
-  renderer_ = std::thread([this, film = as_seen(film_, {extent.width, extent.height}, by), frames = std::move(frames)] {
+  const wire::Camera* by = camera ? &*camera : nullptr;
+  renderer_ = std::thread([this, film = preview::as_seen(film_, {extent.width, extent.height}, by), frames = std::move(frames)] {
     try {
       render(film, frames);
     } catch (...) {
@@ -45,20 +45,20 @@ void SurfaceFrames::aim(PictureSize extent, const std::optional<node::Camera>& c
 }
 
 // A farm takes ascending frames: those from the middle of a film on, then those before.
-void SurfaceFrames::render(const CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
-  const node::FilmSettings& settings = film.view().settings();
+void SurfaceFrames::render(const film::CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
+  const wire::FilmSettings& settings = film.view().settings();
   const auto processors = static_cast<std::uint32_t>(topology::Machine::here().processors());
   for (auto first = frames.begin(); first != frames.end() && !cancellation_->cancelled();) {
     const auto end = std::is_sorted_until(first, frames.end());
-    const Plan plan = make_plan(film.view(), {{first, end}}, static_cast<int>(processors));
-    FarmOptions farm;
+    const farm::Plan plan = farm::make_plan(film.view(), {{first, end}}, static_cast<int>(processors));
+    farm::FarmOptions farm;
     farm.cancellation = &*cancellation_;
     Taker taker(*this);
-    hal::run_threads(
+    threads::run_threads(
         static_cast<int>(processors),
         [&] {
-          SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2, pixel_of(settings.background)});
-          render_film(film.block(), plan, farm, pool, {});
+          sinks::SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2, farm::pixel_of(settings.background)});
+          farm::render_film(film.block(), plan, farm, pool, {});
         },
         [=] { run_node_job(processors); });
     first = end;
@@ -70,7 +70,7 @@ void SurfaceFrames::stop() {
   if (renderer_.joinable()) renderer_.join();
 }
 
-SharedImage SurfaceFrames::frame(std::uint32_t number) {
+preview::SharedImage SurfaceFrames::frame(std::uint32_t number) {
   std::vector<std::byte> bytes;
   {
     const std::lock_guard lock(mutex_);
@@ -79,10 +79,10 @@ SharedImage SurfaceFrames::frame(std::uint32_t number) {
     if (found == taken_.end()) return nullptr;
     bytes = found->second;
   }
-  return std::make_shared<const Image>(decode_png(bytes, "a rendered frame"));
+  return std::make_shared<const images::Image>(images::decode_png(bytes, "a rendered frame"));
 }
 
-SharedImage SurfaceFrames::wait_for(std::uint32_t number) {
+preview::SharedImage SurfaceFrames::wait_for(std::uint32_t number) {
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return taken_.contains(number) || failure_; });
@@ -90,4 +90,4 @@ SharedImage SurfaceFrames::wait_for(std::uint32_t number) {
   return frame(number);
 }
 
-}  // namespace mars::host
+}  // namespace mars::programs

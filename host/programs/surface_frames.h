@@ -13,27 +13,27 @@
 #include "host/preview/surface_source.h"
 #include "host/render/farm/cancellation.h"
 
-namespace mars::host {
+namespace mars::programs {
 
-class SurfaceFrames : public SurfaceSource {
+class SurfaceFrames : public preview::SurfaceSource {
  public:
   // `film` must outlive it.
-  explicit SurfaceFrames(const CompiledFilm& film) : film_(film) {}
+  explicit SurfaceFrames(const film::CompiledFilm& film) : film_(film) {}
   ~SurfaceFrames() override { stop(); }
 
-  void aim(PictureSize extent, const std::optional<node::Camera>& camera, std::vector<std::uint32_t> frames) override;
-  SharedImage frame(std::uint32_t number) override;
-  SharedImage wait_for(std::uint32_t number) override;
+  void aim(images::PictureSize extent, const std::optional<wire::Camera>& camera, std::vector<std::uint32_t> frames) override;
+  preview::SharedImage frame(std::uint32_t number) override;
+  preview::SharedImage wait_for(std::uint32_t number) override;
 
  private:
   class Taker;
 
   void stop();
-  void render(const CompiledFilm& film, const std::vector<std::uint32_t>& frames);
+  void render(const film::CompiledFilm& film, const std::vector<std::uint32_t>& frames);
 
-  const CompiledFilm& film_;
+  const film::CompiledFilm& film_;
   std::thread renderer_;
-  std::optional<Cancellation> cancellation_;  // of the rendering at hand
+  std::optional<farm::Cancellation> cancellation_;  // of the rendering at hand
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
@@ -41,4 +41,4 @@ class SurfaceFrames : public SurfaceSource {
   std::exception_ptr failure_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::programs

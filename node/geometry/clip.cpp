@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::node {
+namespace mars::geometry {
 namespace {
 
 // Inside where factor . place + offset >= 0. In double, or a cut of an edge that is long compared to near's distance
@@ -45,7 +45,7 @@ void clip_by(const Plane4& plane, ClipPolygon& polygon) {
 
 }  // namespace
 
-void clip(const Projection& p, ClipPolygon& polygon) {
+void clip(const shape::Projection& p, ClipPolygon& polygon) {
   const Plane4 planes[] = {{0, 0, -1, -p.near},         {0, 0, 1, p.far},
                            {p.scale, 0, -p.guard, 0},   {-p.scale, 0, -p.guard, 0},
                            {0, p.scale, -p.guard, 0},   {0, -p.scale, -p.guard, 0}};
@@ -55,4 +55,4 @@ void clip(const Projection& p, ClipPolygon& polygon) {
   }
 }
 
-}  // namespace mars::node
+}  // namespace mars::geometry

@@ -5,7 +5,7 @@
 
 #include "node/shape/vertices.h"
 
-namespace mars::node {
+namespace mars::geometry {
 
 struct ClipVertex {
   float place[3];
@@ -20,6 +20,6 @@ struct ClipPolygon {
 
 // Cuts in place; count is 0 where nothing is left. A cut's place depends on the two ends of the edge alone,
 // not on which of them comes first.
-void clip(const Projection& projection, ClipPolygon& polygon);
+void clip(const shape::Projection& projection, ClipPolygon& polygon);
 
-}  // namespace mars::node
+}  // namespace mars::geometry

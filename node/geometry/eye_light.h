@@ -1,7 +1,7 @@
 // A light as shading takes it. A plain struct: kernels of several instruction sets share it.
 #pragma once
 
-namespace mars::node {
+namespace mars::geometry {
 
 struct EyeLight {
   bool point;       // else directional
@@ -9,4 +9,4 @@ struct EyeLight {
   float color[3];
 };
 
-}  // namespace mars::node
+}  // namespace mars::geometry

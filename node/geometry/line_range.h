@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace mars::node {
+namespace mars::geometry {
 
 // Lines [first, last); may be empty.
 struct LineRange {
@@ -21,4 +21,4 @@ inline LineRange overlap(const LineRange& a, const LineRange& b) {
   return {first, std::max(first, last)};
 }
 
-}  // namespace mars::node
+}  // namespace mars::geometry

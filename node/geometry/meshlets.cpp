@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mars::node {
+namespace mars::geometry {
 namespace {
 
-constexpr int kMostBatches = static_cast<int>((kMeshletTriangles + kBatchTriangles - 1) / kBatchTriangles);
-static_assert(kMeshSlack >= kVectorSlack);
+constexpr int kMostBatches = static_cast<int>((wire::kMeshletTriangles + shape::kBatchTriangles - 1) / shape::kBatchTriangles);
+static_assert(wire::kMeshSlack >= simd::kVectorSlack);
 
 const float (*vectors(const std::array<float, 3>* first))[3] { return reinterpret_cast<const float(*)[3]>(first); }
 
@@ -15,8 +15,8 @@ const float (*vectors(const std::array<float, 3>* first))[3] { return reinterpre
 
 // The cofactors are scaled so that the largest is 1: squares of what they turn stay far inside a float, however small
 // or large the mesh is shown.
-EyeMap eye_map(const EyeMatrix& matrix) {
-  EyeMap map;
+shape::EyeMap eye_map(const shape::EyeMatrix& matrix) {
+  shape::EyeMap map;
   double cofactor[3][3], largest = 0;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) {
@@ -32,28 +32,28 @@ EyeMap eye_map(const EyeMatrix& matrix) {
   return map;
 }
 
-bool unseen(const EyeMatrix& matrix, const Meshlet& meshlet, const Projection& projection, float width, float height) {
+bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection, float width, float height) {
   float corners[8][3];
   for (int k = 0; k < 8; ++k) {
     const auto along = [&](std::size_t axis) { return (k >> axis & 1 ? meshlet.high : meshlet.low)[axis]; };
-    to_eye(matrix, {along(0), along(1), along(2)}, corners[k]);
+    shape::to_eye(matrix, {along(0), along(1), along(2)}, corners[k]);
   }
-  return unseen(corners, 8, projection, width, height);
+  return shape::unseen(corners, 8, projection, width, height);
 }
 
-MeshletPlacer::MeshletPlacer(InstructionSet set)
-    : Surface(set, static_cast<int>(kMeshletVertices), static_cast<int>(kMeshletTriangles), kMostBatches) {}
+MeshletPlacer::MeshletPlacer(simd::InstructionSet set)
+    : shape::Surface(set, static_cast<int>(wire::kMeshletVertices), static_cast<int>(wire::kMeshletTriangles), kMostBatches) {}
 
-void MeshletPlacer::place(const EyeMap& map, const FilmView& film, const Meshlet& meshlet,
-                          const Projection& projection) {
+void MeshletPlacer::place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet,
+                          const shape::Projection& projection) {
   vertex_count_ = static_cast<int>(meshlet.vertex_count);
   kernels_.move(map, vectors(film.mesh_places().data() + meshlet.first_vertex),
                 vectors(film.mesh_normals().data() + meshlet.first_vertex), vertex_count_, vertices_);
   project(projection);
   clear_triangles();
-  for (const MeshTriangle& t : film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count))
+  for (const wire::MeshTriangle& t : film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count))
     add(t[0], t[1], t[2]);
   end_batches(false);
 }
 
-}  // namespace mars::node
+}  // namespace mars::geometry

@@ -5,19 +5,19 @@
 #include "node/shape/surface.h"
 #include "node/wire/film.h"
 
-namespace mars::node {
+namespace mars::geometry {
 
-EyeMap eye_map(const EyeMatrix& matrix);
+shape::EyeMap eye_map(const shape::EyeMatrix& matrix);
 
 // Whether the meshlet surely leaves no mark on a picture of width x height: its box lies outside.
-bool unseen(const EyeMatrix& matrix, const Meshlet& meshlet, const Projection& projection, float width, float height);
+bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection, float width, float height);
 
-class MeshletPlacer : public Surface {
+class MeshletPlacer : public shape::Surface {
  public:
-  explicit MeshletPlacer(InstructionSet set);
+  explicit MeshletPlacer(simd::InstructionSet set);
 
   // Becomes the surface of `meshlet`, until the next call.
-  void place(const EyeMap& map, const FilmView& film, const Meshlet& meshlet, const Projection& projection);
+  void place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet, const shape::Projection& projection);
 };
 
-}  // namespace mars::node
+}  // namespace mars::geometry

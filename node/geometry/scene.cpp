@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-namespace mars::node {
+namespace mars::geometry {
 namespace {
 
 constexpr float kGuardPixels = 32768;  // screen places stay below 2^24 / 256, exact in a float
 
-EyeLight to_eye(const Light& light, const Matrix& world_to_eye) {
+EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   EyeLight out{light.kind == 1, {}, {light.color[0], light.color[1], light.color[2]}};
   for (std::size_t r = 0; r < 3; ++r) {
     const auto& row = world_to_eye.m[r];
@@ -22,27 +22,27 @@ EyeLight to_eye(const Light& light, const Matrix& world_to_eye) {
 
 }  // namespace
 
-Projection projection_of(const Camera& camera, std::int32_t width, std::int32_t height) {
+shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, std::int32_t height) {
   const auto scale = static_cast<float>(camera.focal * height / 2);
   const float x = static_cast<float>(width) / 2, y = static_cast<float>(height) / 2;
   const float corner = scale / std::sqrt(scale * scale + x * x + y * y);
   return {scale, {x, y}, static_cast<float>(camera.near), static_cast<float>(camera.far), kGuardPixels, corner};
 }
 
-Scene::Scene(const FilmView& film) : film_(film) {
+Scene::Scene(const wire::FilmView& film) : film_(film) {
   first_patch_.reserve(film.segments().size());
   std::uint32_t next = 0;
-  for (const Segment& segment : film.segments()) {
+  for (const wire::Segment& segment : film.segments()) {
     first_patch_.push_back(next);
     next += static_cast<std::uint32_t>(film.shapes()[segment.shape].size());
   }
   bounds_.reserve(film.shapes().size());
-  for (const Shape& shape : film.shapes()) bounds_.push_back(bounds_of(film, shape));
+  for (const wire::Shape& shape : film.shapes()) bounds_.push_back(bounds_of(film, shape));
   moves_.resize(film.segments().size());
   lights_.resize(film.light_tracks().size());
 }
 
-Scene::Bounds Scene::bounds_of(const FilmView& film, const Shape& shape) {
+Scene::Bounds Scene::bounds_of(const wire::FilmView& film, const wire::Shape& shape) {
   constexpr float kFar = std::numeric_limits<float>::max();
   Bounds bounds{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   const auto take_in = [&](const std::array<float, 3>& low, const std::array<float, 3>& high) {
@@ -51,9 +51,9 @@ Scene::Bounds Scene::bounds_of(const FilmView& film, const Shape& shape) {
       bounds.high[axis] = std::max(bounds.high[axis], high[axis]);
     }
   };
-  for (const Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
+  for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
     for (const auto& point : patch.points) take_in(point, point);
-  for (const Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
+  for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
     take_in(meshlet.low, meshlet.high);
   return bounds;
 }
@@ -66,14 +66,14 @@ void Scene::set_interval(std::uint32_t number) {
 
 void Scene::set_frame(std::uint32_t frame) {
   frame_ = frame;
-  const Camera& camera = film_.camera_at(frame);
+  const wire::Camera& camera = film_.camera_at(frame);
   projection_ = projection_of(camera, width(), height());
   for (std::size_t i = 0; i < lights_.size(); ++i)
     lights_[i] = to_eye(film_.lights()[film_.value_at(film_.light_tracks()[i], frame)], camera.world_to_eye);
 }
 
-EyeMatrix Scene::matrix(std::size_t segment) const {
-  return eye_matrix(film_.camera_at(frame_).world_to_eye, film_.matrix_at(film_.segments()[segment], frame_));
+shape::EyeMatrix Scene::matrix(std::size_t segment) const {
+  return shape::eye_matrix(film_.camera_at(frame_).world_to_eye, film_.matrix_at(film_.segments()[segment], frame_));
 }
 
 std::uint32_t Scene::material(std::size_t segment) const {
@@ -91,9 +91,9 @@ LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames) const
 }
 
 LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame) const {
-  const Camera& camera = film_.camera_at(frame);
-  const Projection p = projection_of(camera, width(), height());
-  const EyeMatrix m = eye_matrix(camera.world_to_eye, film_.matrix_at(film_.segments()[segment], frame));
+  const wire::Camera& camera = film_.camera_at(frame);
+  const shape::Projection p = projection_of(camera, width(), height());
+  const shape::EyeMatrix m = shape::eye_matrix(camera.world_to_eye, film_.matrix_at(film_.segments()[segment], frame));
   const Bounds& box = bounds_[film_.segments()[segment].shape];
   const auto all = static_cast<float>(height());
   float top = all, bottom = 0;
@@ -114,4 +114,4 @@ LineRange Scene::lines_of(std::size_t segment, std::uint32_t frame) const {
   return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
 }
 
-}  // namespace mars::node
+}  // namespace mars::geometry

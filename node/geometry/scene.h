@@ -11,25 +11,25 @@
 #include "node/shape/bezier.h"
 #include "node/wire/film.h"
 
-namespace mars::node {
+namespace mars::geometry {
 
 class Scene {
  public:
-  explicit Scene(const FilmView& film);
+  explicit Scene(const wire::FilmView& film);
 
   void set_interval(std::uint32_t number);
   void set_frame(std::uint32_t frame);
 
-  const FilmView& film() const { return film_; }
+  const wire::FilmView& film() const { return film_; }
   std::int32_t width() const { return static_cast<std::int32_t>(film_.settings().width); }
   std::int32_t height() const { return static_cast<std::int32_t>(film_.settings().height); }
-  const Projection& projection() const { return projection_; }
+  const shape::Projection& projection() const { return projection_; }
   std::span<const EyeLight> lights() const { return lights_; }
 
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
   // Number of the segment's first patch or meshlet among all of the film.
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
-  EyeMatrix matrix(std::size_t segment) const;
+  shape::EyeMatrix matrix(std::size_t segment) const;
   std::uint32_t material(std::size_t segment) const;
 
   // Lines that the interval's moving parts can touch at any of `frames`; a bound, never too small.
@@ -41,20 +41,20 @@ class Scene {
     float low[3];
     float high[3];
   };
-  static Bounds bounds_of(const FilmView& film, const Shape& shape);
+  static Bounds bounds_of(const wire::FilmView& film, const wire::Shape& shape);
   LineRange lines_of(std::size_t segment, std::uint32_t frame) const;
 
-  FilmView film_;
+  wire::FilmView film_;
   std::vector<std::uint32_t> first_patch_;
   std::vector<Bounds> bounds_;  // of shapes
   std::vector<std::uint8_t> moves_;
   std::span<const std::uint32_t> movers_;
   std::uint32_t frame_ = 0;
-  Projection projection_{};
+  shape::Projection projection_{};
   std::vector<EyeLight> lights_;
 };
 
 // How `camera` shows the world on a picture of width x height.
-Projection projection_of(const Camera& camera, std::int32_t width, std::int32_t height);
+shape::Projection projection_of(const wire::Camera& camera, std::int32_t width, std::int32_t height);
 
-}  // namespace mars::node
+}  // namespace mars::geometry

@@ -7,13 +7,13 @@
 
 #include "node/shape/vertices.h"
 
-namespace mars::node {
+namespace mars::geometry {
 
 // value(x, y) = (at_first + (y - first_y) * per_y) + (x - first_x) * per_x, in this order; x, y in 1/256 pixel.
 struct alignas(64) Triangle {
-  float at_first[kValues];
-  float per_x[kValues];
-  float per_y[kValues];
+  float at_first[shape::kValues];
+  float per_x[shape::kValues];
+  float per_y[shape::kValues];
   std::int32_t first_x;
   std::int32_t first_y;
   std::uint32_t patch;     // wins depth ties where lower; within a patch the triangle that comes first
@@ -21,4 +21,4 @@ struct alignas(64) Triangle {
 };
 static_assert(sizeof(Triangle) == 64);
 
-}  // namespace mars::node
+}  // namespace mars::geometry

@@ -5,12 +5,12 @@
 #include "hal/nx/nx_messages.h"
 #include "node/wire/protocol.h"
 
-namespace mars::node {
+namespace mars::group {
 
 // Who gives what to whom.
 class DepthExchange::Plan {
  public:
-  Plan(const DepthNeeds& needs, const Czb& czb) : needs_(needs), czb_(czb) {}
+  Plan(const DepthNeeds& needs, const raster::Czb& czb) : needs_(needs), czb_(czb) {}
 
   int self() const { return static_cast<int>(mynode()); }
   int first() const { return needs_.group.first; }
@@ -27,20 +27,20 @@ class DepthExchange::Plan {
   }
 
   // Needed lines that `node` is home of.
-  LineRange lines_of(int node) const { return overlap(needs_.homes[index(node)], needs_.lines); }
+  geometry::LineRange lines_of(int node) const { return geometry::overlap(needs_.homes[index(node)], needs_.lines); }
   // Those that must travel; none on one machine, where word that they are written is enough.
-  LineRange travelling(int from, int to) const { return share_a_machine(from, to) ? LineRange{} : lines_of(from); }
+  geometry::LineRange travelling(int from, int to) const { return share_a_machine(from, to) ? geometry::LineRange{} : lines_of(from); }
 
  private:
   std::size_t index(int node) const { return static_cast<std::size_t>(node - needs_.group.first); }
 
   const DepthNeeds& needs_;
-  const Czb& czb_;
+  const raster::Czb& czb_;
 };
 
 DepthExchange::DepthExchange(int nodes) : pending_(2 * static_cast<std::size_t>(nodes)) {}
 
-void DepthExchange::complete(const DepthNeeds& needs, Czb& czb) {
+void DepthExchange::complete(const DepthNeeds& needs, raster::Czb& czb) {
   const Plan plan(needs, czb);
   const int self = plan.self();
   send_home_lines(plan, czb);
@@ -48,27 +48,27 @@ void DepthExchange::complete(const DepthNeeds& needs, Czb& czb) {
     collect_lines(plan, czb);
     tell_contributors(plan);
   } else if (plan.contributes(self)) {
-    crecv(depth_lines_from(czb.head_of(self)), nullptr, 0);
+    crecv(wire::depth_lines_from(czb.head_of(self)), nullptr, 0);
   }
   pending_.wait();
 }
 
-void DepthExchange::send_home_lines(const Plan& plan, Czb& czb) {
+void DepthExchange::send_home_lines(const Plan& plan, raster::Czb& czb) {
   const int self = plan.self();
   if (plan.lines_of(self).count() == 0) return;
   for (int to = plan.first(); to < plan.last(); ++to) {
     if (to == self || !plan.collects(to)) continue;
     const auto depth = czb.lines(plan.travelling(self, to));
-    pending_.add(isend(depth_lines_from(self), depth.data(), static_cast<long>(depth.size_bytes()), to, 0));
+    pending_.add(isend(wire::depth_lines_from(self), depth.data(), static_cast<long>(depth.size_bytes()), to, 0));
   }
 }
 
-void DepthExchange::collect_lines(const Plan& plan, Czb& czb) {
+void DepthExchange::collect_lines(const Plan& plan, raster::Czb& czb) {
   const int self = plan.self();
   for (int from = plan.first(); from < plan.last(); ++from) {
     if (from == self || plan.lines_of(from).count() == 0) continue;
     const auto depth = czb.lines(plan.travelling(from, self));
-    pending_.add(irecv(depth_lines_from(from), depth.data(), static_cast<long>(depth.size_bytes())));
+    pending_.add(irecv(wire::depth_lines_from(from), depth.data(), static_cast<long>(depth.size_bytes())));
   }
   pending_.wait();
 }
@@ -77,7 +77,7 @@ void DepthExchange::tell_contributors(const Plan& plan) const {
   const int self = plan.self();
   for (int node = plan.first(); node < plan.last(); ++node)
     if (node != self && plan.contributes(node) && plan.share_a_machine(self, node))
-      csend(depth_lines_from(self), nullptr, 0, node, 0);
+      csend(wire::depth_lines_from(self), nullptr, 0, node, 0);
 }
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -13,13 +13,13 @@
 #include "node/group/pending_messages.h"
 #include "node/raster/czb.h"
 
-namespace mars::node {
+namespace mars::group {
 
 // What the group's nodes know of each other, all of them the same.
 struct DepthNeeds {
-  hal::Group group;
-  std::span<const LineRange> homes;           // of the group's nodes
-  LineRange lines;                            // that inbetweens may touch
+  collectives::Group group;
+  std::span<const geometry::LineRange> homes;           // of the group's nodes
+  geometry::LineRange lines;                            // that inbetweens may touch
   std::span<const std::uint8_t> contributes;  // 1: the node draws inbetweens; of all the group's nodes
 };
 
@@ -30,16 +30,16 @@ class DepthExchange {
 
   // Collective over the group, which has written its home lines to `czb`. A contributor returns when all needed lines
   // are there.
-  void complete(const DepthNeeds& needs, Czb& czb);
+  void complete(const DepthNeeds& needs, raster::Czb& czb);
 
  private:
   class Plan;
 
-  void send_home_lines(const Plan& plan, Czb& czb);
-  void collect_lines(const Plan& plan, Czb& czb);
+  void send_home_lines(const Plan& plan, raster::Czb& czb);
+  void collect_lines(const Plan& plan, raster::Czb& czb);
   void tell_contributors(const Plan& plan) const;
 
   PendingMessages pending_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::group

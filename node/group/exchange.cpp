@@ -7,12 +7,12 @@
 #include "hal/nx/nx_messages.h"
 #include "node/wire/protocol.h"
 
-namespace mars::node {
+namespace mars::group {
 namespace {
 
 // visit(unsorted) for all own edge boxes in the order of polygon numbers: those that stand still, then the others.
 template <typename Visit>
-void visit_all(const Polygons& polygons, const Visit& visit) {
+void visit_all(const raster::Polygons& polygons, const Visit& visit) {
   for (const auto& boxes : {polygons.stationary, polygons.moving})
     for (auto next = boxes.rbegin(); next != boxes.rend(); ++next) visit(*next);
 }
@@ -27,8 +27,8 @@ long bytes_of(std::span<T> items) {
 TriangleExchange::TriangleExchange(int nodes, std::size_t lines)
     : pending_(2 * static_cast<std::size_t>(nodes)), parcels_(static_cast<std::size_t>(nodes)), home_of_(lines) {}
 
-void TriangleExchange::send_triangles(const hal::Group& group, const Polygons& own, std::span<const LineRange> homes,
-                                      std::span<const std::uint32_t> line_counts, Arena& arena) {
+void TriangleExchange::send_triangles(const collectives::Group& group, const raster::Polygons& own, std::span<const geometry::LineRange> homes,
+                                      std::span<const std::uint32_t> line_counts, raster::Arena& arena) {
   const auto self = static_cast<std::size_t>(mynode() - group.first);
   if (homes.size() == 1) return;
   for (std::size_t home = 0; home < homes.size(); ++home) {
@@ -37,7 +37,7 @@ void TriangleExchange::send_triangles(const hal::Group& group, const Polygons& o
     const auto counts = on_home(line_counts);
     const std::size_t boxes = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     // As many triangles as so many edge boxes can have; less is filled.
-    parcels_[home] = {arena.take<Triangle>(boxes), arena.take<UnsortedEdgeBox>(boxes), 0, boxes, kNoTriangle};
+    parcels_[home] = {arena.take<geometry::Triangle>(boxes), arena.take<raster::UnsortedEdgeBox>(boxes), 0, boxes, shading::kNoTriangle};
   }
   fill_parcels(own, static_cast<std::uint32_t>(self));
   for (std::size_t i = 1; i < homes.size(); ++i) {
@@ -45,39 +45,39 @@ void TriangleExchange::send_triangles(const hal::Group& group, const Polygons& o
     const Parcel& parcel = parcels_[index];
     const long node = group.first + static_cast<long>(index);
     const auto triangles = parcel.triangles.first(parcel.triangle_count);
-    pending_.add(isend(triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
-    pending_.add(isend(edge_boxes_from(mynode()), parcel.boxes.data(), bytes_of(parcel.boxes), node, 0));
+    pending_.add(isend(wire::triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
+    pending_.add(isend(wire::edge_boxes_from(mynode()), parcel.boxes.data(), bytes_of(parcel.boxes), node, 0));
   }
 }
 
 // As a node has its own: triangles in order and numbered from 0, edge boxes from the last to the first.
-void TriangleExchange::fill_parcels(const Polygons& own, std::uint32_t self) {
-  visit_all(own, [&](const UnsortedEdgeBox& unsorted) {
+void TriangleExchange::fill_parcels(const raster::Polygons& own, std::uint32_t self) {
+  visit_all(own, [&](const raster::UnsortedEdgeBox& unsorted) {
     const std::uint32_t home = home_of_[unsorted.line];
     if (home == self) return;
     Parcel& parcel = parcels_[home];
     if (std::exchange(parcel.met, unsorted.box.triangle) != unsorted.box.triangle)
       parcel.triangles[parcel.triangle_count++] = own.triangles[unsorted.box.triangle];
-    UnsortedEdgeBox& copy = parcel.boxes[--parcel.box_count] = unsorted;
+    raster::UnsortedEdgeBox& copy = parcel.boxes[--parcel.box_count] = unsorted;
     copy.box.triangle = static_cast<std::uint32_t>(parcel.triangle_count - 1);
   });
 }
 
-Polygons TriangleExchange::receive_triangles(const hal::Group& group, int number, Arena& arena) {
+raster::Polygons TriangleExchange::receive_triangles(const collectives::Group& group, int number, raster::Arena& arena) {
   const int self = static_cast<int>(mynode()) - group.first;
   const int node = group.first + (self + group.count - number) % group.count;
-  cprobe(triangles_from(node));
-  const auto triangles = arena.take<Triangle>(static_cast<std::size_t>(infocount()) / sizeof(Triangle));
-  crecv(triangles_from(node), triangles.data(), bytes_of(triangles));
-  cprobe(edge_boxes_from(node));
-  const auto boxes = arena.take<UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(UnsortedEdgeBox));
-  crecv(edge_boxes_from(node), boxes.data(), bytes_of(boxes));
+  cprobe(wire::triangles_from(node));
+  const auto triangles = arena.take<geometry::Triangle>(static_cast<std::size_t>(infocount()) / sizeof(geometry::Triangle));
+  crecv(wire::triangles_from(node), triangles.data(), bytes_of(triangles));
+  cprobe(wire::edge_boxes_from(node));
+  const auto boxes = arena.take<raster::UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(raster::UnsortedEdgeBox));
+  crecv(wire::edge_boxes_from(node), boxes.data(), bytes_of(boxes));
   const auto stationary =
-      std::partition_point(boxes.begin(), boxes.end(), [](const UnsortedEdgeBox& c) { return c.moving == 1; });
+      std::partition_point(boxes.begin(), boxes.end(), [](const raster::UnsortedEdgeBox& c) { return c.moving == 1; });
   const auto moving = static_cast<std::size_t>(stationary - boxes.begin());
   return {triangles.data(), boxes.subspan(moving), boxes.first(moving)};
 }
 
 void TriangleExchange::finish() { pending_.wait(); }
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -12,7 +12,7 @@
 #include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 
-namespace mars::node {
+namespace mars::group {
 
 class TriangleExchange {
  public:
@@ -21,27 +21,27 @@ class TriangleExchange {
 
   // Begins to send to every other node of the group those of `own` triangles that have edge boxes on its lines,
   // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
-  void send_triangles(const hal::Group& group, const Polygons& own, std::span<const LineRange> homes,
-                      std::span<const std::uint32_t> line_counts, Arena& arena);
+  void send_triangles(const collectives::Group& group, const raster::Polygons& own, std::span<const geometry::LineRange> homes,
+                      std::span<const std::uint32_t> line_counts, raster::Arena& arena);
   // What another node, the `number`th of count - 1, sends; it lies in `arena`.
-  Polygons receive_triangles(const hal::Group& group, int number, Arena& arena);
+  raster::Polygons receive_triangles(const collectives::Group& group, int number, raster::Arena& arena);
   void finish();
 
  private:
   // What goes to one home.
   struct Parcel {
-    std::span<Triangle> triangles;
-    std::span<UnsortedEdgeBox> boxes;
+    std::span<geometry::Triangle> triangles;
+    std::span<raster::UnsortedEdgeBox> boxes;
     std::size_t triangle_count = 0;   // filled from the front
     std::size_t box_count = 0;        // not filled yet, from the back
-    std::uint32_t met = kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
+    std::uint32_t met = shading::kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
   };
 
-  void fill_parcels(const Polygons& own, std::uint32_t self);
+  void fill_parcels(const raster::Polygons& own, std::uint32_t self);
 
   PendingMessages pending_;
   std::vector<Parcel> parcels_;
   std::vector<std::uint32_t> home_of_;  // each line of some home: its index
 };
 
-}  // namespace mars::node
+}  // namespace mars::group

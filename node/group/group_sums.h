@@ -8,7 +8,7 @@
 
 #include "hal/collectives/group.h"
 
-namespace mars::node {
+namespace mars::group {
 
 class GroupSums {
  public:
@@ -17,7 +17,7 @@ class GroupSums {
 
   // Collective over the group. `line_counts`: edge boxes a line of the caller's triangles; `own_bytes`: what these take
   // (own_bytes, passes.h).
-  void add_up(const hal::Group& group, std::span<const std::uint32_t> line_counts, std::uint64_t own_bytes);
+  void add_up(const collectives::Group& group, std::span<const std::uint32_t> line_counts, std::uint64_t own_bytes);
 
   // EBC of all nodes: lines + 1 running totals, as mapping.h wants them.
   std::span<const std::uint64_t> ebc() const { return ebc_; }
@@ -31,4 +31,4 @@ class GroupSums {
   std::vector<std::uint64_t> own_bytes_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -2,24 +2,24 @@
 
 #include <algorithm>
 
-namespace mars::node {
+namespace mars::group {
 namespace {
 
-std::uint64_t load(std::span<const std::uint64_t> ebc, const LineRange& range) {
+std::uint64_t load(std::span<const std::uint64_t> ebc, const geometry::LineRange& range) {
   return ebc[range.last] - ebc[range.first];
 }
 
-std::uint64_t greatest_load(std::span<const std::uint64_t> ebc, std::span<const LineRange> ranges) {
+std::uint64_t greatest_load(std::span<const std::uint64_t> ebc, std::span<const geometry::LineRange> ranges) {
   std::uint64_t greatest = 0;
-  for (const LineRange& range : ranges) greatest = std::max(greatest, load(ebc, range));
+  for (const geometry::LineRange& range : ranges) greatest = std::max(greatest, load(ebc, range));
   return greatest;
 }
 
 // Fills ranges so that none exceeds `bound`, each as long as it can be; whether all lines found a place.
-bool probe(std::span<const std::uint64_t> ebc, std::uint64_t bound, std::span<LineRange> ranges) {
+bool probe(std::span<const std::uint64_t> ebc, std::uint64_t bound, std::span<geometry::LineRange> ranges) {
   const auto lines = static_cast<std::uint32_t>(ebc.size() - 1);
   std::uint32_t first = 0;
-  for (LineRange& range : ranges) {
+  for (geometry::LineRange& range : ranges) {
     const auto beyond = std::upper_bound(ebc.begin() + first, ebc.end(), ebc[first] + bound);
     const auto last = static_cast<std::uint32_t>(beyond - ebc.begin()) - 1;
     range = {first, last};
@@ -30,7 +30,7 @@ bool probe(std::span<const std::uint64_t> ebc, std::uint64_t bound, std::span<Li
 
 }  // namespace
 
-void map_greedy(std::span<const std::uint64_t> ebc, std::span<LineRange> ranges) {
+void map_greedy(std::span<const std::uint64_t> ebc, std::span<geometry::LineRange> ranges) {
   const auto lines = static_cast<std::uint32_t>(ebc.size() - 1);
   const std::uint64_t total = ebc[lines];
   const std::uint64_t nodes = ranges.size();
@@ -48,7 +48,7 @@ void map_greedy(std::span<const std::uint64_t> ebc, std::span<LineRange> ranges)
   ranges.back() = {first, lines};
 }
 
-void map_optimal(std::span<const std::uint64_t> ebc, std::span<LineRange> ranges) {
+void map_optimal(std::span<const std::uint64_t> ebc, std::span<geometry::LineRange> ranges) {
   const std::uint64_t total = ebc.back();
   const std::uint64_t nodes = ranges.size();
   std::uint64_t heaviest = 0;
@@ -66,17 +66,17 @@ void map_optimal(std::span<const std::uint64_t> ebc, std::span<LineRange> ranges
   probe(ebc, high, ranges);
 }
 
-void map_lines(Mapping mapping, std::span<const std::uint64_t> ebc, std::span<LineRange> ranges) {
-  if (mapping == Mapping::greedy)
+void map_lines(wire::Mapping mapping, std::span<const std::uint64_t> ebc, std::span<geometry::LineRange> ranges) {
+  if (mapping == wire::Mapping::greedy)
     map_greedy(ebc, ranges);
   else
     map_optimal(ebc, ranges);
 }
 
-double load_ratio(std::span<const std::uint64_t> ebc, std::span<const LineRange> ranges) {
+double load_ratio(std::span<const std::uint64_t> ebc, std::span<const geometry::LineRange> ranges) {
   if (ebc.back() == 0) return 1.0;
   const double average = static_cast<double>(ebc.back()) / static_cast<double>(ranges.size());
   return static_cast<double>(greatest_load(ebc, ranges)) / average;
 }
 
-}  // namespace mars::node
+}  // namespace mars::group

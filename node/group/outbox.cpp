@@ -4,13 +4,13 @@
 #include "hal/messages/recorder.h"
 #include "node/wire/commands.h"
 
-namespace mars::node {
+namespace mars::group {
 
 Outbox::Outbox(std::size_t width, int credits) : credits_(credits) {
-  for (int i = 0; i < credits; ++i) slots_.push_back(Slot{StripBuffer(width)});
+  for (int i = 0; i < credits; ++i) slots_.push_back(Slot{raster::StripBuffer(width)});
 }
 
-StripBuffer& Outbox::begin(bool constant) {
+raster::StripBuffer& Outbox::begin(bool constant) {
   current_ = (current_ + 1) % slots_.size();
   Slot& slot = slots_[current_];
   wait(slot);
@@ -18,18 +18,18 @@ StripBuffer& Outbox::begin(bool constant) {
   return slot.buffer;
 }
 
-void Outbox::send(Strip& header) {
+void Outbox::send(wire::Strip& header) {
   wait_for_credit(header);
   if (stopped_) return;
   Slot& slot = slots_[current_];
   const auto message = slot.buffer.finish(header);
-  slot.message = isend(kStrip, message.data(), static_cast<long>(message.size()), myhost(), 0);
+  slot.message = isend(wire::kStrip, message.data(), static_cast<long>(message.size()), myhost(), 0);
   --credits_;
 }
 
-void Outbox::wait_for_credit(Strip& header) {
+void Outbox::wait_for_credit(wire::Strip& header) {
   const double start = dclock();
-  constexpr long kNews = any_of(kCredit, kStop);
+  constexpr long kNews = wire::any_of(wire::kCredit, wire::kStop);
   while (!stopped_ && iprobe(kNews)) take_news();  // which may give the processor away
   if (credits_ == 0) ++header.work.credits_waited;
   while (!stopped_ && credits_ == 0) {
@@ -38,22 +38,22 @@ void Outbox::wait_for_credit(Strip& header) {
   }
   const double end = dclock();
   header.times.credit += end - start;
-  hal::record_span(static_cast<int>(Phase::credit), start, end);
+  messages::record_span(static_cast<int>(wire::Phase::credit), start, end);
 }
 
 // Stop stays where it is: the firmware ends by it.
 void Outbox::take_news() {
-  if (infotype() == kStop)
+  if (infotype() == wire::kStop)
     stopped_ = true;
   else
     receive_credit();
 }
 
 void Outbox::receive_credit() {
-  Credit credit;
-  crecv(kCredit, &credit, sizeof credit);
+  wire::Credit credit;
+  crecv(wire::kCredit, &credit, sizeof credit);
   const auto message = std::as_bytes(std::span(&credit, 1)).first(static_cast<std::size_t>(infocount()));
-  credits_ += read_credit(message, static_cast<std::int32_t>(slots_.size()) - credits_);
+  credits_ += wire::read_credit(message, static_cast<std::int32_t>(slots_.size()) - credits_);
 }
 
 void Outbox::flush() {
@@ -65,4 +65,4 @@ void Outbox::wait(Slot& slot) {
   slot.message = -1;
 }
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -6,17 +6,17 @@
 
 #include "node/raster/strip_buffer.h"
 
-namespace mars::node {
+namespace mars::group {
 
 class Outbox {
  public:
   Outbox(std::size_t width, int credits);
 
   // An empty buffer (StripBuffer::clear); waits until the strip last sent from it is gone.
-  StripBuffer& begin(bool constant);
+  raster::StripBuffer& begin(bool constant);
   // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it. Sends nothing
   // where the host has said stop: it takes no more strips.
-  void send(Strip& header);
+  void send(wire::Strip& header);
   bool stopped() const { return stopped_; }
 
   // Receives one Credit message, waiting for it.
@@ -26,11 +26,11 @@ class Outbox {
 
  private:
   struct Slot {
-    StripBuffer buffer;
+    raster::StripBuffer buffer;
     long message = -1;  // -1: nothing on the way
   };
 
-  void wait_for_credit(Strip& header);
+  void wait_for_credit(wire::Strip& header);
   void take_news();
   static void wait(Slot& slot);
 
@@ -40,4 +40,4 @@ class Outbox {
   bool stopped_ = false;
 };
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -9,33 +9,33 @@
 #include "node/geometry/triangle.h"
 #include "node/raster/edge_box.h"
 
-namespace mars::node {
+namespace mars::group {
 namespace {
 
 // Bytes of edge boxes that travel with their triangles, at most; and of those that lie in their lines.
-constexpr std::uint64_t kTravelling = sizeof(Triangle) + sizeof(UnsortedEdgeBox);
-constexpr std::uint64_t kInLine = sizeof(EdgeBox);
+constexpr std::uint64_t kTravelling = sizeof(geometry::Triangle) + sizeof(raster::UnsortedEdgeBox);
+constexpr std::uint64_t kInLine = sizeof(raster::EdgeBox);
 
 // Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
 // piece of memory is rounded up.
 std::uint64_t overhead(const FrameLoad& load) { return 24 * load.line_counts.size() + 512 * load.homes.size() + 4096; }
 
 // Of all nodes' triangles, on some lines.
-std::uint64_t boxes_on(const FrameLoad& load, const LineRange& lines) {
+std::uint64_t boxes_on(const FrameLoad& load, const geometry::LineRange& lines) {
   return load.ebc[lines.last] - load.ebc[lines.first];
 }
 
 // Of the node's own triangles, on all lines of a pass.
 std::uint64_t own_boxes_in(const FrameLoad& load, const Pass& pass) {
   std::uint64_t boxes = 0;
-  for (const LineRange& home : load.homes) {
-    const LineRange part = part_of(home, pass);
+  for (const geometry::LineRange& home : load.homes) {
+    const geometry::LineRange part = part_of(home, pass);
     for (std::uint32_t line = part.first; line < part.last; ++line) boxes += load.line_counts[line];
   }
   return boxes;
 }
 
-const LineRange& home_of(const FrameLoad& load, int node) {
+const geometry::LineRange& home_of(const FrameLoad& load, int node) {
   return load.homes[static_cast<std::size_t>(node - load.group.first)];
 }
 
@@ -43,7 +43,7 @@ const LineRange& home_of(const FrameLoad& load, int node) {
 std::uint64_t memory_in(const FrameLoad& load, int node, const Pass& pass) {
   const std::uint64_t own_boxes = own_boxes_in(load, pass), boxes = boxes_on(load, part_of(home_of(load, node), pass));
   const std::uint64_t own =
-      std::min(own_boxes, load.triangles) * sizeof(Triangle) + own_boxes * sizeof(UnsortedEdgeBox);
+      std::min(own_boxes, load.triangles) * sizeof(geometry::Triangle) + own_boxes * sizeof(raster::UnsortedEdgeBox);
   const std::uint64_t travelling = load.homes.size() > 1 ? (own_boxes + boxes) * kTravelling : 0;
   return own + travelling + boxes * kInLine;
 }
@@ -60,24 +60,24 @@ bool one_pass_fits_all(const FrameLoad& load, std::uint64_t memory) {
 
 }  // namespace
 
-LineRange part_of(const LineRange& home, const Pass& pass) {
+geometry::LineRange part_of(const geometry::LineRange& home, const Pass& pass) {
   const auto at = [&](std::uint32_t number) {
     return home.first + static_cast<std::uint32_t>(std::uint64_t{home.count()} * number / pass.count);
   };
   return {at(pass.number), at(pass.number + 1)};
 }
 
-void mark_lines(std::span<const LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted) {
+void mark_lines(std::span<const geometry::LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted) {
   std::ranges::fill(wanted, std::uint8_t{0});
-  for (const LineRange& home : homes) {
-    const LineRange part = part_of(home, pass);
+  for (const geometry::LineRange& home : homes) {
+    const geometry::LineRange part = part_of(home, pass);
     std::ranges::fill(wanted.subspan(part.first, part.count()), std::uint8_t{1});
   }
 }
 
-std::uint64_t own_bytes(const MadeCounts& made, const hal::Group& group) {
+std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group) {
   const std::uint64_t sent = group.count > 1 ? made.edge_boxes * kTravelling : 0;
-  return made.triangles * sizeof(Triangle) + made.edge_boxes * sizeof(UnsortedEdgeBox) + sent;
+  return made.triangles * sizeof(geometry::Triangle) + made.edge_boxes * sizeof(raster::UnsortedEdgeBox) + sent;
 }
 
 std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes) {
@@ -101,8 +101,8 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) 
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory) {
   if (one_pass_fits_all(load, memory)) return 1;
   double most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
-  if (load.group.count > 1) hal::group_high(load.group, {&most, 1}, {&work, 1});
+  if (load.group.count > 1) collectives::group_high(load.group, {&most, 1}, {&work, 1});
   return static_cast<std::uint32_t>(most);
 }
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -9,7 +9,7 @@
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
 
-namespace mars::node {
+namespace mars::group {
 
 struct Pass {
   std::uint32_t number = 0;
@@ -19,10 +19,10 @@ struct Pass {
 };
 
 // The lines of a home that are drawn in a pass. The parts for twice as many passes lie within these.
-LineRange part_of(const LineRange& home, const Pass& pass);
+geometry::LineRange part_of(const geometry::LineRange& home, const Pass& pass);
 
 // Sets those of `wanted`, one a line of the picture, to 1 that any of the homes draws in the pass, others to 0.
-void mark_lines(std::span<const LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted);
+void mark_lines(std::span<const geometry::LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted);
 
 // What one node's patches became: triangles that touch a sample, and their edge boxes.
 struct MadeCounts {
@@ -31,13 +31,13 @@ struct MadeCounts {
 };
 
 // Bytes that these take on their node in a single pass, with what is set aside to send them to the group's others.
-std::uint64_t own_bytes(const MadeCounts& made, const hal::Group& group);
+std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group);
 
 // A frame as a node of the group knows it when lines are mapped.
 struct FrameLoad {
-  hal::Group group;
+  collectives::Group group;
   std::span<const std::uint64_t> ebc;          // of all nodes (mapping.h)
-  std::span<const LineRange> homes;            // of the group's nodes
+  std::span<const geometry::LineRange> homes;            // of the group's nodes
   std::span<const std::uint64_t> own_bytes;    // of the group's nodes
   std::span<const std::uint32_t> line_counts;  // edge boxes a line of the node's own triangles
   std::uint64_t triangles;                     // of its own
@@ -54,4 +54,4 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory);
 // Nodes ask each other only where one pass might not do for one of them, which all can tell from the sums.
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory);
 
-}  // namespace mars::node
+}  // namespace mars::group

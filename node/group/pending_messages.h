@@ -6,7 +6,7 @@
 
 #include "hal/nx/nx_messages.h"
 
-namespace mars::node {
+namespace mars::group {
 
 class PendingMessages {
  public:
@@ -24,4 +24,4 @@ class PendingMessages {
   std::vector<long> ids_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::group

@@ -4,7 +4,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 Arena::Arena(std::size_t bytes) : block_(bytes), size_(bytes / kGrain * kGrain), back_(size_) {
   block_.prefer_large_pages();
@@ -25,4 +25,4 @@ void Arena::take_ends(std::size_t at_front, std::size_t at_back) {
   peak_ = std::max(peak_, used());
 }
 
-}  // namespace mars::node
+}  // namespace mars::raster

@@ -7,7 +7,7 @@
 
 #include "hal/messages/private_memory.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 class Arena {
  public:
@@ -38,11 +38,11 @@ class Arena {
   std::byte* take_bytes(std::size_t bytes);
   std::size_t used() const { return front_ + (size_ - back_); }
 
-  hal::PrivateMemory block_;
+  messages::PrivateMemory block_;
   std::size_t size_ = 0;
   std::size_t front_ = 0;
   std::size_t back_ = 0;
   std::size_t peak_ = 0;
 };
 
-}  // namespace mars::node
+}  // namespace mars::raster

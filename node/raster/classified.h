@@ -8,7 +8,7 @@
 #include "node/raster/edge_box.h"
 #include "node/shape/vertices.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 // Triangles no higher than this many 1/256 pixel may have been turned over by snapping.
 inline constexpr int kThin = 4;
@@ -30,15 +30,15 @@ struct Classified {
   std::uint32_t decided;    // one bit a triangle
   std::uint32_t undecided;
   std::uint32_t faces;      // the side from which a, b, c run counter-clockwise is turned to the eye
-  alignas(64) std::int32_t first_row[kBatchTriangles];
-  alignas(64) std::int32_t last_row[kBatchTriangles];
-  alignas(64) std::uint32_t columns[kMostExtent][kBatchTriangles];  // of row first_row + r at [r]: first | last << 16, or 0
+  alignas(64) std::int32_t first_row[shape::kBatchTriangles];
+  alignas(64) std::int32_t last_row[shape::kBatchTriangles];
+  alignas(64) std::uint32_t columns[kMostExtent][shape::kBatchTriangles];  // of row first_row + r at [r]: first | last << 16, or 0
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
-  alignas(64) float x1[kBatchTriangles];
-  alignas(64) float y1[kBatchTriangles];
-  alignas(64) float x2[kBatchTriangles];
-  alignas(64) float y2[kBatchTriangles];
-  alignas(64) float inverse[kBatchTriangles];
+  alignas(64) float x1[shape::kBatchTriangles];
+  alignas(64) float y1[shape::kBatchTriangles];
+  alignas(64) float x2[shape::kBatchTriangles];
+  alignas(64) float y2[shape::kBatchTriangles];
+  alignas(64) float inverse[shape::kBatchTriangles];
 };
 
 // What a patch's or a meshlet's triangles have in common.
@@ -60,11 +60,11 @@ struct ScreenShape {
 
 // Where set-ups go: triangles forward from `next`, their edge boxes backward from `last_box`.
 struct SetUpSpace {
-  Triangle* first;  // the frame's triangles count from here
-  Triangle* next;
+  geometry::Triangle* first;  // the frame's triangles count from here
+  geometry::Triangle* next;
   UnsortedEdgeBox* last_box;         // the one stored last
   std::uint32_t* line_counts;        // edge boxes a line, of all that is added
   const std::uint8_t* wanted_lines;  // 1: edge boxes there are stored and counted
 };
 
-}  // namespace mars::node
+}  // namespace mars::raster

@@ -15,7 +15,7 @@
 #include "hal/messages/shared_memory.h"
 #include "node/geometry/line_range.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 class Czb {
  public:
@@ -24,7 +24,7 @@ class Czb {
   Czb(std::span<const std::int32_t> machines, int groups, std::int32_t width, std::int32_t height);
 
   // 1 / w a sample, 0 where nothing stands; line after line.
-  std::span<float> lines(const LineRange& lines);
+  std::span<float> lines(const geometry::LineRange& lines);
 
   // The first node of `node`'s group on its machine, which collects there what comes from other machines.
   int head_of(int node) const { return heads_[static_cast<std::size_t>(node)]; }
@@ -32,9 +32,9 @@ class Czb {
  private:
   std::size_t width_;
   std::vector<std::int32_t> heads_;
-  std::optional<hal::SharedMemory> shared_;  // all that nodes of this machine share
-  hal::PrivateMemory own_;                   // where the group has no other node here
+  std::optional<messages::SharedMemory> shared_;  // all that nodes of this machine share
+  messages::PrivateMemory own_;                   // where the group has no other node here
   float* depth_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::raster

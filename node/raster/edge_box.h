@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace mars::node {
+namespace mars::raster {
 
 // One triangle's part of one scanline: samples [first, last).
 struct EdgeBox {
@@ -20,4 +20,4 @@ struct UnsortedEdgeBox {
 };
 static_assert(sizeof(UnsortedEdgeBox) == 12);
 
-}  // namespace mars::node
+}  // namespace mars::raster

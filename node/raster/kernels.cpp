@@ -4,7 +4,7 @@
 
 #include "node/simd/instruction_set.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 namespace sse2 {
 extern const RasterKernels raster_kernels;
@@ -19,10 +19,10 @@ namespace avx512 {
 extern const RasterKernels raster_kernels;
 }
 
-const RasterKernels& raster_kernels(InstructionSet set) {
+const RasterKernels& raster_kernels(simd::InstructionSet set) {
   static constexpr const RasterKernels* kTables[] = {&sse2::raster_kernels, &sse4::raster_kernels, &avx2::raster_kernels,
                                                   &avx512::raster_kernels};
   return *kTables[static_cast<std::size_t>(set)];
 }
 
-}  // namespace mars::node
+}  // namespace mars::raster

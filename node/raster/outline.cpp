@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mars::node {
+namespace mars::raster {
 namespace {
 
 std::int32_t ceiling(double value) {
@@ -14,14 +14,14 @@ std::int32_t ceiling(double value) {
 }  // namespace
 
 Outline::Side Outline::side(const Corners& t, int from, int to) {
-  return {static_cast<double>(t.y[from]), static_cast<double>(t.x[from] - kSampleOffset),
+  return {static_cast<double>(t.y[from]), static_cast<double>(t.x[from] - shape::kSampleOffset),
           static_cast<double>(t.x[to] - t.x[from]), static_cast<double>(t.y[to] - t.y[from])};
 }
 
 // The numerator is below 2^50 and exact; the quotient, if no whole number, is at least 1 / (256 dy) > 2^-33
 // away from one while a double errs by less than 2^-36 of a pixel here, so the ceiling is exact.
 std::int32_t Outline::first_sample(const Side& s, double y) {
-  return ceiling(((y - s.y0) * s.dx + s.x0 * s.dy) / (kSubpixels * s.dy));
+  return ceiling(((y - s.y0) * s.dx + s.x0 * s.dy) / (shape::kSubpixels * s.dy));
 }
 
 Outline::Outline(const Corners& t, std::int32_t width, std::int32_t height) : width_(width) {
@@ -42,10 +42,10 @@ Outline::Outline(const Corners& t, std::int32_t width, std::int32_t height) : wi
 }
 
 Outline::Columns Outline::columns(std::int32_t row) const {
-  const std::int32_t y = row * kSubpixels + kSampleOffset;
+  const std::int32_t y = row * shape::kSubpixels + shape::kSampleOffset;
   const std::int32_t a = first_sample(long_, y);
   const std::int32_t b = first_sample(y < middle_ ? upper_ : lower_, y);
   return {std::max(std::min(a, b), 0), std::min(std::max(a, b), width_)};
 }
 
-}  // namespace mars::node
+}  // namespace mars::raster

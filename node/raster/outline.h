@@ -6,7 +6,7 @@
 
 #include "node/shape/vertices.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 // Screen places of a triangle's vertices.
 struct Corners {
@@ -44,6 +44,6 @@ class Outline {
 };
 
 // First row or column whose sample lies at or after `place`.
-constexpr std::int32_t sample_at_or_after(std::int32_t place) { return (place + kSampleOffset - 1) >> 8; }
+constexpr std::int32_t sample_at_or_after(std::int32_t place) { return (place + shape::kSampleOffset - 1) >> 8; }
 
-}  // namespace mars::node
+}  // namespace mars::raster

@@ -4,7 +4,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 std::span<const EdgeBox> LineBoxes::stationary(std::uint32_t line) const {
   const std::size_t i = line - lines.first;
@@ -23,7 +23,7 @@ bool LineBoxes::any_stationary() const {
   return false;
 }
 
-LineFiller::LineFiller(const LineRange& lines, std::span<const std::uint64_t> ebc, const Triangle* first, Arena& arena)
+LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc, const geometry::Triangle* first, Arena& arena)
     : lines_(lines),
       first_(first),
       boxes_(arena.take<EdgeBox>(ebc[lines.last] - ebc[lines.first])),
@@ -62,17 +62,17 @@ LineBoxes LineFiller::finish() const {
   return {lines_, boxes_, end_, stationary_};
 }
 
-ZBuffer::ZBuffer(InstructionSet set, std::int32_t width)
+ZBuffer::ZBuffer(simd::InstructionSet set, std::int32_t width)
     : kernels_(raster_kernels(set)),
-      shading_kernels_(shading_kernels(set)),
+      shading_kernels_(shading::shading_kernels(set)),
       width_(static_cast<std::size_t>(width)),
-      depths_((width_ - 1) / kVectorSlack + 2),
+      depths_((width_ - 1) / simd::kVectorSlack + 2),
       ids_(depths_.size()) {
-  std::fill_n(ids(), ids_.size() * kVectorSlack, kNoTriangle);
+  std::fill_n(ids(), ids_.size() * simd::kVectorSlack, shading::kNoTriangle);
 }
 
-void ZBuffer::draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading,
-                            const LineRange& czb_lines, Czb& czb, StripBuffer& out) {
+void ZBuffer::draw_keyframe(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+                            const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out) {
   for (std::uint32_t line = part.first; line < part.last; ++line) {
     const auto stationary = boxes.stationary(line), moving = boxes.moving(line);
     if (stationary.empty() && moving.empty() && !czb_lines.has(line)) continue;
@@ -84,8 +84,8 @@ void ZBuffer::draw_keyframe(const LineBoxes& boxes, const LineRange& part, const
   }
 }
 
-void ZBuffer::draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading,
-                             const LineRange& czb_lines, Czb& czb, StripBuffer& out) {
+void ZBuffer::draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+                             const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out) {
   for (std::uint32_t line = part.first; line < part.last; ++line) {
     const auto moving = boxes.moving(line);
     if (moving.empty()) continue;
@@ -101,13 +101,13 @@ void ZBuffer::draw_inbetween(const LineBoxes& boxes, const LineRange& part, cons
 }
 
 // Draws the line's boxes, shades what their ids show and forgets these.
-void ZBuffer::draw(std::span<const EdgeBox> boxes, const Shading& shading, std::uint32_t line,
+void ZBuffer::draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line,
                    StripBuffer::Layer& out) {
   if (boxes.empty()) return;
-  const Extent extent = kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
+  const shading::Extent extent = kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
                                       depth(), ids());
   out.added(shading_kernels_.shade(shading, ids(), line, extent, out.next_run(), out.next_pixel()));
-  std::fill(ids() + extent.first, ids() + extent.last, kNoTriangle);
+  std::fill(ids() + extent.first, ids() + extent.last, shading::kNoTriangle);
 }
 
-}  // namespace mars::node
+}  // namespace mars::raster

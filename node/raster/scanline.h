@@ -13,18 +13,18 @@
 #include "node/raster/strip_buffer.h"
 #include "node/shading/kernels.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 // One sender's part of a frame's triangles.
 struct Polygons {
-  const Triangle* triangles;
+  const geometry::Triangle* triangles;
   std::span<const UnsortedEdgeBox> stationary;
   std::span<const UnsortedEdgeBox> moving;
 };
 
 // Edge boxes of lines [lines.first, lines.last): line by line the stationary ones, then the moving ones.
 struct LineBoxes {
-  LineRange lines;
+  geometry::LineRange lines;
   std::span<const EdgeBox> boxes;
   std::span<const std::uint64_t> end;             // of each line's boxes
   std::span<const std::uint64_t> stationary_end;  // of each line's stationary boxes
@@ -39,15 +39,15 @@ struct LineBoxes {
 class LineFiller {
  public:
   // Boxes will name triangles by their distance from `first`. Takes its arrays from `arena`.
-  LineFiller(const LineRange& lines, std::span<const std::uint64_t> ebc, const Triangle* first, Arena& arena);
+  LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc, const geometry::Triangle* first, Arena& arena);
 
   void add(const Polygons& polygons);
   // check()s that the boxes are exactly those that EBC counted.
   LineBoxes finish() const;
 
  private:
-  LineRange lines_;
-  const Triangle* first_;
+  geometry::LineRange lines_;
+  const geometry::Triangle* first_;
   std::span<EdgeBox> boxes_;
   std::span<std::uint64_t> end_;
   std::span<std::uint64_t> stationary_;  // each line's from its begin, growing
@@ -57,35 +57,35 @@ class LineFiller {
 // The z-buffer of the line that is being drawn, small enough for a core's first cache.
 class ZBuffer {
  public:
-  ZBuffer(InstructionSet set, std::int32_t width);
+  ZBuffer(simd::InstructionSet set, std::int32_t width);
 
   // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB).
   // CZB of `czb_lines` goes to `czb`.
-  void draw_keyframe(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& czb_lines,
+  void draw_keyframe(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading, const geometry::LineRange& czb_lines,
                      Czb& czb, StripBuffer& out);
   // Draws moving parts of these lines against `czb`, whose `czb_lines` have all of them, and each other.
-  void draw_inbetween(const LineBoxes& boxes, const LineRange& part, const Shading& shading, const LineRange& czb_lines,
+  void draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading, const geometry::LineRange& czb_lines,
                       Czb& czb, StripBuffer& out);
 
  private:
   // Samples, as many as kernels take at a time.
   struct alignas(64) Depths {
-    float samples[kVectorSlack];
+    float samples[simd::kVectorSlack];
   };
   struct alignas(64) Ids {
-    std::uint32_t samples[kVectorSlack];
+    std::uint32_t samples[simd::kVectorSlack];
   };
 
-  void draw(std::span<const EdgeBox> boxes, const Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
+  void draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
 
   float* depth() { return depths_.front().samples; }
   std::uint32_t* ids() { return ids_.front().samples; }
 
   const RasterKernels& kernels_;
-  const ShadingKernels& shading_kernels_;
+  const shading::ShadingKernels& shading_kernels_;
   std::size_t width_;
   std::vector<Depths> depths_;  // kVectorSlack samples more than a line
   std::vector<Ids> ids_;        // likewise; kNoTriangle between lines
 };
 
-}  // namespace mars::node
+}  // namespace mars::raster

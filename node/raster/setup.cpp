@@ -8,7 +8,7 @@
 #include "node/geometry/clip.h"
 #include "node/raster/outline.h"
 
-namespace mars::node {
+namespace mars::raster {
 namespace {
 
 // Cut vertices lie on the planes but for rounding: they pass a projection this much wider.
@@ -17,7 +17,7 @@ constexpr float kSlack = 1.001f;
 // Counts the edge boxes and stores them if the triangle fits too; whether there were any and they were stored.
 bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
   const std::int32_t first = outline.first_row, last = std::max(first, outline.last_row);
-  const bool fits = out.bytes_left() >= sizeof(Triangle) + static_cast<std::size_t>(last - first) * sizeof(UnsortedEdgeBox);
+  const bool fits = out.bytes_left() >= sizeof(geometry::Triangle) + static_cast<std::size_t>(last - first) * sizeof(UnsortedEdgeBox);
   const auto number = static_cast<std::uint32_t>(out.next - out.first);
   std::uint32_t boxes = 0;
   for (std::int32_t row = first; row < last; ++row) {
@@ -38,7 +38,7 @@ bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
 // Memory that a batch does not exceed in a picture of so many lines.
 std::size_t most_bytes(const Classified& e, std::int32_t height) {
   const std::int32_t rows = e.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
-  return kBatchTriangles * (sizeof(Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
+  return shape::kBatchTriangles * (sizeof(geometry::Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
 }
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
@@ -51,7 +51,7 @@ std::int64_t determinant(const Corners& t) {
 float sum_of_sizes(const float* a) { return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]); }
 
 // Whether the surface's outside by the vertices' normals is turned to the eye, on average.
-bool normals_face_eye(const Vertices& v, const Corner3& corners) {
+bool normals_face_eye(const shape::Vertices& v, const shape::Corner3& corners) {
   float toward = 0;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c})
     for (int axis = 0; axis < 3; ++axis) toward -= v.normal[axis][corner] * v.place[axis][corner];
@@ -61,7 +61,7 @@ bool normals_face_eye(const Vertices& v, const Corner3& corners) {
 // Whether the eye is on the side of the triangle to which (b - a) x (c - a) points. Asked of the places before
 // snapping, which can turn a thin triangle over; where even these are in a line but for rounding (beside the
 // tip of a cone), the normals tell. Else such a triangle would be lit from behind.
-bool faces_eye(const Vertices& v, const Corner3& corners) {
+bool faces_eye(const shape::Vertices& v, const shape::Corner3& corners) {
   constexpr float kRounding = 1e-6f;
   float a[3], b[3], c[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -77,16 +77,16 @@ bool faces_eye(const Vertices& v, const Corner3& corners) {
 }
 
 // A clipped triangle has at most nine corners.
-constexpr int kFew = 9 + kVectorSlack;
+constexpr int kFew = 9 + simd::kVectorSlack;
 
 // A handful of vertices on the stack, as kernels want them.
 struct FewVertices {
   float numbers[6][kFew];
   std::int32_t places[2][kFew];
   std::uint8_t flags[kFew];
-  alignas(64) float values[kFew][kValues];
+  alignas(64) float values[kFew][shape::kValues];
 
-  Vertices view() {
+  shape::Vertices view() {
     return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, values, places[0],
             places[1], flags};
   }
@@ -96,7 +96,7 @@ struct FewVertices {
 
 SetUps::SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts,
                std::span<const std::uint8_t> wanted_lines) {
-  first = next = reinterpret_cast<Triangle*>(memory.data());
+  first = next = reinterpret_cast<geometry::Triangle*>(memory.data());
   last_box = end = reinterpret_cast<UnsortedEdgeBox*>(memory.data() + memory.size());
   this->line_counts = line_counts.data();
   this->wanted_lines = wanted_lines.data();
@@ -106,19 +106,19 @@ std::size_t SetUps::bytes_left() const {
   return static_cast<std::size_t>(reinterpret_cast<std::byte*>(last_box) - reinterpret_cast<std::byte*>(next));
 }
 
-SetUp::SetUp(InstructionSet set, const Projection& projection, std::int32_t width, std::int32_t height)
-    : shape_kernels_(shape_kernels(set)),
+SetUp::SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height)
+    : shape_kernels_(shape::shape_kernels(set)),
       kernels_(raster_kernels(set)),
       projection_(projection),
       width_(width),
       height_(height) {}
 
-void SetUp::add(const Surface& surface, const PatchIdentity& identity, SetUps& out) {
+void SetUp::add(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out) {
   if (surface.reaches_outside()) return add_plainly(surface, identity, out);
-  const Vertices& v = surface.vertices();
-  const Triangles& triangles = surface.triangles();
+  const shape::Vertices& v = surface.vertices();
+  const shape::Triangles& triangles = surface.triangles();
   const ClassifyTask task{width_, height_, identity.one_sided, identity.mirrored};
-  for (const Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
+  for (const shape::Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
     kernels_.classify(task, v, triangles, batch, classified_);
     if (out.bytes_left() < most_bytes(classified_, height_)) classified_.undecided |= std::exchange(classified_.decided, 0u);
     if ((classified_.decided | classified_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
@@ -126,7 +126,7 @@ void SetUp::add(const Surface& surface, const PatchIdentity& identity, SetUps& o
 }
 
 // In the order of the batch: decided ones up to the next undecided one, and so on.
-void SetUp::add_batch(const Vertices& v, const Triangles& triangles, const Batch& batch,
+void SetUp::add_batch(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch,
                       const PatchIdentity& identity, SetUps& out) const {
   constexpr std::uint32_t kAll = 0xffffffffu;
   const auto emit = [&](std::uint32_t lanes) {
@@ -145,12 +145,12 @@ void SetUp::add_batch(const Vertices& v, const Triangles& triangles, const Batch
   emit(rest);
 }
 
-void SetUp::add_plainly(const Surface& surface, const PatchIdentity& identity, SetUps& out) const {
+void SetUp::add_plainly(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out) const {
   for (std::uint32_t k = 0; k < surface.triangles().count; ++k)
     add_one(surface.vertices(), surface.triangles()[k], identity, out);
 }
 
-void SetUp::add_one(const Vertices& v, const Corner3& corners, const PatchIdentity& identity, SetUps& out) const {
+void SetUp::add_one(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity, SetUps& out) const {
   const int outside = v.outside[corners.a] + v.outside[corners.b] + v.outside[corners.c];
   if (outside == 0)
     add_whole(v, corners, std::nullopt, identity, out);
@@ -158,24 +158,24 @@ void SetUp::add_one(const Vertices& v, const Corner3& corners, const PatchIdenti
     add_clipped(v, corners, identity, out);
 }
 
-void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const PatchIdentity& identity,
+void SetUp::add_clipped(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity,
                         SetUps& out) const {
-  ClipPolygon polygon;
+  geometry::ClipPolygon polygon;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c}) {
-    ClipVertex& vertex = polygon.vertex[static_cast<std::size_t>(polygon.count++)];
+    geometry::ClipVertex& vertex = polygon.vertex[static_cast<std::size_t>(polygon.count++)];
     for (int axis = 0; axis < 3; ++axis) {
       vertex.place[axis] = v.place[axis][corner];
       vertex.normal[axis] = v.normal[axis][corner];
     }
   }
-  clip(projection_, polygon);
+  geometry::clip(projection_, polygon);
   FewVertices few{};
   for (int i = 0; i < polygon.count; ++i)
     for (int axis = 0; axis < 3; ++axis) {
       few.numbers[axis][i] = polygon.vertex[static_cast<std::size_t>(i)].place[axis];
       few.numbers[3 + axis][i] = polygon.vertex[static_cast<std::size_t>(i)].normal[axis];
     }
-  Projection wider = projection_;
+  shape::Projection wider = projection_;
   wider.near /= kSlack;
   wider.far *= kSlack;
   wider.guard *= kSlack;
@@ -187,7 +187,7 @@ void SetUp::add_clipped(const Vertices& v, const Corner3& corners, const PatchId
   }
 }
 
-void SetUp::add_whole(const Vertices& v, const Corner3& corners, std::optional<bool> known,
+void SetUp::add_whole(const shape::Vertices& v, const shape::Corner3& corners, std::optional<bool> known,
                       const PatchIdentity& identity, SetUps& out) const {
   const std::uint32_t corner[3] = {corners.a, corners.b, corners.c};
   Corners t;
@@ -209,4 +209,4 @@ void SetUp::add_whole(const Vertices& v, const Corner3& corners, std::optional<b
   kernels_.set_up_planes(v, corners, shape, identity, *out.next++);
 }
 
-}  // namespace mars::node
+}  // namespace mars::raster

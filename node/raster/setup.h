@@ -14,14 +14,14 @@
 #include "node/raster/kernels.h"
 #include "node/shape/surface.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 // Set-ups and their edge boxes in one piece of memory: triangles from its front (aligned to a cache line), their
 // edge boxes from its end towards the front. What no longer fits is still counted.
 struct SetUps : SetUpSpace {
   SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts, std::span<const std::uint8_t> wanted_lines);
 
-  std::span<const Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
+  std::span<const geometry::Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
   // The latest first.
   std::span<const UnsortedEdgeBox> boxes() const { return {last_box, static_cast<std::size_t>(end - last_box)}; }
   bool all_stored() const { return boxes().size() == edge_boxes; }
@@ -34,28 +34,28 @@ struct SetUps : SetUpSpace {
 
 class SetUp {
  public:
-  SetUp(InstructionSet set, const Projection& projection, std::int32_t width, std::int32_t height);
+  SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height);
 
-  void add(const Surface& surface, const PatchIdentity& identity, SetUps& out);
+  void add(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out);
   // The same without the sixteen at a time: the plain twin.
-  void add_plainly(const Surface& surface, const PatchIdentity& identity, SetUps& out) const;
+  void add_plainly(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out) const;
 
  private:
-  void add_one(const Vertices& vertices, const Corner3& corners, const PatchIdentity& identity, SetUps& out) const;
-  void add_clipped(const Vertices& vertices, const Corner3& corners, const PatchIdentity& identity,
+  void add_one(const shape::Vertices& vertices, const shape::Corner3& corners, const PatchIdentity& identity, SetUps& out) const;
+  void add_clipped(const shape::Vertices& vertices, const shape::Corner3& corners, const PatchIdentity& identity,
                    SetUps& out) const;
   // `faces`: whether its outside by the order of its vertices is turned to the eye, where that is known already.
-  void add_whole(const Vertices& vertices, const Corner3& corners, std::optional<bool> faces,
+  void add_whole(const shape::Vertices& vertices, const shape::Corner3& corners, std::optional<bool> faces,
                  const PatchIdentity& identity, SetUps& out) const;
-  void add_batch(const Vertices& vertices, const Triangles& triangles, const Batch& batch,
+  void add_batch(const shape::Vertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
                  const PatchIdentity& identity, SetUps& out) const;
 
-  const ShapeKernels& shape_kernels_;
+  const shape::ShapeKernels& shape_kernels_;
   const RasterKernels& kernels_;
-  Projection projection_;
+  shape::Projection projection_;
   std::int32_t width_;
   std::int32_t height_;
   Classified classified_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::raster

@@ -6,19 +6,19 @@
 #include "hal/failure/failure.h"
 #include "node/wire/film_parts.h"
 
-namespace mars::node {
+namespace mars::raster {
 namespace {
 
 constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the space left and the next
-constexpr std::size_t kPixels = kMaxStripBytes / sizeof(std::uint32_t) + kVectorSlack;  // of one layer
-constexpr std::size_t kRuns = kMaxStripBytes / sizeof(Run);
+constexpr std::size_t kPixels = wire::kMaxStripBytes / sizeof(std::uint32_t) + simd::kVectorSlack;  // of one layer
+constexpr std::size_t kRuns = wire::kMaxStripBytes / sizeof(wire::Run);
 
 // Of both layers. Between two runs of a line is a pixel that neither has: most is taken by runs of one pixel each.
 constexpr std::size_t most_bytes_of_line(std::size_t width) {
-  return 2 * (sizeof(std::uint32_t) + sizeof(Run)) * ((width + 2) / 2);
+  return 2 * (sizeof(std::uint32_t) + sizeof(wire::Run)) * ((width + 2) / 2);
 }
 
-static_assert(sizeof(Strip) + most_bytes_of_line(kMaxSide) <= kMaxStripBytes, "any line fits an empty strip");
+static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide) <= wire::kMaxStripBytes, "any line fits an empty strip");
 
 // `items` to `at`, which they may overlap; returns what comes behind them.
 template <typename T>
@@ -30,33 +30,33 @@ std::byte* put(std::span<const T> items, std::byte* at) {
 
 }  // namespace
 
-void StripBuffer::Layer::added(const Shaded& shaded) {
+void StripBuffer::Layer::added(const shading::Shaded& shaded) {
   pixel_count_ += shaded.pixels;
   run_count_ += shaded.runs;
 }
 
 StripBuffer::StripBuffer(std::size_t width)
     : line_bytes_(most_bytes_of_line(width)),
-      message_(sizeof(Strip) + 2 * kPixels * sizeof(std::uint32_t)),
-      runs_(2 * kRuns * sizeof(Run)) {}
+      message_(sizeof(wire::Strip) + 2 * kPixels * sizeof(std::uint32_t)),
+      runs_(2 * kRuns * sizeof(wire::Run)) {}
 
 void StripBuffer::clear(bool constant) {
-  auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(Strip));
-  auto* runs = reinterpret_cast<Run*>(runs_.bytes().data());
+  auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(wire::Strip));
+  auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());
   constant_ = {pixels, runs};
   moving_ = constant ? Layer(pixels + kPixels, runs + kRuns) : Layer(pixels, runs);
 }
 
 std::size_t StripBuffer::bytes() const {
-  return sizeof(Strip) + constant_.pixels().size_bytes() + moving_.pixels().size_bytes() + constant_.runs().size_bytes() +
+  return sizeof(wire::Strip) + constant_.pixels().size_bytes() + moving_.pixels().size_bytes() + constant_.runs().size_bytes() +
          moving_.runs().size_bytes();
 }
 
 std::uint32_t StripBuffer::lines_that_fit() const {
-  return static_cast<std::uint32_t>(std::min<std::size_t>(kLines, (kMaxStripBytes - bytes()) / line_bytes_));
+  return static_cast<std::uint32_t>(std::min<std::size_t>(kLines, (wire::kMaxStripBytes - bytes()) / line_bytes_));
 }
 
-std::span<const std::byte> StripBuffer::finish(Strip& header) {
+std::span<const std::byte> StripBuffer::finish(wire::Strip& header) {
   header.constant_runs = static_cast<std::uint32_t>(constant_.runs().size());
   header.moving_runs = static_cast<std::uint32_t>(moving_.runs().size());
   header.pixels = constant_.pixels().size() + moving_.pixels().size();
@@ -65,11 +65,11 @@ std::span<const std::byte> StripBuffer::finish(Strip& header) {
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(moving_.runs(), put(constant_.runs(), end));
   const auto size = static_cast<std::size_t>(end - start);
-  check(size <= kMaxStripBytes, "a strip has at most so many bytes");
+  check(size <= wire::kMaxStripBytes, "a strip has at most so many bytes");
   header.work.pixels += header.pixels;
   header.work.bytes_to_host += size;
   std::memcpy(start, &header, sizeof header);
   return {start, size};
 }
 
-}  // namespace mars::node
+}  // namespace mars::raster

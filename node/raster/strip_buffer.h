@@ -10,7 +10,7 @@
 #include "node/shading/shading.h"
 #include "node/wire/protocol.h"
 
-namespace mars::node {
+namespace mars::raster {
 
 class StripBuffer {
  public:
@@ -18,19 +18,19 @@ class StripBuffer {
   class Layer {
    public:
     Layer() = default;
-    Layer(std::uint32_t* pixels, Run* runs) : pixels_(pixels), runs_(runs) {}
+    Layer(std::uint32_t* pixels, wire::Run* runs) : pixels_(pixels), runs_(runs) {}
 
     // Where kernels write, with kVectorSlack to spare; added() then moves on.
     std::uint32_t* next_pixel() { return pixels_ + pixel_count_; }
-    Run* next_run() { return runs_ + run_count_; }
-    void added(const Shaded& shaded);
+    wire::Run* next_run() { return runs_ + run_count_; }
+    void added(const shading::Shaded& shaded);
 
     std::span<const std::uint32_t> pixels() const { return {pixels_, pixel_count_}; }
-    std::span<const Run> runs() const { return {runs_, run_count_}; }
+    std::span<const wire::Run> runs() const { return {runs_, run_count_}; }
 
    private:
     std::uint32_t* pixels_ = nullptr;
-    Run* runs_ = nullptr;
+    wire::Run* runs_ = nullptr;
     std::size_t pixel_count_ = 0;
     std::size_t run_count_ = 0;
   };
@@ -48,16 +48,16 @@ class StripBuffer {
 
   // The message, valid until clear(): `header` with the counts of pixels and runs set, and its work's pixels and
   // bytes to the host grown by what is sent.
-  std::span<const std::byte> finish(Strip& header);
+  std::span<const std::byte> finish(wire::Strip& header);
 
  private:
   std::size_t bytes() const;
 
   std::size_t line_bytes_;  // that a line takes at most
-  hal::PrivateMemory message_;
-  hal::PrivateMemory runs_;
+  messages::PrivateMemory message_;
+  messages::PrivateMemory runs_;
   Layer constant_;
   Layer moving_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::raster

@@ -6,17 +6,19 @@
 
 #include "node/shading/shading.h"
 
-namespace mars::node {
-
+namespace mars::simd {
 enum class InstructionSet;
+}
+
+namespace mars::shading {
 
 struct ShadingKernels {
   // Shades the samples of line `line` within `extent` whose id is not kNoTriangle, their runs to `runs` and
   // their pixels to `pixels`; says how many of each.
-  Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+  Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
                   std::uint32_t* pixels);
 };
 
-const ShadingKernels& shading_kernels(InstructionSet set);
+const ShadingKernels& shading_kernels(simd::InstructionSet set);
 
-}  // namespace mars::node
+}  // namespace mars::shading

@@ -10,14 +10,14 @@
 #include "node/wire/film_parts.h"
 #include "node/wire/run.h"
 
-namespace mars::node {
+namespace mars::shading {
 
 struct Shading {
-  const Triangle* triangles;
-  const Material* materials;
-  const EyeLight* lights;
+  const geometry::Triangle* triangles;
+  const wire::Material* materials;
+  const geometry::EyeLight* lights;
   std::uint32_t light_count;
-  Projection projection;
+  shape::Projection projection;
 };
 
 // Columns [first, last); none where last <= first.
@@ -33,4 +33,4 @@ struct Shaded {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-}  // namespace mars::node
+}  // namespace mars::shading

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-namespace mars::node {
+namespace mars::shape {
 namespace {
 
 // All rates' tables in one block: for each rate, seven arrays of rate + 1.
 class BasisTables {
  public:
-  BasisTables() : numbers_(static_cast<std::size_t>(7 * (kMaxRate + 1) * (kMaxRate + 2) / 2 + kVectorSlack)) {
+  BasisTables() : numbers_(static_cast<std::size_t>(7 * (kMaxRate + 1) * (kMaxRate + 2) / 2 + simd::kVectorSlack)) {
     float* next = numbers_.data();
     for (int rate = 1; rate <= kMaxRate; ++rate) next = fill(rate, next);
   }
@@ -112,7 +112,7 @@ bool comes_after(const Curve& curve) {
 
 }  // namespace
 
-EyeMatrix eye_matrix(const Matrix& world_to_eye, const Matrix& to_world) {
+EyeMatrix eye_matrix(const wire::Matrix& world_to_eye, const wire::Matrix& to_world) {
   EyeMatrix out;
   for (std::size_t r = 0; r < 3; ++r) {
     const auto& e = world_to_eye.m[r];
@@ -139,7 +139,7 @@ void to_eye(const EyeMatrix& matrix, const std::array<float, 3>& p, float (&out)
   }
 }
 
-EyePatch to_eye(const EyeMatrix& matrix, const Patch& patch) {
+EyePatch to_eye(const EyeMatrix& matrix, const wire::Patch& patch) {
   EyePatch out;
   for (std::size_t i = 0; i < 16; ++i) to_eye(matrix, patch.points[i], out.point[i]);
   return out;
@@ -225,4 +225,4 @@ bool unseen(const float (*points)[3], int count, const Projection& projection, f
   return std::any_of(all, all + 6, [](bool outside) { return outside; });
 }
 
-}  // namespace mars::node
+}  // namespace mars::shape

@@ -5,7 +5,7 @@
 #include "node/shape/kernels.h"
 #include "node/wire/film_parts.h"
 
-namespace mars::node {
+namespace mars::shape {
 
 inline constexpr int kMaxRate = 256;
 
@@ -34,11 +34,11 @@ struct Rates {
 };
 
 // world_to_eye * to_world, rounded once.
-EyeMatrix eye_matrix(const Matrix& world_to_eye, const Matrix& to_world);
+EyeMatrix eye_matrix(const wire::Matrix& world_to_eye, const wire::Matrix& to_world);
 // Whether the map turns shapes inside out.
 bool mirrors(const EyeMatrix& matrix);
 
-EyePatch to_eye(const EyeMatrix& matrix, const Patch& patch);
+EyePatch to_eye(const EyeMatrix& matrix, const wire::Patch& patch);
 void to_eye(const EyeMatrix& matrix, const std::array<float, 3>& place, float (&out)[3]);
 
 // Basis of `rate` steps, 1..kMaxRate; tables live as long as the program.
@@ -67,4 +67,4 @@ bool unseen(const EyePatch& patch, const Projection& projection, float width, fl
 // The same of anything within the hull of `count` points.
 bool unseen(const float (*points)[3], int count, const Projection& projection, float width, float height);
 
-}  // namespace mars::node
+}  // namespace mars::shape

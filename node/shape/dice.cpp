@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mars::node {
+namespace mars::shape {
 namespace {
 
 constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1);
@@ -60,7 +60,7 @@ Row side_row(const EyePatch& patch, Side side) {
 
 }  // namespace
 
-Dicer::Dicer(InstructionSet set) : Surface(set, kMostVertices, kMostTriangles, kMostBatches) {}
+Dicer::Dicer(simd::InstructionSet set) : Surface(set, kMostVertices, kMostTriangles, kMostBatches) {}
 
 void Dicer::dice(const EyePatch& patch, const Projection& projection, int fixed_rate) {
   const Rates wanted = rates(kernels_, patch, projection, fixed_rate);
@@ -221,4 +221,4 @@ Dicer::Chain Dicer::inner_chain(Side side) const {
   }
 }
 
-}  // namespace mars::node
+}  // namespace mars::shape

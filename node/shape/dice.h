@@ -8,11 +8,11 @@
 #include "node/shape/bezier.h"
 #include "node/shape/surface.h"
 
-namespace mars::node {
+namespace mars::shape {
 
 class Dicer : public Surface {
  public:
-  explicit Dicer(InstructionSet set);
+  explicit Dicer(simd::InstructionSet set);
 
   // Becomes the surface of `patch`, until the next call.
   void dice(const EyePatch& patch, const Projection& projection, int fixed_rate);
@@ -49,4 +49,4 @@ class Dicer : public Surface {
   int side_at_[4] = {};   // first vertex of each side, in the direction of u or v
 };
 
-}  // namespace mars::node
+}  // namespace mars::shape

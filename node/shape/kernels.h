@@ -5,9 +5,11 @@
 
 #include "node/shape/vertices.h"
 
-namespace mars::node {
-
+namespace mars::simd {
 enum class InstructionSet;
+}
+
+namespace mars::shape {
 
 struct ShapeKernels {
   // How a patch's inside bends, as it is seen: see rates (bezier.h).
@@ -24,6 +26,6 @@ struct ShapeKernels {
   bool (*project)(const Projection& projection, const Vertices& vertices, int count);
 };
 
-const ShapeKernels& shape_kernels(InstructionSet set);
+const ShapeKernels& shape_kernels(simd::InstructionSet set);
 
-}  // namespace mars::node
+}  // namespace mars::shape

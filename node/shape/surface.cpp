@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-namespace mars::node {
+namespace mars::shape {
 
-Surface::Surface(InstructionSet set, int most_vertices, int most_triangles, int most_batches)
-    : kernels_(shape_kernels(set)), stride_(static_cast<std::uint32_t>(most_triangles + kVectorSlack)) {
-  const std::size_t vertices = static_cast<std::size_t>(most_vertices + kVectorSlack);
+Surface::Surface(simd::InstructionSet set, int most_vertices, int most_triangles, int most_batches)
+    : kernels_(shape_kernels(set)), stride_(static_cast<std::uint32_t>(most_triangles + simd::kVectorSlack)) {
+  const std::size_t vertices = static_cast<std::size_t>(most_vertices + simd::kVectorSlack);
   numbers_.reset(new float[6 * vertices]);
   places_.reset(new std::int32_t[2 * vertices]);
   flags_.reset(new std::uint8_t[vertices]);
@@ -34,4 +34,4 @@ void Surface::end_batches(bool consecutive) {
   }
 }
 
-}  // namespace mars::node
+}  // namespace mars::shape

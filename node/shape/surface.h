@@ -7,7 +7,7 @@
 
 #include "node/shape/kernels.h"
 
-namespace mars::node {
+namespace mars::shape {
 
 class Surface {
  public:
@@ -18,7 +18,7 @@ class Surface {
   bool reaches_outside() const { return reaches_outside_; }  // whether any vertex is outside
 
  protected:
-  Surface(InstructionSet set, int most_vertices, int most_triangles, int most_batches);
+  Surface(simd::InstructionSet set, int most_vertices, int most_triangles, int most_batches);
 
   void project(const Projection& projection) {
     reaches_outside_ = kernels_.project(projection, vertices_, vertex_count_);
@@ -50,4 +50,4 @@ class Surface {
   bool reaches_outside_ = false;
 };
 
-}  // namespace mars::node
+}  // namespace mars::shape

@@ -8,7 +8,7 @@
 
 #include "node/simd/vector_slack.h"
 
-namespace mars::node {
+namespace mars::shape {
 
 inline constexpr std::int32_t kSubpixels = 256;
 inline constexpr std::int32_t kSampleOffset = kSubpixels / 2;
@@ -108,4 +108,4 @@ struct Triangles {
   Corner3 operator[](std::uint32_t k) const { return {a[k], b[k], c[k]}; }
 };
 
-}  // namespace mars::node
+}  // namespace mars::shape

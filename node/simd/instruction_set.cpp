@@ -7,7 +7,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::node {
+namespace mars::simd {
 namespace {
 
 constexpr const char* kNames[] = {"sse2", "sse4", "avx2", "avx512"};
@@ -42,4 +42,4 @@ InstructionSet best_instruction_set(std::string_view limit) {
   return best;
 }
 
-}  // namespace mars::node
+}  // namespace mars::simd

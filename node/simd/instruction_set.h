@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace mars::node {
+namespace mars::simd {
 
 // The narrowest first.
 enum class InstructionSet { sse2, sse4, avx2, avx512 };
@@ -16,4 +16,4 @@ const char* name_of(InstructionSet set);
 // limit). Throws Failure for another name.
 InstructionSet best_instruction_set(std::string_view limit);
 
-}  // namespace mars::node
+}  // namespace mars::simd

@@ -9,7 +9,7 @@
 
 #include "node/simd/vector_slack.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::simd::MARS_SET {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -23,4 +23,4 @@ inline constexpr FloatTag kFloats;
 inline constexpr IntTag kInts;
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::simd::MARS_SET

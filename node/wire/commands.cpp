@@ -6,7 +6,7 @@
 #include "hal/collectives/group.h"
 #include "hal/failure/failure.h"
 
-namespace mars::node {
+namespace mars::wire {
 namespace {
 
 void require(bool holds, const char* command, const char* rule) {
@@ -27,7 +27,7 @@ std::span<const Item> items_behind(std::span<const std::byte> message, std::size
 // Whether the node belongs to the group, and the group is one of those that the nodes form.
 bool is_group_of(const Render& render, int node, int nodes, int groups) {
   for (int i = 0; i < groups; ++i) {
-    const hal::Group group = hal::group_of(nodes, groups, i);
+    const collectives::Group group = collectives::group_of(nodes, groups, i);
     if (node >= group.first && node < group.first + group.count)
       return render.group_first == group.first && render.group_count == group.count;
   }
@@ -83,4 +83,4 @@ void check_size(const char* command, std::size_t bytes, std::size_t expected) {
   require(bytes == expected, command, "its size");
 }
 
-}  // namespace mars::node
+}  // namespace mars::wire

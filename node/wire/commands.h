@@ -10,7 +10,7 @@
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
 
-namespace mars::node {
+namespace mars::wire {
 
 struct LoadCommand {
   const Load& load;
@@ -34,4 +34,4 @@ std::int32_t read_credit(std::span<const std::byte> message, std::int32_t missin
 // Stop and Clock, which say all by their type, and others that must have just so many bytes.
 void check_size(const char* command, std::size_t bytes, std::size_t expected);
 
-}  // namespace mars::node
+}  // namespace mars::wire

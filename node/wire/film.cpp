@@ -9,7 +9,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::node {
+namespace mars::wire {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the film block is little-endian and read in place");
@@ -19,10 +19,12 @@ constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kSlack = kMeshSlack * sizeof(std::array<float, 3>);  // bytes behind every section
 constexpr double kLargest = 1e12;  // of any number in a film: squares and products stay far inside a float
 
+// clang-format off
 enum Section : std::size_t {
   kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kShapes, kSegments, kMaterials, kMatrices,
   kCameras, kLights, kLightTracks, kChanges, kIntervals, kMoving, kNames, kSections
 };
+// clang-format on
 
 struct Place {
   std::uint64_t offset;
@@ -294,4 +296,4 @@ std::uint64_t FilmView::patch_instances() const {
   return patches;
 }
 
-}  // namespace mars::node
+}  // namespace mars::wire

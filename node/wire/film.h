@@ -14,7 +14,7 @@
 
 #include "node/wire/film_parts.h"
 
-namespace mars::node {
+namespace mars::wire {
 
 // Vertices that vectors may read behind those of a mesh.
 inline constexpr std::size_t kMeshSlack = 16;
@@ -109,4 +109,4 @@ class FilmView {
   std::span<const char> names_;
 };
 
-}  // namespace mars::node
+}  // namespace mars::wire

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-namespace mars::node {
+namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
 inline constexpr std::uint32_t kFilmVersion = 2;
@@ -128,4 +128,4 @@ struct FilmSettings {
   Track camera;          // indices into cameras
 };
 
-}  // namespace mars::node
+}  // namespace mars::wire

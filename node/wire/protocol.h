@@ -19,7 +19,7 @@
 #include "node/wire/run.h"
 #include "node/wire/stamp.h"
 
-namespace mars::node {
+namespace mars::wire {
 
 // Commands and answers are below 30, so that one NX type selector can name a set of them.
 enum MessageType : long {
@@ -33,7 +33,7 @@ enum MessageType : long {
   kFault,
   kStop,
   kClock,  // host -> node: what is the time? (empty); node -> host: its dclock(), a double
-  kTrace,  // hal::Event ..., closed by one of kind lost
+  kTrace,  // messages::Event ..., closed by one of kind lost
 };
 
 // Types of what nodes send each other say from whom, for NX receives by type alone. They are low: an MPI need
@@ -79,7 +79,7 @@ struct Load {
   std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
   std::int32_t credits;   // strips a node may have on the way to the host, 1..kMaxCredits
   Mapping mapping;
-  std::int32_t groups;     // that the nodes form side by side (hal::group_of), for all Render commands
+  std::int32_t groups;     // that the nodes form side by side (collectives::group_of), for all Render commands
   std::uint32_t traced;   // 1: the node records what it does and sends it as Trace
 };
 
@@ -168,4 +168,4 @@ struct Fault {
   std::array<char, 1024> reason;
 };
 
-}  // namespace mars::node
+}  // namespace mars::wire

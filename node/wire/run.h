@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace mars::node {
+namespace mars::wire {
 
 // `count` pixels of line `line` from column `first`.
 struct Run {
@@ -12,4 +12,4 @@ struct Run {
   std::uint16_t count;
 };
 
-}  // namespace mars::node
+}  // namespace mars::wire

@@ -8,7 +8,7 @@
 #include "node/wire/film_parts.h"
 #include "node/wire/protocol.h"
 
-namespace mars::node {
+namespace mars::wire {
 namespace {
 
 constexpr std::array<char, 4> kMagic{'M', 'A', 'R', 'S'};
@@ -53,4 +53,4 @@ void check_stamp(std::span<const std::byte> message, const std::string& sender, 
     refuse("runs " + version_of(stamp) + " built with messages of other sizes", same);
 }
 
-}  // namespace mars::node
+}  // namespace mars::wire

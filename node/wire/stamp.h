@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-namespace mars::node {
+namespace mars::wire {
 
 inline constexpr std::uint8_t kWireVersion = 2;
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
@@ -38,4 +38,4 @@ WireStamp own_stamp();
 // reads it: "n3 (node 17)", "the host".
 void check_stamp(std::span<const std::byte> message, const std::string& sender, const std::string& receiver);
 
-}  // namespace mars::node
+}  // namespace mars::wire

@@ -1,7 +1,7 @@
 // A backend that counts what its rank sends before handing it on: who sent how much of which type to whom.
 //   Counts counts;
 //   run_threads(nodes, host, node, counting(counts));
-//   EXPECT_EQ(counts.sent({.from = 0, .type = node::triangles_from(0)}).messages, ...);
+//   EXPECT_EQ(counts.sent({.from = 0, .type = mars::wire::triangles_from(0)}).messages, ...);
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "hal/messages/backend.h"
 #include "hal/threads/run_threads.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // Of all ranks; safe to use from all threads.
 class Counts {
@@ -95,8 +95,8 @@ class CountingBackend : public Backend {
 };
 
 // For run_threads; `counts` outlives the run.
-inline WrapBackend counting(Counts& counts) {
+inline threads::WrapBackend counting(Counts& counts) {
   return [&counts](Backend& backend) { return std::make_unique<CountingBackend>(backend, counts); };
 }
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -11,7 +11,7 @@
 #include "hal/messages/shared_memory.h"
 #include "tests/hal/faults/faults.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 void wait_for_ever() { crecv(1, nullptr, 0); }
@@ -72,11 +72,11 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages
 
 int main(int argc, char** argv) {
-  using mars::hal::Role;
+  using mars::mpi::Role;
   const std::string how = argc > 1 ? argv[1] : "";
   const Role role = how == "host" ? Role::host : how == "node" ? Role::node : Role::by_rank;
-  return mars::hal::run_mpi(argc, argv, role, mars::hal::run);
+  return mars::mpi::run_mpi(argc, argv, role, mars::messages::run);
 }

@@ -33,7 +33,7 @@ void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 struct Buffers {
@@ -57,7 +57,7 @@ void exchange(Buffers& buffers) {
     msgwait(mid);
     csend(4, buffers.out.data(), length, myhost(), 0);
   }
-  group_sum({0, static_cast<int>(numnodes())}, buffers.values, buffers.work);
+  collectives::group_sum({0, static_cast<int>(numnodes())}, buffers.values, buffers.work);
   long count = 0;
   gcol(buffers.out.data(), 1000, buffers.in.data(), 200'000, &count);
   gsync();
@@ -90,9 +90,9 @@ TEST(Allocation, NoneInSteadyState) {
     }
     crecv(6, nullptr, 0);
   };
-  run_threads(5, host, node);
+  threads::run_threads(5, host, node);
   EXPECT_EQ(after - before, 0);
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

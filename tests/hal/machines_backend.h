@@ -9,7 +9,7 @@
 
 #include "tests/hal/counting_backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 // Shared by all ranks of a run.
 class Machines {
@@ -78,4 +78,4 @@ class MachinesBackend : public CountingBackend {
   int shared_ = 0;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 struct Outcome {
@@ -105,4 +105,4 @@ TEST(MpiFaults, ANodeDiesInItsMidst) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -7,7 +7,7 @@
 #include "hal/mpi/start.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 class EndJobOnFailure : public testing::EmptyTestEventListener {
@@ -30,8 +30,8 @@ int run_tests(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages
 
 int main(int argc, char** argv) {
-  return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, mars::hal::run_tests);
+  return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, mars::messages::run_tests);
 }

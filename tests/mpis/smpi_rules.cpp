@@ -3,8 +3,8 @@
 #include "tests/hal/conformance/rules.h"
 
 int main(int argc, char** argv) {
-  return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, [](int, char**) {
-    mars::hal::conformance::run_rules();
+  return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, [](int, char**) {
+    mars::conformance::run_rules();
     return 0;
   });
 }

@@ -44,12 +44,12 @@ void sum(long n) {
   measure("gdsum", n * 8, 1, [&] { gdsum(x.data(), n, work.data()); });
 }
 
-void exchange(const char* what, mars::hal::Route route, std::size_t bytes) {
+void exchange(const char* what, mars::collectives::Route route, std::size_t bytes) {
   const std::vector<std::byte> data(bytes);
-  std::vector<mars::hal::Parcel> parcels;
+  std::vector<mars::collectives::Parcel> parcels;
   for (int node = 0; node < numnodes(); ++node) parcels.push_back({node, data});
-  mars::hal::CrystalRouter router;
-  const mars::hal::Group all{0, static_cast<int>(numnodes())};
+  mars::collectives::CrystalRouter router;
+  const mars::collectives::Group all{0, static_cast<int>(numnodes())};
   measure(what, static_cast<long>(bytes), 1, [&] { router.exchange(all, parcels, route); });
 }
 
@@ -61,8 +61,8 @@ int measure_all(int, char**) {
   measure("gsync", 0, 1, gsync);
   for (const long n : {1, 1000}) sum(n);
   for (const std::size_t bytes : {16, 1024}) {
-    exchange("all to all, crystal", mars::hal::Route::crystal, bytes);
-    if (numnodes() <= kMostDirect) exchange("all to all, direct", mars::hal::Route::direct, bytes);
+    exchange("all to all, crystal", mars::collectives::Route::crystal, bytes);
+    if (numnodes() <= kMostDirect) exchange("all to all, direct", mars::collectives::Route::direct, bytes);
   }
   return 0;
 }
@@ -70,5 +70,5 @@ int measure_all(int, char**) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, measure_all);
+  return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, measure_all);
 }

@@ -35,17 +35,17 @@ namespace mars::test {
 namespace {
 
 // Notes at each strip how many allocations its rank's thread had made by then outside the backend.
-class AllocationLog : public hal::CountingBackend {
+class AllocationLog : public messages::CountingBackend {
  public:
-  AllocationLog(hal::Backend& inner, hal::Counts& counts, std::vector<long>& log)
-      : hal::CountingBackend(inner, counts), inner_(inner), log_(log) {}
+  AllocationLog(messages::Backend& inner, messages::Counts& counts, std::vector<long>& log)
+      : messages::CountingBackend(inner, counts), inner_(inner), log_(log) {}
 
   void send(int to, int type, const void* data, std::size_t length) override {
     aside([&] { inner_.send(to, type, data, length); });
   }
-  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
-    if (type == node::kStrip) log_.push_back(allocations);
-    hal::Ticket ticket{};
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    if (type == wire::kStrip) log_.push_back(allocations);
+    messages::Ticket ticket{};
     aside([&] { ticket = inner_.start_send(to, type, data, length); });
     return ticket;
   }
@@ -61,21 +61,21 @@ class AllocationLog : public hal::CountingBackend {
     allocations = before;
   }
 
-  hal::Backend& inner_;
+  messages::Backend& inner_;
   std::vector<long>& log_;
 };
 
-void expect_none_in_steady_state(host::Trace* trace) {
+void expect_none_in_steady_state(trace::Trace* trace) {
   constexpr int kNodes = 3;
   const FilmBlock block(crowd(64, 36, 600, 3));
   std::vector<std::vector<long>> logs(kNodes + 1);
   for (auto& log : logs) log.reserve(10'000);
-  hal::Counts counts;
+  messages::Counts counts;
   RunOptions options;
   options.nodes = kNodes;
   options.work.groups = 1;
   options.farm.trace = trace;
-  options.wrap = [&](hal::Backend& inner) {
+  options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<AllocationLog>(inner, counts, logs[static_cast<std::size_t>(inner.rank())]);
   };
   run_film(block.bytes(), options);
@@ -91,7 +91,7 @@ void expect_none_in_steady_state(host::Trace* trace) {
 TEST(Allocation, NoneInSteadyState) { expect_none_in_steady_state(nullptr); }
 
 TEST(Allocation, NoneWhereTheRunIsTraced) {
-  host::Trace trace;
+  trace::Trace trace;
   expect_none_in_steady_state(&trace);
   EXPECT_GT(trace.records().size(), 10'000u);
 }

@@ -16,47 +16,47 @@ namespace {
 constexpr std::uint32_t kFrames = 400;
 
 // Cancels with the frame of this number of those it takes.
-class CancellingSink : public host::Sink {
+class CancellingSink : public sinks::Sink {
  public:
-  CancellingSink(host::Cancellation& cancellation, int after) : cancellation_(cancellation), left_(after) {}
-  void take(const host::Frame&) override {
+  CancellingSink(farm::Cancellation& cancellation, int after) : cancellation_(cancellation), left_(after) {}
+  void take(const compositor::Frame&) override {
     if (--left_ == 0) cancellation_.cancel();
   }
 
  private:
-  host::Cancellation& cancellation_;
+  farm::Cancellation& cancellation_;
   std::atomic<int> left_;
 };
 
 struct Cancelled {
-  host::FarmReport report;
+  farm::FarmReport report;
   std::size_t frames = 0;
   int nodes_ended = 0;
 };
 
-Cancelled cancel_after(int frames, std::uint32_t interval, int nodes, host::Trace* trace = nullptr) {
+Cancelled cancel_after(int frames, std::uint32_t interval, int nodes, trace::Trace* trace = nullptr) {
   const FilmBlock block(crowd(64, 48, kFrames, interval));
-  host::PlanRequest work{std::vector<std::uint32_t>(kFrames), true, 2};
+  farm::PlanRequest work{std::vector<std::uint32_t>(kFrames), true, 2};
   std::iota(work.frames.begin(), work.frames.end(), 0u);
-  const host::Plan plan = host::make_plan(block.view(), work, nodes);
-  host::Cancellation cancellation;
+  const farm::Plan plan = farm::make_plan(block.view(), work, nodes);
+  farm::Cancellation cancellation;
   CancellingSink sink(cancellation, frames);
-  host::FarmOptions options;
+  farm::FarmOptions options;
   options.cancellation = &cancellation;
   options.trace = trace;
   Cancelled out;
-  host::FarmListener listener;
-  listener.finished = [&](const host::FinishedFrame&) { ++out.frames; };
+  farm::FarmListener listener;
+  listener.finished = [&](const farm::FinishedFrame&) { ++out.frames; };
   std::atomic<int> ended = 0;
   const auto host = [&] {
-    host::SinkPool pool(sink, {64, 48, 16, 3, 1});
-    out.report = host::render_film(block.bytes(), plan, options, pool, listener);
+    sinks::SinkPool pool(sink, {64, 48, 16, 3, 1});
+    out.report = farm::render_film(block.bytes(), plan, options, pool, listener);
   };
   const auto node = [&] {
     node::run_node({"test", "", {}, 16 << 20, ""});
     ++ended;
   };
-  hal::run_threads(nodes, host, node);
+  threads::run_threads(nodes, host, node);
   out.nodes_ended = ended;
   return out;
 }
@@ -72,7 +72,7 @@ TEST(Cancel, NodesEndInOrder) {
 }
 
 TEST(Cancel, ATracedRunHasItsTrace) {
-  host::Trace trace;
+  trace::Trace trace;
   const Cancelled cancelled = cancel_after(9, 4, 3, &trace);
   EXPECT_TRUE(cancelled.report.cancelled);
   EXPECT_FALSE(trace.records().empty());

@@ -13,17 +13,17 @@
 namespace mars::test {
 namespace {
 
-using node::FrameKind;
-using node::Strip;
+using wire::FrameKind;
+using wire::Strip;
 
 // Reads every strip that is sent: whether its runs lie on the lines it speaks for.
-class StripReader : public hal::MachinesBackend {
+class StripReader : public messages::MachinesBackend {
  public:
   using MachinesBackend::MachinesBackend;
 
-  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
-    if (type == node::kStrip) read(static_cast<const std::byte*>(data), length);
-    return hal::CountingBackend::start_send(to, type, data, length);
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+    if (type == wire::kStrip) read(static_cast<const std::byte*>(data), length);
+    return messages::CountingBackend::start_send(to, type, data, length);
   }
 
  private:
@@ -31,8 +31,8 @@ class StripReader : public hal::MachinesBackend {
     Strip strip;
     std::memcpy(&strip, data, sizeof strip);
     const std::size_t runs_at = sizeof strip + strip.pixels * sizeof(std::uint32_t);
-    for (std::size_t at = runs_at; at < length; at += sizeof(node::Run)) {
-      node::Run run;
+    for (std::size_t at = runs_at; at < length; at += sizeof(wire::Run)) {
+      wire::Run run;
       std::memcpy(&run, data + at, sizeof run);
       EXPECT_TRUE(run.line >= strip.first_line && run.line < strip.last_line) << "node " << strip.node;
     }
@@ -42,7 +42,7 @@ class StripReader : public hal::MachinesBackend {
 
 struct Counted {
   FilmRun run;
-  hal::Counts counts;
+  messages::Counts counts;
   std::size_t czb_written = 0;  // bytes, on all machines
 };
 
@@ -52,13 +52,13 @@ struct Cluster {
   std::uint32_t groups = 1;
 };
 
-void run_counted(const node::FilmData& film, const Cluster& cluster, Counted& out, std::vector<std::uint32_t> frames = {}) {
-  hal::Machines machines(cluster.nodes_each);
+void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& out, std::vector<std::uint32_t> frames = {}) {
+  messages::Machines machines(cluster.nodes_each);
   RunOptions options;
   options.nodes = cluster.nodes;
   options.work.groups = cluster.groups;
   options.work.frames = std::move(frames);
-  options.wrap = [&](hal::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
+  options.wrap = [&](messages::Backend& inner) { return std::make_unique<StripReader>(inner, out.counts, machines); };
   out.run = run_film(FilmBlock(film).bytes(), options);
   out.czb_written = machines.written();
 }
@@ -73,7 +73,7 @@ std::vector<Strip> of_kind(const Counted& counted, FrameKind kind) {
 class Division : public testing::TestWithParam<int> {
  protected:
   static constexpr std::uint32_t kFrames = 6;
-  const node::FilmData film_ = crowd(320, 200, kFrames, kFrames);
+  const wire::FilmData film_ = crowd(320, 200, kFrames, kFrames);
 };
 
 TEST_P(Division, EachNodeDicesItsOwnPatchesInAKeyframe) {
@@ -136,13 +136,13 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
   for (const Strip& strip : counted.run.report.strips) homes.at(static_cast<std::size_t>(strip.node)) = strip;
   const Reference reference = draw_reference(FilmBlock(film_).view(), 0);
   std::map<std::pair<int, int>, std::uint64_t> triangles, boxes;
-  for (const PlainTriangle& t : reference.triangles) {
-    const auto covered = plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
+  for (const raster::PlainTriangle& t : reference.triangles) {
+    const auto covered = raster::plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
                                            static_cast<std::int32_t>(film_.settings.height));
     const int from = static_cast<int>(t.record.patch) % nodes;
     for (int to = 0; to < nodes; ++to) {
       const Strip& home = homes[static_cast<std::size_t>(to)];
-      const auto there = std::count_if(covered.begin(), covered.end(), [&](const node::UnsortedEdgeBox& c) {
+      const auto there = std::count_if(covered.begin(), covered.end(), [&](const raster::UnsortedEdgeBox& c) {
         return c.line >= home.first_line && c.line < home.last_line;
       });
       boxes[{from, to}] += static_cast<std::uint64_t>(there);
@@ -155,8 +155,8 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
       if (from == to) continue;
       const auto bytes = [&](long type) { return counted.counts.sent({.from = from, .to = to, .type = type}).bytes; };
       const auto expected = triangles[{from, to}], expected_boxes = boxes[{from, to}];
-      EXPECT_EQ(bytes(node::triangles_from(from)), expected * sizeof(node::Triangle)) << from << " to " << to;
-      EXPECT_EQ(bytes(node::edge_boxes_from(from)), expected_boxes * sizeof(node::UnsortedEdgeBox)) << from << " to " << to;
+      EXPECT_EQ(bytes(wire::triangles_from(from)), expected * sizeof(geometry::Triangle)) << from << " to " << to;
+      EXPECT_EQ(bytes(wire::edge_boxes_from(from)), expected_boxes * sizeof(raster::UnsortedEdgeBox)) << from << " to " << to;
       most = std::max(most, expected);
     }
   EXPECT_TRUE(nodes == 1 || most > 100);
@@ -180,7 +180,7 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   EXPECT_EQ(contributors.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
   // All triangles that nodes gave each other are the keyframe's: one message for each pair.
   std::uint64_t triangles = 0;
-  for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = node::triangles_from(from)}).messages;
+  for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = wire::triangles_from(from)}).messages;
   EXPECT_EQ(triangles, static_cast<std::uint64_t>(nodes * (nodes - 1)));
 }
 
@@ -203,7 +203,7 @@ TEST_P(Division, BytesReportedAreBytesSent) {
         sent -= loading.counts.sent({.from = from, .to = to, .type = {}}).bytes;
       }
       EXPECT_EQ(to_nodes, sent) << "node " << from << ", " << nodes_each << " a machine";
-      EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = node::kStrip}).bytes) << "node " << from;
+      EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = wire::kStrip}).bytes) << "node " << from;
     }
   }
 }
@@ -234,7 +234,7 @@ TEST(Division, EveryGroupGetsATask) {
   options.nodes = 4;
   options.work.groups = 4;
   std::set<std::int32_t> contributors;
-  for (const node::Strip& strip : run_film(film.bytes(), options).report.strips) contributors.insert(strip.node);
+  for (const wire::Strip& strip : run_film(film.bytes(), options).report.strips) contributors.insert(strip.node);
   EXPECT_EQ(contributors.size(), 4u);
 }
 
@@ -247,13 +247,13 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
   maker.add_segment(box, material, {placed({-2, -2, -2}, 4)});
   maker.add_segment(box, material, {placed({-0.2, -4, -1.4}, 0.4), placed({0, -4, -1.4}, 0.4)});
   maker.set_cameras({looking({0, -9, 0}, {0, 0, 0}, 40)});
-  const node::FilmData film = maker.make();
+  const wire::FilmData film = maker.make();
   std::map<int, std::uint64_t> bytes, written;  // by nodes a machine
   for (const int nodes_each : {1, 2, 4}) {
     Counted counted;
     run_counted(film, {4, nodes_each}, counted);
     for (int from = 0; from < 4; ++from) {
-      const auto sent = counted.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)});
+      const auto sent = counted.counts.sent({.from = from, .to = {}, .type = wire::depth_lines_from(from)});
       bytes[nodes_each] += sent.bytes;
       EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
     }

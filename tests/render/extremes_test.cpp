@@ -15,11 +15,11 @@ namespace {
 constexpr std::uint32_t kBackground = 0xff00ff;
 
 struct Body {
-  std::vector<node::Patch> patches;
-  node::Matrix matrix;
+  std::vector<wire::Patch> patches;
+  wire::Matrix matrix;
 };
 
-node::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vector<Body>& bodies, const node::Camera& camera) {
+wire::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vector<Body>& bodies, const wire::Camera& camera) {
   FilmMaker maker(width, height, 1);
   const std::uint32_t material = maker.add_material(kClay);
   for (const Body& body : bodies) maker.add_segment(maker.add_shape(body.patches), material, {body.matrix});
@@ -28,11 +28,11 @@ node::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vecto
   return maker.make();
 }
 
-node::Matrix centred(const Vec3& middle, double size) {
+wire::Matrix centred(const Vec3& middle, double size) {
   return placed({middle[0] - size / 2, middle[1] - size / 2, middle[2] - size / 2}, size);
 }
 
-double covered(const node::FilmData& film, int nodes = 2) {
+double covered(const wire::FilmData& film, int nodes = 2) {
   RunOptions options;
   options.nodes = nodes;
   const Pixels pixels = run_film(FilmBlock(film).bytes(), options).frames.at(0);
@@ -40,39 +40,39 @@ double covered(const node::FilmData& film, int nodes = 2) {
   return static_cast<double>(shown) / static_cast<double>(pixels.size());
 }
 
-const node::Camera kAhead = looking({0, 0, 0}, {0, 10, 0}, 40);
+const wire::Camera kAhead = looking({0, 0, 0}, {0, 10, 0}, 40);
 
 TEST(Extremes, WhatIsBehindTheEyeIsNotSeen) {
-  EXPECT_EQ(covered(scene(200, 100, {{host::make_sphere(), centred({0, -5, 0}, 4)}}, kAhead)), 0);
-  EXPECT_EQ(covered(scene(200, 100, {{host::make_box(), centred({0, -5, 0}, 9.9)}}, kAhead)), 0);
+  EXPECT_EQ(covered(scene(200, 100, {{modeler::make_sphere(), centred({0, -5, 0}, 4)}}, kAhead)), 0);
+  EXPECT_EQ(covered(scene(200, 100, {{modeler::make_box(), centred({0, -5, 0}, 9.9)}}, kAhead)), 0);
 }
 
 TEST(Extremes, FromWithinABodyItIsAllRound) {
-  for (const auto& patches : {host::make_sphere(), host::make_box(), host::make_cylinder()})
+  for (const auto& patches : {modeler::make_sphere(), modeler::make_box(), modeler::make_cylinder()})
     for (const Vec3& at : {Vec3{0, 10, 0}, Vec3{10, 0, 3}, Vec3{-1, -4, 10}})
       EXPECT_EQ(covered(scene(160, 90, {{patches, centred({0.1, 0.2, -0.1}, 6)}}, looking({0, 0, 0}, at, 100, 0.01))), 1);
 }
 
 TEST(Extremes, NearAndFarCut) {
-  node::Camera camera = kAhead;
+  wire::Camera camera = kAhead;
   camera.near = 6;
-  EXPECT_EQ(covered(scene(100, 100, {{host::make_box(), centred({0, 3, 0}, 4)}}, camera)), 0) << "nearer than near";
+  EXPECT_EQ(covered(scene(100, 100, {{modeler::make_box(), centred({0, 3, 0}, 4)}}, camera)), 0) << "nearer than near";
   camera = kAhead;
   camera.far = 20;
-  EXPECT_EQ(covered(scene(100, 100, {{host::make_box(), centred({0, 30, 0}, 9)}}, camera)), 0) << "farther than far";
+  EXPECT_EQ(covered(scene(100, 100, {{modeler::make_box(), centred({0, 30, 0}, 9)}}, camera)), 0) << "farther than far";
   // A long bar through both: seen between them only.
   camera.near = 5;
-  EXPECT_GT(covered(scene(100, 100, {{host::make_box(), centred({0, 0, -20}, 39.5)}}, camera)), 0);
+  EXPECT_GT(covered(scene(100, 100, {{modeler::make_box(), centred({0, 0, -20}, 39.5)}}, camera)), 0);
 }
 
 TEST(Extremes, APatchFarLargerThanTheScreenCoversHalfOfIt) {
-  const auto ground = scene(320, 240, {{host::make_box(), centred({0, 0, -1e5 - 1}, 2e5)}}, looking({0, 0, 0}, {0, 10, 0}, 40, 0.1, 1e9));
+  const auto ground = scene(320, 240, {{modeler::make_box(), centred({0, 0, -1e5 - 1}, 2e5)}}, looking({0, 0, 0}, {0, 10, 0}, 40, 0.1, 1e9));
   EXPECT_NEAR(covered(ground), 0.5, 0.01);
 }
 
 TEST(Extremes, ScaleChangesNothingToSpeakOf) {
   const auto at_scale = [](double s) {
-    return covered(scene(300, 300, {{host::make_sphere(), centred({0, 8 * s, 0}, 4 * s)}}, looking({0, 0, 0}, {0, s, 0}, 40, s * 0.01, s * 1000)));
+    return covered(scene(300, 300, {{modeler::make_sphere(), centred({0, 8 * s, 0}, 4 * s)}}, looking({0, 0, 0}, {0, s, 0}, 40, s * 0.01, s * 1000)));
   };
   const double normal = at_scale(1);
   EXPECT_NEAR(normal, 3.14159 * std::pow(2 / std::sqrt(60.0) / (2 * std::tan(0.349066)), 2), 0.002);
@@ -81,21 +81,21 @@ TEST(Extremes, ScaleChangesNothingToSpeakOf) {
 
 TEST(Extremes, PatchesFarSmallerThanAPixel) {
   std::vector<Body> dust;
-  for (int i = 0; i < 400; ++i) dust.push_back({host::make_sphere(), centred({(i % 20 - 9.5) * 0.02, 10, (i / 20 - 9.5) * 0.02}, 0.03)});
+  for (int i = 0; i < 400; ++i) dust.push_back({modeler::make_sphere(), centred({(i % 20 - 9.5) * 0.02, 10, (i / 20 - 9.5) * 0.02}, 0.03)});
   const double shown = covered(scene(64, 64, dust, kAhead));
   EXPECT_GT(shown, 0.001);
   EXPECT_LT(shown, 0.01);
 }
 
 TEST(Extremes, TheLargestCommonPicture) {
-  const double large = covered(scene(7680, 4320, {{host::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
-  const double small = covered(scene(768, 432, {{host::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
+  const double large = covered(scene(7680, 4320, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
+  const double small = covered(scene(768, 432, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
   EXPECT_NEAR(large, small, 0.002);
 }
 
 TEST(Extremes, VeryWideAndVeryHighPictures) {
-  EXPECT_GT(covered(scene(16384, 3, {{host::make_sphere(), centred({0, 8, 0}, 5)}}, kAhead)), 0);
-  EXPECT_GT(covered(scene(2, 16384, {{host::make_sphere(), centred({0, 8, 0}, 5)}}, kAhead)), 0);
+  EXPECT_GT(covered(scene(16384, 3, {{modeler::make_sphere(), centred({0, 8, 0}, 5)}}, kAhead)), 0);
+  EXPECT_GT(covered(scene(2, 16384, {{modeler::make_sphere(), centred({0, 8, 0}, 5)}}, kAhead)), 0);
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace mars::test {
 namespace {
 
 // Keeps every frame.
-class MemorySink : public host::Sink {
+class MemorySink : public sinks::Sink {
  public:
-  void take(const host::Frame& frame) override {
+  void take(const compositor::Frame& frame) override {
     const std::lock_guard lock(mutex_);
     frames_[frame.number] = frame.pixels;
   }
@@ -28,8 +28,8 @@ class MemorySink : public host::Sink {
   std::map<std::uint32_t, Pixels> frames_;
 };
 
-void write_png(const std::string& path, const node::FilmSettings& settings, const Pixels& pixels) {
-  const auto bytes = host::encode_png(settings.width, settings.height, pixels);
+void write_png(const std::string& path, const wire::FilmSettings& settings, const Pixels& pixels) {
+  const auto bytes = images::encode_png(settings.width, settings.height, pixels);
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
@@ -41,40 +41,40 @@ Pixels difference(const Pixels& a, const Pixels& b) {
 
 }  // namespace
 
-FilmBlock::FilmBlock(const node::FilmData& film) {
-  const auto packed = node::pack(film);
+FilmBlock::FilmBlock(const wire::FilmData& film) {
+  const auto packed = wire::pack(film);
   size_ = packed.size();
   words_.resize((size_ + 7) / 8);
   std::memcpy(words_.data(), packed.data(), size_);
 }
 
 FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
-  const node::FilmView view(film, "test film");
-  const node::FilmSettings& settings = view.settings();
-  host::FarmOptions farm = options.farm;
+  const wire::FilmView view(film, "test film");
+  const wire::FilmSettings& settings = view.settings();
+  farm::FarmOptions farm = options.farm;
   farm.each_frame = true;
-  host::PlanRequest work = options.work;
+  farm::PlanRequest work = options.work;
   if (work.frames.empty()) {
     work.frames.resize(settings.frames);
     std::iota(work.frames.begin(), work.frames.end(), 0u);
   }
-  const host::Plan plan = host::make_plan(view, work, options.nodes);
+  const farm::Plan plan = farm::make_plan(view, work, options.nodes);
   MemorySink sink;
   FilmRun run;
   const auto host = [&] {
-    host::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
-    run.report = host::render_film(film, plan, farm, pool, {});
+    sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
+    run.report = farm::render_film(film, plan, farm, pool, {});
   };
   const auto node = [&] {
     if (options.around_node) options.around_node();
     node::run_node({"test", "", {}, options.memory, options.simd});
   };
-  hal::run_threads(options.nodes, host, node, options.wrap);
+  threads::run_threads(options.nodes, host, node, options.wrap);
   run.frames = sink.release();
   return run;
 }
 
-void expect_same(const FilmRun& rendered, const FilmRun& expected, const node::FilmSettings& settings,
+void expect_same(const FilmRun& rendered, const FilmRun& expected, const wire::FilmSettings& settings,
                  const std::string& name) {
   for (const auto& [number, pixels] : rendered.frames) {
     const auto twin = expected.frames.find(number);

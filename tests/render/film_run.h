@@ -17,26 +17,26 @@ using Pixels = std::vector<std::uint32_t>;
 
 struct RunOptions {
   int nodes = 1;
-  host::PlanRequest work;  // no frames: all of the film
-  host::FarmOptions farm;
+  farm::PlanRequest work;  // no frames: all of the film
+  farm::FarmOptions farm;
   std::uint32_t block = 16;
   std::string simd;  // "" for the widest
   std::uint64_t memory = 256 << 20;  // bytes a node offers
-  hal::WrapBackend wrap;
+  threads::WrapBackend wrap;
   std::function<void()> around_node;  // called on each node's thread before it runs
 };
 
 struct FilmRun {
   std::map<std::uint32_t, Pixels> frames;
-  host::FarmReport report;
+  farm::FarmReport report;
 };
 
 // The packed film, aligned as FilmView wants it.
 class FilmBlock {
  public:
-  explicit FilmBlock(const node::FilmData& film);
+  explicit FilmBlock(const wire::FilmData& film);
   std::span<const std::byte> bytes() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
-  node::FilmView view() const { return {bytes(), "test film"}; }
+  wire::FilmView view() const { return {bytes(), "test film"}; }
 
  private:
   std::vector<std::uint64_t> words_;
@@ -47,7 +47,7 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options = {}
 
 // EXPECTs equal pictures for equal frames; where they differ writes both and their difference as PNG files
 // into the working directory, named after `name`.
-void expect_same(const FilmRun& rendered, const FilmRun& expected, const node::FilmSettings& settings,
+void expect_same(const FilmRun& rendered, const FilmRun& expected, const wire::FilmSettings& settings,
                  const std::string& name);
 
 }  // namespace mars::test

@@ -21,27 +21,27 @@ Vec3 unit(const Vec3& a) {
 
 // A flat ball, which one meshlet does not hold, and a smooth one that moves, is squeezed, and is seen from outside only.
 void add_meshes(FilmMaker& maker, std::uint32_t still_material, std::uint32_t moving_material, std::uint32_t frames) {
-  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(9, 0))), still_material, {placed({0.4, -4, 0.2}, 1.7, 0.2)});
-  std::vector<node::Matrix> motion;
+  maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(9, 0))), still_material, {placed({0.4, -4, 0.2}, 1.7, 0.2)});
+  std::vector<wire::Matrix> motion;
   for (std::uint32_t f = 0; f < frames; ++f) {
     motion.push_back(placed({-3.4 + 0.19 * f, -3.6, 0.4 + 0.05 * f}, 2, 0.21 * f));
     for (auto& row : motion.back().m) row[1] *= 0.6;
   }
-  maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(14, 180))), moving_material, motion);
+  maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(14, 180))), moving_material, motion);
 }
 
 void add_crowd(FilmMaker& maker, bool moving) {
   const std::uint32_t frames = moving ? maker.film.settings.frames : 1;
-  const std::uint32_t shapes[] = {maker.add_shape(host::make_teapot(1.077)), maker.add_shape(host::make_sphere()),
-                                  maker.add_shape(host::make_torus(0.15)),   maker.add_shape(host::make_box()),
-                                  maker.add_shape(host::make_cone(0)),       maker.add_shape(host::make_cylinder())};
+  const std::uint32_t shapes[] = {maker.add_shape(modeler::make_teapot(1.077)), maker.add_shape(modeler::make_sphere()),
+                                  maker.add_shape(modeler::make_torus(0.15)),   maker.add_shape(modeler::make_box()),
+                                  maker.add_shape(modeler::make_cone(0)),       maker.add_shape(modeler::make_cylinder())};
   const std::uint32_t materials[] = {
       maker.add_material(kClay), maker.add_material({{0.2f, 0.6f, 0.3f}, 0.2f, 0.7f, 0.1f, 2.5f, 2}),
       maker.add_material({{0.3f, 0.4f, 0.9f}, 0.1f, 0.6f, 0.9f, 200, 1})};
   maker.add_segment(shapes[3], materials[1], {placed({-6, -6, -12}, 12)});  // ground: the upper side of a box
   for (std::uint32_t i = 0; i < 9; ++i) {
     const Vec3 place{(i % 3) * 2.2 - 3, (i / 3) * 2.2 - 3, 0.1 * i};
-    std::vector<node::Matrix> motion;
+    std::vector<wire::Matrix> motion;
     for (std::uint32_t f = 0; f < (i % 4 == 1 ? frames : 1); ++f)
       motion.push_back(placed({place[0] + 0.21 * f, place[1] + 0.07 * f, place[2]}, 2.4, 0.3 * i + 0.17 * f));
     maker.add_segment(shapes[i % 6], materials[i % 3], motion);
@@ -57,22 +57,22 @@ void add_lights(FilmMaker& maker) {
 
 }  // namespace
 
-node::Matrix placed(const Vec3& place, double size, double angle) {
+wire::Matrix placed(const Vec3& place, double size, double angle) {
   const double c = std::cos(angle) * size, s = std::sin(angle) * size;
   return {{{{c, -s, 0, place[0]}, {s, c, 0, place[1]}, {0, 0, size, place[2]}}}};
 }
 
-node::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near, double far) {
+wire::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near, double far) {
   const Vec3 z = unit(minus(eye, at)), x = unit(cross({0, 0, 1}, z)), y = cross(z, x);
-  node::Camera camera{{}, 1 / std::tan(fov * std::numbers::pi / 360), near, far};
+  wire::Camera camera{{}, 1 / std::tan(fov * std::numbers::pi / 360), near, far};
   const Vec3 axes[] = {x, y, z};
   for (std::size_t r = 0; r < 3; ++r)
     camera.world_to_eye.m[r] = {axes[r][0], axes[r][1], axes[r][2], -dot(axes[r], eye)};
   return camera;
 }
 
-host::Mesh mesh_ball(std::uint32_t rows, double crease) {
-  host::Mesh mesh;
+modeler::Mesh mesh_ball(std::uint32_t rows, double crease) {
+  modeler::Mesh mesh;
   mesh.crease = crease;
   const std::uint32_t around = 2 * rows;
   const auto add = [&](double polar, double turn) {
@@ -105,16 +105,16 @@ FilmMaker::FilmMaker(std::uint32_t width, std::uint32_t height, std::uint32_t fr
   film.names = {'b', 'o', 'd', 'y', '\0'};
 }
 
-std::uint32_t FilmMaker::add_shape(const std::vector<node::Patch>& patches) {
+std::uint32_t FilmMaker::add_shape(const std::vector<wire::Patch>& patches) {
   film.shapes.push_back({static_cast<std::uint32_t>(film.patches.size()), static_cast<std::uint32_t>(patches.size())});
   film.patches.insert(film.patches.end(), patches.begin(), patches.end());
   return static_cast<std::uint32_t>(film.shapes.size() - 1);
 }
 
-std::uint32_t FilmMaker::add_shape(const host::Meshlets& mesh) {
+std::uint32_t FilmMaker::add_shape(const modeler::Meshlets& mesh) {
   const auto append = [](auto& items, const auto& more) { items.insert(items.end(), more.begin(), more.end()); };
   const auto first = static_cast<std::uint32_t>(film.meshlets.size());
-  for (node::Meshlet meshlet : mesh.meshlets) {
+  for (wire::Meshlet meshlet : mesh.meshlets) {
     meshlet.first_vertex += static_cast<std::uint32_t>(film.mesh_places.size());
     meshlet.first_triangle += static_cast<std::uint32_t>(film.mesh_triangles.size());
     film.meshlets.push_back(meshlet);
@@ -126,18 +126,18 @@ std::uint32_t FilmMaker::add_shape(const host::Meshlets& mesh) {
   return static_cast<std::uint32_t>(film.shapes.size() - 1);
 }
 
-std::uint32_t FilmMaker::add_material(const node::Material& material) {
+std::uint32_t FilmMaker::add_material(const wire::Material& material) {
   film.materials.push_back(material);
   return static_cast<std::uint32_t>(film.materials.size() - 1);
 }
 
-node::Track FilmMaker::still(std::uint32_t value) {
+wire::Track FilmMaker::still(std::uint32_t value) {
   film.changes.push_back({0, value});
   return {static_cast<std::uint32_t>(film.changes.size() - 1), 1};
 }
 
-void FilmMaker::add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<node::Matrix>& motion) {
-  node::Track track{static_cast<std::uint32_t>(film.changes.size()), 0};
+void FilmMaker::add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<wire::Matrix>& motion) {
+  wire::Track track{static_cast<std::uint32_t>(film.changes.size()), 0};
   for (std::uint32_t f = 0; f < motion.size(); ++f) {
     if (f > 0 && motion[f] == motion[f - 1]) continue;
     film.changes.push_back({f, static_cast<std::uint32_t>(film.matrices.size())});
@@ -147,12 +147,12 @@ void FilmMaker::add_segment(std::uint32_t shape, std::uint32_t material, const s
   film.segments.push_back({shape, 0, track, still(material)});
 }
 
-void FilmMaker::add_light(const node::Light& light) {
+void FilmMaker::add_light(const wire::Light& light) {
   film.lights.push_back(light);
   film.light_tracks.push_back(still(static_cast<std::uint32_t>(film.lights.size() - 1)));
 }
 
-void FilmMaker::set_cameras(const std::vector<node::Camera>& cameras) {
+void FilmMaker::set_cameras(const std::vector<wire::Camera>& cameras) {
   camera_moves_ = cameras.size() > 1;
   film.settings.camera = {static_cast<std::uint32_t>(film.changes.size()), static_cast<std::uint32_t>(cameras.size())};
   for (std::uint32_t f = 0; f < cameras.size(); ++f) film.changes.push_back({f, f});
@@ -160,16 +160,16 @@ void FilmMaker::set_cameras(const std::vector<node::Camera>& cameras) {
 }
 
 bool FilmMaker::moves(std::uint32_t segment, std::uint32_t first, std::uint32_t end) const {
-  const node::Track& track = film.segments[segment].motion;
+  const wire::Track& track = film.segments[segment].motion;
   return std::any_of(film.changes.begin() + track.first, film.changes.begin() + track.first + track.count,
-                     [&](const node::Change& c) { return c.frame > first && c.frame < end; });
+                     [&](const wire::Change& c) { return c.frame > first && c.frame < end; });
 }
 
-node::FilmData FilmMaker::make(std::uint32_t length) {
+wire::FilmData FilmMaker::make(std::uint32_t length) {
   if (camera_moves_) length = 1;
   for (std::uint32_t first = 0; first < film.settings.frames; first += length) {
     const std::uint32_t end = std::min(first + length, film.settings.frames);
-    node::Interval interval{first, end - first, static_cast<std::uint32_t>(film.moving.size()), 0};
+    wire::Interval interval{first, end - first, static_cast<std::uint32_t>(film.moving.size()), 0};
     for (std::uint32_t s = 0; s < film.segments.size(); ++s)
       if (camera_moves_ || moves(s, first, end)) film.moving.push_back(s);
     interval.moving_count = static_cast<std::uint32_t>(film.moving.size()) - interval.first_moving;
@@ -178,7 +178,7 @@ node::FilmData FilmMaker::make(std::uint32_t length) {
   return film;
 }
 
-node::FilmData crowd(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval) {
+wire::FilmData crowd(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval) {
   FilmMaker maker(width, height, frames);
   add_crowd(maker, true);
   add_lights(maker);
@@ -186,11 +186,11 @@ node::FilmData crowd(std::uint32_t width, std::uint32_t height, std::uint32_t fr
   return maker.make(interval);
 }
 
-node::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
+wire::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
   FilmMaker maker(width, height, frames);
   add_crowd(maker, false);
   add_lights(maker);
-  std::vector<node::Camera> cameras;
+  std::vector<wire::Camera> cameras;
   for (std::uint32_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / frames;
     cameras.push_back(looking({1 - t, 6 * t - 6, 3 - 2 * t}, {0.1, 6 * t, 0.5}, 70));
@@ -199,12 +199,12 @@ node::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t f
   return maker.make();
 }
 
-node::FilmData ties(std::uint32_t width, std::uint32_t height) {
+wire::FilmData ties(std::uint32_t width, std::uint32_t height) {
   FilmMaker maker(width, height, 3);
-  const std::uint32_t box = maker.add_shape(host::make_box());
+  const std::uint32_t box = maker.add_shape(modeler::make_box());
   const std::uint32_t materials[] = {maker.add_material(kClay), maker.add_material({{0, 0.7f, 0}, 0.3f, 0.6f, 0, 1, 2}),
                                  maker.add_material({{0, 0, 0.9f}, 0.3f, 0.6f, 0, 1, 2})};
-  const node::Matrix here = placed({-0.5, -0.5, -0.5}, 1, 0.4), apart = placed({0.2, -0.5, -0.5}, 1, 0.4);
+  const wire::Matrix here = placed({-0.5, -0.5, -0.5}, 1, 0.4), apart = placed({0.2, -0.5, -0.5}, 1, 0.4);
   maker.add_segment(box, materials[0], {apart, here, here});
   maker.add_segment(box, materials[1], {here});
   maker.add_segment(box, materials[2], {apart, apart, here});
@@ -214,7 +214,7 @@ node::FilmData ties(std::uint32_t width, std::uint32_t height) {
   return maker.make();
 }
 
-node::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
+wire::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames) {
   FilmMaker maker(width, height, frames);
   maker.set_cameras({looking({1, -3, 1.6}, {0, 0, 0}, 40)});
   return maker.make();

@@ -15,49 +15,49 @@ namespace mars::test {
 using Vec3 = std::array<double, 3>;
 
 // Turned by `angle` about z (radians), scaled by `size`, moved to `place`.
-node::Matrix placed(const Vec3& place, double size, double angle = 0);
+wire::Matrix placed(const Vec3& place, double size, double angle = 0);
 
 // A camera at `eye` that looks at `at`, z up, `fov` degrees vertically.
-node::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near = 0.05, double far = 1000);
+wire::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near = 0.05, double far = 1000);
 
 // A closed ball in the unit cube: so many rows of quads between two rows of triangles. `crease` as in model files.
-host::Mesh mesh_ball(std::uint32_t rows, double crease);
+modeler::Mesh mesh_ball(std::uint32_t rows, double crease);
 
 class FilmMaker {
  public:
   FilmMaker(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 
-  std::uint32_t add_shape(const std::vector<node::Patch>& patches);
-  std::uint32_t add_shape(const host::Meshlets& mesh);
-  std::uint32_t add_material(const node::Material& material);
+  std::uint32_t add_shape(const std::vector<wire::Patch>& patches);
+  std::uint32_t add_shape(const modeler::Meshlets& mesh);
+  std::uint32_t add_material(const wire::Material& material);
   // One matrix (stands still) or one a frame (only changes are kept).
-  void add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<node::Matrix>& motion);
-  void add_light(const node::Light& light);
+  void add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<wire::Matrix>& motion);
+  void add_light(const wire::Light& light);
   // One camera, or one a frame.
-  void set_cameras(const std::vector<node::Camera>& cameras);
+  void set_cameras(const std::vector<wire::Camera>& cameras);
 
   // Cut into intervals of at most `length` frames, each with its movers.
-  node::FilmData make(std::uint32_t length = 1000);
+  wire::FilmData make(std::uint32_t length = 1000);
 
-  node::FilmData film;
+  wire::FilmData film;
 
  private:
-  node::Track still(std::uint32_t value);
+  wire::Track still(std::uint32_t value);
   bool moves(std::uint32_t segment, std::uint32_t first, std::uint32_t end) const;
 
   bool camera_moves_ = false;
 };
 
-inline constexpr node::Material kClay{{0.8f, 0.5f, 0.3f}, 0.1f, 0.65f, 0.45f, 32, 2};
+inline constexpr wire::Material kClay{{0.8f, 0.5f, 0.3f}, 0.1f, 0.65f, 0.45f, 32, 2};
 inline constexpr std::array<float, 3> kMagenta{1, 0, 1};  // a background no material here can show
 
 // Bodies that stand still, overlap and touch; some turn and cross the others; two lights, three materials.
-node::FilmData crowd(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval);
+wire::FilmData crowd(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval);
 // A camera flying through the crowd, near plane in its midst: everything moves.
-node::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
+wire::FilmData flight(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 // Coinciding bodies, stationary and moving: every depth ties.
-node::FilmData ties(std::uint32_t width, std::uint32_t height);
+wire::FilmData ties(std::uint32_t width, std::uint32_t height);
 // No patch at all.
-node::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
+wire::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 
 }  // namespace mars::test

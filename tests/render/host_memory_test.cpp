@@ -58,28 +58,28 @@ namespace {
 constexpr std::uint32_t kFrames = 3;  // buffers
 
 // The most pictures the host had at a time while it rendered the film.
-std::size_t most_pictures(const node::FilmData& film, bool coherence, std::uint32_t groups) {
+std::size_t most_pictures(const wire::FilmData& film, bool coherence, std::uint32_t groups) {
   const FilmBlock block(film);
-  host::PlanRequest work{std::vector<std::uint32_t>(film.settings.frames), coherence, groups};
+  farm::PlanRequest work{std::vector<std::uint32_t>(film.settings.frames), coherence, groups};
   std::iota(work.frames.begin(), work.frames.end(), 0u);
-  const host::Plan plan = host::make_plan(block.view(), work, 4);
+  const farm::Plan plan = farm::make_plan(block.view(), work, 4);
   made = live = most = 0;
   const auto host = [&] {
     is_host = true;
-    host::NullSink sink;
+    sinks::NullSink sink;
     {
-      host::SinkPool pool(sink, {kWidth, kHeight, 16, kFrames, 1});
-      host::render_film(block.bytes(), plan, {}, pool, {});
+      sinks::SinkPool pool(sink, {kWidth, kHeight, 16, kFrames, 1});
+      farm::render_film(block.bytes(), plan, {}, pool, {});
     }
     is_host = false;
   };
-  hal::run_threads(4, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
+  threads::run_threads(4, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
   EXPECT_EQ(live, 0u);
   return most;
 }
 
 TEST(HostMemory, OneSavedBackgroundAGroup) {
-  const node::FilmData film = crowd(kWidth, kHeight, 60, 3);
+  const wire::FilmData film = crowd(kWidth, kHeight, 60, 3);
   for (const std::uint32_t groups : {1u, 2u, 4u}) {
     const std::size_t pictures = most_pictures(film, true, groups);
     EXPECT_LE(pictures, kFrames + groups);
@@ -88,7 +88,7 @@ TEST(HostMemory, OneSavedBackgroundAGroup) {
 }
 
 TEST(HostMemory, NoneWhereNoIntervalHasInbetweens) {
-  const node::FilmData film = crowd(kWidth, kHeight, 20, 3);
+  const wire::FilmData film = crowd(kWidth, kHeight, 20, 3);
   EXPECT_LE(most_pictures(film, false, 4), kFrames);
   EXPECT_LE(most_pictures(crowd(kWidth, kHeight, 20, 1), true, 4), kFrames);
 }
@@ -99,20 +99,20 @@ TEST(HostMemory, DoesNotGrowWithTheFramesDone) {
   std::size_t done = 0;
   std::int64_t warm = 0;
   std::int64_t grown = 0;
-  host::FarmListener listener;
-  listener.finished = [&](const host::FinishedFrame&) {
+  farm::FarmListener listener;
+  listener.finished = [&](const farm::FinishedFrame&) {
     if (++done == kWarm) warm = allocated;
     if (done == kAll) grown = allocated - warm;
   };
-  host::PlanRequest work{std::vector<std::uint32_t>(kAll)};
+  farm::PlanRequest work{std::vector<std::uint32_t>(kAll)};
   std::iota(work.frames.begin(), work.frames.end(), 0u);
-  const host::Plan plan = host::make_plan(block.view(), work, 1);
+  const farm::Plan plan = farm::make_plan(block.view(), work, 1);
   const auto host = [&] {
-    host::NullSink sink;
-    host::SinkPool pool(sink, {16, 16, 16, kFrames, 1});
-    host::render_film(block.bytes(), plan, {}, pool, listener);
+    sinks::NullSink sink;
+    sinks::SinkPool pool(sink, {16, 16, 16, kFrames, 1});
+    farm::render_film(block.bytes(), plan, {}, pool, listener);
   };
-  hal::run_threads(1, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
+  threads::run_threads(1, host, [] { node::run_node({"test", "", {}, 256 << 20, ""}); });
   EXPECT_EQ(done, kAll);
   EXPECT_LT(grown, static_cast<std::int64_t>(kAll - kWarm)) << "bytes: not one a frame";
 }

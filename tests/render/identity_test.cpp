@@ -14,7 +14,7 @@ namespace {
 
 struct Case {
   const char* name;
-  node::FilmData film;
+  wire::FilmData film;
 };
 
 std::vector<Case> cases() {
@@ -62,19 +62,19 @@ TEST_P(Identity, AnyMappingAndGroups) {
     RunOptions options;
     options.nodes = 5;
     options.work.groups = groups;
-    options.farm.mapping = groups == 2 ? node::Mapping::greedy : node::Mapping::optimal;
+    options.farm.mapping = groups == 2 ? wire::Mapping::greedy : wire::Mapping::optimal;
     expect_as_from_scratch(options, std::to_string(groups) + "-groups");
   }
 }
 
 TEST_P(Identity, AnyMachines) {
   for (const auto& [nodes, nodes_each, groups] : {std::tuple{4, 1, 1u}, {5, 2, 1u}, {7, 3, 2u}}) {
-    hal::Machines machines(nodes_each);
-    hal::Counts counts;
+    messages::Machines machines(nodes_each);
+    messages::Counts counts;
     RunOptions options;
     options.nodes = nodes;
     options.work.groups = groups;
-    options.wrap = [&](hal::Backend& inner) { return std::make_unique<hal::MachinesBackend>(inner, counts, machines); };
+    options.wrap = [&](messages::Backend& inner) { return std::make_unique<messages::MachinesBackend>(inner, counts, machines); };
     expect_as_from_scratch(options, std::to_string(nodes_each) + "-a-machine");
   }
 }
@@ -89,11 +89,11 @@ TEST_P(Identity, AnyBlockSize) {
 }
 
 TEST_P(Identity, AnyInstructionSet) {
-  for (const node::InstructionSet set : all_sets()) {
+  for (const simd::InstructionSet set : simd::all_sets()) {
     RunOptions options;
     options.nodes = 2;
-    options.simd = node::name_of(set);
-    expect_as_from_scratch(options, node::name_of(set));
+    options.simd = simd::name_of(set);
+    expect_as_from_scratch(options, simd::name_of(set));
   }
 }
 
@@ -114,7 +114,7 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
     const FilmBlock block(GetParam().film);
     const FilmRun run = run_film(block.bytes(), options);
     expect_same(run, run_film(block.bytes(), from_scratch()), GetParam().film.settings, "passes");
-    for (const node::Strip& strip : run.report.strips) {
+    for (const wire::Strip& strip : run.report.strips) {
       passes = std::max(passes, strip.work.passes);
       EXPECT_LE(strip.work.memory, options.memory);
     }

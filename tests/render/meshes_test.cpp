@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint32_t kWidth = 320, kHeight = 240, kBackground = 0xff00ff;
 constexpr int kRate = 6;
 
-const node::Matrix kAsItIs{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
+const wire::Matrix kAsItIs{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
 
-node::Camera at_origin() { return {kAsItIs, 2.5, 0.1, 100}; }
+wire::Camera at_origin() { return {kAsItIs, 2.5, 0.1, 100}; }
 
 Pixels draw(FilmMaker& maker, int nodes = 2) {
   maker.add_light({0, {0.4f, 0.3f, 0.866f}, {1, 1, 1}});
@@ -30,15 +30,15 @@ Pixels draw(FilmMaker& maker, int nodes = 2) {
 }
 
 // Each patch's dicing in eye space as a meshlet, which an eye at the origin leaves where it is.
-host::Meshlets diced(const std::vector<node::Patch>& patches, const node::Matrix& matrix) {
-  host::Meshlets out;
-  node::Dicer dicer(node::best_instruction_set(""));
-  const node::Projection projection{300, {160, 120}, 0.1f, 100, 32768, 0.8f};
-  for (const node::Patch& patch : patches) {
-    dicer.dice(node::to_eye(node::eye_matrix(kAsItIs, matrix), patch), projection, kRate);
-    const node::Vertices& v = dicer.vertices();
+modeler::Meshlets diced(const std::vector<wire::Patch>& patches, const wire::Matrix& matrix) {
+  modeler::Meshlets out;
+  shape::Dicer dicer(simd::best_instruction_set(""));
+  const shape::Projection projection{300, {160, 120}, 0.1f, 100, 32768, 0.8f};
+  for (const wire::Patch& patch : patches) {
+    dicer.dice(shape::to_eye(shape::eye_matrix(kAsItIs, matrix), patch), projection, kRate);
+    const shape::Vertices& v = dicer.vertices();
     const auto count = static_cast<std::uint32_t>(dicer.vertex_count());
-    node::Meshlet meshlet{static_cast<std::uint32_t>(out.places.size()), count,
+    wire::Meshlet meshlet{static_cast<std::uint32_t>(out.places.size()), count,
                           static_cast<std::uint32_t>(out.triangles.size()), dicer.triangles().count,
                           {100, 100, 100}, {-100, -100, -100}};
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -50,7 +50,7 @@ host::Meshlets diced(const std::vector<node::Patch>& patches, const node::Matrix
       }
     }
     for (std::uint32_t k = 0; k < dicer.triangles().count; ++k) {
-      const node::Corner3 t = dicer.triangles()[k];
+      const shape::Corner3 t = dicer.triangles()[k];
       out.triangles.push_back(
           {static_cast<std::uint8_t>(t.a), static_cast<std::uint8_t>(t.b), static_cast<std::uint8_t>(t.c)});
     }
@@ -69,8 +69,8 @@ int difference(std::uint32_t a, std::uint32_t b) {
 // Places are the same bits, so the same samples show the same triangles; only normals, which meshes normalise once more,
 // may round otherwise.
 TEST(Meshes, ADicedSphereIsThePatchesSphere) {
-  const auto sphere = host::make_sphere();
-  for (const node::Matrix& matrix : {placed({-0.9, -1, -6}, 2, 0.3), placed({-8, -8, -17}, 16), placed({0.5, 0.2, -3}, 0.1)}) {
+  const auto sphere = modeler::make_sphere();
+  for (const wire::Matrix& matrix : {placed({-0.9, -1, -6}, 2, 0.3), placed({-8, -8, -17}, 16), placed({0.5, 0.2, -3}, 0.1)}) {
     FilmMaker patches(kWidth, kHeight, 1), mesh(kWidth, kHeight, 1);
     patches.film.settings.dice = kRate;
     patches.add_segment(patches.add_shape(sphere), patches.add_material(kClay), {matrix});
@@ -96,11 +96,11 @@ TEST(Meshes, AClosedBodyHasNoHole) {
       Pixels pixels[2];
       for (const std::uint32_t sides : {1u, 2u}) {
         FilmMaker maker(kWidth, kHeight, 1);
-        node::Material material = kClay;
+        wire::Material material = kClay;
         material.sides = sides;
-        node::Matrix matrix = placed({-0.4 * size, -0.6 * size, -6}, size, 0.7);
+        wire::Matrix matrix = placed({-0.4 * size, -0.6 * size, -6}, size, 0.7);
         matrix.m[0][2] = 0.35 * size;  // sheared
-        maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(rows, rows % 2 == 1 ? 0 : 180))),
+        maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(rows, rows % 2 == 1 ? 0 : 180))),
                           maker.add_material(material), {matrix});
         pixels[sides - 1] = draw(maker);
       }
@@ -120,10 +120,10 @@ TEST(Meshes, AClosedBodyHasNoHole) {
 TEST(Meshes, FromWithinABodyItIsAllRound) {
   for (const double size : {0.5, 6.0, 3e4}) {
     FilmMaker maker(kWidth, kHeight, 1);
-    node::Matrix matrix = placed({-0.55 * size, -0.48 * size, -0.6 * size}, size, 0.1);
-    maker.add_segment(maker.add_shape(host::cut_meshlets(mesh_ball(9, 30))), maker.add_material(kClay), {matrix});
+    wire::Matrix matrix = placed({-0.55 * size, -0.48 * size, -0.6 * size}, size, 0.1);
+    maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(9, 30))), maker.add_material(kClay), {matrix});
     maker.add_light({0, {0, 0, 1}, {1, 1, 1}});
-    node::Camera camera = at_origin();
+    wire::Camera camera = at_origin();
     camera.near = 0.01;
     camera.far = 1e9;
     maker.set_cameras({camera});

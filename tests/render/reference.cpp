@@ -12,15 +12,15 @@
 namespace mars::test {
 namespace {
 
-using node::Triangle;
+using geometry::Triangle;
 
-std::uint32_t interval_of(const node::FilmView& film, std::uint32_t frame) {
+std::uint32_t interval_of(const wire::FilmView& film, std::uint32_t frame) {
   std::uint32_t i = 0;
   while (frame >= film.intervals()[i].first_frame + film.intervals()[i].frame_count) ++i;
   return i;
 }
 
-float value_at(const Triangle& t, node::Value value, std::int32_t x, std::int32_t y) {
+float value_at(const Triangle& t, shape::Value value, std::int32_t x, std::int32_t y) {
   const float row = t.at_first[value] + static_cast<float>(y - t.first_y) * t.per_y[value];
   return row + static_cast<float>(x - t.first_x) * t.per_x[value];
 }
@@ -31,30 +31,30 @@ auto order(const Reference& reference, std::size_t triangle) {
 }
 
 struct Surfaces {
-  node::Dicer dicer{node::best_instruction_set("sse2")};
-  node::MeshletPlacer placer{node::best_instruction_set("sse2")};
+  shape::Dicer dicer{simd::best_instruction_set("sse2")};
+  geometry::MeshletPlacer placer{simd::best_instruction_set("sse2")};
 };
 
 // The triangles of all patches and meshlets of the segment, seen or not.
-void add_segment(const node::Scene& scene, std::size_t segment, Surfaces& surfaces, Reference& reference) {
-  const node::FilmView& film = scene.film();
-  const node::Shape& shape = film.shapes()[film.segments()[segment].shape];
-  const node::EyeMatrix matrix = scene.matrix(segment);
+void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& surfaces, Reference& reference) {
+  const wire::FilmView& film = scene.film();
+  const wire::Shape& shape = film.shapes()[film.segments()[segment].shape];
+  const shape::EyeMatrix matrix = scene.matrix(segment);
   const std::uint32_t material = scene.material(segment);
-  node::PatchIdentity identity{scene.first_patch(segment), material, node::mirrors(matrix),
+  raster::PatchIdentity identity{scene.first_patch(segment), material, shape::mirrors(matrix),
                                film.materials()[material].sides == 1, scene.moves(segment)};
-  const auto add = [&](const node::Surface& surface) {
-    const auto made = plain_set_up(surface, scene.projection(), identity);
+  const auto add = [&](const shape::Surface& surface) {
+    const auto made = raster::plain_set_up(surface, scene.projection(), identity);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
     reference.moving.resize(reference.triangles.size(), identity.moving);
     ++identity.patch;
   };
-  for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
-    surfaces.dicer.dice(node::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
+  for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
+    surfaces.dicer.dice(shape::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
     add(surfaces.dicer);
   }
-  for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
-    surfaces.placer.place(node::eye_map(matrix), film, meshlet, scene.projection());
+  for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
+    surfaces.placer.place(geometry::eye_map(matrix), film, meshlet, scene.projection());
     add(surfaces.placer);
   }
 }
@@ -67,9 +67,9 @@ void draw(Reference& reference, std::size_t number, std::int32_t width, std::int
   for (std::int32_t row = std::max(sample(top) - 1, 0); row <= std::min(sample(bottom) + 1, height - 1); ++row)
     for (std::int32_t column = std::max(sample(left) - 1, 0); column <= std::min(sample(right) + 1, width - 1); ++column) {
       const std::int32_t x = 256 * column + 128, y = 256 * row + 128;
-      if (!covers(t, column, row)) continue;
+      if (!raster::covers(t, column, row)) continue;
       ReferenceSample& here = reference.samples[static_cast<std::size_t>(row) * reference.width + static_cast<std::size_t>(column)];
-      const float depth = value_at(record, node::kDepth, x, y);
+      const float depth = value_at(record, shape::kDepth, x, y);
       const bool nearer = depth > here.depth || (here.triangle && depth == here.depth &&
                                                  order(reference, number) < order(reference, *here.triangle));
       if (nearer) here = {number, depth};
@@ -87,8 +87,8 @@ Vec unit(const Vec& a) {
 
 }  // namespace
 
-Reference draw_reference(const node::FilmView& film, std::uint32_t frame) {
-  node::Scene scene(film);
+Reference draw_reference(const wire::FilmView& film, std::uint32_t frame) {
+  geometry::Scene scene(film);
   scene.set_interval(interval_of(film, frame));
   scene.set_frame(frame);
   Surfaces surfaces;
@@ -100,21 +100,21 @@ Reference draw_reference(const node::FilmView& film, std::uint32_t frame) {
   return reference;
 }
 
-Color shade_reference(const node::FilmView& film, std::uint32_t frame, const Reference& reference,
+Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference,
                       std::uint32_t column, std::uint32_t row) {
-  node::Scene scene(film);
+  geometry::Scene scene(film);
   scene.set_frame(frame);
   const ReferenceSample& sample = reference.at(column, row);
   const Triangle& t = reference.triangles[*sample.triangle].record;
   const auto x = static_cast<std::int32_t>(256 * column + 128), y = static_cast<std::int32_t>(256 * row + 128);
-  const Vec n = unit({value_at(t, node::kNormalX, x, y), value_at(t, node::kNormalY, x, y), value_at(t, node::kNormalZ, x, y)});
-  const node::Projection& p = scene.projection();
+  const Vec n = unit({value_at(t, shape::kNormalX, x, y), value_at(t, shape::kNormalY, x, y), value_at(t, shape::kNormalZ, x, y)});
+  const shape::Projection& p = scene.projection();
   const double dx = (column + 0.5 - p.center[0]) / p.scale, dy = (row + 0.5 - p.center[1]) / p.scale;
   const Vec eye = unit({-dx, dy, 1});
-  const node::Material& m = film.materials()[t.material];
+  const wire::Material& m = film.materials()[t.material];
   Color color{};
   for (int c = 0; c < 3; ++c) color.channel[c] = m.ambient * m.color[static_cast<std::size_t>(c)];
-  for (const node::EyeLight& light : scene.lights()) {
+  for (const geometry::EyeLight& light : scene.lights()) {
     Vec to{light.vector[0], light.vector[1], light.vector[2]};
     const double w = 1 / sample.depth;
     if (light.point) to = unit({to.x - dx * w, to.y + dy * w, to.z + w});

@@ -18,7 +18,7 @@ struct ReferenceSample {
 };
 
 struct Reference {
-  std::vector<PlainTriangle> triangles;
+  std::vector<raster::PlainTriangle> triangles;
   std::vector<bool> moving;              // of each triangle
   std::vector<ReferenceSample> samples;  // rows from the top
   std::uint32_t width = 0;
@@ -27,13 +27,13 @@ struct Reference {
 };
 
 // Draws `frame`; which segments move comes from the film's intervals.
-Reference draw_reference(const node::FilmView& film, std::uint32_t frame);
+Reference draw_reference(const wire::FilmView& film, std::uint32_t frame);
 
 // The colour (red, green, blue, 0..255, not rounded) of a sample that shows a triangle.
 struct Color {
   double channel[3];
 };
-Color shade_reference(const node::FilmView& film, std::uint32_t frame, const Reference& reference,
+Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference,
                       std::uint32_t column, std::uint32_t row);
 
 }  // namespace mars::test

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint32_t kBackground = 0xff00ff;
 
-void expect_as_reference(const node::FilmData& film, std::uint32_t frame, int nodes) {
+void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int nodes) {
   const FilmBlock block(film);
-  const node::FilmView view = block.view();
+  const wire::FilmView view = block.view();
   RunOptions options;
   options.nodes = nodes;
   const FilmRun run = run_film(block.bytes(), options);
@@ -52,18 +52,18 @@ TEST(Reference, Ties) {
 }
 
 // A single body in the middle of the picture, seen along y, on a background no material shows.
-node::FilmData body(const std::vector<node::Patch>& patches, std::uint32_t size, std::uint32_t dice, double turn) {
+wire::FilmData body(const std::vector<wire::Patch>& patches, std::uint32_t size, std::uint32_t dice, double turn) {
   FilmMaker maker(size, size, 1);
   maker.add_segment(maker.add_shape(patches), maker.add_material({{0.5f, 0.7f, 0.9f}, 0.1f, 0.65f, 0.45f, 20, 2}),
                     {placed({-std::cos(turn) + std::sin(turn), -std::sin(turn) - std::cos(turn), -1}, 2, turn)});
   maker.add_light({0, {-0.48f, -0.6f, 0.64f}, {1, 1, 1}});
   maker.set_cameras({looking({0, -8, 0}, {0, 0, 0}, 30)});
-  node::FilmData film = maker.make();
+  wire::FilmData film = maker.make();
   film.settings.dice = dice;
   return film;
 }
 
-Pixels draw_body(const node::FilmData& film) { return run_film(FilmBlock(film).bytes()).frames.at(0); }
+Pixels draw_body(const wire::FilmData& film) { return run_film(FilmBlock(film).bytes()).frames.at(0); }
 
 // The unit sphere in the middle: the ray through a sample meets it where |eye + t d| = 1.
 struct SphereHit {
@@ -92,7 +92,7 @@ double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] 
 
 TEST(Sphere, OutlineAndShadingFollowTheFormula) {
   constexpr std::uint32_t kSize = 400;
-  const Pixels pixels = draw_body(body(host::make_sphere(), kSize, 0, 0.3));
+  const Pixels pixels = draw_body(body(modeler::make_sphere(), kSize, 0, 0.3));
   const double light[3] = {-0.48, -0.6, 0.64};
   double worst = 0, sum = 0;
   int counted = 0;
@@ -142,8 +142,8 @@ int holes(const Pixels& pixels, std::uint32_t size) {
 }
 
 TEST(Closed, NoBackgroundInsideTheOutlineAtAnyDicing) {
-  const std::vector<node::Patch> bodies[] = {host::make_sphere(), host::make_cylinder(), host::make_cone(0), host::make_cone(0.5),
-                                             host::make_box()};
+  const std::vector<wire::Patch> bodies[] = {modeler::make_sphere(), modeler::make_cylinder(), modeler::make_cone(0), modeler::make_cone(0.5),
+                                             modeler::make_box()};
   for (const auto& patches : bodies)
     for (const std::uint32_t dice : {0u, 1u, 2u, 3u, 5u, 8u, 13u, 64u})
       for (const double turn : {0.0, 0.4, 1.9})
@@ -153,7 +153,7 @@ TEST(Closed, NoBackgroundInsideTheOutlineAtAnyDicing) {
 // Rates differ from patch to patch where a body is seen from near: stitches must hold there too.
 TEST(Closed, NoHolesSeenFromNearWithManyRates) {
   for (const double near : {1.02, 1.2, 2.0}) {
-    node::FilmData film = body(host::make_sphere(), 300, 0, 0.2);
+    wire::FilmData film = body(modeler::make_sphere(), 300, 0, 0.2);
     film.cameras = {looking({0.3, -near, 0.2}, {0, 0, 0.1}, 80, 0.001)};
     EXPECT_EQ(holes(draw_body(film), 300), 0) << near;
   }
@@ -162,10 +162,10 @@ TEST(Closed, NoHolesSeenFromNearWithManyRates) {
 // From all sides a lit convex body is nowhere darker than its ambient light says on the side of the light:
 // no triangle's normal is turned the wrong way.
 TEST(Closed, NoTriangleIsLitFromBehind) {
-  const std::vector<node::Patch> bodies[] = {host::make_sphere(), host::make_cone(0), host::make_cylinder()};
+  const std::vector<wire::Patch> bodies[] = {modeler::make_sphere(), modeler::make_cone(0), modeler::make_cylinder()};
   for (const auto& patches : bodies)
     for (int i = 0; i < 24; ++i) {
-      node::FilmData film = body(patches, 240, 0, 0.1 * i);
+      wire::FilmData film = body(patches, 240, 0, 0.1 * i);
       const double angle = 0.26 * i;
       film.cameras = {looking({4 * std::sin(angle), -4 * std::cos(angle), 2.5}, {0, 0, 0}, 40)};
       // A light at the eye lights every normal that is turned to the eye.

@@ -14,17 +14,17 @@ namespace {
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120, kFrames = 12;
 
-node::FilmData film(std::uint32_t interval) { return crowd(kWidth, kHeight, kFrames, interval); }
+wire::FilmData film(std::uint32_t interval) { return crowd(kWidth, kHeight, kFrames, interval); }
 
 // Sleeps before each message of one type that one node sends.
-class SlowNode : public hal::MachinesBackend {
+class SlowNode : public messages::MachinesBackend {
  public:
-  SlowNode(hal::Backend& inner, hal::Counts& counts, hal::Machines& machines, int node, long type)
-      : hal::MachinesBackend(inner, counts, machines), node_(node), type_(type) {}
+  SlowNode(messages::Backend& inner, messages::Counts& counts, messages::Machines& machines, int node, long type)
+      : messages::MachinesBackend(inner, counts, machines), node_(node), type_(type) {}
 
-  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
     if (rank() == node_ && type == type_) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return hal::MachinesBackend::start_send(to, type, data, length);
+    return messages::MachinesBackend::start_send(to, type, data, length);
   }
 
  private:
@@ -34,7 +34,7 @@ class SlowNode : public hal::MachinesBackend {
 
 struct SharedRun {
   FilmRun film;
-  hal::Counts counts;
+  messages::Counts counts;
   std::size_t shared = 0;
 };
 
@@ -46,25 +46,25 @@ struct Nodes {
 
 void PrintTo(const Nodes& n, std::ostream* out) { *out << n.count << " nodes, " << n.each << " a machine, " << n.groups << " groups"; }
 
-void run(const node::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = 0,
+void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = 0,
          std::uint64_t memory = 256 << 20) {
-  hal::Machines machines(nodes.each);
+  messages::Machines machines(nodes.each);
   RunOptions options;
   options.nodes = nodes.count;
   options.work.groups = nodes.groups;
   options.memory = memory;
-  options.wrap = [&](hal::Backend& inner) { return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type); };
+  options.wrap = [&](messages::Backend& inner) { return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type); };
   out.film = run_film(FilmBlock(data).bytes(), options);
   out.shared = machines.shared();
 }
 
-FilmRun from_scratch(const node::FilmData& data) {
+FilmRun from_scratch(const wire::FilmData& data) {
   RunOptions options;
   options.work.coherence = false;
   return run_film(FilmBlock(data).bytes(), options);
 }
 
-void expect_pictures(const SharedRun& rendered, const node::FilmData& data, const FilmRun& expected) {
+void expect_pictures(const SharedRun& rendered, const wire::FilmData& data, const FilmRun& expected) {
   ASSERT_EQ(rendered.film.frames.size(), kFrames);
   expect_same(rendered.film, expected, data.settings, "sharing");
 }
@@ -72,13 +72,13 @@ void expect_pictures(const SharedRun& rendered, const node::FilmData& data, cons
 std::uint64_t depth_bytes(const SharedRun& run, int nodes) {
   std::uint64_t bytes = 0;
   for (int from = 0; from < nodes; ++from)
-    bytes += run.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)}).bytes;
+    bytes += run.counts.sent({.from = from, .to = {}, .type = wire::depth_lines_from(from)}).bytes;
   return bytes;
 }
 
 TEST(Sharing, AnyMachinesAndGroups) {
   for (const std::uint32_t interval : {4u, 1u}) {
-    const node::FilmData data = film(interval);
+    const wire::FilmData data = film(interval);
     const FilmRun expected = from_scratch(data);
     for (const int each : {6, 5, 4, 3, 2, 1})
       for (const std::uint32_t groups : {1u, 2u, 3u, 6u}) {
@@ -92,7 +92,7 @@ TEST(Sharing, AnyMachinesAndGroups) {
 }
 
 TEST(Sharing, InSeveralPasses) {
-  const node::FilmData data = film(4);
+  const wire::FilmData data = film(4);
   SharedRun rendered;
   run(data, {4, 2}, rendered, -1, 0, 200'000);
   EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
@@ -102,11 +102,11 @@ TEST(Sharing, InSeveralPasses) {
 // While one node is late with its inbetweens the others have come to the next keyframe; while it is late with its
 // home lines they want to begin with theirs.
 TEST(Sharing, ASlowNodeIsWaitedFor) {
-  const node::FilmData data = film(3);
+  const wire::FilmData data = film(3);
   const FilmRun expected = from_scratch(data);
   for (const int each : {4, 2})
     for (int slow = 0; slow < 4; ++slow)
-      for (const long type : {long{node::kStrip}, node::triangles_from(slow), node::depth_lines_from(slow)}) {
+      for (const long type : {long{wire::kStrip}, wire::triangles_from(slow), wire::depth_lines_from(slow)}) {
         SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " + std::to_string(type));
         SharedRun rendered;
         run(data, {4, each}, rendered, slow, type);
@@ -151,7 +151,7 @@ TEST(Sharing, NothingWithoutInbetweens) {
   SharedRun rendered;
   run(film(1), {4, 2}, rendered);
   for (int from = 0; from < 4; ++from)
-    EXPECT_EQ(rendered.counts.sent({.from = from, .to = {}, .type = node::depth_lines_from(from)}).messages, 0u);
+    EXPECT_EQ(rendered.counts.sent({.from = from, .to = {}, .type = wire::depth_lines_from(from)}).messages, 0u);
 }
 
 }  // namespace

@@ -18,9 +18,9 @@
 namespace mars::test {
 namespace {
 
-using host::Trace;
+using trace::Trace;
 using nlohmann::json;
-using Kind = hal::Event::Kind;
+using Kind = messages::Event::Kind;
 
 constexpr std::uint32_t kFrames = 9, kInterval = 3;
 
@@ -40,27 +40,27 @@ class Tracing : public testing::TestWithParam<Case> {
     options.work.groups = 1;
     plain_ = run_film(block_.bytes(), options);
     options.farm.trace = &trace_;
-    options.wrap = hal::counting(counts_);
+    options.wrap = messages::counting(counts_);
     traced_ = run_film(block_.bytes(), options);
     options.farm.trace = nullptr;
     options.work.groups = static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
     options.work.frames = {0};
-    options.wrap = hal::counting(loading_);
+    options.wrap = messages::counting(loading_);
     run_film(block_.bytes(), options);
   }
 
   int host() const { return GetParam().nodes; }
   json written() const {
-    const host::TemporaryFolder folder;
-    host::write_trace(folder / "trace.json", {"crowd", "threads"}, trace_);
+    const sinks::TemporaryFolder folder;
+    trace::write_trace(folder / "trace.json", {"crowd", "threads"}, trace_);
     std::ifstream file(folder / "trace.json");
     return json::parse(file);
   }
 
   FilmBlock block_;
   FilmRun plain_, traced_;
-  hal::Counts counts_;
-  hal::Counts loading_;  // what nodes give each other while a film is loaded, before recording begins
+  messages::Counts counts_;
+  messages::Counts loading_;  // what nodes give each other while a film is loaded, before recording begins
   Trace trace_;
 };
 
@@ -82,21 +82,21 @@ TEST_P(Tracing, PhasesAddUpToTheReport) {
   }
   std::size_t frames = 0;
   std::uint32_t passes = 0;
-  for (const node::Strip& strip : traced_.report.strips) {
+  for (const wire::Strip& strip : traced_.report.strips) {
     ++frames;
     passes = std::max(passes, strip.work.passes);
-    const auto of = [&](node::Phase phase) { return spans[{strip.node, static_cast<int>(strip.frame), static_cast<int>(phase)}]; };
+    const auto of = [&](wire::Phase phase) { return spans[{strip.node, static_cast<int>(strip.frame), static_cast<int>(phase)}]; };
     for (std::size_t phase = 0; phase < node::kPhaseTimes.size(); ++phase) {
-      const auto [count, seconds] = of(static_cast<node::Phase>(phase));
+      const auto [count, seconds] = of(static_cast<wire::Phase>(phase));
       EXPECT_NEAR(seconds, strip.times.*node::kPhaseTimes[phase], 1e-12) << "phase " << phase << " of frame " << strip.frame;
-      const bool gives_depth = strip.kind == node::FrameKind::keyframe && host() > 1;
-      const bool expected = static_cast<node::Phase>(phase) != node::Phase::depth || gives_depth;
+      const bool gives_depth = strip.kind == wire::FrameKind::keyframe && host() > 1;
+      const bool expected = static_cast<wire::Phase>(phase) != wire::Phase::depth || gives_depth;
       EXPECT_EQ(count > 0, expected) << "phase " << phase << " of frame " << strip.frame << " on node " << strip.node;
     }
-    EXPECT_GE(of(node::Phase::fill).first, static_cast<int>(strip.work.passes));
-    const bool keyframe = strip.kind == node::FrameKind::keyframe;
-    EXPECT_EQ(of(node::Phase::keyframe).first, keyframe ? 1 : 0);
-    EXPECT_EQ(of(node::Phase::inbetween).first, keyframe ? 0 : 1);
+    EXPECT_GE(of(wire::Phase::fill).first, static_cast<int>(strip.work.passes));
+    const bool keyframe = strip.kind == wire::FrameKind::keyframe;
+    EXPECT_EQ(of(wire::Phase::keyframe).first, keyframe ? 1 : 0);
+    EXPECT_EQ(of(wire::Phase::inbetween).first, keyframe ? 0 : 1);
   }
   EXPECT_EQ(passes > 1, GetParam().memory < (1 << 20)) << "short memory makes several passes";
   EXPECT_EQ(frames, kFrames / kInterval * static_cast<std::size_t>(host()) + kFrames - kFrames / kInterval);
@@ -104,7 +104,7 @@ TEST_P(Tracing, PhasesAddUpToTheReport) {
 
 // Messages from when recording began, by what a backend counts. Sums with nothing in them are the gsync before.
 TEST_P(Tracing, MessagesAreThoseSent) {
-  std::map<std::tuple<int, int, int>, hal::Counts::Sent> traced;
+  std::map<std::tuple<int, int, int>, messages::Counts::Sent> traced;
   for (const auto& [event, rank] : trace_.records()) {
     if (event.kind != Kind::sent) continue;
     auto& [messages, bytes] = traced[{rank, event.peer, event.what}];
@@ -118,19 +118,19 @@ TEST_P(Tracing, MessagesAreThoseSent) {
     const bool inside = from != host() && to != host();
     const std::uint64_t before = inside ? loading_.sent({.from = from, .to = to, .type = type}).bytes : 0;
     EXPECT_EQ(sent.bytes, counted.bytes - before) << from << " to " << to << ", type " << type;
-    if (type < hal::kFirstInternalType) {
+    if (type < messages::kFirstInternalType) {
       EXPECT_EQ(sent.messages, counted.messages) << from << " to " << to << ", type " << type;
     }
     if (inside) between_nodes += sent.bytes;
   }
   std::uint64_t reported = 0, strips = 0;
-  for (const node::Strip& strip : traced_.report.strips) {
+  for (const wire::Strip& strip : traced_.report.strips) {
     reported += strip.work.bytes_to_nodes;
     strips += strip.work.passes;
   }
   EXPECT_EQ(between_nodes, reported);
   std::uint64_t traced_strips = 0;
-  for (int node = 0; node < host(); ++node) traced_strips += traced[{node, host(), node::kStrip}].messages;
+  for (int node = 0; node < host(); ++node) traced_strips += traced[{node, host(), wire::kStrip}].messages;
   EXPECT_EQ(traced_strips, strips);
 }
 
@@ -138,7 +138,7 @@ TEST_P(Tracing, MessagesAreThoseSent) {
 TEST_P(Tracing, InbetweensSendNothingToNodes) {
   std::set<int> keyframes;
   for (const auto& frame : traced_.report.frames)
-    if (frame.kind == node::FrameKind::keyframe) keyframes.insert(static_cast<int>(frame.number));
+    if (frame.kind == wire::FrameKind::keyframe) keyframes.insert(static_cast<int>(frame.number));
   for (const auto& [event, rank] : trace_.records()) {
     const bool to_node = event.kind == Kind::sent && rank != host() && event.peer != host();
     EXPECT_TRUE(!to_node || keyframes.contains(event.frame)) << "frame " << event.frame;

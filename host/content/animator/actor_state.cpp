@@ -1,28 +1,28 @@
 #include "host/content/animator/actor_state.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 // By matrices: each holds until the next.
-void place_by_matrices(const Actor& actor, const Model& model, std::uint32_t frame, ActorState& state) {
+void place_by_matrices(const Actor& actor, const modeler::Model& model, std::uint32_t frame, ActorState& state) {
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
     if (!model.joints[joint].segment) continue;
-    const Channel<Axes>& held = actor.matrices[joint];
-    state.segments[joint] = t_matrix(held[stretch_at(held, frame).from].value, model.joints[joint].segment->sbb);
+    const Channel<modeler::Axes>& held = actor.matrices[joint];
+    state.segments[joint] = modeler::t_matrix(held[stretch_at(held, frame).from].value, model.joints[joint].segment->sbb);
   }
 }
 
-void place_by_keys(const Actor& actor, const Model& model, std::uint32_t frame, ActorState& state) {
+void place_by_keys(const Actor& actor, const modeler::Model& model, std::uint32_t frame, ActorState& state) {
   state.place = value_at(actor.motion.place, frame);
   state.turn = JointMotion(free_joint(), actor.motion.turn).pose_at(frame);
   Figure figure(model, actor.motion);
   figure.move_to(frame);
   for (std::size_t number = 0; number < model.joints.size(); ++number) {
-    const Joint& joint = model.joints[number];
+    const modeler::Joint& joint = model.joints[number];
     state.pose.push_back(JointMotion(joint, actor.motion.pose[number]).pose_at(frame));
     state.joints.push_back(figure.frame_of(number));
     if (joint.segment)
-      state.segments[number] = t_matrix(segment_frame(figure.frame_of(number), joint), joint.segment->sbb);
+      state.segments[number] = modeler::t_matrix(modeler::segment_frame(figure.frame_of(number), joint), joint.segment->sbb);
   }
 }
 
@@ -30,11 +30,11 @@ void place_by_keys(const Actor& actor, const Model& model, std::uint32_t frame, 
 
 ActorState state_at(const Film& film, std::size_t number, std::uint32_t frame) {
   const Actor& actor = film.actors.at(number);
-  const Model& model = film.models[actor.model];
+  const modeler::Model& model = film.models[actor.model];
   ActorState state{};
   state.segments.resize(model.joints.size());
   actor.matrices.empty() ? place_by_keys(actor, model, frame, state) : place_by_matrices(actor, model, frame, state);
   return state;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -10,16 +10,16 @@
 
 #include "host/content/animator/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 struct ActorState {
   glm::dvec3 place, turn;        // of the whole figure; those of an actor moved by matrices are 0
   std::vector<glm::dvec3> pose;  // of each joint, degrees, as the film file would say it
-  std::vector<Axes> joints;      // where each stands in the world; none if matrices move it
-  std::vector<std::optional<node::Matrix>> segments;  // of each joint, the T-matrix of its segment, if it has one
+  std::vector<modeler::Axes> joints;      // where each stands in the world; none if matrices move it
+  std::vector<std::optional<wire::Matrix>> segments;  // of each joint, the T-matrix of its segment, if it has one
 };
 
 // `actor` is its number in the film. Bit for bit what the compiled film has.
 ActorState state_at(const Film& film, std::size_t actor, std::uint32_t frame);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -8,21 +8,21 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // Degrees; less is the rounding of the way back.
 inline constexpr double kAngleRounding = 1e-5;
 
 // How far a pose is outside the limits, degrees about each axis, never negative.
-glm::dvec3 excess_of(const Joint& joint, const glm::dvec3& pose);
-double largest_excess(const Joint& joint, const glm::dvec3& pose);
+glm::dvec3 excess_of(const modeler::Joint& joint, const glm::dvec3& pose);
+double largest_excess(const modeler::Joint& joint, const glm::dvec3& pose);
 
 // The pose with orientation(joint, pose) == turn: one within the limits if there is one, else the one that
 // leaves them least; among such the one nearest to `near`. Axes that are skewed do not reach every
 // orientation: then the pose about as near as they come.
-glm::dvec3 pose_of(const Joint& joint, const glm::dmat3& turn, const glm::dvec3& near);
+glm::dvec3 pose_of(const modeler::Joint& joint, const glm::dmat3& turn, const glm::dvec3& near);
 
 // The nearest pose that the limits allow, axis by axis.
-glm::dvec3 clamped(const Joint& joint, const glm::dvec3& pose);
+glm::dvec3 clamped(const modeler::Joint& joint, const glm::dvec3& pose);
 
-}  // namespace mars::host
+}  // namespace mars::animator

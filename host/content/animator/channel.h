@@ -9,7 +9,7 @@
 
 #include "host/content/animator/ease.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 template <typename Value>
 struct Key {
@@ -56,4 +56,4 @@ Value value_at(const Channel<Value>& channel, std::uint32_t frame) {
   return from + stretch.part * (channel[stretch.to].value - from);
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -9,25 +9,25 @@
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr std::size_t kMostWarnings = 10;  // of joints
 
-std::string rounded_text(double number) { return shown(std::round(number * 100) / 100); }
+std::string rounded_text(double number) { return document::shown(std::round(number * 100) / 100); }
 
 // "actor 'anna', joint 'knee': turns 95 degrees about y between keys, outside its limits 0 to 90, in frame 12"
 std::string words_of(const Film& film, const WorstExcess& worst) {
   const Actor& actor = film.actors[worst.actor];
-  const Joint& joint = film.models[actor.model].joints[worst.joint];
+  const modeler::Joint& joint = film.models[actor.model].joints[worst.joint];
   std::string text = "actor '" + actor.name + "', joint '" + joint.name + "': ";
   if (worst.axis == 3) {
     text += "its skewed axes do not reach where it turns between keys, by " + rounded_text(worst.angle) + " degrees";
   } else {
-    const Limits& limits = joint.limits[worst.axis];
+    const modeler::Limits& limits = joint.limits[worst.axis];
     text += "turns " + rounded_text(worst.angle) + " degrees about " + "xyz"[worst.axis] + " between keys, ";
-    text += limits.free() ? "outside its limits " + shown(limits.lower) + " to " + shown(limits.upper)
-                          : "where it is locked at " + shown(limits.lower);
+    text += limits.free() ? "outside its limits " + document::shown(limits.lower) + " to " + document::shown(limits.upper)
+                          : "where it is locked at " + document::shown(limits.lower);
   }
   return text + ", in frame " + std::to_string(worst.frame);
 }
@@ -35,8 +35,8 @@ std::string words_of(const Film& film, const WorstExcess& worst) {
 // What to type, after `program`.
 std::string remedy_of(const Film& film, const WorstExcess& worst, const std::string& program) {
   const Actor& actor = film.actors[worst.actor];
-  const Joint& joint = film.models[actor.model].joints[worst.joint];
-  return " (mend it with: " + program + "key " + shell_word(actor.name) + " " + shell_word(joint.name) + " --frame " +
+  const modeler::Joint& joint = film.models[actor.model].joints[worst.joint];
+  return " (mend it with: " + program + "key " + document::shell_word(actor.name) + " " + document::shell_word(joint.name) + " --frame " +
          std::to_string(worst.frame) + " --clamp)";
 }
 
@@ -65,10 +65,10 @@ bool moves(const Actor& actor) {
 }
 
 // How far a figure reaches, about: all its bones in a row, and the longest edge of its boxes.
-double size_of(const Model& model) {
+double size_of(const modeler::Model& model) {
   double bones = 0, edge = 0;
-  for (const Joint& joint : model.joints) {
-    if (joint.parent != kNone) bones += glm::length(joint.place);
+  for (const modeler::Joint& joint : model.joints) {
+    if (joint.parent != modeler::kNone) bones += glm::length(joint.place);
     if (!joint.segment) continue;
     const glm::dvec3 box = joint.segment->sbb.max - joint.segment->sbb.min;
     edge = std::max({edge, box.x, box.y, box.z});
@@ -82,7 +82,7 @@ void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& 
   for (std::size_t i = 0; i + 1 < place.size(); ++i) {
     const double way = glm::length(place[i + 1].value - place[i].value);
     if (place[i + 1].frame != place[i].frame + 1 || way <= size || size == 0) continue;
-    lines.push_back("actor '" + actor.name + "': jumps " + shown(std::round(way * 1000) / 1000) + " from frame " +
+    lines.push_back("actor '" + actor.name + "': jumps " + document::shown(std::round(way * 1000) / 1000) + " from frame " +
                     std::to_string(place[i].frame) + " to the next, farther than it is long");
   }
 }
@@ -109,13 +109,13 @@ Findings check_film(const Film& film) {
   if (small > 0)
     lines.push_back(std::to_string(small) + (lines.empty() ? "" : " more") +
                     (small == 1 ? " joint is outside its" : " joints are outside their") +
-                    " limits between keys by less than " + shown(kExcessSeen) + " degrees");
+                    " limits between keys by less than " + document::shown(kExcessSeen) + " degrees");
   return findings;
 }
 
 std::vector<std::string> warnings_of(const Film& film) {
   std::vector<std::string> lines;
-  const std::string animate = "mars animate " + shell_word(film.source) + " ";
+  const std::string animate = "mars animate " + document::shell_word(film.source) + " ";
   const std::vector<WorstExcess> worst = worst_excesses(film);
   for (const WorstExcess& each : worst) {
     if (lines.size() == kMostWarnings) {
@@ -130,4 +130,4 @@ std::vector<std::string> warnings_of(const Film& film) {
   return lines;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

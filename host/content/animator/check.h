@@ -8,7 +8,7 @@
 
 #include "host/content/animator/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 struct Findings {
   std::vector<std::string> lines;  // most with what to type
@@ -20,4 +20,4 @@ Findings check_film(const Film& film);
 // type, ten at most and one that counts the others. Quick, however long the film is (worst_excesses()).
 std::vector<std::string> warnings_of(const Film& film);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -5,7 +5,7 @@
 
 #include "host/content/animator/rotation.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame) {
   const Stretch stretch = stretch_at(channel, frame);
@@ -17,7 +17,7 @@ glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame)
   if (angle < 1e-12) return from;
   const glm::dvec3 other = std::abs(from.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 axis = sine > 1e-12 ? across / sine : glm::normalize(glm::cross(from, other));
-  return rotation(axis, stretch.part * angle) * from;
+  return modeler::rotation(axis, stretch.part * angle) * from;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

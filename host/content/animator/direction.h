@@ -5,9 +5,9 @@
 
 #include "host/content/animator/channel.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // `channel` holds unit vectors, at least one. Half a turn goes about any axis across.
 glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 double curve(double p1, double p2, double s) {
@@ -97,4 +97,4 @@ Ease swinging(double anticipation, double overshoot) {
   return ease;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-namespace mars::host {
+namespace mars::animator {
 
 struct Ease {
   double x1 = 0, y1 = 0, x2 = 1, y2 = 1;  // x1 and x2 in 0..1, so that time runs forward; y in -10..10
@@ -35,4 +35,4 @@ std::optional<std::pair<Ease, Ease>> split(const Ease& ease, double time);
 // An ease that first swings back by `anticipation` parts of the way and at last beyond by `overshoot`, each 0..1.
 Ease swinging(double anticipation, double overshoot);
 
-}  // namespace mars::host
+}  // namespace mars::animator

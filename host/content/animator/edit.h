@@ -12,7 +12,7 @@
 #include "host/content/animator/ease.h"
 #include "host/content/document/json_file.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // What an actor's keys hold at one frame. What is not set is not keyed there.
 struct ActorKey {
@@ -25,18 +25,18 @@ struct ActorKey {
 // Puts the keys, in any order, into the actor's "keys": values of the same frame are replaced, others stay. A
 // still value of what is now keyed, beside the keys, becomes a key of frame 0, unless that frame is keyed.
 // Throws where the film has no such actor or matrices move it; the film is then as it was.
-void put_keys(Json& film, const std::string& actor, std::span<const ActorKey> keys);
+void put_keys(document::Json& film, const std::string& actor, std::span<const ActorKey> keys);
 
 // Takes out what the actor's keys of frames `first` to `last` hold of the same kinds as `like`: place, turn, and its
 // joints' poses.
-void clear_keys(Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like);
+void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like);
 
 // The film's own object for the actor.
-Json& actor_of(Json& film, const std::string& actor);
+document::Json& actor_of(document::Json& film, const std::string& actor);
 
 // To nine digits, and 0 where there is less than 1e-9: for computed values that a person will read. It may
 // round beyond a limit: clamp after it.
 double rounded(double value);
 glm::dvec3 rounded(const glm::dvec3& value);
 
-}  // namespace mars::host
+}  // namespace mars::animator

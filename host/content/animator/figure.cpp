@@ -6,22 +6,22 @@
 #include "host/content/animator/angles.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr int kSteps = 64;  // in which the way beyond a key is searched for a limit
 
 // How whole figures turn: freely, any number of times.
-Joint whole_figure() {
-  Joint joint;
+modeler::Joint whole_figure() {
+  modeler::Joint joint;
   joint.limits.fill({-1e6, 1e6});
   return joint;
 }
 
-const Joint kFree = whole_figure();
+const modeler::Joint kFree = whole_figure();
 
 // "turns about x and z only"
-std::string freedoms_text(const Joint& joint) {
+std::string freedoms_text(const modeler::Joint& joint) {
   std::string axes;
   for (int axis = 0; axis < 3; ++axis)
     if (joint.limits[axis].free()) axes += (axes.empty() ? "" : " and ") + std::string(1, "xyz"[axis]);
@@ -30,7 +30,7 @@ std::string freedoms_text(const Joint& joint) {
 
 }  // namespace
 
-const Joint& free_joint() { return kFree; }
+const modeler::Joint& free_joint() { return kFree; }
 
 std::uint32_t last_key(const FigureMotion& motion) {
   std::uint32_t last = 0;
@@ -43,28 +43,28 @@ std::uint32_t last_key(const FigureMotion& motion) {
   return last;
 }
 
-std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose) {
+std::optional<std::string> broken_limit(const modeler::Joint& joint, const glm::dvec3& pose) {
   for (int axis = 0; axis < 3; ++axis) {
-    const Limits& limits = joint.limits[axis];
+    const modeler::Limits& limits = joint.limits[axis];
     if (pose[axis] >= limits.lower && pose[axis] <= limits.upper) continue;
     if (!limits.free())
-      return freedoms_text(joint) + "; its " + "xyz"[axis] + " axis is locked at " + shown(limits.lower) + ", not " +
-             shown(pose[axis]);
-    return "turns " + shown(pose[axis]) + " degrees about " + "xyz"[axis] + ", outside its limits " +
-           shown(limits.lower) + " to " + shown(limits.upper);
+      return freedoms_text(joint) + "; its " + "xyz"[axis] + " axis is locked at " + document::shown(limits.lower) + ", not " +
+             document::shown(pose[axis]);
+    return "turns " + document::shown(pose[axis]) + " degrees about " + "xyz"[axis] + ", outside its limits " +
+           document::shown(limits.lower) + " to " + document::shown(limits.upper);
   }
   return std::nullopt;
 }
 
-JointMotion::JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses)
+JointMotion::JointMotion(const modeler::Joint& joint, const Channel<glm::dvec3>& poses)
     : joint_(&joint), poses_(&poses) {}
 
 glm::dmat3 JointMotion::at(std::uint32_t frame) {
-  if (poses_->empty()) return orientation(*joint_, joint_->rest());
+  if (poses_->empty()) return modeler::orientation(*joint_, joint_->rest());
   const Stretch stretch = stretch_at(*poses_, frame);
   const glm::dvec3& from = (*poses_)[stretch.from].value;
-  if (from == (*poses_)[stretch.to].value) return orientation(*joint_, from);
-  return joint_->freedoms() == 1 ? orientation(*joint_, hinge_pose(stretch)) : between(stretch);
+  if (from == (*poses_)[stretch.to].value) return modeler::orientation(*joint_, from);
+  return joint_->freedoms() == 1 ? modeler::orientation(*joint_, hinge_pose(stretch)) : between(stretch);
 }
 
 // One freedom: the angle itself goes from key to key, so that whole turns are possible.
@@ -79,8 +79,8 @@ glm::dvec3 JointMotion::hinge_pose(const Stretch& stretch) const {
 glm::dmat3 JointMotion::between(const Stretch& stretch) {
   if (from_ != stretch.from) {
     from_ = stretch.from;
-    start_ = orientation(*joint_, (*poses_)[stretch.from].value);
-    turn_ = turn_between(start_, orientation(*joint_, (*poses_)[stretch.to].value));
+    start_ = modeler::orientation(*joint_, (*poses_)[stretch.from].value);
+    turn_ = turn_between(start_, modeler::orientation(*joint_, (*poses_)[stretch.to].value));
     const Swing swing = swing_of((*poses_)[stretch.from].ease);
     first_part_ = swing.lowest < 0 ? allowed(stretch, 0, swing.lowest) : 0;
     last_part_ = swing.highest > 1 ? allowed(stretch, 1, swing.highest) : 1;
@@ -89,7 +89,7 @@ glm::dmat3 JointMotion::between(const Stretch& stretch) {
   return turned(std::clamp(stretch.part, first_part_, last_part_));
 }
 
-glm::dmat3 JointMotion::turned(double part) const { return rotation(turn_.axis, part * turn_.angle) * start_; }
+glm::dmat3 JointMotion::turned(double part) const { return modeler::rotation(turn_.axis, part * turn_.angle) * start_; }
 
 // From `key` (0 or 1) towards `wanted` parts of the way, as far as the limits allow.
 double JointMotion::allowed(const Stretch& stretch, double key, double wanted) const {
@@ -123,7 +123,7 @@ glm::dvec3 JointMotion::pose_at(std::uint32_t frame) {
   return pose_of(*joint_, between(stretch), from + stretch.part * (to - from));
 }
 
-Figure::Figure(const Model& model, const FigureMotion& motion)
+Figure::Figure(const modeler::Model& model, const FigureMotion& motion)
     : model_(&model), motion_(&motion), root_turn_(kFree, motion.turn) {
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
     turns_.push_back(JointMotion(model.joints[joint], motion.pose[joint]).at(0));
@@ -146,7 +146,7 @@ void Figure::turn_keyed_joints(std::uint32_t frame) {
 }
 
 bool Figure::move_root(std::uint32_t frame) {
-  const Axes now{root_turn_.at(frame), value_at(motion_->place, frame)};
+  const modeler::Axes now{root_turn_.at(frame), value_at(motion_->place, frame)};
   const bool moved = first_ || now.turn != root_.turn || now.place != root_.place;
   root_ = now;
   first_ = false;
@@ -159,15 +159,15 @@ bool Figure::move_to(std::uint32_t frame) {
   const bool root_moved = move_root(frame);
   bool any = false;
   for (std::size_t number = 0; number < frames_.size(); ++number) {
-    const Joint& joint = model_->joints[number];
-    const bool rooted = joint.parent == kNone;
+    const modeler::Joint& joint = model_->joints[number];
+    const bool rooted = joint.parent == modeler::kNone;
     if (rooted ? root_moved : moved_[joint.parent]) moved_[number] = true;
     if (!moved_[number]) continue;
     any = true;
-    const Axes& parent = rooted ? root_ : frames_[joint.parent];
+    const modeler::Axes& parent = rooted ? root_ : frames_[joint.parent];
     frames_[number] = {parent.turn * turns_[number], parent.turn * joint.place + parent.place};
   }
   return any;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

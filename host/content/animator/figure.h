@@ -15,14 +15,14 @@
 #include "host/content/modeler/frames.h"
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // How a whole figure turns, by its "turn".
-const Joint& free_joint();
+const modeler::Joint& free_joint();
 
 // "turns 170 degrees about y, outside its limits 0 to 150", or "turns about y only; its x axis is locked at 0, not 20",
 // if the pose breaks a limit.
-std::optional<std::string> broken_limit(const Joint& joint, const glm::dvec3& pose);
+std::optional<std::string> broken_limit(const modeler::Joint& joint, const glm::dvec3& pose);
 
 // What an animator set for one figure.
 struct FigureMotion {
@@ -39,7 +39,7 @@ std::uint32_t last_key(const FigureMotion& motion);
 class JointMotion {
  public:
   // Both must outlive it. `poses` may be empty.
-  JointMotion(const Joint& joint, const Channel<glm::dvec3>& poses);
+  JointMotion(const modeler::Joint& joint, const Channel<glm::dvec3>& poses);
 
   glm::dmat3 at(std::uint32_t frame);
 
@@ -53,9 +53,9 @@ class JointMotion {
   glm::dmat3 turned(double part) const;
   double allowed(const Stretch& stretch, double key, double wanted) const;
 
-  const Joint* joint_;
+  const modeler::Joint* joint_;
   const Channel<glm::dvec3>* poses_;
-  std::size_t from_ = kNone;  // key at which the kept turn begins
+  std::size_t from_ = modeler::kNone;  // key at which the kept turn begins
   glm::dmat3 start_{1};
   Turn turn_{{1, 0, 0}, 0};
   double first_part_ = 0, last_part_ = 1;  // how far beyond the keys the limits let it go
@@ -65,12 +65,12 @@ class JointMotion {
 class Figure {
  public:
   // Both must outlive it.
-  Figure(const Model& model, const FigureMotion& motion);
+  Figure(const modeler::Model& model, const FigureMotion& motion);
 
   // True if any joint now stands elsewhere than at the frame before.
   bool move_to(std::uint32_t frame);
 
-  const Axes& frame_of(std::size_t joint) const { return frames_[joint]; }
+  const modeler::Axes& frame_of(std::size_t joint) const { return frames_[joint]; }
   bool moved(std::size_t joint) const { return moved_[joint]; }  // by the last move_to
   bool still() const { return still_; }                          // has no two keys of anything
 
@@ -78,17 +78,17 @@ class Figure {
   void turn_keyed_joints(std::uint32_t frame);
   bool move_root(std::uint32_t frame);
 
-  const Model* model_;
+  const modeler::Model* model_;
   const FigureMotion* motion_;
   JointMotion root_turn_;
-  Axes root_;
+  modeler::Axes root_;
   bool first_ = true;
   bool still_;
   std::vector<std::size_t> keyed_;    // joints with two keys or more
   std::vector<JointMotion> motions_;  // one a keyed joint
   std::vector<glm::dmat3> turns_;     // of all joints, against their parents
-  std::vector<Axes> frames_;
+  std::vector<modeler::Axes> frames_;
   std::vector<char> moved_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -12,7 +12,7 @@
 #include "host/content/animator/figure.h"
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // Where render intervals are cut: where it saves work, or at the animator's keyframes.
 enum class Cutting { automatic, keyframes };
@@ -49,7 +49,7 @@ struct Actor {
   std::size_t model;
   FigureMotion motion;
   // Of each joint, with a key at frame 0 where it has a segment; or empty.
-  std::vector<Channel<Axes>> matrices;
+  std::vector<Channel<modeler::Axes>> matrices;
   std::string material;  // of the film, for all segments; "": the model's
   // Else: names of the model's materials, and of the film's instead.
   std::vector<std::pair<std::string, std::string>> materials;
@@ -67,8 +67,8 @@ struct Film {
   CameraMotion camera;
   std::vector<LightMotion> lights;
   std::vector<MaterialMotion> materials;
-  std::vector<Model> models;
+  std::vector<modeler::Model> models;
   std::vector<Actor> actors;
 };
 
-}  // namespace mars::host
+}  // namespace mars::animator

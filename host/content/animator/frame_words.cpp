@@ -10,14 +10,14 @@
 #include "host/content/document/json_file.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr const char* kEaseRemedy = "write --ease 0.4,0,0.6,1";
 
 std::uint32_t frame_of(const std::string& digits, const std::string& text) {
-  const auto frame = number_in<std::uint32_t>(digits);
-  if (!frame || *frame > node::kMostFrames)
+  const auto frame = document::number_in<std::uint32_t>(digits);
+  if (!frame || *frame > wire::kMostFrames)
     throw Failure("is no frame", "'" + text + "'",
                   "write a frame from 0 to 1000000, or a range: 24-48, or 24- to the end");
   return *frame;
@@ -29,7 +29,7 @@ FrameRange read_frame_range(const std::string& text) {
   const std::size_t dash = text.find('-');
   const std::uint32_t first = frame_of(text.substr(0, dash), text);
   if (dash == std::string::npos) return {first, first};
-  if (dash + 1 == text.size()) return {first, node::kMostFrames};
+  if (dash + 1 == text.size()) return {first, wire::kMostFrames};
   const std::uint32_t last = frame_of(text.substr(dash + 1), text);
   if (last < first) throw Failure("ends before it begins", "'" + text + "'", "write the earlier frame first");
   return {first, last};
@@ -46,17 +46,17 @@ std::optional<Ease> read_typed_ease(const std::string& text) {
   const bool named = std::isalpha(static_cast<unsigned char>(text[0]));
   const auto numbers = std::count(text.begin(), text.end(), ',') + 1;
   if (!named && numbers != 4)
-    throw Failure("has " + counted(static_cast<std::uint64_t>(numbers), "number"), "--ease", kEaseRemedy);
-  const std::string json = R"({"ease": )" + (named ? Json(text).dump() : "[" + text + "]") + "}";
-  if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !Json::accept(json))
+    throw Failure("has " + document::counted(static_cast<std::uint64_t>(numbers), "number"), "--ease", kEaseRemedy);
+  const std::string json = R"({"ease": )" + (named ? document::Json(text).dump() : "[" + text + "]") + "}";
+  if ((!named && text.find_first_not_of("+-.0123456789eE, ") != text.npos) || !document::Json::accept(json))
     throw Failure("is '" + text + "'", "--ease", kEaseRemedy);
   try {
-    const Document document(json, "--ease");
+    const document::Document document(json, "--ease");
     constexpr std::string_view names[] = {"ease"};
-    return read_ease(Fields(document.root(), Keys{"option", names}));
+    return read_ease(document::Fields(document.root(), document::Keys{"option", names}));
   } catch (const Failure& failure) {
     throw Failure(failure.problem, "--ease", failure.remedy);  // nobody has typed a line and a key
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

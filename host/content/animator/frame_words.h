@@ -8,7 +8,7 @@
 #include "host/content/animator/ease.h"
 #include "host/content/animator/keys.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // "24", "24-48", or "24-" to the last frame that a film can have. Throws Failure where it is none of these.
 FrameRange read_frame_range(const std::string& text);
@@ -18,4 +18,4 @@ std::uint32_t read_frame(const std::string& text);
 // "both" or "0.4,0,0.6,1"; none of an empty text. Throws Failure about --ease.
 std::optional<Ease> read_typed_ease(const std::string& text);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -6,18 +6,18 @@
 #include "host/child/process.h"
 #include "host/child/programs.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 std::string draw_with_gnuplot(const std::string& script) {
-  const auto program = find_program("gnuplot", program_path(own_environment()));
+  const auto program = child::find_program("gnuplot", child::program_path(child::own_environment()));
   if (!program)
     throw Failure("is not installed", "gnuplot", "install it, on Debian with: apt install gnuplot-nox");
-  const Descriptor input = file_in_memory(script), output = file_in_memory(), errors = file_in_memory();
-  Process process(Command{{}, {program->string()}},
+  const child::Descriptor input = child::file_in_memory(script), output = child::file_in_memory(), errors = child::file_in_memory();
+  child::Process process(child::Command{{}, {program->string()}},
                   {.streams = {{0, input.number()}, {1, output.number()}, {2, errors.number()}}});
   if (!process.wait().well())
-    throw Failure("drew nothing: " + content_of(errors).substr(0, 300), "gnuplot", "is it version 5 or newer?");
-  return content_of(output);
+    throw Failure("drew nothing: " + child::content_of(errors).substr(0, 300), "gnuplot", "is it version 5 or newer?");
+  return child::content_of(output);
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace mars::host {
+namespace mars::animator {
 
 // What the script writes to its standard output. Throws Failure where gnuplot is missing or fails.
 std::string draw_with_gnuplot(const std::string& script);
 
-}  // namespace mars::host
+}  // namespace mars::animator

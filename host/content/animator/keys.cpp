@@ -11,10 +11,10 @@
 #include "host/content/document/fields.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
-using node::kMostFrames;
+using wire::kMostFrames;
 
 std::string words_of(FrameRange range) {
   if (range.first == range.last) return "at frame " + std::to_string(range.first);
@@ -48,7 +48,7 @@ std::vector<std::string> left_out(const Film& meaning, const Choice& choice) {
 // Changes tracks by `change(chosen, part, track)`, all of them in memory before the film changes. `change` returns
 // whether the choice names any key of the track; if none does, that is an error.
 template <typename Change>
-Remarks change_tracks(Json& film, const Film& meaning, const Choice& choice, const std::string& sought,
+Remarks change_tracks(document::Json& film, const Film& meaning, const Choice& choice, const std::string& sought,
                       Change change) {
   std::vector<Chosen> chosen = choose(film, meaning, choice);
   std::vector<Tracks> changed;
@@ -88,7 +88,7 @@ std::uint32_t frame_from(std::int64_t frame, const std::string& where) {
   return static_cast<std::uint32_t>(frame);
 }
 
-Remarks displace(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
+Remarks displace(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
                  bool keep) {
   const std::int64_t by = std::int64_t{to} - range.first;
   return change_tracks(film, meaning, choice, words_of(range),
@@ -118,11 +118,11 @@ void remap(Track& track, const std::string& thing, Map map) {
 }
 
 Ease rounded(const Ease& ease) {
-  return {host::rounded(ease.x1), host::rounded(ease.y1), host::rounded(ease.x2), host::rounded(ease.y2)};
+  return {animator::rounded(ease.x1), animator::rounded(ease.y1), animator::rounded(ease.x2), animator::rounded(ease.y2)};
 }
 
 // Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
-void split_way(Track& track, std::uint32_t frame, Json value) {
+void split_way(Track& track, std::uint32_t frame, document::Json value) {
   const auto next = std::find_if(track.begin(), track.end(), [&](const TrackKey& k) { return k.frame >= frame; });
   if (next != track.end() && next->frame == frame) {
     next->value = std::move(value);
@@ -146,7 +146,7 @@ void split_way(Track& track, std::uint32_t frame, Json value) {
 Remarks put(const Chosen& chosen, const Tracks& tracks) {
   const Thing& thing = chosen.thing;
   const Tracks before = tracks_of(*thing.json);
-  const std::string gave_way = joined(put_tracks(*thing.json, tracks));
+  const std::string gave_way = document::joined(put_tracks(*thing.json, tracks));
   Remarks remarks;
   if (!gave_way.empty())
     remarks.push_back(thing.name + ": a key has one ease; the ease of the other keys there applies to " + gave_way);
@@ -154,7 +154,7 @@ Remarks put(const Chosen& chosen, const Tracks& tracks) {
   return remarks;
 }
 
-Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
                   const std::optional<Ease>& ease, Beyond beyond) {
   std::vector<Chosen> chosen = choose(film, meaning, choice);
   std::vector<Tracks> changed;
@@ -164,7 +164,7 @@ Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::ui
     for (const std::string& name : one.parts) {
       const KeyedPart& part = one.thing.part(name);
       if (part.joint ? part.joint->freedoms() == 0 : choice.all && !one.thing.actor && !tracks.contains(name)) continue;
-      Json value = part.value_at(frame);
+      document::Json value = part.value_at(frame);
       if (part.joint) value = written(within_limits(one.thing.name, *part.joint, vector_of(value), beyond, remarks));
       split_way(tracks[name], frame, std::move(value));
     }
@@ -174,20 +174,20 @@ Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::ui
   return remarks;
 }
 
-Remarks move_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
+Remarks move_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
   return displace(film, meaning, choice, range, to, false);
 }
 
-Remarks copy_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
+Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to) {
   return displace(film, meaning, choice, range, to, true);
 }
 
-Remarks delete_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
+Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
   return change_tracks(film, meaning, choice, words_of(range),
                        [&](const Chosen&, const std::string&, Track& track) { return !taken(track, range).empty(); });
 }
 
-Remarks ease_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
+Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
   return change_tracks(film, meaning, choice, words_of(range),
                        [&](const Chosen&, const std::string&, Track& track) {
                          bool any = false;
@@ -200,14 +200,14 @@ Remarks ease_keys(Json& film, const Film& meaning, const Choice& choice, FrameRa
                        });
 }
 
-Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames) {
+Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames) {
   Remarks none;
   return change_tracks(
       film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
         const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
         if (moves_there) {
           const KeyedPart& part = one.thing.part(name);
-          Json value = part.value_at(frame);
+          document::Json value = part.value_at(frame);
           if (part.joint)
             value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
           split_way(track, frame, std::move(value));
@@ -222,9 +222,9 @@ Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_
       });
 }
 
-Remarks stretch(Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {
+Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {
   if (range.last <= range.first || !(factor > 0))
-    throw Failure("cannot be stretched " + shown(factor) + " times", "what is keyed " + words_of(range),
+    throw Failure("cannot be stretched " + document::shown(factor) + " times", "what is keyed " + words_of(range),
                   "name two frames and a factor above 0, like 24-48 and 1.5");
   const double length = double(range.last) - range.first;
   const auto added = static_cast<std::int64_t>(std::llround(length * factor - length));
@@ -239,7 +239,7 @@ Remarks stretch(Json& film, const Film& meaning, const Choice& choice, FrameRang
                        });
 }
 
-Remarks shift(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by) {
+Remarks shift(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by) {
   return change_tracks(film, meaning, choice, words_of({frame, kMostFrames}),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          const bool any = track.back().frame >= frame;
@@ -248,17 +248,17 @@ Remarks shift(Json& film, const Film& meaning, const Choice& choice, std::uint32
                        });
 }
 
-std::uint32_t last_key(const Json& film) {
+std::uint32_t last_key(const document::Json& film) {
   std::uint32_t last = 0;
-  const auto look = [&](const Json& thing) {
+  const auto look = [&](const document::Json& thing) {
     if (const auto keys = thing.find("keys"); keys != thing.end() && !keys->empty())
       last = std::max(last, keys->back().at("frame").get<std::uint32_t>());
   };
   look(film.at("camera"));
   for (const char* group : {"lights", "materials", "actors"})
     if (const auto found = film.find(group); found != film.end())
-      for (const Json& thing : *found) look(thing);
+      for (const document::Json& thing : *found) look(thing);
   return last;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -10,7 +10,7 @@
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/within_limits.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // Both ends belong to it.
 struct FrameRange {
@@ -27,27 +27,27 @@ Remarks put(const Chosen& chosen, const Tracks& tracks);
 // Keys of the chosen parts as they are at the frame. Without an ease the film moves as before: the ease of the
 // way there is split. No keys for joints without freedom, nor where all is chosen for camera, lights and materials
 // without keys.
-Remarks make_keys(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
                   const std::optional<Ease>& ease, Beyond beyond);
 
 // The keys in the range go, or go also, to where its first frame is `to`; keys that stand there give way.
-Remarks move_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
-Remarks copy_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
+Remarks move_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
+Remarks copy_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to);
 // A part without any key left is what it is without keys.
-Remarks delete_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range);
+Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range);
 
 // Timing: of all parts of a thing, or of all in the film.
 
 // The ease from the keys in the range, each to the next.
-Remarks ease_keys(Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease);
+Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease);
 // From `frame` on all stands still for so many frames; what follows is that much later.
-Remarks hold(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames);
+Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames);
 // The range takes `factor` times as long, to whole frames; what follows is that much later or earlier.
-Remarks stretch(Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor);
+Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor);
 // Keys at `frame` and later are `by` frames later or, if none are passed, earlier.
-Remarks shift(Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by);
+Remarks shift(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::int64_t by);
 
 // The last frame at which anything but matrices has a key; 0 if nothing has.
-std::uint32_t last_key(const Json& film);
+std::uint32_t last_key(const document::Json& film);
 
-}  // namespace mars::host
+}  // namespace mars::animator

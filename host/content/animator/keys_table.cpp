@@ -6,7 +6,7 @@
 #include "host/content/animator/tracks.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 struct Row {
@@ -14,25 +14,25 @@ struct Row {
   std::string part, value, ease;
 };
 
-std::string shown_value(const KeyedPart& part, const Json& value) {
-  if (!value.is_array()) return shown(value.get<double>());
+std::string shown_value(const KeyedPart& part, const document::Json& value) {
+  if (!value.is_array()) return document::shown(value.get<double>());
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {
     if (part.joint && !part.joint->limits[axis].free()) continue;
     if (!text.empty()) text += "  ";
     constexpr const char* axes[] = {"x ", "y ", "z "};
-    text += (part.name == "color" ? "" : axes[axis]) + shown(value.at(axis).get<double>());
+    text += (part.name == "color" ? "" : axes[axis]) + document::shown(value.at(axis).get<double>());
   }
   return text.empty() ? "rests" : text;
 }
 
-std::string shown_ease(const Json& key) {
+std::string shown_ease(const document::Json& key) {
   const auto ease = key.find("ease");
   if (ease == key.end()) return "";
   if (ease->is_string()) return ease->get<std::string>();
   std::string curve;
-  for (const Json& number : *ease) {
-    curve += (curve.empty() ? "" : ",") + formatted("%.3g", number.get<double>());
+  for (const document::Json& number : *ease) {
+    curve += (curve.empty() ? "" : ",") + document::formatted("%.3g", number.get<double>());
   }
   return curve;
 }
@@ -42,7 +42,7 @@ std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
   const auto keys = chosen.thing.json->find("keys");
   if (keys == chosen.thing.json->end()) return rows;
   Tracks tracks = tracks_of(*chosen.thing.json);
-  for (const Json& key : *keys) {
+  for (const document::Json& key : *keys) {
     const std::uint32_t frame = key.at("frame");
     if (!range.holds(frame)) continue;
     for (const std::string& name : chosen.parts) {
@@ -80,7 +80,7 @@ std::string table_of(const std::vector<Row>& rows) {
 
 }  // namespace
 
-std::string keys_table(Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
+std::string keys_table(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range) {
   std::string text;
   std::vector<std::string> without;
   for (const Chosen& chosen : choose(film, meaning, choice)) {
@@ -90,8 +90,8 @@ std::string keys_table(Json& film, const Film& meaning, const Choice& choice, Fr
     else
       text += chosen.thing.name + "\n" + table_of(rows);
   }
-  if (!without.empty()) text += "no keys: " + joined(without) + "\n";
+  if (!without.empty()) text += "no keys: " + document::joined(without) + "\n";
   return text;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -5,10 +5,10 @@
 
 #include "host/content/animator/keys.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // Of the chosen parts, in the range: lines of text, frame by frame; then what has no keys. Of joints only the
 // turns that they are free to make.
-std::string keys_table(Json& film, const Film& meaning, const Choice& choice, FrameRange range);
+std::string keys_table(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range);
 
-}  // namespace mars::host
+}  // namespace mars::animator

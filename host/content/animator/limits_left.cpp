@@ -9,7 +9,7 @@
 #include "host/content/animator/angles.h"
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr double kPrecision = 0.005;  // degrees by which the worst of a search may be missed
@@ -18,10 +18,10 @@ using Poses = Channel<glm::dvec3>;
 
 std::uint32_t last_frame(const Film& film, const Poses& poses) { return std::min(film.frames - 1, poses.back().frame); }
 
-bool square(const Joint& joint) { return std::abs(glm::dot(joint.x_axis, joint.y_axis)) < 1e-9; }
+bool square(const modeler::Joint& joint) { return std::abs(glm::dot(joint.x_axis, joint.y_axis)) < 1e-9; }
 
 // Every orientation has angles within half a turn about x and z and within a quarter about y.
-bool holds_every_turn(const Joint& joint) {
+bool holds_every_turn(const modeler::Joint& joint) {
   const auto holds = [&](int axis, double degrees) {
     return joint.limits[axis].lower <= -degrees && joint.limits[axis].upper >= degrees;
   };
@@ -29,7 +29,7 @@ bool holds_every_turn(const Joint& joint) {
 }
 
 // A hinge's angle goes straight from key to key and stays within its limits.
-bool may_leave(const Joint& joint, const Poses& poses) {
+bool may_leave(const modeler::Joint& joint, const Poses& poses) {
   return joint.freedoms() > 1 && poses.size() > 1 && !holds_every_turn(joint);
 }
 
@@ -43,7 +43,7 @@ void for_each_that_may_leave(const Film& film, Look look) {
   }
 }
 
-double angle_between(const glm::dmat3& a, const glm::dmat3& b) { return turn_between(a, b).angle / kDegree; }
+double angle_between(const glm::dmat3& a, const glm::dmat3& b) { return turn_between(a, b).angle / modeler::kDegree; }
 
 // How far outside one pose is; `angle` counts as `outside` degrees too far.
 struct Excess {
@@ -51,8 +51,8 @@ struct Excess {
   double angle = 0, outside = 0;
 };
 
-Excess excess_at(const Joint& joint, const glm::dvec3& pose, const glm::dmat3& turn) {
-  const double missed = angle_between(orientation(joint, pose), turn);
+Excess excess_at(const modeler::Joint& joint, const glm::dvec3& pose, const glm::dmat3& turn) {
+  const double missed = angle_between(modeler::orientation(joint, pose), turn);
   if (missed > kExcessNoticed) return {3, missed, missed};
   const glm::dvec3 excess = excess_of(joint, pose);
   int axis = 0;
@@ -61,7 +61,7 @@ Excess excess_at(const Joint& joint, const glm::dvec3& pose, const glm::dmat3& t
   return {axis, pose[axis], excess[axis]};
 }
 
-void count_frames(const Film& film, std::size_t actor, std::size_t number, const Joint& joint, const Poses& poses,
+void count_frames(const Film& film, std::size_t actor, std::size_t number, const modeler::Joint& joint, const Poses& poses,
                   std::vector<LimitsLeft>& left) {
   JointMotion motion(joint, poses);
   LimitsLeft all{{actor, number, 0, 0, 0, 0}, 0, 0, 0};
@@ -88,20 +88,20 @@ double most_straying(const glm::dvec3& from, const glm::dvec3& to, double degree
   const double nearest = std::min(from_pole(from.y), from_pole(to.y)) - degrees / 2;
   if (nearest <= 0 || std::floor((from.y + 90) / 180) != std::floor((to.y + 90) / 180))
     return std::numeric_limits<double>::infinity();
-  const double secant = 1 / std::sin(nearest * kDegree), tangent = 1 / std::tan(nearest * kDegree);
+  const double secant = 1 / std::sin(nearest * modeler::kDegree), tangent = 1 / std::tan(nearest * modeler::kDegree);
   // Else the numbers of the second pose are whole turns away from where the turn ends.
   if (std::max(std::abs(from.x - to.x), std::abs(from.z - to.z)) + degrees * secant >= 360)
     return std::numeric_limits<double>::infinity();
   const double bend = std::max({secant * (0.5 + tangent), 0.5 + tangent,
                                 (tangent + tangent * tangent + secant * secant) / 2});
-  return degrees * degrees * kDegree / 8 * bend;
+  return degrees * degrees * modeler::kDegree / 8 * bend;
 }
 
 // Searches the way between two keys for the worst frame. Frames are halved until what lies between two cannot be
 // worse than what is known.
 class Search {
  public:
-  Search(const Joint& joint, const Poses& poses, std::uint32_t last)
+  Search(const modeler::Joint& joint, const Poses& poses, std::uint32_t last)
       : joint_(joint), poses_(poses), last_(last), motion_(joint, poses) {}
 
   struct Found {
@@ -130,7 +130,7 @@ class Search {
     // The turn is no larger than the three turns together, which cost no matrix.
     const glm::dvec3 change = glm::abs(to - from);
     if (bounded_ && cannot_exceed(0, from, to, change.x + change.y + change.z)) return;
-    degrees_ = angle_between(orientation(joint_, from), orientation(joint_, to));
+    degrees_ = angle_between(modeler::orientation(joint_, from), modeler::orientation(joint_, to));
     if (bounded_ && cannot_exceed(0, from, to, degrees_)) return;
     const std::uint32_t next = poses_[key + 1].frame;
     halve({poses_[key].frame, 0, from, 0}, next <= last_ ? At{next, 1, to, 0} : look(last_));
@@ -161,7 +161,7 @@ class Search {
     halve(middle, b);
   }
 
-  const Joint& joint_;
+  const modeler::Joint& joint_;
   const Poses& poses_;
   std::uint32_t last_;
   JointMotion motion_;
@@ -174,7 +174,7 @@ class Search {
 
 std::vector<LimitsLeft> limits_left(const Film& film) {
   std::vector<LimitsLeft> left;
-  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const Joint& joint, const Poses& poses) {
+  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const modeler::Joint& joint, const Poses& poses) {
     count_frames(film, actor, number, joint, poses, left);
   });
   return left;
@@ -182,11 +182,11 @@ std::vector<LimitsLeft> limits_left(const Film& film) {
 
 std::vector<WorstExcess> worst_excesses(const Film& film) {
   std::vector<WorstExcess> worst;
-  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const Joint& joint, const Poses& poses) {
+  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const modeler::Joint& joint, const Poses& poses) {
     if (const auto found = Search(joint, poses, last_frame(film, poses)).worst())
       worst.push_back({actor, number, found->frame, found->excess.axis, found->excess.angle, found->excess.outside});
   });
   return worst;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -8,7 +8,7 @@
 
 #include "host/content/animator/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 inline constexpr double kExcessNoticed = 0.001;  // degrees outside the limits: less is rounding
 inline constexpr double kExcessSeen = 0.5;       // degrees: a person sees it
@@ -34,4 +34,4 @@ std::vector<LimitsLeft> limits_left(const Film& film);
 // which the turn is too large to rule that out, so that it may be asked of every film before it is compiled.
 std::vector<WorstExcess> worst_excesses(const Film& film);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -8,7 +8,7 @@
 #include "host/content/animator/tracks.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr std::size_t kMostPanels = 12;
@@ -23,11 +23,11 @@ struct Panel {
   double lowest = std::numeric_limits<double>::max(), highest = -std::numeric_limits<double>::max();
 };
 
-double number_of(const Json& value, int axis) {
+double number_of(const document::Json& value, int axis) {
   return value.is_array() ? value.at(axis).get<double>() : value.get<double>();
 }
 
-bool drawn(const KeyedPart& part, const Json& value, int axis) {
+bool drawn(const KeyedPart& part, const document::Json& value, int axis) {
   if (!value.is_array()) return axis == 0;
   return !part.joint || part.joint->limits[axis].free();
 }
@@ -39,9 +39,9 @@ std::string quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string row_of(std::uint32_t frame, const Json& value) {
+std::string row_of(std::uint32_t frame, const document::Json& value) {
   std::string row = std::to_string(frame);
-  for (int axis = 0; axis < (value.is_array() ? 3 : 1); ++axis) row += " " + shown(number_of(value, axis));
+  for (int axis = 0; axis < (value.is_array() ? 3 : 1); ++axis) row += " " + document::shown(number_of(value, axis));
   return row + "\n";
 }
 
@@ -50,7 +50,7 @@ std::string data_of(Panel& panel, std::size_t i, std::uint32_t frames) {
   std::string text = "$curve" + std::to_string(i) + " << END\n";
   constexpr std::uint32_t kMost = 5000;
   for (std::uint32_t frame = 0; frame < frames; frame += 1 + frames / kMost) {
-    const Json value = panel.part->value_at(frame);
+    const document::Json value = panel.part->value_at(frame);
     text += row_of(frame, value);
     for (int axis = 0; axis < 3; ++axis) {
       if (!drawn(*panel.part, value, axis)) continue;
@@ -64,30 +64,30 @@ std::string data_of(Panel& panel, std::size_t i, std::uint32_t frames) {
 }
 
 // Limits as far as they are in sight; the picture is as high as the curves, and a little more.
-std::string bands_of(const Panel& panel, const Json& value) {
+std::string bands_of(const Panel& panel, const document::Json& value) {
   std::string text;
   const bool angles = panel.part->joint || panel.part->name == "turn";
   const double margin =
       std::max(0.1 * (panel.highest - panel.lowest), angles ? 10.0 : 1e-3 + 0.05 * std::abs(panel.highest));
   const double low = panel.lowest - margin, high = panel.highest + margin;
-  text += "set yrange [" + shown(low) + ":" + shown(high) + "]\n";
+  text += "set yrange [" + document::shown(low) + ":" + document::shown(high) + "]\n";
   for (int axis = 0; axis < 3; ++axis) {
     if (!panel.part->joint || !drawn(*panel.part, value, axis)) continue;
-    const Limits& limits = panel.part->joint->limits[axis];
+    const modeler::Limits& limits = panel.part->joint->limits[axis];
     const double bottom = std::clamp(limits.lower, low, high), top = std::clamp(limits.upper, low, high);
     const std::string color = kColors[axis];
-    text += "set object rectangle from graph 0, first " + shown(bottom) + " to graph 1, first " + shown(top) +
+    text += "set object rectangle from graph 0, first " + document::shown(bottom) + " to graph 1, first " + document::shown(top) +
             " fillcolor rgb \"" + color + "\" fillstyle transparent solid 0.07 noborder behind\n";
     for (const double limit : {limits.lower, limits.upper})
       if (limit > low && limit < high)
-        text += "set arrow from graph 0, first " + shown(limit) + " to graph 1, first " + shown(limit) +
+        text += "set arrow from graph 0, first " + document::shown(limit) + " to graph 1, first " + document::shown(limit) +
                 " nohead dashtype 2 linecolor rgb \"" + color + "\"\n";
   }
   return text;
 }
 
 std::string panel_text(const Panel& panel, std::size_t i) {
-  const Json value = panel.part->value_at(0);
+  const document::Json value = panel.part->value_at(0);
   std::string text = "unset object\nunset arrow\nset title " + quoted(panel.title) + "\n" + bands_of(panel, value);
   text += panel.part->joint || panel.part->name == "turn" ? "set ylabel \"degrees\"\n" : "unset ylabel\n";
   std::string plots;
@@ -105,7 +105,7 @@ std::string panel_text(const Panel& panel, std::size_t i) {
 
 }  // namespace
 
-std::string plot_script(Json& film, const Film& meaning, const Choice& choice, PlotAs as) {
+std::string plot_script(document::Json& film, const Film& meaning, const Choice& choice, PlotAs as) {
   const std::vector<Chosen> chosen = choose(film, meaning, choice);
   std::vector<Tracks> tracks;
   for (const Chosen& one : chosen) tracks.push_back(tracks_of(*one.thing.json));
@@ -137,4 +137,4 @@ std::string plot_script(Json& film, const Film& meaning, const Choice& choice, P
   return text + "unset multiplot\n";
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

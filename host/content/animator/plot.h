@@ -6,12 +6,12 @@
 
 #include "host/content/animator/things.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 enum class PlotAs { png, svg };
 
 // The script for gnuplot, whose standard output is then the picture. Without parts: of the chosen thing all that
 // has keys. Throws where nothing is keyed, or more than would be legible.
-std::string plot_script(Json& film, const Film& meaning, const Choice& choice, PlotAs as);
+std::string plot_script(document::Json& film, const Film& meaning, const Choice& choice, PlotAs as);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -8,7 +8,7 @@
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 [[noreturn]] void refuse_wish(const std::string& text) {
@@ -17,7 +17,7 @@ namespace {
 }
 
 // How the part is written, by what it is now.
-std::string remedy_for(const std::string& part, const Json& now) {
+std::string remedy_for(const std::string& part, const document::Json& now) {
   if (!now.is_array()) return "write one number: " + part + "=" + now.dump();
   return "write one number for one axis, like " + part + ".y=" + now[1].dump() + ", or three for all: " + part + "=" +
          now[0].dump() + "," + now[1].dump() + "," + now[2].dump();
@@ -25,8 +25,8 @@ std::string remedy_for(const std::string& part, const Json& now) {
 
 double number_of(std::string_view digits, const std::string& text, const std::string& remedy) {
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const auto number = number_in<double>(digits);
-  if (!number || !(*number >= -kFarthest && *number <= kFarthest))
+  const auto number = document::number_in<double>(digits);
+  if (!number || !(*number >= -document::kFarthest && *number <= document::kFarthest))
     throw Failure("has '" + std::string(digits) + "' where a number belongs", "'" + text + "'", remedy);
   return *number;
 }
@@ -48,9 +48,9 @@ bool has_part(const Thing& thing, const std::string& name) {
 }
 
 // What the part is to be: its numbers at the frame, those wished for exchanged.
-Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond,
+document::Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond,
             Remarks& remarks) {
-  Json value = part.value_at(frame);
+  document::Json value = part.value_at(frame);
   if (!value.is_array()) return written(*wish.numbers[0]);
   glm::dvec3 numbers = vector_of(value);
   for (int axis = 0; axis < 3; ++axis) numbers[axis] = wish.numbers[axis].value_or(numbers[axis]);
@@ -84,18 +84,18 @@ Wish Wish::read(const std::string& text, const Thing& thing) {
   if (with_axis) wish.part.resize(wish.part.size() - 2);
   const std::string typed = wish.part;
   wish.part = part_named(thing, typed);
-  const Json now = thing.part(wish.part).value_at(0);
+  const document::Json now = thing.part(wish.part).value_at(0);
   const std::string remedy = remedy_for(typed, now);
   const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
   const bool three = now.is_array();
   const std::size_t needed = with_axis || !three ? 1 : 3;
   if (numbers.size() != needed || (with_axis && !three))
-    throw Failure("has " + counted(numbers.size(), "number"), "'" + text + "'", remedy);
+    throw Failure("has " + document::counted(numbers.size(), "number"), "'" + text + "'", remedy);
   for (std::size_t i = 0; i < needed; ++i) wish.numbers[axis + i] = numbers[i];
   return wish;
 }
 
-Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
   Chosen chosen = std::move(choose(film, meaning, {false, name, {}}).front());
   const Thing& thing = chosen.thing;
@@ -109,7 +109,7 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
     const KeyedPart& part = thing.part(wish.part);
     Track& track = tracks[part.name];
     if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
-    Json value = wished(wish, thing, part, frame, beyond, remarks);
+    document::Json value = wished(wish, thing, part, frame, beyond, remarks);
     if (TrackKey* key = key_at(track, frame)) {
       // A second wish for the part keeps what the first one set.
       for (std::size_t axis = 0; touched.contains(part.name) && axis < 3 && value.is_array(); ++axis)
@@ -127,4 +127,4 @@ Remarks pose(Json& film, const Film& meaning, const std::string& name, std::span
   return remarks;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

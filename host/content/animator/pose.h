@@ -9,7 +9,7 @@
 
 #include "host/content/animator/keys.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // One part and its new numbers; what is none stays as it is at the frame.
 struct Wish {
@@ -22,7 +22,7 @@ struct Wish {
 
 // Sets the thing (an actor, or "camera") at the frame, with an ease from there if given. A part without keys also
 // gets one at frame 0, as it was, so that it moves from there.
-Remarks pose(Json& film, const Film& meaning, const std::string& thing, std::span<const std::string> wishes,
+Remarks pose(document::Json& film, const Film& meaning, const std::string& thing, std::span<const std::string> wishes,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
 
-}  // namespace mars::host
+}  // namespace mars::animator

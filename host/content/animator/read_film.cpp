@@ -9,7 +9,7 @@
 #include "host/content/modeler/read_model.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr std::string_view kFilmNames[] = {"frames", "rate",   "size",      "background", "intervals", "dice",
@@ -27,7 +27,7 @@ constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "t
 constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "ease"};
 constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
 
-constexpr Keys kKeys[] = {{"film", kFilmNames},
+constexpr document::Keys kKeys[] = {{"film", kFilmNames},
                           {"camera", kCameraNames},
                           {"camera_key", kCameraKeyNames},
                           {"light", kLightNames},
@@ -50,48 +50,48 @@ enum KeySet {
   kMatrices
 };
 
-constexpr Range kShares{0, 10};
-constexpr Range kExponents{0, 10000};
-constexpr Range kIntensities{0, 1000};
-constexpr Range kDegrees{-1e6, 1e6};
+constexpr document::Range kShares{0, 10};
+constexpr document::Range kExponents{0, 10000};
+constexpr document::Range kIntensities{0, 1000};
+constexpr document::Range kDegrees{-1e6, 1e6};
 constexpr std::size_t kMostLights = 64;
 const glm::dvec3 kDefaultLight{-0.4, -0.7, 0.8};
 
 // Readers of one value, as settle() and add_key() want them.
-glm::dvec3 place_of(const Element& element) { return read_vector(element); }
-glm::dvec3 angles_of(const Element& element) { return read_vector(element, kDegrees); }
-double share_of(const Element& element) { return read_number(element, kShares); }
-double exponent_of(const Element& element) { return read_number(element, kExponents); }
-double intensity_of(const Element& element) { return read_number(element, kIntensities); }
-double fov_of(const Element& element) { return read_number(element, {0.01, 179}); }
+glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
+glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, kDegrees); }
+double share_of(const document::Element& element) { return document::read_number(element, kShares); }
+double exponent_of(const document::Element& element) { return document::read_number(element, kExponents); }
+double intensity_of(const document::Element& element) { return document::read_number(element, kIntensities); }
+double fov_of(const document::Element& element) { return document::read_number(element, {0.01, 179}); }
 
-glm::dvec3 direction_of(const Element& element) {
-  const glm::dvec3 direction = read_vector(element);
+glm::dvec3 direction_of(const document::Element& element) {
+  const glm::dvec3 direction = document::read_vector(element);
   const double length = glm::length(direction);
   if (length < 1e-9) element.refuse("has no length", "write a vector to the light");
   return direction / length;
 }
 
-void read_size(const Element& element, Film& film) {
-  require_size(element, 2);
+void read_size(const document::Element& element, Film& film) {
+  document::require_size(element, 2);
   auto side = element.begin();
-  film.width = read_count(*side, 1, node::kMaxSide);
-  film.height = read_count(*++side, 1, node::kMaxSide);
+  film.width = document::read_count(*side, 1, wire::kMaxSide);
+  film.height = document::read_count(*++side, 1, wire::kMaxSide);
 }
 
-std::uint32_t read_dice(const Element& element) {
+std::uint32_t read_dice(const document::Element& element) {
   constexpr std::string_view adaptive[] = {"adaptive"};
-  if (element.kind() == Kind::number) return read_count(element, 1, 256);
-  if (element.kind() == Kind::text) return static_cast<std::uint32_t>(read_choice(element, adaptive));
-  element.refuse(std::string("is ") + name_of(element.kind()),
+  if (element.kind() == document::Kind::number) return document::read_count(element, 1, 256);
+  if (element.kind() == document::Kind::text) return static_cast<std::uint32_t>(document::read_choice(element, adaptive));
+  element.refuse(std::string("is ") + document::name_of(element.kind()),
                  "write \"adaptive\" or a number of quads a side");
 }
 
-CameraMotion read_camera(const Element& element) {
-  const Fields fields(element, kKeys[kCamera]);
+CameraMotion read_camera(const document::Element& element) {
+  const document::Fields fields(element, kKeys[kCamera]);
   CameraMotion camera;
   if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kKeys[kCameraKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+    read_keys(*keys, kKeys[kCameraKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
       add_key(camera.eye, key, "eye", frame, ease, place_of);
       add_key(camera.at, key, "at", frame, ease, place_of);
       add_key(camera.up, key, "up", frame, ease, place_of);
@@ -105,20 +105,20 @@ CameraMotion read_camera(const Element& element) {
   camera.near = fields.number("near", camera.near, {1e-6, 1e9});
   camera.far = fields.number("far", camera.far, {1e-6, 1e10});
   if (camera.far <= camera.near)
-    element.refuse("has far " + shown(camera.far) + ", not beyond near " + shown(camera.near),
+    element.refuse("has far " + document::shown(camera.far) + ", not beyond near " + document::shown(camera.near),
                    "make far larger");
   return camera;
 }
 
-LightMotion read_light(const Element& element) {
-  const Fields fields(element, kKeys[kLight]);
+LightMotion read_light(const document::Element& element) {
+  const document::Fields fields(element, kKeys[kLight]);
   LightMotion light;
   Channel<glm::dvec3> direction, place;
   if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kKeys[kLightKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+    read_keys(*keys, kKeys[kLightKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
       add_key(direction, key, "direction", frame, ease, direction_of);
       add_key(place, key, "place", frame, ease, place_of);
-      add_key(light.color, key, "color", frame, ease, read_color);
+      add_key(light.color, key, "color", frame, ease, document::read_color);
       add_key(light.intensity, key, "intensity", frame, ease, intensity_of);
     });
   light.directional = !direction.empty() || fields.find("direction");
@@ -129,16 +129,16 @@ LightMotion read_light(const Element& element) {
   settle(direction, fields, "direction", {}, direction_of);
   settle(place, fields, "place", {}, place_of);
   light.vector = point ? place : direction;
-  settle(light.color, fields, "color", {1, 1, 1}, read_color);
+  settle(light.color, fields, "color", {1, 1, 1}, document::read_color);
   settle(light.intensity, fields, "intensity", 1.0, intensity_of);
   return light;
 }
 
-std::vector<LightMotion> read_lights(const Element& list) {
-  require_kind(list, Kind::list);
+std::vector<LightMotion> read_lights(const document::Element& list) {
+  document::require_kind(list, document::Kind::list);
   if (list.size() > kMostLights) list.refuse("has " + std::to_string(list.size()) + " lights", "at most 64");
   std::vector<LightMotion> lights;
-  for (const Element element : list) lights.push_back(read_light(element));
+  for (const document::Element element : list) lights.push_back(read_light(element));
   return lights;
 }
 
@@ -146,19 +146,19 @@ LightMotion default_light() {
   return {true, constant(glm::normalize(kDefaultLight)), constant(glm::dvec3(1, 1, 1)), constant(1.0)};
 }
 
-MaterialMotion read_film_material(const Element& element) {
-  const Fields fields(element, kKeys[kFilmMaterial]);
+MaterialMotion read_film_material(const document::Element& element) {
+  const document::Fields fields(element, kKeys[kFilmMaterial]);
   MaterialMotion material;
-  material.name = checked_name(element, element.key());
+  material.name = modeler::checked_name(element, element.key());
   if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kKeys[kMaterialKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
-      add_key(material.color, key, "color", frame, ease, read_color);
+    read_keys(*keys, kKeys[kMaterialKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
+      add_key(material.color, key, "color", frame, ease, document::read_color);
       add_key(material.ambient, key, "ambient", frame, ease, share_of);
       add_key(material.diffuse, key, "diffuse", frame, ease, share_of);
       add_key(material.specular, key, "specular", frame, ease, share_of);
       add_key(material.exponent, key, "exponent", frame, ease, exponent_of);
     });
-  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, read_color);
+  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, document::read_color);
   settle(material.ambient, fields, "ambient", 0.10, share_of);
   settle(material.diffuse, fields, "diffuse", 0.65, share_of);
   settle(material.specular, fields, "specular", 0.45, share_of);
@@ -176,12 +176,12 @@ class ActorReader {
     for (const MaterialMotion& material : film.materials) materials_.insert(material.name);
   }
 
-  Actor read(const Element& element) {
-    const Fields fields(element, kKeys[kActor]);
+  Actor read(const document::Element& element) {
+    const document::Fields fields(element, kKeys[kActor]);
     Actor actor;
-    actor.name = read_name(fields.required("name"));
+    actor.name = modeler::read_name(fields.required("name"));
     if (!names_.insert(actor.name).second)
-      element.refuse("is a second actor named " + in_quotes(actor.name), "give every actor its own name");
+      element.refuse("is a second actor named " + document::in_quotes(actor.name), "give every actor its own name");
     actor.model = find_model(fields.required("model"));
     if (const auto material = fields.find("material")) actor.material = film_material(*material);
     if (const auto materials = fields.find("materials")) read_materials(*materials, actor);
@@ -190,38 +190,38 @@ class ActorReader {
   }
 
  private:
-  const Model& model_of(const Actor& actor) const { return film_.models[actor.model]; }
+  const modeler::Model& model_of(const Actor& actor) const { return film_.models[actor.model]; }
 
-  std::size_t find_model(const Element& element) const {
-    const std::string name = read_text(element);
+  std::size_t find_model(const document::Element& element) const {
+    const std::string name = document::read_text(element);
     if (const auto found = models_.find(name); found != models_.end()) return found->second;
     const std::vector<std::string_view> names(model_names_.begin(), model_names_.end());
-    element.refuse("is " + in_quotes(name) + ", which is none of the film's models",
-                   did_you_mean(name, names, "add it to the film's models"));
+    element.refuse("is " + document::in_quotes(name) + ", which is none of the film's models",
+                   document::did_you_mean(name, names, "add it to the film's models"));
   }
 
-  std::string film_material(const Element& element) const {
-    const std::string name = read_text(element);
+  std::string film_material(const document::Element& element) const {
+    const std::string name = document::read_text(element);
     if (materials_.contains(name)) return name;
     const std::vector<std::string_view> names(materials_.begin(), materials_.end());
-    element.refuse("is " + in_quotes(name) + ", which is none of the film's materials",
-                   did_you_mean(name, names, "add it to the film's materials"));
+    element.refuse("is " + document::in_quotes(name) + ", which is none of the film's materials",
+                   document::did_you_mean(name, names, "add it to the film's materials"));
   }
 
-  void read_materials(const Element& element, Actor& actor) const {
-    require_kind(element, Kind::object);
+  void read_materials(const document::Element& element, Actor& actor) const {
+    document::require_kind(element, document::Kind::object);
     std::vector<std::string_view> used;
-    for (const Joint& joint : model_of(actor).joints)
+    for (const modeler::Joint& joint : model_of(actor).joints)
       if (joint.segment && !joint.segment->material.empty()) used.push_back(joint.segment->material);
-    for (const Element item : element) {
+    for (const document::Element item : element) {
       if (std::find(used.begin(), used.end(), item.key()) == used.end())
         item.refuse("is no material that a segment of its model uses",
-                    did_you_mean(item.key(), used, "name a material of the model's segments"));
+                    document::did_you_mean(item.key(), used, "name a material of the model's segments"));
       actor.materials.emplace_back(item.key(), film_material(item));
     }
   }
 
-  void read_motion(const Fields& fields, Actor& actor) {
+  void read_motion(const document::Fields& fields, Actor& actor) {
     actor.motion.pose.resize(model_of(actor).joints.size());
     if (const auto matrices = fields.find("matrices")) {
       for (const std::string_view key : {"keys", "place", "turn", "pose"})
@@ -230,7 +230,7 @@ class ActorReader {
       read_matrices(*matrices, actor);
     }
     if (const auto keys = fields.find("keys"))
-      read_keys(*keys, kKeys[kActorKey], [&](const Fields& key, std::uint32_t frame, const Ease& ease) {
+      read_keys(*keys, kKeys[kActorKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
         add_key(actor.motion.place, key, "place", frame, ease, place_of);
         add_key(actor.motion.turn, key, "turn", frame, ease, angles_of);
         if (const auto pose = key.find("pose")) read_pose(*pose, frame, ease, actor);
@@ -240,20 +240,20 @@ class ActorReader {
     if (const auto pose = fields.find("pose")) read_still_pose(*pose, actor);
   }
 
-  void read_still_pose(const Element& element, Actor& actor) {
-    require_kind(element, Kind::object);
-    for (const Element item : element)
+  void read_still_pose(const document::Element& element, Actor& actor) {
+    document::require_kind(element, document::Kind::object);
+    for (const document::Element item : element)
       if (!actor.motion.pose[find_joint(item, actor)].empty())
         item.refuse("is also set by keys", "take it out here, or out of every key");
     read_pose(element, 0, kLinear, actor);
   }
 
-  void read_pose(const Element& element, std::uint32_t frame, const Ease& ease, Actor& actor) {
-    require_kind(element, Kind::object);
-    for (const Element item : element) {
+  void read_pose(const document::Element& element, std::uint32_t frame, const Ease& ease, Actor& actor) {
+    document::require_kind(element, document::Kind::object);
+    for (const document::Element item : element) {
       const std::size_t number = find_joint(item, actor);
-      const glm::dvec3 pose = read_vector(item, kDegrees);
-      const Joint& joint = model_of(actor).joints[number];
+      const glm::dvec3 pose = document::read_vector(item, kDegrees);
+      const modeler::Joint& joint = model_of(actor).joints[number];
       if (const auto broken = broken_limit(joint, pose))
         item.refuse("joint '" + joint.name + "' " + *broken,
                     "keep it within the limits, or widen them in its model");
@@ -262,27 +262,27 @@ class ActorReader {
   }
 
   // `item` is named after a joint of the actor's model.
-  std::size_t find_joint(const Element& item, const Actor& actor) {
+  std::size_t find_joint(const document::Element& item, const Actor& actor) {
     auto& numbers = joints_[actor.model];
     const auto& joints = model_of(actor).joints;
     if (numbers.empty())
       for (std::size_t i = 0; i < joints.size(); ++i) numbers.emplace(joints[i].name, i);
     if (const auto found = numbers.find(item.key()); found != numbers.end()) return found->second;
     std::vector<std::string_view> names;
-    for (const Joint& joint : joints) names.push_back(joint.name);
+    for (const modeler::Joint& joint : joints) names.push_back(joint.name);
     item.refuse("is no joint of the model '" + model_names_[actor.model] + "'",
-                did_you_mean(item.key(), names, "name a joint of this model"));
+                document::did_you_mean(item.key(), names, "name a joint of this model"));
   }
 
-  static Axes read_matrix(const Element& element) {
-    require_size(element, 3);
-    Axes frame;
+  static modeler::Axes read_matrix(const document::Element& element) {
+    document::require_size(element, 3);
+    modeler::Axes frame;
     int row = 0;
-    for (const Element numbers : element) {
-      require_size(numbers, 4);
+    for (const document::Element numbers : element) {
+      document::require_size(numbers, 4);
       int column = 0;
-      for (const Element number : numbers) {
-        (column < 3 ? frame.turn[column][row] : frame.place[row]) = read_number(number);
+      for (const document::Element number : numbers) {
+        (column < 3 ? frame.turn[column][row] : frame.place[row]) = document::read_number(number);
         ++column;
       }
       ++row;
@@ -290,13 +290,13 @@ class ActorReader {
     return frame;
   }
 
-  void read_matrices(const Element& list, Actor& actor) {
+  void read_matrices(const document::Element& list, Actor& actor) {
     const auto& joints = model_of(actor).joints;
     actor.matrices.resize(joints.size());
-    read_keys(list, kKeys[kMatrices], [&](const Fields& key, std::uint32_t frame, const Ease&) {
-      const Element segments = key.required("segments");
-      require_kind(segments, Kind::object);
-      for (const Element item : segments) {
+    read_keys(list, kKeys[kMatrices], [&](const document::Fields& key, std::uint32_t frame, const Ease&) {
+      const document::Element segments = key.required("segments");
+      document::require_kind(segments, document::Kind::object);
+      for (const document::Element item : segments) {
         const std::size_t joint = find_joint(item, actor);
         if (!joints[joint].segment) item.refuse("has no segment", "give matrices of joints that have one");
         actor.matrices[joint].push_back({frame, read_matrix(item), kLinear});
@@ -316,25 +316,25 @@ class ActorReader {
   std::unordered_set<std::string> names_;
 };
 
-Model read_film_model(const Element& element, const Film& film, const std::filesystem::path& folder) {
+modeler::Model read_film_model(const document::Element& element, const Film& film, const std::filesystem::path& folder) {
   std::vector<std::string_view> materials;
   for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
-  if (element.kind() == Kind::text) {
-    const std::filesystem::path path = folder / read_text(element);
-    if (!file_exists(path))
-      element.refuse("is " + in_quotes(path.string()) + ", which does not exist",
+  if (element.kind() == document::Kind::text) {
+    const std::filesystem::path path = folder / document::read_text(element);
+    if (!document::file_exists(path))
+      element.refuse("is " + document::in_quotes(path.string()) + ", which does not exist",
                      "name a model file as seen from the film's folder");
-    const Document model = read_document(element, path);
-    return read_model(model.root(), materials);
+    const document::Document model = document::read_document(element, path);
+    return modeler::read_model(model.root(), materials);
   }
-  if (element.kind() != Kind::object)
-    element.refuse(std::string("is ") + name_of(element.kind()),
+  if (element.kind() != document::Kind::object)
+    element.refuse(std::string("is ") + document::name_of(element.kind()),
                    "name a model file, or write the model here");
-  return read_model(element, materials);
+  return modeler::read_model(element, materials);
 }
 
-void read_settings(const Fields& fields, Film& film) {
-  film.frames = read_count(fields.required("frames"), 1, kMostFrames);
+void read_settings(const document::Fields& fields, Film& film) {
+  film.frames = document::read_count(fields.required("frames"), 1, kMostFrames);
   film.rate = fields.number("rate", film.rate, {0.001, 1000});
   film.background = fields.color("background", film.background);
   if (const auto size = fields.find("size")) read_size(*size, film);
@@ -345,13 +345,13 @@ void read_settings(const Fields& fields, Film& film) {
 
 }  // namespace
 
-std::span<const Keys> film_keys() { return kKeys; }
+std::span<const document::Keys> film_keys() { return kKeys; }
 
-Film read_film(const Element& element, const std::filesystem::path& folder) {
+Film read_film(const document::Element& element, const std::filesystem::path& folder) {
   if (element.find("joints") || element.find("from"))
     element.refuse("is a model, not a film",
                    "look at it with mars preview, or name it in a film: \"models\": {\"dog\": \"dog.json\"}");
-  const Fields fields(element, kKeys[kFilm]);
+  const document::Fields fields(element, kKeys[kFilm]);
   Film film;
   film.source = element.document().name();
   read_settings(fields, film);
@@ -359,26 +359,26 @@ Film read_film(const Element& element, const std::filesystem::path& folder) {
   film.lights = {default_light()};
   if (const auto lights = fields.find("lights")) film.lights = read_lights(*lights);
   if (const auto materials = fields.find("materials")) {
-    require_kind(*materials, Kind::object);
-    for (const Element material : *materials) film.materials.push_back(read_film_material(material));
+    document::require_kind(*materials, document::Kind::object);
+    for (const document::Element material : *materials) film.materials.push_back(read_film_material(material));
   }
   std::vector<std::string> model_names;
-  const Element models = fields.required("models");
-  require_kind(models, Kind::object);
-  for (const Element model : models) {
-    model_names.push_back(checked_name(model, model.key()));
+  const document::Element models = fields.required("models");
+  document::require_kind(models, document::Kind::object);
+  for (const document::Element model : models) {
+    model_names.push_back(modeler::checked_name(model, model.key()));
     film.models.push_back(read_film_model(model, film, folder));
   }
-  const Element actors = fields.required("actors");
-  require_kind(actors, Kind::list);
+  const document::Element actors = fields.required("actors");
+  document::require_kind(actors, document::Kind::list);
   ActorReader reader(film, std::move(model_names));
-  for (const Element actor : actors) film.actors.push_back(reader.read(actor));
+  for (const document::Element actor : actors) film.actors.push_back(reader.read(actor));
   return film;
 }
 
 Film read_film(const std::filesystem::path& path) {
-  const Document document = read_document(path);
+  const document::Document document = document::read_document(path);
   return read_film(document.root(), path.parent_path());
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

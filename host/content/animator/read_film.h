@@ -8,13 +8,13 @@
 #include "host/content/document/fields.h"
 #include "host/content/animator/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // Model files are found beside the film file.
 Film read_film(const std::filesystem::path& path);
-Film read_film(const Element& element, const std::filesystem::path& folder);
+Film read_film(const document::Element& element, const std::filesystem::path& folder);
 
 // What the objects of a film file may hold, as docs/schema/film.schema.json names them.
-std::span<const Keys> film_keys();
+std::span<const document::Keys> film_keys();
 
-}  // namespace mars::host
+}  // namespace mars::animator

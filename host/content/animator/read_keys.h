@@ -10,22 +10,22 @@
 #include "host/content/document/fields.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::animator {
 
-using node::kMostFrames;
+using wire::kMostFrames;
 
 // "linear", "in", "out", "both" or [x1, y1, x2, y2]; linear if there is none.
-Ease read_ease(const Fields& fields);
+Ease read_ease(const document::Fields& fields);
 
 // Calls take(fields, frame, ease) for each item of the list, whose frames must ascend.
 template <typename Take>
-void read_keys(const Element& list, const Keys& keys, Take take) {
-  require_kind(list, Kind::list);
+void read_keys(const document::Element& list, const document::Keys& keys, Take take) {
+  document::require_kind(list, document::Kind::list);
   std::int64_t before = -1;
-  for (const Element item : list) {
-    const Fields fields(item, keys);
-    const Element frame_element = fields.required("frame");
-    const std::uint32_t frame = read_count(frame_element, 0, kMostFrames);
+  for (const document::Element item : list) {
+    const document::Fields fields(item, keys);
+    const document::Element frame_element = fields.required("frame");
+    const std::uint32_t frame = document::read_count(frame_element, 0, kMostFrames);
     if (frame <= before)
       frame_element.refuse("is " + std::to_string(frame) + " after " + std::to_string(before),
                            "write keys in ascending frames, one for each");
@@ -36,14 +36,14 @@ void read_keys(const Element& list, const Keys& keys, Take take) {
 
 // Adds the value of `key`, if it is there, to the channel.
 template <typename Value, typename Read>
-void add_key(Channel<Value>& channel, const Fields& fields, std::string_view key, std::uint32_t frame,
+void add_key(Channel<Value>& channel, const document::Fields& fields, std::string_view key, std::uint32_t frame,
              const Ease& ease, Read read) {
   if (const auto element = fields.find(key)) channel.push_back({frame, read(*element), ease});
 }
 
 // A channel that no key names takes the object's own value, else `otherwise`.
 template <typename Value, typename Read>
-void settle(Channel<Value>& channel, const Fields& fields, std::string_view key, const Value& otherwise,
+void settle(Channel<Value>& channel, const document::Fields& fields, std::string_view key, const Value& otherwise,
             Read read) {
   const auto element = fields.find(key);
   if (element && !channel.empty())
@@ -51,4 +51,4 @@ void settle(Channel<Value>& channel, const Fields& fields, std::string_view key,
   if (channel.empty()) channel = constant(element ? read(*element) : otherwise);
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

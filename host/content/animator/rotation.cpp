@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr double kNothing = 1e-14;   // radians: less is rounding
@@ -39,4 +39,4 @@ Turn turn_between(const glm::dmat3& first, const glm::dmat3& last) {
   return {sine_axis / sine, angle};
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -7,7 +7,7 @@
 
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 struct Turn {
   glm::dvec3 axis;  // a unit vector, seen from outside both orientations
@@ -17,4 +17,4 @@ struct Turn {
 // The smallest turn R with last = R first. Half a turn's axis has its largest component positive.
 Turn turn_between(const glm::dmat3& first, const glm::dmat3& last);
 
-}  // namespace mars::host
+}  // namespace mars::animator

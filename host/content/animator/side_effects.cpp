@@ -10,7 +10,7 @@
 #include "host/content/document/shell_word.h"
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr double kNothing = 0.01;  // degrees
@@ -40,19 +40,19 @@ int only_axis(const glm::dvec3& change) {
 
 std::string degrees_text(double degrees) {
   const double rounded = std::round(std::abs(degrees) * 100) / 100;
-  return shown(rounded) + (rounded == 1 ? " degree" : " degrees");
+  return document::shown(rounded) + (rounded == 1 ? " degree" : " degrees");
 }
 
 // "goes 90 degrees back"; "" where the smallest turn is what the numbers say.
-std::string other_way(const Joint& joint, const Way& way) {
+std::string other_way(const modeler::Joint& joint, const Way& way) {
   const glm::dvec3 change = way.change();
-  const glm::dmat3 start = orientation(joint, way.start());
-  const Turn turn = turn_between(start, orientation(joint, way.start() + change));
-  const double degrees = turn.angle / kDegree;
+  const glm::dmat3 start = modeler::orientation(joint, way.start());
+  const Turn turn = turn_between(start, modeler::orientation(joint, way.start() + change));
+  const double degrees = turn.angle / modeler::kDegree;
   if (const int axis = only_axis(change); axis < 3) {
     glm::dvec3 forward(0);
     forward[axis] = std::copysign(1, change[axis]);
-    const Turn step = turn_between(start, orientation(joint, way.start() + forward));
+    const Turn step = turn_between(start, modeler::orientation(joint, way.start() + forward));
     const double done = glm::dot(turn.axis, step.axis) < 0 ? -degrees : degrees;
     if (std::abs(done - std::abs(change[axis])) < kNothing) return "";
     if (degrees > kNothing) return "goes " + degrees_text(degrees) + (done < 0 ? " back" : " on");
@@ -76,7 +76,7 @@ std::string typed_part(const std::string& part) {
 }
 
 std::string wish_for(const std::string& part, const glm::dvec3& change, const glm::dvec3& pose) {
-  const auto number = [](double value) { return shown(std::round(value * 100) / 100); };
+  const auto number = [](double value) { return document::shown(std::round(value * 100) / 100); };
   if (const int axis = only_axis(change); axis < 3) return typed_part(part) + "." + "xyz"[axis] + "=" + number(pose[axis]);
   return typed_part(part) + "=" + number(pose.x) + "," + number(pose.y) + "," + number(pose.z);
 }
@@ -88,7 +88,7 @@ std::string way_round(const Thing& thing, const std::string& part, const Way& wa
   const std::uint32_t frames = way.to.frame - way.from.frame;
   if (frames < static_cast<std::uint32_t>(pieces))
     return "there are too few frames between the two to go round";
-  const std::string pose = "pose " + shell_word(thing.json->at("name").get<std::string>()) + " ";
+  const std::string pose = "pose " + document::shell_word(thing.json->at("name").get<std::string>()) + " ";
   std::string text = "to go round, also ";
   for (int i = 1; i < pieces; ++i) {
     if (i > kMostKeysShown) return text + ", and so on";
@@ -99,13 +99,13 @@ std::string way_round(const Thing& thing, const std::string& part, const Way& wa
   return text;
 }
 
-bool same_orientation(const Joint& joint, const Json& a, const Json& b) {
-  return turn_between(orientation(joint, vector_of(a)), orientation(joint, vector_of(b))).angle < kNothing * kDegree;
+bool same_orientation(const modeler::Joint& joint, const document::Json& a, const document::Json& b) {
+  return turn_between(modeler::orientation(joint, vector_of(a)), modeler::orientation(joint, vector_of(b))).angle < kNothing * modeler::kDegree;
 }
 
 // Whether the way went as it goes now: between the same keys, or as a part of a way that went so.
 bool went_so(const KeyedPart& part, const Way& way, const Track& before) {
-  const Joint& joint = *part.turns;
+  const modeler::Joint& joint = *part.turns;
   for (std::size_t i = 0; i + 1 < before.size(); ++i) {
     const Way old{before[i], before[i + 1]};
     if (old.from.value == way.from.value && old.to.value == way.to.value) return true;
@@ -162,4 +162,4 @@ std::vector<std::string> side_effects(const Chosen& chosen, const Tracks& before
   return lines;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

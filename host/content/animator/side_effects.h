@@ -8,10 +8,10 @@
 #include "host/content/animator/things.h"
 #include "host/content/animator/tracks.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // Lines about `chosen`, whose keys were `before` and are `after`; of what was so before, nothing. The thing's
 // parts still have the values from before.
 std::vector<std::string> side_effects(const Chosen& chosen, const Tracks& before, const Tracks& after);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -11,7 +11,7 @@
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 template <typename Value>
@@ -28,9 +28,9 @@ KeyedPart direction(const Channel<glm::dvec3>& channel) {
           [&channel](std::uint32_t frame) { return written(rounded(direction_at(channel, frame))); }};
 }
 
-KeyedPart turning(const std::string& name, const Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
+KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
   const auto motion = std::make_shared<JointMotion>(joint, poses);
-  const Joint* turns = joint.freedoms() > 1 ? &joint : nullptr;
+  const modeler::Joint* turns = joint.freedoms() > 1 ? &joint : nullptr;
   return {name, limited ? &joint : nullptr, turns, [motion, &poses](std::uint32_t frame) {
             const glm::dvec3 pose = motion->pose_at(frame);
             if (poses.empty()) return written(pose);
@@ -39,7 +39,7 @@ KeyedPart turning(const std::string& name, const Joint& joint, const Channel<glm
           }};
 }
 
-Thing camera_of(Json& film, const Film& meaning) {
+Thing camera_of(document::Json& film, const Film& meaning) {
   const CameraMotion& camera = meaning.camera;
   return {"camera",
           &film.at("camera"),
@@ -47,7 +47,7 @@ Thing camera_of(Json& film, const Film& meaning) {
           {plain("eye", camera.eye), plain("at", camera.at), plain("up", camera.up), plain("fov", camera.fov)}};
 }
 
-Thing light_of(Json& json, const LightMotion& light, std::size_t number) {
+Thing light_of(document::Json& json, const LightMotion& light, std::size_t number) {
   return {"light " + std::to_string(number),
           &json,
           false,
@@ -55,7 +55,7 @@ Thing light_of(Json& json, const LightMotion& light, std::size_t number) {
            plain("intensity", light.intensity)}};
 }
 
-Thing material_of(Json& json, const MaterialMotion& material) {
+Thing material_of(document::Json& json, const MaterialMotion& material) {
   return {"material '" + material.name + "'",
           &json,
           false,
@@ -63,7 +63,7 @@ Thing material_of(Json& json, const MaterialMotion& material) {
            plain("specular", material.specular), plain("exponent", material.exponent)}};
 }
 
-Thing actor_of(Json& json, const Actor& actor, const Model& model) {
+Thing actor_of(document::Json& json, const Actor& actor, const modeler::Model& model) {
   Thing thing{"actor '" + actor.name + "'", &json, true, {plain("place", actor.motion.place)}};
   thing.parts.push_back(turning("turn", free_joint(), actor.motion.turn, false));
   for (std::size_t i = 0; i < model.joints.size(); ++i)
@@ -82,7 +82,7 @@ Chosen whole(Thing thing) {
   return {std::move(thing), std::move(parts)};
 }
 
-std::vector<Chosen> everything(Json& film, const Film& meaning) {
+std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
   std::vector<Chosen> all = {whole(camera_of(film, meaning))};
   if (const auto lights = film.find("lights"); lights != film.end())
     for (std::size_t i = 0; i < lights->size(); ++i)
@@ -101,10 +101,10 @@ std::vector<Chosen> everything(Json& film, const Film& meaning) {
   std::vector<std::string_view> names = {"camera"};
   for (const Actor& actor : meaning.actors) names.push_back(actor.name);
   throw Failure("is no actor of the film, nor its camera", "'" + name + "'",
-                did_you_mean(name, names, "`mars animate FILM list` shows what has keys"));
+                document::did_you_mean(name, names, "`mars animate FILM list` shows what has keys"));
 }
 
-Thing thing_named(Json& film, const Film& meaning, const std::string& name) {
+Thing thing_named(document::Json& film, const Film& meaning, const std::string& name) {
   for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
     const Actor& actor = meaning.actors[i];
     if (actor.name != name) continue;
@@ -132,12 +132,12 @@ std::string part_named(const Thing& thing, const std::string& name) {
   std::vector<std::string> names;
   for (const KeyedPart& part : thing.parts) names.push_back(part.name[0] == '/' ? part.name.substr(1) : part.name);
   throw Failure("has no part '" + name + "'", thing.name,
-                did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
+                document::did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
                              thing.name == "camera" ? "its parts are: eye, at, up, fov"
                                                     : "its parts are place, turn and the joints of its model"));
 }
 
-std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice) {
+std::vector<Chosen> choose(document::Json& film, const Film& meaning, const Choice& choice) {
   if (choice.all) return everything(film, meaning);
   Chosen one = whole(thing_named(film, meaning, choice.thing));
   if (choice.parts.empty()) return {std::move(one)};
@@ -146,4 +146,4 @@ std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice
   return {std::move(one)};
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -10,19 +10,19 @@
 #include "host/content/animator/film.h"
 #include "host/content/document/json_file.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // A part of a thing that can change: "place", "eye"; a joint's pose is "/" and its name.
 struct KeyedPart {
   std::string name;
-  const Joint* joint;                                // whose limits bound it; null: no joint
-  const Joint* turns;                                // by the smallest turn from key to key; null: straight on
-  std::function<Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
+  const modeler::Joint* joint;                                // whose limits bound it; null: no joint
+  const modeler::Joint* turns;                                // by the smallest turn from key to key; null: straight on
+  std::function<document::Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
 };
 
 struct Thing {
   std::string name;  // for messages: "actor 'robot'", "camera", "light 2"
-  Json* json;
+  document::Json* json;
   bool actor;
   std::vector<KeyedPart> parts;  // of an actor: place, turn and all joints
 
@@ -44,9 +44,9 @@ struct Chosen {
 
 // `film` is what `meaning` was read from; both must outlive what is chosen. Throws where a name is unknown or an
 // actor is moved by matrices; those are left out where all is chosen.
-std::vector<Chosen> choose(Json& film, const Film& meaning, const Choice& choice);
+std::vector<Chosen> choose(document::Json& film, const Film& meaning, const Choice& choice);
 
 // The part's own name of what a person calls it: "elbow" is "/elbow".
 std::string part_named(const Thing& thing, const std::string& name);
 
-}  // namespace mars::host
+}  // namespace mars::animator

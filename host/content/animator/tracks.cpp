@@ -5,7 +5,7 @@
 
 #include "host/content/animator/written.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 // What one frame's key holds, by part.
@@ -20,8 +20,8 @@ bool leads_on(const Track& track, const TrackKey& key) {
 }
 
 // The values of `held` in the order of `old`, then those that are new.
-Json values_of(const Held& held, const Json& old, bool joints) {
-  Json values = Json::object();
+document::Json values_of(const Held& held, const document::Json& old, bool joints) {
+  document::Json values = document::Json::object();
   const auto put = [&](const std::string& name) {
     if (const auto found = held.find(joints ? "/" + name : name); found != held.end())
       values[name] = found->second->value;
@@ -37,10 +37,10 @@ class Composer {
  public:
   explicit Composer(const Tracks& tracks) : tracks_(tracks) {}
 
-  Json key_of(std::uint32_t frame, const Held& held, const Json& old) {
-    Json key = {{"frame", frame}};
+  document::Json key_of(std::uint32_t frame, const Held& held, const document::Json& old) {
+    document::Json key = {{"frame", frame}};
     key.update(values_of(held, old, false));
-    const Json pose = values_of(held, old.value("pose", Json()), true);
+    const document::Json pose = values_of(held, old.value("pose", document::Json()), true);
     if (!pose.empty()) key["pose"] = pose;
     const Ease ease = ease_for(frame, held, old);
     if (ease != kLinear || old.contains("ease")) key["ease"] = written(ease);
@@ -50,7 +50,7 @@ class Composer {
   std::vector<std::string> gave_way;
 
  private:
-  Ease ease_for(std::uint32_t frame, const Held& held, const Json& old) {
+  Ease ease_for(std::uint32_t frame, const Held& held, const document::Json& old) {
     std::optional<Ease> chosen;
     for (const bool changed : {false, true})
       for (const auto& [part, key] : held)
@@ -69,7 +69,7 @@ class Composer {
   const Tracks& tracks_;
 };
 
-void drop_still_values(Json& thing, const Tracks& tracks) {
+void drop_still_values(document::Json& thing, const Tracks& tracks) {
   for (const auto& [part, track] : tracks) {
     if (track.empty()) continue;
     if (part[0] != '/')
@@ -82,11 +82,11 @@ void drop_still_values(Json& thing, const Tracks& tracks) {
 
 }  // namespace
 
-Tracks tracks_of(const Json& thing) {
+Tracks tracks_of(const document::Json& thing) {
   Tracks tracks;
   const auto keys = thing.find("keys");
   if (keys == thing.end()) return tracks;
-  for (const Json& key : *keys) {
+  for (const document::Json& key : *keys) {
     const std::uint32_t frame = key.at("frame").get<std::uint32_t>();
     const Ease ease = ease_of(key);
     for (const auto& item : key.items()) {
@@ -102,11 +102,11 @@ Tracks tracks_of(const Json& thing) {
   return tracks;
 }
 
-std::vector<std::string> put_tracks(Json& thing, const Tracks& tracks) {
+std::vector<std::string> put_tracks(document::Json& thing, const Tracks& tracks) {
   std::map<std::uint32_t, Held> frames;
-  std::map<std::uint32_t, Json> old;
+  std::map<std::uint32_t, document::Json> old;
   if (const auto keys = thing.find("keys"); keys != thing.end())
-    for (Json& key : *keys) {
+    for (document::Json& key : *keys) {
       const std::uint32_t frame = key.at("frame").get<std::uint32_t>();
       if (key.size() == 1) frames[frame];  // a frame alone stays
       old[frame] = std::move(key);
@@ -114,10 +114,10 @@ std::vector<std::string> put_tracks(Json& thing, const Tracks& tracks) {
   for (const auto& [part, track] : tracks)
     for (const TrackKey& key : track) frames[key.frame][part] = &key;
   Composer composer(tracks);
-  Json keys = Json::array();
+  document::Json keys = document::Json::array();
   for (const auto& [frame, held] : frames) {
     const auto was = old.find(frame);
-    keys.push_back(composer.key_of(frame, held, was == old.end() ? Json::object() : was->second));
+    keys.push_back(composer.key_of(frame, held, was == old.end() ? document::Json::object() : was->second));
   }
   drop_still_values(thing, tracks);
   keys.empty() ? void(thing.erase("keys")) : void(thing["keys"] = std::move(keys));
@@ -144,4 +144,4 @@ void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease) {
 
 std::string shown_part(const std::string& part) { return part[0] == '/' ? part.substr(1) : part; }
 
-}  // namespace mars::host
+}  // namespace mars::animator

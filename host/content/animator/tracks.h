@@ -10,11 +10,11 @@
 #include "host/content/animator/ease.h"
 #include "host/content/document/json_file.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 struct TrackKey {
   std::uint32_t frame;
-  Json value;
+  document::Json value;
   Ease ease;             // to the next key of the part
   bool changed = false;  // as opposed to what stands in the file
 };
@@ -23,11 +23,11 @@ struct TrackKey {
 using Track = std::vector<TrackKey>;
 using Tracks = std::map<std::string, Track>;
 
-Tracks tracks_of(const Json& thing);
+Tracks tracks_of(const document::Json& thing);
 
 // Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame want several
 // eases, those that are not `changed` keep theirs. Returns whose ease gave way: "elbow at frame 24".
-std::vector<std::string> put_tracks(Json& thing, const Tracks& tracks);
+std::vector<std::string> put_tracks(document::Json& thing, const Tracks& tracks);
 
 // The key at the frame; null if there is none.
 TrackKey* key_at(Track& track, std::uint32_t frame);
@@ -41,4 +41,4 @@ void set_ease(Tracks& tracks, std::uint32_t frame, const Ease& ease);
 // As people name a part: joints without the slash.
 std::string shown_part(const std::string& part);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -5,19 +5,19 @@
 #include "host/content/animator/check.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 // "-170 degrees about y is beyond its limits -150 to 0".
-std::string beyond_limits(const Limits& limits, int axis, double angle) {
-  const std::string text = shown(angle) + " degrees about " + "xyz"[axis];
-  return limits.free() ? text + " is beyond its limits " + shown(limits.lower) + " to " + shown(limits.upper)
-                       : text + ", where it is locked at " + shown(limits.lower);
+std::string beyond_limits(const modeler::Limits& limits, int axis, double angle) {
+  const std::string text = document::shown(angle) + " degrees about " + "xyz"[axis];
+  return limits.free() ? text + " is beyond its limits " + document::shown(limits.lower) + " to " + document::shown(limits.upper)
+                       : text + ", where it is locked at " + document::shown(limits.lower);
 }
 
 }  // namespace
 
-glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
+glm::dvec3 within_limits(const std::string& thing, const modeler::Joint& joint, const glm::dvec3& pose, Beyond beyond,
                          Remarks& remarks) {
   const glm::dvec3 nearest = clamped(joint, pose);
   if (largest_excess(joint, pose) <= kAngleRounding) return nearest;
@@ -28,8 +28,8 @@ glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm
   for (int axis = 0; axis < 3; ++axis)
     if (excess_of(joint, pose)[axis] > kAngleRounding)
       remarks.push_back(name + ": " + beyond_limits(joint.limits[axis], axis, pose[axis]) + ": keyed as " +
-                        shown(nearest[axis]));
+                        document::shown(nearest[axis]));
   return nearest;
 }
 
-}  // namespace mars::host
+}  // namespace mars::animator

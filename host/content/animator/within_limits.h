@@ -6,7 +6,7 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::animator {
 
 // For the person: what was left as it is, whose ease gave way, what was clamped.
 using Remarks = std::vector<std::string>;
@@ -16,7 +16,7 @@ enum class Beyond { refused, clamped };
 
 // The nearest pose within the limits. If that is another than by rounding: throws, naming joint, axis, angle and range,
 // where `beyond` refuses it; else adds a remark for each such axis.
-glm::dvec3 within_limits(const std::string& thing, const Joint& joint, const glm::dvec3& pose, Beyond beyond,
+glm::dvec3 within_limits(const std::string& thing, const modeler::Joint& joint, const glm::dvec3& pose, Beyond beyond,
                          Remarks& remarks);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Ease>, 4> kNamed = {
@@ -13,20 +13,20 @@ constexpr std::array<std::pair<std::string_view, Ease>, 4> kNamed = {
 
 }  // namespace
 
-Json written(double number) {
+document::Json written(double number) {
   if (number == std::floor(number) && std::abs(number) < 1e15) return static_cast<std::int64_t>(number);
   return number;
 }
 
-Json written(const glm::dvec3& v) { return Json::array({written(v.x), written(v.y), written(v.z)}); }
+document::Json written(const glm::dvec3& v) { return document::Json::array({written(v.x), written(v.y), written(v.z)}); }
 
-Json written(const Ease& ease) {
+document::Json written(const Ease& ease) {
   for (const auto& [name, known] : kNamed)
     if (ease == known) return name;
-  return Json::array({written(ease.x1), written(ease.y1), written(ease.x2), written(ease.y2)});
+  return document::Json::array({written(ease.x1), written(ease.y1), written(ease.x2), written(ease.y2)});
 }
 
-Ease ease_of(const Json& key) {
+Ease ease_of(const document::Json& key) {
   const auto found = key.find("ease");
   if (found == key.end()) return kLinear;
   if (found->is_array()) return {found->at(0), found->at(1), found->at(2), found->at(3)};
@@ -35,6 +35,6 @@ Ease ease_of(const Json& key) {
   return kLinear;
 }
 
-glm::dvec3 vector_of(const Json& array) { return {array.at(0), array.at(1), array.at(2)}; }
+glm::dvec3 vector_of(const document::Json& array) { return {array.at(0), array.at(1), array.at(2)}; }
 
-}  // namespace mars::host
+}  // namespace mars::animator

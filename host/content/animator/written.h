@@ -6,15 +6,15 @@
 #include "host/content/animator/ease.h"
 #include "host/content/document/json_file.h"
 
-namespace mars::host {
+namespace mars::animator {
 
-Json written(double number);  // whole numbers without ".0", and no -0
-Json written(const glm::dvec3& vector);
-Json written(const Ease& ease);  // by its name, if it has one
+document::Json written(double number);  // whole numbers without ".0", and no -0
+document::Json written(const glm::dvec3& vector);
+document::Json written(const Ease& ease);  // by its name, if it has one
 
 // Of a key, as read_film accepts it.
-Ease ease_of(const Json& key);
+Ease ease_of(const document::Json& key);
 // Of three numbers.
-glm::dvec3 vector_of(const Json& array);
+glm::dvec3 vector_of(const document::Json& array);
 
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-namespace mars::host {
+namespace mars::document {
 
 struct Checksum::State {
   XXH3_state_t* xxh = XXH3_createState();
@@ -33,4 +33,4 @@ std::string checksum_of(std::span<const std::byte> bytes) {
   return checksum.digits();
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace mars::host {
+namespace mars::document {
 
 class Checksum {
  public:
@@ -26,4 +26,4 @@ class Checksum {
 
 std::string checksum_of(std::span<const std::byte> bytes);
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -10,7 +10,7 @@
 #include "host/content/document/text.h"
 #include "host/content/document/file.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
@@ -321,4 +321,4 @@ void Element::refuse(const std::string& problem, const std::string& remedy) cons
   throw Failure(problem, where(), remedy);
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

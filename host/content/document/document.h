@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::host {
+namespace mars::document {
 
 inline constexpr std::size_t kMaxDepth = 64;  // of lists and objects within each other
 inline constexpr std::size_t kMaxElements = 60'000'000;
@@ -121,4 +121,4 @@ Document read_document(const std::filesystem::path& path);
 Document read_document(const Element& name, const std::filesystem::path& path);
 
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -8,7 +8,7 @@
 
 #include "host/content/document/forms.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 constexpr double kLeastOf255 = 8;  // of a colour's brightest part
@@ -189,4 +189,4 @@ std::size_t Fields::choice(std::string_view key, std::size_t otherwise,
   return found ? read_choice(*found, choices) : otherwise;
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

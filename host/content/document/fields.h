@@ -12,7 +12,7 @@
 #include "host/content/document/document.h"
 #include "host/content/document/text.h"
 
-namespace mars::host {
+namespace mars::document {
 
 inline constexpr double kFarthest = 1e9;  // of any coordinate or length, from the origin
 
@@ -70,4 +70,4 @@ class Fields {
   const Keys& keys_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::document

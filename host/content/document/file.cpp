@@ -12,7 +12,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/recorded_reads.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ bool file_exists(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

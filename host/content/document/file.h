@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace mars::host {
+namespace mars::document {
 
 inline constexpr std::uintmax_t kLargestFileRead = std::uintmax_t{1} << 34;  // bytes
 
@@ -21,4 +21,4 @@ std::string read_start(const std::filesystem::path& path, std::size_t bytes);
 
 bool file_exists(const std::filesystem::path& path);
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 // The more particular before the more general.
@@ -97,4 +97,4 @@ std::string form_of(const Element& element) {
   return "\"" + std::string(named.key) + "\": " + std::string(form->value);
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

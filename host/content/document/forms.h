@@ -8,7 +8,7 @@
 
 #include "host/content/document/document.h"
 
-namespace mars::host {
+namespace mars::document {
 
 struct Form {
   std::string_view key;  // "place"; "limits.x" where the key means something else elsewhere; "pose.*" of any name
@@ -20,4 +20,4 @@ std::span<const Form> forms();
 // "\"limits\": {\"x\": [-30, 30]}", of the key whose value the element is or lies in; "" where none is known.
 std::string form_of(const Element& element);
 
-}  // namespace mars::host
+}  // namespace mars::document

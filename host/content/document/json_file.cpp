@@ -10,7 +10,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 constexpr std::size_t kColumns = 110;
@@ -100,4 +100,4 @@ void change_json(const std::filesystem::path& path, const std::function<void(Jso
   write_json(path, json, check);
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

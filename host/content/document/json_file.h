@@ -9,7 +9,7 @@
 
 #include "host/content/document/document.h"
 
-namespace mars::host {
+namespace mars::document {
 
 using Json = nlohmann::ordered_json;
 
@@ -29,4 +29,4 @@ void write_json(const std::filesystem::path& path, const Json& json,
 void change_json(const std::filesystem::path& path, const std::function<void(Json&)>& change,
                  const std::function<void(const Element& root)>& check);
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -2,7 +2,7 @@
 
 #include <sys/stat.h>
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec; }
@@ -22,4 +22,4 @@ void RecordedReads::record(const std::filesystem::path& path) {
   if (innermost_ != nullptr && !innermost_->stamps_.contains(path)) innermost_->stamps_.emplace(path, stamp_of(path));
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

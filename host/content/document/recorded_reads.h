@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <map>
 
-namespace mars::host {
+namespace mars::document {
 
 // A file as it stands: whoever writes, replaces or removes it, or lets others read it, changes its stamp.
 struct FileStamp {
@@ -47,4 +47,4 @@ class RecordedReads {
   FileStamps stamps_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -1,6 +1,6 @@
 #include "host/content/document/shell_word.h"
 
-namespace mars::host {
+namespace mars::document {
 
 std::string shell_word(const std::string& word) {
   constexpr const char* kPlain =
@@ -11,4 +11,4 @@ std::string shell_word(const std::string& word) {
   return text + "'";
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

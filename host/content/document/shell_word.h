@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace mars::host {
+namespace mars::document {
 
 // In quotation marks where the shell would read it otherwise.
 std::string shell_word(const std::string& word);
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 constexpr std::size_t kLongestShown = 80;      // bytes of a name in a message
@@ -52,4 +52,4 @@ double rounded_to(double number, int digits) {
   return std::strtod(formatted("%.*g", digits, number).c_str(), nullptr);
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace mars::host {
+namespace mars::document {
 
 // The name, or the beginning of a long one and "...".
 std::string shortened(std::string_view name);
@@ -54,4 +54,4 @@ std::optional<Number> number_in(std::string_view text) {
   return error == std::errc() && end == last ? std::optional(number) : std::nullopt;
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

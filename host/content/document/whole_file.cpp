@@ -13,7 +13,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::document {
 
 namespace {
 
@@ -219,4 +219,4 @@ void fail_file(const char* act, const std::filesystem::path& path, int error) {
   throw Failure(std::string("cannot ") + act + ": " + std::strerror(error), path.string(), remedy_for(error));
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace mars::host {
+namespace mars::document {
 
 // What ends the temporary names; a killed process may leave such files, never others.
 inline constexpr std::string_view kPartSuffix = ".part";
@@ -45,4 +45,4 @@ std::string unique_word();
 // Throws Failure("cannot <act>: <the system's reason>", path, what to do about it) for `error`, an errno.
 [[noreturn]] void fail_file(const char* act, const std::filesystem::path& path, int error);
 
-}  // namespace mars::host
+}  // namespace mars::document

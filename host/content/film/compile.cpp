@@ -16,7 +16,7 @@
 #include "host/content/film/motion_writer.h"
 #include "host/content/film/shape_writer.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 // Appends to a film's values and to one track of changes those that differ from the one before.
@@ -31,13 +31,13 @@ class TrackWriter {
     values_.push_back(value);
   }
 
-  node::Track write(std::vector<node::Change>& changes) const { return append_changes(changes, changes_); }
+  wire::Track write(std::vector<wire::Change>& changes) const { return append_changes(changes, changes_); }
 
-  static node::Track append_changes(std::vector<node::Change>& changes,
-                                    const std::vector<node::Change>& more) {
+  static wire::Track append_changes(std::vector<wire::Change>& changes,
+                                    const std::vector<wire::Change>& more) {
     if (changes.size() + more.size() > std::numeric_limits<std::uint32_t>::max())
       throw Failure("changes too often", "", "make the film shorter, or move fewer segments");
-    const node::Track track{static_cast<std::uint32_t>(changes.size()),
+    const wire::Track track{static_cast<std::uint32_t>(changes.size()),
                             static_cast<std::uint32_t>(more.size())};
     changes.insert(changes.end(), more.begin(), more.end());
     return track;
@@ -45,7 +45,7 @@ class TrackWriter {
 
  private:
   std::vector<Value>& values_;
-  std::vector<node::Change> changes_;
+  std::vector<wire::Change> changes_;
 };
 
 std::array<float, 3> floats(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
@@ -53,7 +53,7 @@ std::array<float, 3> floats(const glm::dvec3& v) { return {float(v.x), float(v.y
 std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size,
                                           const std::string& source) {
   for (const std::uint32_t side : size)
-    if (side < 1 || side > node::kMaxSide)
+    if (side < 1 || side > wire::kMaxSide)
       throw Failure("cannot be " + std::to_string(size[0]) + "x" + std::to_string(size[1]) + " pixels",
                     source, "each side must have 1 to 16384 pixels");
   return size;
@@ -61,15 +61,15 @@ std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& si
 
 class Compiler {
  public:
-  Compiler(const Film& film, const CompileOptions& options) : film_(film), options_(options) {
-    for (const MaterialMotion& motion : film.materials) film_materials_.emplace(motion.name, &motion);
+  Compiler(const animator::Film& film, const CompileOptions& options) : film_(film), options_(options) {
+    for (const animator::MaterialMotion& motion : film.materials) film_materials_.emplace(motion.name, &motion);
   }
 
   CompiledFilm compile() {
     add_settings();
     add_camera();
-    for (const LightMotion& light : film_.lights) add_light(light);
-    for (const Actor& actor : film_.actors) add_segments(actor);
+    for (const animator::LightMotion& light : film_.lights) add_light(light);
+    for (const animator::Actor& actor : film_.actors) add_segments(actor);
     CompiledFilm compiled;
     const std::size_t matrices = write_motion(film_, data_, compiled.lines);
     cut_intervals(data_, options_.cutting.value_or(film_.cutting), keyframes());
@@ -78,7 +78,7 @@ class Compiler {
   }
 
   void check_camera() const {
-    const CameraMotion& motion = film_.camera;
+    const animator::CameraMotion& motion = film_.camera;
     const std::uint32_t frames = frames_to_see(motion.eye, motion.at, motion.up);
     for (std::uint32_t frame = 0; frame < frames; ++frame) camera_at(frame);
   }
@@ -96,11 +96,11 @@ class Compiler {
                       float(film_.rate), {}};
   }
 
-  node::Camera camera_at(std::uint32_t frame) const {
-    const CameraMotion& motion = film_.camera;
-    const glm::dvec3 eye = value_at(motion.eye, frame), ahead = value_at(motion.at, frame) - eye;
+  wire::Camera camera_at(std::uint32_t frame) const {
+    const animator::CameraMotion& motion = film_.camera;
+    const glm::dvec3 eye = animator::value_at(motion.eye, frame), ahead = animator::value_at(motion.at, frame) - eye;
     const double distance = glm::length(ahead);
-    const glm::dvec3 up = value_at(motion.up, frame);
+    const glm::dvec3 up = animator::value_at(motion.up, frame);
     const double length = glm::length(up);
     const auto refuse = [&](const char* what, const char* remedy) {
       fail(what, "camera, frame " + std::to_string(frame), remedy);
@@ -110,10 +110,10 @@ class Compiler {
     const glm::dvec3 right = glm::cross(forward, up) / length;
     if (length < 1e-9 || glm::length(right) < 1e-6) refuse("looks along its up vector", "choose another up");
     const glm::dvec3 x = glm::normalize(right), axes[3] = {x, glm::cross(x, forward), -forward};
-    node::Camera camera;
+    wire::Camera camera;
     for (int row = 0; row < 3; ++row)
       camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
-    const double half = value_at(motion.fov, frame) * (std::numbers::pi / 360);
+    const double half = animator::value_at(motion.fov, frame) * (std::numbers::pi / 360);
     camera.focal = std::cos(half) / std::sin(half);
     camera.near = motion.near;
     camera.far = motion.far;
@@ -128,31 +128,31 @@ class Compiler {
   }
 
   void add_camera() {
-    const CameraMotion& motion = film_.camera;
-    TrackWriter<node::Camera> track(data_.cameras);
+    const animator::CameraMotion& motion = film_.camera;
+    TrackWriter<wire::Camera> track(data_.cameras);
     const std::uint32_t frames = frames_to_see(motion.eye, motion.at, motion.up, motion.fov);
     for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, camera_at(frame));
     data_.settings.camera = track.write(data_.changes);
   }
 
-  void add_light(const LightMotion& light) {
-    TrackWriter<node::Light> track(data_.lights);
+  void add_light(const animator::LightMotion& light) {
+    TrackWriter<wire::Light> track(data_.lights);
     const std::uint32_t frames = frames_to_see(light.vector, light.color, light.intensity);
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       const glm::dvec3 vector =
-          light.directional ? direction_at(light.vector, frame) : value_at(light.vector, frame);
-      const glm::dvec3 color = value_at(light.intensity, frame) * value_at(light.color, frame);
+          light.directional ? animator::direction_at(light.vector, frame) : animator::value_at(light.vector, frame);
+      const glm::dvec3 color = animator::value_at(light.intensity, frame) * animator::value_at(light.color, frame);
       track.add(frame, {light.directional ? 0u : 1u, floats(vector), floats(glm::max(color, 0.0))});
     }
     data_.light_tracks.push_back(track.write(data_.changes));
   }
 
-  static node::Material material_at(const MaterialMotion& motion, std::uint32_t frame) {
+  static wire::Material material_at(const animator::MaterialMotion& motion, std::uint32_t frame) {
     // An ease that overshoots must not leave what a material can be.
-    const auto within = [&](const Channel<double>& channel, double highest) {
-      return float(std::clamp(value_at(channel, frame), 0.0, highest));
+    const auto within = [&](const animator::Channel<double>& channel, double highest) {
+      return float(std::clamp(animator::value_at(channel, frame), 0.0, highest));
     };
-    return {floats(glm::clamp(value_at(motion.color, frame), 0.0, 1.0)),
+    return {floats(glm::clamp(animator::value_at(motion.color, frame), 0.0, 1.0)),
             within(motion.ambient, 10),
             within(motion.diffuse, 10),
             within(motion.specular, 10),
@@ -160,28 +160,28 @@ class Compiler {
             motion.sides};
   }
 
-  node::Track look_of(const MaterialMotion& motion) {
-    TrackWriter<node::Material> track(data_.materials);
+  wire::Track look_of(const animator::MaterialMotion& motion) {
+    TrackWriter<wire::Material> track(data_.materials);
     const std::uint32_t frames =
         frames_to_see(motion.color, motion.ambient, motion.diffuse, motion.specular, motion.exponent);
     for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, material_at(motion, frame));
     return track.write(data_.changes);
   }
 
-  node::Track look_of(const node::Material& material) {
-    TrackWriter<node::Material> track(data_.materials);
+  wire::Track look_of(const wire::Material& material) {
+    TrackWriter<wire::Material> track(data_.materials);
     track.add(0, material);
     return track.write(data_.changes);
   }
 
   // Segments of one material share a track. `key` names the material among all of the film's and its models'.
   template <typename Material>
-  node::Track shared_look(const std::string& key, const Material& material) {
+  wire::Track shared_look(const std::string& key, const Material& material) {
     const auto known = looks_.find(key);
     return known != looks_.end() ? known->second : looks_.emplace(key, look_of(material)).first->second;
   }
 
-  node::Track find_look(const Actor& actor, std::string name) {
+  wire::Track find_look(const animator::Actor& actor, std::string name) {
     bool of_film = !actor.material.empty();
     if (of_film) name = actor.material;
     const auto instead = std::find_if(actor.materials.begin(), actor.materials.end(),
@@ -190,9 +190,9 @@ class Compiler {
       name = instead->second;
       of_film = true;
     }
-    if (name.empty()) return shared_look("", kDefaultMaterial);
+    if (name.empty()) return shared_look("", modeler::kDefaultMaterial);
     if (!of_film)
-      for (const NamedMaterial& own : film_.models[actor.model].materials)
+      for (const modeler::NamedMaterial& own : film_.models[actor.model].materials)
         if (own.name == name) return shared_look(std::to_string(actor.model) + "/" + name, own.material);
     if (const auto found = film_materials_.find(name); found != film_materials_.end())
       return shared_look("/" + name, *found->second);
@@ -203,14 +203,14 @@ class Compiler {
   const std::vector<std::uint32_t>& shapes_of(std::size_t model) {
     auto& numbers = model_shapes_.try_emplace(model).first->second;
     if (numbers.empty())
-      for (const Shape& shape : film_.models[model].shapes) numbers.push_back(shapes_.add(shape));
+      for (const modeler::Shape& shape : film_.models[model].shapes) numbers.push_back(shapes_.add(shape));
     return numbers;
   }
 
-  void add_segments(const Actor& actor) {
-    const Model& model = film_.models[actor.model];
+  void add_segments(const animator::Actor& actor) {
+    const modeler::Model& model = film_.models[actor.model];
     const auto& shapes = shapes_of(actor.model);
-    for (const Joint& joint : model.joints) {
+    for (const modeler::Joint& joint : model.joints) {
       if (!joint.segment) continue;
       data_.segments.push_back({shapes[joint.segment->shape],
                                 add_name(actor.name + "/" + joint.name),
@@ -239,10 +239,10 @@ class Compiler {
     };
     const auto add_all = [&](const auto&... channels) { (add(channels), ...); };
     add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov);
-    for (const LightMotion& light : film_.lights) add_all(light.vector, light.color, light.intensity);
-    for (const MaterialMotion& m : film_.materials)
+    for (const animator::LightMotion& light : film_.lights) add_all(light.vector, light.color, light.intensity);
+    for (const animator::MaterialMotion& m : film_.materials)
       if (looks_.contains("/" + m.name)) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
-    for (const Actor& actor : film_.actors) {
+    for (const animator::Actor& actor : film_.actors) {
       add_all(actor.motion.place, actor.motion.turn);
       for (const auto& poses : actor.motion.pose) add(poses);
     }
@@ -252,7 +252,7 @@ class Compiler {
   }
 
   void pack(std::size_t matrices, CompiledFilm& film) const {
-    node::pack_around(data_, matrices, [&](std::size_t bytes) {
+    wire::pack_around(data_, matrices, [&](std::size_t bytes) {
       check(bytes % sizeof(CompiledFilm::Line) == 0, "a packed film is whole lines of 64 bytes");
       film.lines.resize(bytes / sizeof(CompiledFilm::Line));
       return reinterpret_cast<std::byte*>(film.lines.data());
@@ -262,12 +262,12 @@ class Compiler {
     film.joints = static_cast<std::uint32_t>(joints_);
   }
 
-  const Film& film_;
+  const animator::Film& film_;
   const CompileOptions& options_;
-  node::FilmData data_;
+  wire::FilmData data_;
   ShapeWriter shapes_{data_};
-  std::unordered_map<std::string_view, const MaterialMotion*> film_materials_;
-  std::unordered_map<std::string, node::Track> looks_;
+  std::unordered_map<std::string_view, const animator::MaterialMotion*> film_materials_;
+  std::unordered_map<std::string, wire::Track> looks_;
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> model_shapes_;
   std::uint64_t instances_ = 0;  // patches and meshlets of all segments
   std::uint64_t joints_ = 0;     // of all actors
@@ -276,8 +276,8 @@ class Compiler {
 // The same block with another size: what a frame shows does not depend on it.
 void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& wanted) {
   const auto size = checked_size(wanted, film.source);
-  const node::FilmView view = film.view();
-  node::FilmSettings settings = view.settings();
+  const wire::FilmView view = film.view();
+  wire::FilmSettings settings = view.settings();
   settings.width = size[0];
   settings.height = size[1];
   const auto offset = reinterpret_cast<const std::byte*>(&view.settings()) - film.block().data();
@@ -286,14 +286,14 @@ void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& wanted) {
 
 }  // namespace
 
-CompiledFilm compile(const Film& film, const CompileOptions& options) {
+CompiledFilm compile(const animator::Film& film, const CompileOptions& options) {
   return Compiler(film, options).compile();
 }
 
-void check_camera(const Film& film) { Compiler(film, {}).check_camera(); }
+void check_camera(const animator::Film& film) { Compiler(film, {}).check_camera(); }
 
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {
-  if (!is_compiled_film(path)) return compile(read_film(path), options);
+  if (!is_compiled_film(path)) return compile(animator::read_film(path), options);
   if (options.cutting)
     throw Failure("is compiled, its intervals are cut", path.string(),
                   "choose --intervals with the film file itself");
@@ -302,4 +302,4 @@ CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& 
   return film;
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -10,20 +10,20 @@
 #include "host/content/animator/film.h"
 #include "host/content/film/compiled_film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 // What a person may choose against the film file.
 struct CompileOptions {
-  std::optional<Cutting> cutting;
-  std::optional<std::array<std::uint32_t, 2>> size;  // pixels, each 1..node::kMaxSide
+  std::optional<animator::Cutting> cutting;
+  std::optional<std::array<std::uint32_t, 2>> size;  // pixels, each 1..wire::kMaxSide
 };
 
-CompiledFilm compile(const Film& film, const CompileOptions& options = {});
+CompiledFilm compile(const animator::Film& film, const CompileOptions& options = {});
 
 // Throws as compile() does where the camera sees nothing in some frame: it looks at its own place, or along its up vector.
-void check_camera(const Film& film);
+void check_camera(const animator::Film& film);
 
 // A film file or a .mars file, known by its content. The intervals of a .mars file are cut for good.
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options = {});
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -10,7 +10,7 @@
 #include "host/content/film/lazy_memory.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 // The packed block, aligned to 64 bytes, and what it does not hold.
 struct CompiledFilm {
@@ -26,7 +26,7 @@ struct CompiledFilm {
   std::uint32_t joints = 0;  // of all actors
 
   std::span<const std::byte> block() const { return std::as_bytes(std::span(lines)); }
-  node::FilmView view() const { return {block(), source, true}; }
+  wire::FilmView view() const { return {block(), source, true}; }
 };
 
-}  // namespace mars::host
+}  // namespace mars::film

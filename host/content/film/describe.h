@@ -5,8 +5,8 @@
 
 #include "host/content/film/compiled_film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 std::string describe(const CompiledFilm& film);
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -8,7 +8,7 @@
 #include "host/content/document/checksum.h"
 #include "host/content/document/whole_file.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 // As PNG's: no text file begins so, and a transfer as text breaks it.
@@ -26,7 +26,7 @@ struct Header {
 static_assert(sizeof(Header) == sizeof(CompiledFilm::Line));
 
 std::array<char, 32> checksum_over(const Header& header, std::span<const std::byte> block) {
-  Checksum checksum;
+  document::Checksum checksum;
   checksum.add(std::as_bytes(std::span(&header, 1)).first(offsetof(Header, checksum)));
   checksum.add(block);
   const std::string digits = checksum.digits();
@@ -44,30 +44,30 @@ std::array<char, 32> checksum_over(const Header& header, std::span<const std::by
 }  // namespace
 
 void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
-  Header header{kMagic, node::kFilmVersion, film.actors, film.joints, 0, film.block().size(), {}};
+  Header header{kMagic, wire::kFilmVersion, film.actors, film.joints, 0, film.block().size(), {}};
   header.checksum = checksum_over(header, film.block());
   const auto text_of = [](const void* bytes, std::size_t count) {
     return std::string_view(static_cast<const char*>(bytes), count);
   };
-  write_whole_file(path, [&](const Write& write) {
+  document::write_whole_file(path, [&](const document::Write& write) {
     write(text_of(&header, sizeof header));
     write(text_of(film.block().data(), film.block().size()));
   });
 }
 
 bool is_compiled_film(const std::filesystem::path& path) {
-  return read_start(path, kMagic.size()) == std::string_view(kMagic.data(), kMagic.size());
+  return document::read_start(path, kMagic.size()) == std::string_view(kMagic.data(), kMagic.size());
 }
 
 CompiledFilm load_compiled_film(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+  const std::string bytes = document::read_file(path);
   Header header;
   if (bytes.size() < sizeof header) refuse(path, "it is cut short");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != kMagic) refuse(path, "it does not begin as one");
-  if (header.version != node::kFilmVersion)
+  if (header.version != wire::kFilmVersion)
     refuse(path, "it has version " + std::to_string(header.version) + ", this program reads " +
-                     std::to_string(node::kFilmVersion));
+                     std::to_string(wire::kFilmVersion));
   if (header.block_bytes != bytes.size() - sizeof header ||
       header.block_bytes % sizeof(CompiledFilm::Line) != 0)
     refuse(path, bytes.size() - sizeof header < header.block_bytes ? "it is cut short" : "its size is wrong");
@@ -78,8 +78,8 @@ CompiledFilm load_compiled_film(const std::filesystem::path& path) {
   film.source = path.string();
   film.actors = header.actors;
   film.joints = header.joints;
-  node::FilmView(film.block(), film.source);  // checks every index
+  wire::FilmView(film.block(), film.source);  // checks every index
   return film;
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

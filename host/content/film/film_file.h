@@ -6,7 +6,7 @@
 
 #include "host/content/film/compiled_film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 void save_film(const CompiledFilm& film, const std::filesystem::path& path);
 
@@ -15,4 +15,4 @@ bool is_compiled_film(const std::filesystem::path& path);
 
 CompiledFilm load_compiled_film(const std::filesystem::path& path);
 
-}  // namespace mars::host
+}  // namespace mars::film

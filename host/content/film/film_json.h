@@ -7,11 +7,11 @@
 #include "host/content/animator/film.h"
 #include "host/content/document/json_file.h"
 
-namespace mars::host {
+namespace mars::film {
 
 struct FilmFile {
-  Json json;
-  Film film;
+  document::Json json;
+  animator::Film film;
 };
 
 // Refuses compiled films, and what read_film() refuses.
@@ -19,6 +19,6 @@ FilmFile open_film(const std::filesystem::path& path);
 
 // Changes the film file; it stays as it was where `change` fails or the result is no film. Of several at a time no
 // change is lost (change_json()).
-void change_film(const std::filesystem::path& path, const std::function<void(Json& json, const Film& film)>& change);
+void change_film(const std::filesystem::path& path, const std::function<void(document::Json& json, const animator::Film& film)>& change);
 
-}  // namespace mars::host
+}  // namespace mars::film

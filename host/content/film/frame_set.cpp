@@ -5,7 +5,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::film {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
   return frames;
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::film {
 
 class FrameSet {
  public:
@@ -38,4 +38,4 @@ class FrameSet {
   std::vector<Stretch> stretches_;  // as written
 };
 
-}  // namespace mars::host
+}  // namespace mars::film

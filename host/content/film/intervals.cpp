@@ -7,20 +7,20 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 using Frames = std::vector<std::uint32_t>;
 
 class Cutter {
  public:
-  explicit Cutter(const node::FilmData& film) : film_(film), global_(film.settings.frames, false) {
-    for (const node::Segment& segment : film.segments) {
+  explicit Cutter(const wire::FilmData& film) : film_(film), global_(film.settings.frames, false) {
+    for (const wire::Segment& segment : film.segments) {
       weights_.push_back(double(film.shapes[segment.shape].size()));
       all_ += weights_.back();
     }
     mark_global(film.settings.camera);
-    for (const node::Track& track : film.light_tracks) mark_global(track);
+    for (const wire::Track& track : film.light_tracks) mark_global(track);
   }
 
   // First frames of the intervals that cost least.
@@ -57,7 +57,7 @@ class Cutter {
   }
 
   // Intervals beginning at `starts`, with what moves in each.
-  void fill(const Frames& starts, node::FilmData& film) const {
+  void fill(const Frames& starts, wire::FilmData& film) const {
     std::vector<std::uint32_t> interval_of(film_.settings.frames);
     for (std::size_t i = 0; i < starts.size(); ++i)
       std::fill(interval_of.begin() + starts[i], interval_of.begin() + end_of(starts, i), std::uint32_t(i));
@@ -66,13 +66,13 @@ class Cutter {
       const std::uint32_t end = end_of(starts, i);
       const bool global =
           std::find(global_.begin() + starts[i] + 1, global_.begin() + end, true) != global_.begin() + end;
-      const node::Track list = add_list(global ? everything() : movers[i], film);
+      const wire::Track list = add_list(global ? everything() : movers[i], film);
       film.intervals.push_back({starts[i], end - starts[i], list.first, list.count});
     }
   }
 
  private:
-  void mark_global(const node::Track& track) {
+  void mark_global(const wire::Track& track) {
     for (std::uint32_t i = 1; i < track.count; ++i) global_[film_.changes[track.first + i].frame] = true;
   }
 
@@ -80,7 +80,7 @@ class Cutter {
   template <typename Visit>
   void visit_changes(Visit visit) const {
     for (std::uint32_t segment = 0; segment < film_.segments.size(); ++segment)
-      for (const node::Track& track : {film_.segments[segment].motion, film_.segments[segment].look})
+      for (const wire::Track& track : {film_.segments[segment].motion, film_.segments[segment].look})
         for (std::uint32_t i = 1; i < track.count; ++i) visit(segment, film_.changes[track.first + i].frame);
   }
 
@@ -131,9 +131,9 @@ class Cutter {
   }
 
   // Intervals whose lists are the same share one.
-  static node::Track add_list(const Frames& list, node::FilmData& film) {
+  static wire::Track add_list(const Frames& list, wire::FilmData& film) {
     if (!film.intervals.empty()) {
-      const node::Interval& last = film.intervals.back();
+      const wire::Interval& last = film.intervals.back();
       if (std::equal(list.begin(), list.end(), film.moving.begin() + last.first_moving,
                      film.moving.begin() + last.first_moving + last.moving_count))
         return {last.first_moving, last.moving_count};
@@ -145,7 +145,7 @@ class Cutter {
     return {first, static_cast<std::uint32_t>(list.size())};
   }
 
-  const node::FilmData& film_;
+  const wire::FilmData& film_;
   std::vector<char> global_;     // frames at which camera or a light changes
   std::vector<double> weights_;  // patches and meshlets of each segment
   double all_ = 0;
@@ -153,15 +153,15 @@ class Cutter {
 
 }  // namespace
 
-void cut_intervals(node::FilmData& film, Cutting cutting, std::span<const std::uint32_t> keyframes) {
+void cut_intervals(wire::FilmData& film, animator::Cutting cutting, std::span<const std::uint32_t> keyframes) {
   const Cutter cutter(film);
   Frames starts = {0};
   for (const std::uint32_t frame : keyframes)
     if (frame > starts.back() && frame < film.settings.frames) starts.push_back(frame);
-  if (cutting == Cutting::automatic) starts = cutter.cheapest();
+  if (cutting == animator::Cutting::automatic) starts = cutter.cheapest();
   film.intervals.clear();
   film.moving.clear();
   cutter.fill(starts, film);
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

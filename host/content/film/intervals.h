@@ -13,12 +13,12 @@
 #include "host/content/animator/film.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 inline constexpr double kPixelsPerPatch = 10000;  // pixels of CZB given to all nodes in the time of one patch
 inline constexpr std::uint32_t kLongest = 4096;   // frames
 
 // Fills the film's intervals and moving from its tracks. `keyframes`: where the animator set keys, ascending.
-void cut_intervals(node::FilmData& film, Cutting cutting, std::span<const std::uint32_t> keyframes);
+void cut_intervals(wire::FilmData& film, animator::Cutting cutting, std::span<const std::uint32_t> keyframes);
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-namespace mars::host {
+namespace mars::film {
 
 template <typename T>
 struct LazyMemory {
@@ -53,4 +53,4 @@ struct LazyMemory {
 template <typename T>
 using LazyVector = std::vector<T, LazyMemory<T>>;
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -15,13 +15,13 @@
 #include "host/content/document/text.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 constexpr double kFarthestMatrix = 1e12;              // as node/wire/film.h allows
 constexpr std::size_t kWorthAThread = 20'000;          // matrices
 constexpr std::size_t kCapacityBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
-constexpr std::size_t kBytesEach = sizeof(node::Matrix) + 3 * sizeof(node::Change);  // with lists on the way
+constexpr std::size_t kBytesEach = sizeof(wire::Matrix) + 3 * sizeof(wire::Change);  // with lists on the way
 
 // Frames at which something may differ from the frame before: (after, last], ascending and apart.
 struct Run {
@@ -30,7 +30,7 @@ struct Run {
 using Runs = std::vector<Run>;
 
 template <typename Value>
-void add_runs(const Channel<Value>& channel, std::uint32_t frames, Runs& runs) {
+void add_runs(const animator::Channel<Value>& channel, std::uint32_t frames, Runs& runs) {
   for (std::size_t i = 0; i + 1 < channel.size() && channel[i].frame + 1 < frames; ++i)
     if (channel[i].value != channel[i + 1].value)
       runs.push_back({channel[i].frame, std::min(channel[i + 1].frame, frames - 1)});
@@ -62,7 +62,7 @@ struct Share {
   std::vector<std::uint32_t> changes;     // written, of each segment
 };
 
-std::vector<std::size_t> most_of_matrices(const Actor& actor, const Model& model, std::uint32_t frames) {
+std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const modeler::Model& model, std::uint32_t frames) {
   std::vector<std::size_t> most;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
     if (!model.joints[joint].segment) continue;
@@ -73,7 +73,7 @@ std::vector<std::size_t> most_of_matrices(const Actor& actor, const Model& model
 }
 
 // A joint moves where it is turned or its parent moves.
-std::vector<std::size_t> most_of_motion(const Actor& actor, const Model& model, std::uint32_t frames) {
+std::vector<std::size_t> most_of_motion(const animator::Actor& actor, const modeler::Model& model, std::uint32_t frames) {
   Runs root;
   add_runs(actor.motion.place, frames, root);
   add_runs(actor.motion.turn, frames, root);
@@ -81,8 +81,8 @@ std::vector<std::size_t> most_of_motion(const Actor& actor, const Model& model, 
   std::vector<Runs> runs(model.joints.size());
   std::vector<std::size_t> most;
   for (std::size_t number = 0; number < model.joints.size(); ++number) {
-    const Joint& joint = model.joints[number];
-    runs[number] = joint.parent == kNone ? root : runs[joint.parent];
+    const modeler::Joint& joint = model.joints[number];
+    runs[number] = joint.parent == modeler::kNone ? root : runs[joint.parent];
     const std::size_t before = runs[number].size();
     add_runs(actor.motion.pose[number], frames, runs[number]);
     if (runs[number].size() > before) runs[number] = merged(std::move(runs[number]));
@@ -97,11 +97,11 @@ std::uint64_t memory_here() {
   return limit == 0 ? bytes : std::min(bytes, limit);
 }
 
-std::string gigabytes(std::uint64_t bytes) { return formatted("%.1f GB", double(bytes) / 1e9); }
+std::string gigabytes(std::uint64_t bytes) { return document::formatted("%.1f GB", double(bytes) / 1e9); }
 
 class MotionWriter {
  public:
-  MotionWriter(const Film& film, node::FilmData& data) : film_(film), data_(data) {}
+  MotionWriter(const animator::Film& film, wire::FilmData& data) : film_(film), data_(data) {}
 
   std::size_t write(CompiledFilm::Lines& lines) {
     plan();
@@ -117,21 +117,21 @@ class MotionWriter {
 
  private:
   static std::size_t lines_of(std::size_t matrices) {
-    return (node::kMatricesOffset + matrices * sizeof(node::Matrix) + sizeof(CompiledFilm::Line) - 1) /
+    return (wire::kMatricesOffset + matrices * sizeof(wire::Matrix) + sizeof(CompiledFilm::Line) - 1) /
            sizeof(CompiledFilm::Line);
   }
 
-  static node::Matrix* reserve(std::size_t matrices, CompiledFilm::Lines& lines) {
+  static wire::Matrix* reserve(std::size_t matrices, CompiledFilm::Lines& lines) {
     // Capacity for what follows them, mostly their changes, so that they need not be moved again.
     lines.reserve(lines_of(matrices + matrices / 4) + kCapacityBehind / sizeof(CompiledFilm::Line));
     lines.resize(lines_of(matrices));
-    return reinterpret_cast<node::Matrix*>(reinterpret_cast<std::byte*>(lines.data()) + node::kMatricesOffset);
+    return reinterpret_cast<wire::Matrix*>(reinterpret_cast<std::byte*>(lines.data()) + wire::kMatricesOffset);
   }
 
   void plan() {
     std::size_t segment = 0;
-    for (const Actor& actor : film_.actors) {
-      const Model& model = film_.models[actor.model];
+    for (const animator::Actor& actor : film_.actors) {
+      const modeler::Model& model = film_.models[actor.model];
       Share share;
       share.first_segment = segment;
       share.first_matrix = share.first_change = most_matrices_;
@@ -186,16 +186,16 @@ class MotionWriter {
   struct Writing {
     std::size_t joint;
     std::size_t segment;
-    node::Change* changes;
+    wire::Change* changes;
     std::uint32_t count;
   };
 
   void write_actor(std::size_t number) {
     Share& share = shares_[number];
-    const Actor& actor = film_.actors[number];
+    const animator::Actor& actor = film_.actors[number];
     std::vector<Writing> writings;
     const auto& joints = film_.models[actor.model].joints;
-    node::Change* changes = data_.changes.data() + share.first_change;
+    wire::Change* changes = data_.changes.data() + share.first_change;
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
       if (!joints[joint].segment) continue;
       const std::size_t segment = writings.size();
@@ -206,30 +206,30 @@ class MotionWriter {
     for (const Writing& writing : writings) share.changes.push_back(writing.count);
   }
 
-  void play(const Actor& actor, Share& share, std::vector<Writing>& writings) {
-    const Model& model = film_.models[actor.model];
-    Figure figure(model, actor.motion);
+  void play(const animator::Actor& actor, Share& share, std::vector<Writing>& writings) {
+    const modeler::Model& model = film_.models[actor.model];
+    animator::Figure figure(model, actor.motion);
     const std::uint32_t frames = figure.still() ? 1 : film_.frames;
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       if (!figure.move_to(frame)) continue;
       for (Writing& writing : writings) {
         if (!figure.moved(writing.joint)) continue;
-        const Joint& joint = model.joints[writing.joint];
+        const modeler::Joint& joint = model.joints[writing.joint];
         add(share, writing, frame,
-            t_matrix(segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
+            modeler::t_matrix(modeler::segment_frame(figure.frame_of(writing.joint), joint), joint.segment->sbb));
       }
     }
   }
 
-  void copy(const Actor& actor, Share& share, std::vector<Writing>& writings) {
+  void copy(const animator::Actor& actor, Share& share, std::vector<Writing>& writings) {
     const auto& joints = film_.models[actor.model].joints;
     for (Writing& writing : writings)
-      for (const Key<Axes>& key : actor.matrices[writing.joint])
+      for (const animator::Key<modeler::Axes>& key : actor.matrices[writing.joint])
         if (key.frame < film_.frames)
-          add(share, writing, key.frame, t_matrix(key.value, joints[writing.joint].segment->sbb));
+          add(share, writing, key.frame, modeler::t_matrix(key.value, joints[writing.joint].segment->sbb));
   }
 
-  void add(Share& share, Writing& writing, std::uint32_t frame, const node::Matrix& matrix) {
+  void add(Share& share, Writing& writing, std::uint32_t frame, const wire::Matrix& matrix) {
     if (writing.count > 0 && matrix == matrices_[writing.changes[writing.count - 1].value]) return;
     for (const auto& row : matrix.m)
       for (const double number : row)
@@ -254,12 +254,12 @@ class MotionWriter {
       const std::size_t down = share.first_matrix - matrix_to;
       if (down > 0)
         std::memmove(static_cast<void*>(matrices_ + matrix_to), matrices_ + share.first_matrix,
-                     share.matrices * sizeof(node::Matrix));
+                     share.matrices * sizeof(wire::Matrix));
       std::size_t from = share.first_change;
       for (std::size_t i = 0; i < share.segments; ++i) {
         const std::uint32_t count = share.changes[i];
         for (std::uint32_t k = 0; k < count && (down > 0 || from != change_to); ++k) {
-          const node::Change& change = data_.changes[from + k];
+          const wire::Change& change = data_.changes[from + k];
           data_.changes[change_to + k] = {change.frame, static_cast<std::uint32_t>(change.value - down)};
         }
         data_.segments[share.first_segment + i].motion = {static_cast<std::uint32_t>(change_to), count};
@@ -272,17 +272,17 @@ class MotionWriter {
     return matrix_to;
   }
 
-  const Film& film_;
-  node::FilmData& data_;
+  const animator::Film& film_;
+  wire::FilmData& data_;
   std::vector<Share> shares_;
   std::size_t most_matrices_ = 0;
-  node::Matrix* matrices_ = nullptr;
+  wire::Matrix* matrices_ = nullptr;
 };
 
 }  // namespace
 
-std::size_t write_motion(const Film& film, node::FilmData& data, CompiledFilm::Lines& lines) {
+std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines) {
   return MotionWriter(film, data).write(lines);
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -9,11 +9,11 @@
 #include "host/content/film/compiled_film.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 // Gives the segments of `data`, which are those of all actors in order, their motion; `lines` becomes the memory of
 // the block's header and the matrices. Returns the number of matrices. Throws, before any is made, where there
 // are more than memory holds; and where a segment stands too far out.
-std::size_t write_motion(const Film& film, node::FilmData& data, CompiledFilm::Lines& lines);
+std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines);
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -5,7 +5,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/modeler/meshlets.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();  // of vertices or triangles of all meshes
@@ -17,12 +17,12 @@ void append(std::vector<Item>& items, const std::vector<Item>& more) {
 
 }  // namespace
 
-std::uint32_t ShapeWriter::add(const Shape& shape) {
+std::uint32_t ShapeWriter::add(const modeler::Shape& shape) {
   return shape.mesh ? add_mesh(*shape.mesh) : add_patches(shape.patches);
 }
 
-std::uint32_t ShapeWriter::add_patches(const std::vector<node::Patch>& patches) {
-  const std::string_view bits(reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(node::Patch));
+std::uint32_t ShapeWriter::add_patches(const std::vector<wire::Patch>& patches) {
+  const std::string_view bits(reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(wire::Patch));
   const auto [known, is_new] = of_patches_.try_emplace(bits, film_.shapes.size());
   if (is_new) {
     film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(patches.size())});
@@ -31,14 +31,14 @@ std::uint32_t ShapeWriter::add_patches(const std::vector<node::Patch>& patches) 
   return known->second;
 }
 
-std::uint32_t ShapeWriter::add_mesh(const Mesh& mesh) {
+std::uint32_t ShapeWriter::add_mesh(const modeler::Mesh& mesh) {
   for (const auto& [known, number] : of_meshes_)
     if (*known == mesh) return number;
-  Meshlets cut = cut_meshlets(mesh);
+  modeler::Meshlets cut = modeler::cut_meshlets(mesh);
   const std::size_t vertices = film_.mesh_places.size(), triangles = film_.mesh_triangles.size();
   if (vertices + cut.places.size() > kMost || triangles + cut.triangles.size() > kMost)
     throw Failure("have more than 4294967295 vertices or triangles", "meshes", "use fewer or smaller meshes");
-  for (node::Meshlet& meshlet : cut.meshlets) {
+  for (wire::Meshlet& meshlet : cut.meshlets) {
     meshlet.first_vertex += static_cast<std::uint32_t>(vertices);
     meshlet.first_triangle += static_cast<std::uint32_t>(triangles);
   }
@@ -52,4 +52,4 @@ std::uint32_t ShapeWriter::add_mesh(const Mesh& mesh) {
   return number;
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

@@ -10,23 +10,23 @@
 #include "host/content/modeler/model.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::film {
 
 class ShapeWriter {
  public:
   // Appends to `film`'s shapes and what they are made of.
-  explicit ShapeWriter(node::FilmData& film) : film_(film) {}
+  explicit ShapeWriter(wire::FilmData& film) : film_(film) {}
 
   // The number of the shape with these patches or this mesh, bit for bit. `shape` must stay where it is.
-  std::uint32_t add(const Shape& shape);
+  std::uint32_t add(const modeler::Shape& shape);
 
  private:
-  std::uint32_t add_patches(const std::vector<node::Patch>& patches);
-  std::uint32_t add_mesh(const Mesh& mesh);
+  std::uint32_t add_patches(const std::vector<wire::Patch>& patches);
+  std::uint32_t add_mesh(const modeler::Mesh& mesh);
 
-  node::FilmData& film_;
+  wire::FilmData& film_;
   std::unordered_map<std::string_view, std::uint32_t> of_patches_;  // by their bits
-  std::vector<std::pair<const Mesh*, std::uint32_t>> of_meshes_;
+  std::vector<std::pair<const modeler::Mesh*, std::uint32_t>> of_meshes_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::film

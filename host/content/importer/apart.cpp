@@ -16,7 +16,7 @@
 #include "host/child/descriptor.h"
 #include "host/child/process.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 // Exit codes of the process, apart from those that others give (a sanitizer, 1).
@@ -39,7 +39,7 @@ Failure unpacked(const std::string& text) {
 }
 
 // In the new process: its exit code.
-int answered(const std::function<std::string()>& work, const Descriptor& answer) {
+int answered(const std::function<std::string()>& work, const child::Descriptor& answer) {
   int code = 0;
   std::string text;
   try {
@@ -53,7 +53,7 @@ int answered(const std::function<std::string()>& work, const Descriptor& answer)
     code = kHasFailed;
     text = packed({reason_of(failure), "", ""});
   }
-  write_all(answer, text);
+  child::write_all(answer, text);
   return code;
 }
 
@@ -67,7 +67,7 @@ bool ready_before(std::chrono::steady_clock::time_point end, int descriptor) {
 }
 
 // All that is written until the writer closes; none where that takes longer than `time`.
-std::optional<std::string> read_within(std::chrono::milliseconds time, const Descriptor& answer) {
+std::optional<std::string> read_within(std::chrono::milliseconds time, const child::Descriptor& answer) {
   const auto end = std::chrono::steady_clock::now() + time;
   std::string text;
   std::vector<char> piece(1 << 16);
@@ -85,7 +85,7 @@ std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) 
 std::string seconds(std::chrono::seconds time) { return std::to_string(time.count()) + " s"; }
 
 // Why a process without an answer ended so.
-std::string reason_of(const Ending& ending, bool too_late, const ApartLimits& limits) {
+std::string reason_of(const child::Ending& ending, bool too_late, const ApartLimits& limits) {
   if (too_late) return "takes more than " + seconds(std::chrono::ceil<std::chrono::seconds>(limits.time)) + " to read";
   if (ending.signal == SIGXCPU)
     return "takes more than " + seconds(limits.processor_time) + " of processor time to read";
@@ -98,16 +98,16 @@ std::string reason_of(const Ending& ending, bool too_late, const ApartLimits& li
 
 std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
                       const std::string& remedy) {
-  Pipe pipe = make_pipe();
-  Process process([&] { return answered(work, pipe.writing); },
-                  {.signal_at_our_end = SIGKILL, .limits = ProcessLimits{limits.processor_time, limits.memory}});
+  child::Pipe pipe = child::make_pipe();
+  child::Process process([&] { return answered(work, pipe.writing); },
+                  {.signal_at_our_end = SIGKILL, .limits = child::ProcessLimits{limits.processor_time, limits.memory}});
   pipe.writing.close();
   const std::optional<std::string> answer = read_within(limits.time, pipe.reading);
   if (!answer) process.send(SIGKILL);
-  const Ending ending = process.wait();
+  const child::Ending ending = process.wait();
   if (answer && ending.well()) return *answer;
   if (answer && ending.code == kHasFailed) throw unpacked(*answer);
   throw Failure(reason_of(ending, !answer, limits), where, remedy);
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

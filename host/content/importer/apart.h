@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-namespace mars::host {
+namespace mars::importer {
 
 struct ApartLimits {
   std::chrono::seconds processor_time;
@@ -20,4 +20,4 @@ struct ApartLimits {
 std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
                       const std::string& remedy);
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -10,7 +10,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 struct Known {
@@ -94,4 +94,4 @@ void check_first_bytes(const std::filesystem::path& path, FileKind kind) {
     throw Failure("is glTF in text, though its name does not say so", path.string(), "let its name end in .gltf");
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

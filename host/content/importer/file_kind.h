@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace mars::host {
+namespace mars::importer {
 
 enum class FileKind { obj, stl, ply, gltf, glb, patches };
 
@@ -14,4 +14,4 @@ FileKind kind_of_name(const std::filesystem::path& path);
 // Refuses a file whose first bytes are another kind's; what is no file is left to its reader.
 void check_first_bytes(const std::filesystem::path& path, FileKind kind);
 
-}  // namespace mars::host
+}  // namespace mars::importer

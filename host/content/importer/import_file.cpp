@@ -20,7 +20,7 @@
 #include "host/content/importer/promised.h"
 #include "host/content/modeler/patch_file.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 struct Imported {
@@ -41,16 +41,16 @@ glm::dmat3 upright(char up) {
 }
 
 std::string box_of(const glm::dvec3& extent, char up) {
-  return formatted("%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
+  return document::formatted("%.4g x %.4g x %.4g, the file's %c upward", extent.x, extent.y, extent.z, up);
 }
 
 Imported import_patches(const ImportOptions& options, char up) {
   if (options.crease)
     throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
-  const PatchFile file = read_patch_file(options.from, upright(up) * options.scale);
+  const modeler::PatchFile file = modeler::read_patch_file(options.from, upright(up) * options.scale);
   return {{"model of one joint '" + options.joint + "'",
            box_of(file.extent, up),
-           {counted(file.patches.size(), "patch", "patches")},
+           {document::counted(file.patches.size(), "patch", "patches")},
            {}},
           model_text({{shape_text(file.patches), {}}}, file.bounds, options.joint)};
 }
@@ -64,23 +64,23 @@ std::vector<std::string> read_of(const MeshFile& file) {
   }
   const bool joined = vertices < file.vertices;
   std::vector<std::string> read = {
-      counted(vertices, "vertex", "vertices") + (joined ? " of the file's " + std::to_string(file.vertices) : ""),
-      counted(faces, "face", "faces")};
+      document::counted(vertices, "vertex", "vertices") + (joined ? " of the file's " + std::to_string(file.vertices) : ""),
+      document::counted(faces, "face", "faces")};
   if (!file.parts[0].mesh.normals.empty()) read.push_back("normals");
-  if (colors > 0) read.push_back(counted(colors, "colour", "colours"));
+  if (colors > 0) read.push_back(document::counted(colors, "colour", "colours"));
   return read;
 }
 
 // Of the first joint, whether it has a colour or not.
 std::string set_look(const ImportOptions& options) {
-  return "mars model set " + shell_word(options.to.string()) + " " + shell_word(options.joint) + " --material " +
+  return "mars model set " + document::shell_word(options.to.string()) + " " + document::shell_word(options.joint) + " --material " +
          material_name(0);
 }
 
 Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
   const MeshWishes wishes{upright(up), options.scale, options.crease, set_look(options)};
   const MeshFile file = read_mesh_file(options.from, kind, wishes);
-  for (const std::filesystem::path& companion : file.companions) refuse_same_file(companion, options.to);
+  for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   std::vector<ImportedPart> parts;
   for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});
   const std::string joints = parts.size() == 1 ? "one joint" : std::to_string(parts.size()) + " joints, the first";
@@ -113,7 +113,7 @@ std::string run(const ImportOptions& options, FileKind kind, char up) {
 }
 
 bool is_utf8(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)) == text;
+  return document::Json::parse(document::Json(text).dump(-1, ' ', false, document::Json::error_handler_t::replace)) == text;
 }
 
 // `given` is the name that a person gave; "": the joint is named as the file.
@@ -123,20 +123,20 @@ void check_joint(const std::string& joint, const std::string& given, const std::
                      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); }) &&
                      is_utf8(joint);
   if (plain) return;
-  const std::string name = "'" + printable(joint) + "'";
+  const std::string name = "'" + document::printable(joint) + "'";
   constexpr const char* kNames = "of 1 to 90 bytes of UTF-8, without '/' and ends of lines";
   if (given.empty())
-    throw Failure("its name, " + name + ", cannot name a joint", printable(from.string()),
+    throw Failure("its name, " + name + ", cannot name a joint", document::printable(from.string()),
                   std::string("give the joint a name with --joint: one ") + kNames);
   throw Failure("cannot name a joint", "--joint " + name, std::string("choose a name ") + kNames);
 }
 
 void check_target(const ImportOptions& options) {
-  refuse_same_file(options.from, options.to);
+  document::refuse_same_file(options.from, options.to);
   std::error_code none;
   if (!options.force && std::filesystem::exists(options.to, none))
     throw Failure("is there already", options.to.string(), "choose another name, or replace it with --force");
-  check_can_write(options.to);
+  document::check_can_write(options.to);
 }
 
 }  // namespace
@@ -151,8 +151,8 @@ std::string import_model(const ImportOptions& given) {
   const char up = options.up.value_or(usual_up(kind));
   const std::string answer = read_apart(options.from, kind, [&] { return run(options, kind, up); });
   const std::size_t end = answer.find('\0');
-  write_whole_file(options.to, std::string_view(answer).substr(end + 1));
+  document::write_whole_file(options.to, std::string_view(answer).substr(end + 1));
   return answer.substr(0, end);
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace mars::host {
+namespace mars::importer {
 
 struct ImportOptions {
   std::filesystem::path from, to;
@@ -21,4 +21,4 @@ struct ImportOptions {
 // each, fixed to the first. The report of what was read, and what was not.
 std::string import_model(const ImportOptions& options);
 
-}  // namespace mars::host
+}  // namespace mars::importer

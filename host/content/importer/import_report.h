@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::host {
+namespace mars::importer {
 
 struct ImportReport {
   std::string model;                  // "model of one joint 'rock'"
@@ -18,4 +18,4 @@ struct ImportReport {
 // In lines, the first beginning with the file that was written.
 std::string text_of(const ImportReport& report, const std::string& written);
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -12,7 +12,7 @@
 #include "host/content/modeler/mesh.h"
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::importer {
 
 // How a person wants the file read.
 struct MeshWishes {
@@ -25,17 +25,17 @@ struct MeshWishes {
 // The faces of one colour.
 struct MeshPart {
   std::optional<std::array<double, 3>> color;  // none: the file gives none
-  Mesh mesh;
+  modeler::Mesh mesh;
 };
 
 // All parts are scaled together from `bounds` into the unit cube, so that vertices they share stay the same.
 struct MeshFile {
   std::vector<MeshPart> parts;  // at least one, in the file's order
-  Box bounds;
+  modeler::Box bounds;
   glm::dvec3 extent;                  // of the faces; 0 where they are flat
   std::size_t vertices = 0;           // in the file, before those that agree in place and normal are joined
   std::vector<std::string> not_read;  // "19 bones", ...
   std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers
 };
 
-}  // namespace mars::host
+}  // namespace mars::importer

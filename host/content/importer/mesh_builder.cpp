@@ -11,25 +11,25 @@
 #include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 constexpr double kLongestNormal = 1e6;
 
-Mesh::Place unit_normal(const glm::dvec3& normal, const glm::dvec3& extent) {
+modeler::Mesh::Place unit_normal(const glm::dvec3& normal, const glm::dvec3& extent) {
   const glm::dvec3 n = normal * extent;
   const double length = glm::length(n);
-  return length > 0 ? Mesh::Place{float(n.x / length), float(n.y / length), float(n.z / length)} : Mesh::Place{};
+  return length > 0 ? modeler::Mesh::Place{float(n.x / length), float(n.y / length), float(n.z / length)} : modeler::Mesh::Place{};
 }
 
 // A face that cannot be drawn as it stands is added in triangles.
-void add_drawable(Mesh& mesh, std::vector<std::uint32_t> face) {
-  if (!mesh.normals.empty() && turned_inside(mesh, face)) std::reverse(face.begin(), face.end());
+void add_drawable(modeler::Mesh& mesh, std::vector<std::uint32_t> face) {
+  if (!mesh.normals.empty() && modeler::turned_inside(mesh, face)) std::reverse(face.begin(), face.end());
   const auto add = [&](const auto& corners) {
     mesh.corners.insert(mesh.corners.end(), std::begin(corners), std::end(corners));
     mesh.ends.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
   };
-  if (face.size() == 3 || (face.size() <= kMostCorners && split(mesh, face))) return add(face);
+  if (face.size() == 3 || (face.size() <= modeler::kMostCorners && modeler::split(mesh, face))) return add(face);
   for (std::size_t k = 1; k + 1 < face.size(); ++k)
     if (face[0] != face[k] && face[k] != face[k + 1] && face[0] != face[k + 1])
       add(std::array{face[0], face[k], face[k + 1]});
@@ -61,8 +61,8 @@ MeshBuilder::Vertex MeshBuilder::placed(const glm::dvec3& place, const glm::dvec
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(place[axis]))
       fail("has a vertex that is not at numbers, or at too large ones", "the file may be damaged: export it again");
-    if (!(std::abs(vertex.place[axis]) <= kFarthest))
-      fail("has a vertex at " + shown(vertex.place[axis]),
+    if (!(std::abs(vertex.place[axis]) <= document::kFarthest))
+      fail("has a vertex at " + document::shown(vertex.place[axis]),
            "keep vertices within 1e9 of the origin, with a smaller --scale if need be");
     if (!(std::abs(vertex.normal[axis]) <= kLongestNormal)) vertex.normal = {};
     vertex.place[axis] += 0.0;  // no negative zero
@@ -94,8 +94,8 @@ void MeshBuilder::add_face(std::size_t number, std::vector<std::uint32_t>& face)
   part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
 }
 
-Box MeshBuilder::bounds() const {
-  Box box{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(std::numeric_limits<double>::lowest())};
+modeler::Box MeshBuilder::bounds() const {
+  modeler::Box box{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(std::numeric_limits<double>::lowest())};
   for (const Part& part : parts_)
     for (const std::uint32_t corner : part.corners) {
       box.min = glm::min(box.min, part.vertices[corner].place);
@@ -104,8 +104,8 @@ Box MeshBuilder::bounds() const {
   return box;
 }
 
-Mesh MeshBuilder::mesh_of(const Part& part, const Box& bounds, double crease) const {
-  Mesh mesh;
+modeler::Mesh MeshBuilder::mesh_of(const Part& part, const modeler::Box& bounds, double crease) const {
+  modeler::Mesh mesh;
   mesh.crease = crease;
   const glm::dvec3 extent = bounds.max - bounds.min;
   for (const Vertex& vertex : part.vertices) {
@@ -124,16 +124,16 @@ Mesh MeshBuilder::mesh_of(const Part& part, const Box& bounds, double crease) co
 MeshFile MeshBuilder::finish(double default_crease) {
   std::erase_if(parts_, [](const Part& part) { return part.ends.empty(); });
   if (parts_.empty()) fail("has no faces", "export the object's surface, not only points or lines");
-  const Box box = bounds();
-  MeshFile file{{}, thickened(box), box.max - box.min, 0, {}, {}};
+  const modeler::Box box = bounds();
+  MeshFile file{{}, modeler::thickened(box), box.max - box.min, 0, {}, {}};
   for (Part& part : parts_) {
     part.numbers = {};  // its memory is wanted for the mesh
     file.parts.push_back({part.color, mesh_of(part, file.bounds, wishes_.crease.value_or(default_crease))});
   }
   if (faces_left_out_ > 0)
-    file.not_read.push_back(counted(faces_left_out_, "face", "faces") + " without three different corners");
+    file.not_read.push_back(document::counted(faces_left_out_, "face", "faces") + " without three different corners");
   if (has_normals_ && !takes_normals_) file.not_read.push_back("normals (--crease makes others)");
   return file;
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -13,7 +13,7 @@
 
 #include "host/content/importer/imported_mesh.h"
 
-namespace mars::host {
+namespace mars::importer {
 
 class MeshBuilder {
  public:
@@ -55,8 +55,8 @@ class MeshBuilder {
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
   Vertex placed(const glm::dvec3& place, const glm::dvec3& normal) const;
-  Box bounds() const;  // round what lies on faces
-  Mesh mesh_of(const Part& part, const Box& bounds, double crease) const;
+  modeler::Box bounds() const;  // round what lies on faces
+  modeler::Mesh mesh_of(const Part& part, const modeler::Box& bounds, double crease) const;
 
   std::string file_;
   MeshWishes wishes_;
@@ -65,4 +65,4 @@ class MeshBuilder {
   std::size_t faces_left_out_ = 0;
 };
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -6,7 +6,7 @@
 #include "host/content/importer/ply_file.h"
 #include "host/content/importer/scene_file.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 MeshFile read_ply(const std::filesystem::path& path, const MeshWishes& wishes) {
@@ -25,7 +25,7 @@ MeshFile read_ply(const std::filesystem::path& path, const MeshWishes& wishes) {
     }
     builder.add_face(part, face);
   }
-  MeshFile file = builder.finish(kDefaultCrease);
+  MeshFile file = builder.finish(modeler::kDefaultCrease);
   file.vertices = ply.places.size();
   file.not_read.insert(file.not_read.end(), ply.not_read.begin(), ply.not_read.end());
   return file;
@@ -37,4 +37,4 @@ MeshFile read_mesh_file(const std::filesystem::path& path, FileKind kind, const 
   return kind == FileKind::ply ? read_ply(path, wishes) : read_scene_file(path, kind, wishes);
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 void append(std::string& text, auto number) {
@@ -31,7 +31,7 @@ void append_rows(std::string& text, std::size_t count, const auto& append_item) 
   text += ']';
 }
 
-void append_places(std::string& text, const std::vector<Mesh::Place>& places) {
+void append_places(std::string& text, const std::vector<modeler::Mesh::Place>& places) {
   append_rows(text, places.size(), [&](std::size_t i) { append_row(text, places[i].data(), 3); });
 }
 
@@ -45,7 +45,7 @@ std::string numbered(const std::string& name, std::size_t number) {
 
 std::string material_name(std::size_t part) { return numbered("color", part); }
 
-std::string shape_text(const std::vector<node::Patch>& patches) {
+std::string shape_text(const std::vector<wire::Patch>& patches) {
   std::string text;
   append_rows(text, patches.size(), [&](std::size_t number) {
     text += '[';
@@ -58,7 +58,7 @@ std::string shape_text(const std::vector<node::Patch>& patches) {
   return text;
 }
 
-std::string shape_text(const Mesh& mesh) {
+std::string shape_text(const modeler::Mesh& mesh) {
   std::string text = "{\"mesh\": {\n      \"vertices\": ";
   append_places(text, mesh.vertices);
   text += ",\n      \"faces\": ";
@@ -74,7 +74,7 @@ std::string shape_text(const Mesh& mesh) {
   return text + "}}";
 }
 
-std::string model_text(const std::vector<ImportedPart>& parts, const Box& bounds, const std::string& joint) {
+std::string model_text(const std::vector<ImportedPart>& parts, const modeler::Box& bounds, const std::string& joint) {
   std::string materials, joints, shapes, sbb = "[";
   append_row(sbb, &bounds.min.x, 3);
   sbb += ", ";
@@ -98,4 +98,4 @@ std::string model_text(const std::vector<ImportedPart>& parts, const Box& bounds
   return "{\n" + materials + "  \"joints\": [" + joints + "\n  ],\n  \"shapes\": {" + shapes + "\n  }\n}\n";
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

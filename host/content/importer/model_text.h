@@ -10,7 +10,7 @@
 #include "host/content/modeler/model.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::importer {
 
 // What one joint shows.
 struct ImportedPart {
@@ -22,10 +22,10 @@ struct ImportedPart {
 std::string material_name(std::size_t part);
 
 // A shape as JSON.
-std::string shape_text(const std::vector<node::Patch>& patches);
-std::string shape_text(const Mesh& mesh);
+std::string shape_text(const std::vector<wire::Patch>& patches);
+std::string shape_text(const modeler::Mesh& mesh);
 
 // `joint`, in UTF-8, is the first's name; the others hang on it and cannot turn. `bounds` are the sbb of all.
-std::string model_text(const std::vector<ImportedPart>& parts, const Box& bounds, const std::string& joint);
+std::string model_text(const std::vector<ImportedPart>& parts, const modeler::Box& bounds, const std::string& joint);
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -15,7 +15,7 @@
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/ply_header.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
@@ -91,11 +91,11 @@ class BodyReader {
       : path_(path), header_(header), numbers_(body, header.format) {}
 
   PlyFile read() {
-    for (const std::string& texture : header_.textures) file_.not_read.push_back("texture " + printable(texture));
+    for (const std::string& texture : header_.textures) file_.not_read.push_back("texture " + document::printable(texture));
     for (const PlyElement& element : header_.elements) read_element(element);
     const std::size_t left = numbers_.left();
     if (left > 0 && header_.format == PlyFormat::text) fail_ply(path_, "goes on after all that its header promises");
-    if (left > 0) file_.not_read.push_back(counted(left, "byte", "bytes") + " after all that the header promises");
+    if (left > 0) file_.not_read.push_back(document::counted(left, "byte", "bytes") + " after all that the header promises");
     check_corners();
     return std::move(file_);
   }
@@ -144,16 +144,16 @@ class BodyReader {
   }
 
   void note_others(const PlyElement& element, const std::vector<std::string_view>& names) {
-    const std::string name = printable(element.name);
+    const std::string name = document::printable(element.name);
     if (element.count == 0) return;
     if (names.empty()) {
-      file_.not_read.push_back(counted(element.count, "row", "rows") + " of element '" + name + "'");
+      file_.not_read.push_back(document::counted(element.count, "row", "rows") + " of element '" + name + "'");
       return;
     }
     std::string others;
     for (const PlyProperty& property : element.properties)
       if (std::find(names.begin(), names.end(), property.name) == names.end())
-        others += (others.empty() ? "" : ", ") + printable(property.name);
+        others += (others.empty() ? "" : ", ") + document::printable(property.name);
     if (!others.empty()) file_.not_read.push_back("of element '" + name + "': " + others);
   }
 
@@ -175,17 +175,17 @@ class BodyReader {
   }
 
   [[noreturn]] void fail_short(const PlyElement& element, std::uint64_t rows) {
-    const std::string row = "row of element '" + printable(element.name) + "'", rows_of = "rows" + row.substr(3);
+    const std::string row = "row of element '" + document::printable(element.name) + "'", rows_of = "rows" + row.substr(3);
     const bool vertices = element.name == "vertex", faces = element.name == "face";
     fail_ply(path_, "promises " +
-                        counted(element.count,
+                        document::counted(element.count,
                                 vertices ? "vertex"
                                 : faces  ? "face"
                                          : row,
                                 vertices ? "vertices"
                                 : faces  ? "faces"
                                          : rows_of) +
-                        ", " + counted(rows, "was read", "were read"));
+                        ", " + document::counted(rows, "was read", "were read"));
   }
 
   void add_vertex(const std::vector<double>& row) {
@@ -237,7 +237,7 @@ class BodyReader {
     }
     const auto lonely = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
     if (lonely > 0 && !file_.corners.empty())
-      file_.not_read.push_back(counted(lonely, "vertex", "vertices") + " without a face");
+      file_.not_read.push_back(document::counted(lonely, "vertex", "vertices") + " without a face");
   }
 
   const std::filesystem::path& path_;
@@ -249,9 +249,9 @@ class BodyReader {
 }  // namespace
 
 PlyFile read_ply_file(const std::filesystem::path& path) {
-  const std::string text = read_file(path, kLargestFile);
+  const std::string text = document::read_file(path, kLargestFile);
   const PlyHeader header = read_ply_header(path, text);
   return BodyReader(path, header, std::string_view(text).substr(header.bytes)).read();
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::importer {
 
 struct PlyFile {
   std::vector<glm::dvec3> places;
@@ -22,4 +22,4 @@ struct PlyFile {
 // As many vertices and faces as the header promises; a file with fewer is refused.
 PlyFile read_ply_file(const std::filesystem::path& path);
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -7,7 +7,7 @@
 #include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 struct TypeName {
@@ -48,7 +48,7 @@ class HeaderReader {
       if (words[0] == "comment" || words[0] == "obj_info")
         add_comment(words);
       else if (!add(words))
-        fail_ply(path_, "has a line in its header that is not understood: " + printable(line));
+        fail_ply(path_, "has a line in its header that is not understood: " + document::printable(line));
     }
   }
 
@@ -106,7 +106,7 @@ class HeaderReader {
   }
 
   bool add_element(const std::string& name, const std::string& number) {
-    const auto count = number_in<std::uint64_t>(number);
+    const auto count = document::number_in<std::uint64_t>(number);
     for (const PlyElement& other : header_.elements)
       if (other.name == name) return false;
     header_.elements.push_back({name, count.value_or(0), {}});
@@ -137,4 +137,4 @@ void fail_ply(const std::filesystem::path& path, const std::string& problem) {
   throw Failure(problem, path.string(), "export it again, or as another of OBJ, STL, glTF, GLB");
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::host {
+namespace mars::importer {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -39,4 +39,4 @@ PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view te
 
 [[noreturn]] void fail_ply(const std::filesystem::path& path, const std::string& problem);
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -11,7 +11,7 @@
 #include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
@@ -56,10 +56,10 @@ Promised promised_by_obj(const std::filesystem::path& path, std::string_view tex
     const std::string name(line.substr(0, line.find_last_not_of(kSpace) + 1));
     std::error_code none;
     if (!std::filesystem::exists(path.parent_path() / name, none))
-      promised.not_read.push_back("colours of " + printable(name) + " (no such file beside the mesh)");
+      promised.not_read.push_back("colours of " + document::printable(name) + " (no such file beside the mesh)");
   }
   if (surfaces > 0)
-    promised.not_read.push_back(counted(surfaces, "free-form curve or surface", "free-form curves or surfaces"));
+    promised.not_read.push_back(document::counted(surfaces, "free-form curve or surface", "free-form curves or surfaces"));
   return promised;
 }
 
@@ -156,14 +156,14 @@ Promised promised_by_gltf(const std::filesystem::path& path, std::string_view by
     for (const Tree& primitive : at(meshes[mesh], "primitives"))
       *promised.faces += triangles_of(primitive, at(tree, "accessors"));
   if (placed.size() < meshes.size())
-    promised.not_read.push_back(counted(meshes.size() - placed.size(), "mesh", "meshes") + " outside the scene");
+    promised.not_read.push_back(document::counted(meshes.size() - placed.size(), "mesh", "meshes") + " outside the scene");
   return promised;
 }
 
 }  // namespace
 
 Promised promised_by(const std::filesystem::path& path, FileKind kind) {
-  const std::string bytes = read_file(path, kLargestFile);
+  const std::string bytes = document::read_file(path, kLargestFile);
   if (kind == FileKind::obj) return promised_by_obj(path, bytes);
   if (kind == FileKind::stl) return promised_by_stl(bytes);
   return promised_by_gltf(path, bytes, kind);
@@ -190,7 +190,7 @@ std::string percent_decoded(const std::string& uri) {
 }  // namespace
 
 std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
-  const Tree tree = Tree::parse(read_file(path, kLargestFile), nullptr, false);
+  const Tree tree = Tree::parse(document::read_file(path, kLargestFile), nullptr, false);
   std::uintmax_t sum = 0;
   for (const Tree& buffer : at(tree, "buffers")) {
     const Tree& uri = at(buffer, "uri");
@@ -203,4 +203,4 @@ std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
   return sum;
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

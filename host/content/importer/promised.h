@@ -11,7 +11,7 @@
 
 #include "host/content/importer/file_kind.h"
 
-namespace mars::host {
+namespace mars::importer {
 
 struct Promised {
   std::optional<std::size_t> faces;     // none: what it says is not understood, and Assimp's refusal says why
@@ -26,4 +26,4 @@ Promised promised_by(const std::filesystem::path& path, FileKind kind);
 // The size of the files that a glTF file's buffers name, which are read with it.
 std::uintmax_t bytes_of_buffers(const std::filesystem::path& path);
 
-}  // namespace mars::host
+}  // namespace mars::importer

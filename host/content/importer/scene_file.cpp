@@ -20,7 +20,7 @@
 #include "host/content/importer/scene_sources.h"
 #include "host/content/importer/unread_parts.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 constexpr std::size_t kMostNodes = 1'000'000;
@@ -80,13 +80,13 @@ class SceneReader {
   MeshFile read() {
     check_faces();
     visit(*scene_.mRootNode, Matrix());
-    MeshFile file = builder_.finish(is_gltf_ ? 0 : kDefaultCrease);
+    MeshFile file = builder_.finish(is_gltf_ ? 0 : modeler::kDefaultCrease);
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
     file.vertices = promised_.vertices.value_or(file.vertices);
     append(file.not_read, unread_parts(scene_, is_gltf_, set_look_));
     append(file.not_read, promised_.not_read);
     if (!cut_colors_.empty())
-      file.not_read.push_back(counted(cut_colors_.size(), "colour", "colours") +
+      file.not_read.push_back(document::counted(cut_colors_.size(), "colour", "colours") +
                               " beyond 0 to 1: cut to that (another: " + set_look_ + " --color 0.8 0.6 0.4)");
     file.companions = sources_.companions();
     return file;
@@ -212,4 +212,4 @@ MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const
   return SceneReader(path, kind, wishes).read();
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

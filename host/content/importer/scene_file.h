@@ -7,9 +7,9 @@
 #include "host/content/importer/file_kind.h"
 #include "host/content/importer/imported_mesh.h"
 
-namespace mars::host {
+namespace mars::importer {
 
 // As read_mesh_file().
 MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes);
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -2,7 +2,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::importer {
 
 namespace fs = std::filesystem;
 
@@ -20,4 +20,4 @@ Assimp::IOStream* SceneSources::Open(const char* name, const char* mode) {
   return stream;
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace mars::host {
+namespace mars::importer {
 
 class SceneSources : public Assimp::DefaultIOSystem {
  public:
@@ -24,4 +24,4 @@ class SceneSources : public Assimp::DefaultIOSystem {
   std::vector<std::filesystem::path> companions_, not_opened_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::importer

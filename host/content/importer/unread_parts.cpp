@@ -9,7 +9,7 @@
 #include "host/content/document/text.h"
 #include "host/content/importer/import_report.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 struct Counts {
@@ -92,7 +92,7 @@ std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, std::string_view one, std::string_view several,
                        const std::string& remedy = "") {
-    if (count > 0) parts.push_back(counted(count, one, several) + remedy);
+    if (count > 0) parts.push_back(document::counted(count, one, several) + remedy);
   };
   const std::string one_color = " (one colour instead: " + set_look + " --color 0.8 0.6 0.4)";
   add(has_tree && counts.nodes > 1 ? counts.nodes : 0, "node", "nodes", " as joints: all stand as one");
@@ -111,4 +111,4 @@ std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const
   return parts;
 }
 
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -5,7 +5,7 @@
 
 #include "host/content/modeler/loft.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 // In metres, of a man of 1.75 m, from the joint that carries the shape, each from its lower end to its upper.
@@ -289,8 +289,8 @@ Net left_hand() {
 }
 
 // Seen in a mirror, left for right.
-std::vector<node::Patch> mirrored(std::vector<node::Patch> patches) {
-  for (node::Patch& patch : patches) {
+std::vector<wire::Patch> mirrored(std::vector<wire::Patch> patches) {
+  for (wire::Patch& patch : patches) {
     for (auto& point : patch.points) point[1] = 1 - point[1];
     for (std::size_t j = 0; j < 16; j += 4) {
       std::swap(patch.points[j], patch.points[j + 3]);
@@ -308,7 +308,7 @@ Net lofted(const Loft& loft) {
 
 }  // namespace
 
-std::vector<node::Patch> make_body(BodyPart part) {
+std::vector<wire::Patch> make_body(BodyPart part) {
   switch (part) {
     case BodyPart::head:
       return fill_cube(head());
@@ -344,4 +344,4 @@ std::vector<node::Patch> make_body(BodyPart part) {
   return {};
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

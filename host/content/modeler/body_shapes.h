@@ -7,7 +7,7 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // clang-format off
 enum class BodyPart {
@@ -17,6 +17,6 @@ enum class BodyPart {
 };
 // clang-format on
 
-std::vector<node::Patch> make_body(BodyPart part);
+std::vector<wire::Patch> make_body(BodyPart part);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 // Exact where a and b are equal, and at parts 0 and 1; the same from either side.
@@ -113,8 +113,8 @@ Net bezier_patches(const PointGrid& points, const SplineDirection& u, const Spli
   return net;
 }
 
-std::vector<node::Patch> rounded(const Net& net) {
-  std::vector<node::Patch> patches(net.size());
+std::vector<wire::Patch> rounded(const Net& net) {
+  std::vector<wire::Patch> patches(net.size());
   for (std::size_t number = 0; number < net.size(); ++number)
     for (std::size_t i = 0; i < 16; ++i)
       for (int axis = 0; axis < 3; ++axis)
@@ -122,4 +122,4 @@ std::vector<node::Patch> rounded(const Net& net) {
   return patches;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

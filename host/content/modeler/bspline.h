@@ -11,7 +11,7 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline constexpr int kMostDegree = 3;
 
@@ -36,13 +36,13 @@ SplineDirection uniform_direction(Ends ends, int degree, std::size_t points);
 // Rows along v of points along u, all of one length.
 using PointGrid = std::vector<std::vector<glm::dvec3>>;
 
-// Patches with their points as in node::Patch.
+// Patches with their points as in wire::Patch.
 using Net = std::vector<std::array<glm::dvec3, 16>>;
 
 // One patch for each pair of knot spans, u running first. Neighbours share their four points.
 Net bezier_patches(const PointGrid& points, const SplineDirection& u, const SplineDirection& v);
 
 // As nodes hold them: a coordinate within 0..1 moves by at most 2^-25.
-std::vector<node::Patch> rounded(const Net& net);
+std::vector<wire::Patch> rounded(const Net& net);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,7 +8,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr double kSquare = 1e-3;  // degrees from a right angle that are rounding
@@ -19,7 +19,7 @@ double without_rounding(double number) { return std::abs(number) < 1e-9 ? 0 : nu
 
 // "0.5 x 1 x 2", to four digits.
 std::string size_text(const glm::dvec3& size) {
-  return formatted("%.4g x %.4g x %.4g", size.x, size.y, size.z);
+  return document::formatted("%.4g x %.4g x %.4g", size.x, size.y, size.z);
 }
 
 // "free", "fixed", or what its limits leave it: "y -60..60, z at 20". Degrees.
@@ -32,13 +32,13 @@ std::string turns_of(const Joint& joint) {
     if (!limits.free() && limits.lower == 0) continue;
     text += text.empty() ? "" : ", ";
     text += "xyz"[axis];
-    text += limits.free() ? " " + shown(limits.lower) + ".." + shown(limits.upper) : " at " + shown(limits.lower);
+    text += limits.free() ? " " + document::shown(limits.lower) + ".." + document::shown(limits.upper) : " at " + document::shown(limits.lower);
   }
   return all_round ? "free" : text.empty() ? "fixed" : text;
 }
 
 std::string axes_of(const Joint& joint) {
-  if (skew_of(joint) != 0) return formatted("skewed, %.4g degrees", skew_of(joint));
+  if (skew_of(joint) != 0) return document::formatted("skewed, %.4g degrees", skew_of(joint));
   const bool own = joint.x_axis != Joint().x_axis || joint.y_axis != Joint().y_axis;
   return own ? "its own" : "-";
 }
@@ -128,13 +128,13 @@ std::string head_of(const Model& model) {
     stored += shape.patches.size();
     stored_faces += shape.mesh ? shape.mesh->ends.size() : 0;
   }
-  std::string text = "joints    " + formatted("%zu with %zu freedoms\n", model.joints.size(), freedoms);
-  text += "segments  " + formatted("%zu of %zu shapes\n", segments, model.shapes.size());
-  text += "patches   " + formatted("%zu, %zu of them stored\n", patches, stored);
-  if (stored_faces > 0) text += "faces     " + formatted("%zu, %zu of them stored\n", faces, stored_faces);
+  std::string text = "joints    " + document::formatted("%zu with %zu freedoms\n", model.joints.size(), freedoms);
+  text += "segments  " + document::formatted("%zu of %zu shapes\n", segments, model.shapes.size());
+  text += "patches   " + document::formatted("%zu, %zu of them stored\n", patches, stored);
+  if (stored_faces > 0) text += "faces     " + document::formatted("%zu, %zu of them stored\n", faces, stored_faces);
   if (const auto bounds = rest_bounds(model))
     text += "at rest   " + size_text(bounds->max - bounds->min) +
-            formatted(", z from %.4g to %.4g\n", without_rounding(bounds->min.z), without_rounding(bounds->max.z));
+            document::formatted(", z from %.4g to %.4g\n", without_rounding(bounds->min.z), without_rounding(bounds->max.z));
   return text;
 }
 
@@ -142,8 +142,8 @@ std::string materials_of(const Model& model) {
   if (model.materials.empty()) return "";
   std::vector<Row> rows{{"material", "color", "ambient", "diffuse", "specular", "exponent", "sides"}};
   for (const NamedMaterial& each : model.materials) {
-    const node::Material& material = each.material;
-    const auto number = [](double value) { return formatted("%.4g", value); };
+    const wire::Material& material = each.material;
+    const auto number = [](double value) { return document::formatted("%.4g", value); };
     const auto& color = material.color;
     rows.push_back({each.name, number(color[0]) + " " + number(color[1]) + " " + number(color[2]),
                     number(material.ambient), number(material.diffuse), number(material.specular),
@@ -163,4 +163,4 @@ std::string describe_model(const Model& model) {
   return head_of(model) + "\n" + laid_out(Tree(model).rows()) + materials_of(model);
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -5,7 +5,7 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // Lines, each ended. Children stand two columns further right than their parent, in the file's order.
 std::string describe_model(const Model& model);
@@ -14,4 +14,4 @@ std::string describe_model(const Model& model);
 // base segment; else 0.
 double skew_of(const Joint& joint);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -13,7 +13,7 @@
 #include "host/content/modeler/edit_limbs.h"
 #include "host/content/modeler/shape_library.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr std::string_view kJointOrder[] = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"};
@@ -22,42 +22,42 @@ std::string joint_of(const std::string& name) { return "joint '" + name + "'"; }
 std::string material_of(const std::string& name) { return "material '" + name + "'"; }
 
 std::string near(const std::string& wanted, const std::vector<std::string>& names, const std::string& otherwise) {
-  return did_you_mean(wanted, std::vector<std::string_view>(names.begin(), names.end()), otherwise);
+  return document::did_you_mean(wanted, std::vector<std::string_view>(names.begin(), names.end()), otherwise);
 }
 
-Json& joints_of(Json& model) {
+document::Json& joints_of(document::Json& model) {
   if (!model.contains("joints"))
     throw Failure("has no joints of its own", "",
                   "change " + model.value("from", "the other file") + ", or this one's proportions: mars model scale");
   return model["joints"];
 }
 
-std::vector<std::string> names_of(const Json& joints) {
+std::vector<std::string> names_of(const document::Json& joints) {
   std::vector<std::string> names;
-  for (const Json& joint : joints) names.push_back(joint.at("name"));
+  for (const document::Json& joint : joints) names.push_back(joint.at("name"));
   return names;
 }
 
-Json* find_joint(Json& model, const std::string& name) {
-  for (Json& joint : joints_of(model))
+document::Json* find_joint(document::Json& model, const std::string& name) {
+  for (document::Json& joint : joints_of(model))
     if (joint.at("name") == name) return &joint;
   return nullptr;
 }
 
-[[noreturn]] void no_such_joint(Json& model, const std::string& name) {
+[[noreturn]] void no_such_joint(document::Json& model, const std::string& name) {
   const std::vector<std::string> names = names_of(joints_of(model));
   throw Failure("is not in the model", joint_of(name),
                 near(name, names, "mars model show lists the joints"));
 }
 
-Json& joint_named(Json& model, const std::string& name) {
-  if (Json* joint = find_joint(model, name)) return *joint;
+document::Json& joint_named(document::Json& model, const std::string& name) {
+  if (document::Json* joint = find_joint(model, name)) return *joint;
   no_such_joint(model, name);
 }
 
 // Keys that `order` names come first, in its order.
-void put_in_order(Json& object, std::span<const std::string_view> order) {
-  Json sorted = Json::object();
+void put_in_order(document::Json& object, std::span<const std::string_view> order) {
+  document::Json sorted = document::Json::object();
   for (const std::string_view key : order)
     if (const auto found = object.find(key); found != object.end()) sorted[std::string(key)] = *found;
   for (auto item = object.begin(); item != object.end(); ++item)
@@ -65,16 +65,16 @@ void put_in_order(Json& object, std::span<const std::string_view> order) {
   object = std::move(sorted);
 }
 
-void change_limits(Json& joint, const JointChange& change) {
+void change_limits(document::Json& joint, const JointChange& change) {
   if (change.freedom == Freedom::free) joint.erase("limits");
-  if (change.freedom == Freedom::fixed) joint["limits"] = Json::object();
+  if (change.freedom == Freedom::fixed) joint["limits"] = document::Json::object();
   if (change.limits.empty()) return;
   if (!joint.contains("limits")) joint["limits"] = {{"x", {-180, 180}}, {"y", {-180, 180}}, {"z", {-180, 180}}};
-  Json& limits = joint["limits"];
+  document::Json& limits = joint["limits"];
   for (const auto& [axis, range] : change.limits) {
     if (range.lower > range.upper)
-      throw Failure("has limits about " + std::string(1, axis) + " from " + shown(range.lower) + " to " +
-                        shown(range.upper) + " degrees",
+      throw Failure("has limits about " + std::string(1, axis) + " from " + document::shown(range.lower) + " to " +
+                        document::shown(range.upper) + " degrees",
                     joint_of(joint["name"]), "give the lower one first");
     limits[std::string(1, axis)] = {plain_number(range.lower), plain_number(range.upper)};
   }
@@ -87,7 +87,7 @@ std::string option_of(const std::string& shape) {
   return known ? std::string(known->option.key) : "";
 }
 
-void change_options(Json& segment, const JointChange& change, const std::string& joint) {
+void change_options(document::Json& segment, const JointChange& change, const std::string& joint) {
   const std::string shape = segment["shape"];
   const std::string own = option_of(shape);
   for (const LibraryShape& other : shape_library())
@@ -96,50 +96,50 @@ void change_options(Json& segment, const JointChange& change, const std::string&
     if (key != own || own.empty())
       throw Failure("has a " + shape + ", which has no '" + key + "'", joint_of(joint),
                     own.empty() ? "leave it out" : "its own is '" + own + "'");
-    Json list = Json::array();
+    document::Json list = document::Json::array();
     for (const double number : numbers) list.push_back(plain_number(number));
     segment[key] = numbers.size() == 1 ? list[0] : list;
   }
 }
 
-std::vector<std::string> own_shapes(const Json& model) {
+std::vector<std::string> own_shapes(const document::Json& model) {
   std::vector<std::string> names;
   if (const auto shapes = model.find("shapes"); shapes != model.end())
     for (auto shape = shapes->begin(); shape != shapes->end(); ++shape) names.push_back(shape.key());
   return names;
 }
 
-void require_shape(const Json& model, const std::string& shape, const std::string& joint) {
+void require_shape(const document::Json& model, const std::string& shape, const std::string& joint) {
   const std::vector<std::string> own = own_shapes(model);
   if (find_library_shape(shape) || std::ranges::count(own, shape)) return;
   throw Failure("is given the shape '" + shape + "', which is neither in the library nor the model's", joint_of(joint),
                 likely_shape(shape, std::vector<std::string_view>(own.begin(), own.end())));
 }
 
-bool uses(const Json& joint, const std::string& material) {
+bool uses(const document::Json& joint, const std::string& material) {
   return joint.contains("segment") && joint["segment"].value("material", "") == material;
 }
 
-std::vector<std::string> materials_known(Json& model) {
+std::vector<std::string> materials_known(document::Json& model) {
   std::set<std::string> names;
   if (const auto materials = model.find("materials"); materials != model.end())
     for (auto material = materials->begin(); material != materials->end(); ++material) names.insert(material.key());
   if (model.contains("joints"))
-    for (const Json& joint : model["joints"])
+    for (const document::Json& joint : model["joints"])
       if (joint.contains("segment")) names.insert(joint["segment"].value("material", ""));
   names.erase("");
   return {names.begin(), names.end()};
 }
 
 // The model's own, or one that a segment already takes from the film.
-void require_material(Json& model, const std::string& material, const std::string& joint) {
+void require_material(document::Json& model, const std::string& material, const std::string& joint) {
   const std::vector<std::string> known = materials_known(model);
   if (std::ranges::count(known, material)) return;
   throw Failure("is given the material '" + material + "', which the model has not", joint_of(joint),
                 near(material, known, "add it: give --color R G B too"));
 }
 
-void change_segment(Json& model, Json& joint, const JointChange& change) {
+void change_segment(document::Json& model, document::Json& joint, const JointChange& change) {
   const bool any = change.shape || !change.options.empty() || change.sbb || change.material;
   if (!any) return;
   const std::string name = joint["name"];
@@ -147,7 +147,7 @@ void change_segment(Json& model, Json& joint, const JointChange& change) {
     throw Failure("has no segment", joint_of(name), "give it a shape: --shape box");
   if (change.shape) require_shape(model, *change.shape, name);
   if (change.material) require_material(model, *change.material, name);
-  Json& segment = joint["segment"];
+  document::Json& segment = joint["segment"];
   if (change.shape) segment["shape"] = *change.shape;
   change_options(segment, change, name);
   if (change.sbb) {
@@ -163,7 +163,7 @@ void change_segment(Json& model, Json& joint, const JointChange& change) {
   put_in_order(segment, order);
 }
 
-void reset(Json& joint, const std::string& what) {
+void reset(document::Json& joint, const std::string& what) {
   if (what == "axes") {
     joint.erase("x_axis");
     joint.erase("y_axis");
@@ -175,7 +175,7 @@ void reset(Json& joint, const std::string& what) {
 }
 
 // Everything but the name.
-void change_joint(Json& model, Json& joint, const JointChange& change) {
+void change_joint(document::Json& model, document::Json& joint, const JointChange& change) {
   for (const std::string& what : change.reset) what == "limb" ? forget_limb(model, joint["name"]) : reset(joint, what);
   if (change.parent) {
     if (!find_joint(model, *change.parent)) no_such_joint(model, *change.parent);
@@ -189,14 +189,14 @@ void change_joint(Json& model, Json& joint, const JointChange& change) {
   put_in_order(joint, kJointOrder);
 }
 
-void refuse_known(Json& model, const std::string& name) {
+void refuse_known(document::Json& model, const std::string& name) {
   if (find_joint(model, name))
     throw Failure("is in the model already", joint_of(name), "choose another name, or change it: mars model set");
 }
 
-void rename_joint(Json& model, const std::string& from, const std::string& to) {
+void rename_joint(document::Json& model, const std::string& from, const std::string& to) {
   refuse_known(model, to);
-  for (Json& joint : joints_of(model)) {
+  for (document::Json& joint : joints_of(model)) {
     if (joint["name"] == from) joint["name"] = to;
     if (joint.value("parent", "") == from) joint["parent"] = to;
   }
@@ -204,35 +204,35 @@ void rename_joint(Json& model, const std::string& from, const std::string& to) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-  return "'" + joined(names, "', '") + "'";
+  return "'" + document::joined(names, "', '") + "'";
 }
 
-std::vector<std::string> children_of(const Json& joints, const std::string& name) {
+std::vector<std::string> children_of(const document::Json& joints, const std::string& name) {
   std::vector<std::string> children;
-  for (const Json& joint : joints)
+  for (const document::Json& joint : joints)
     if (joint.value("parent", "") == name) children.push_back(joint["name"]);
   return children;
 }
 
-void refuse_limb(const Json& model, const std::string& name) {
+void refuse_limb(const document::Json& model, const std::string& name) {
   if (const std::string limb = limb_of(model, name); !limb.empty())
     throw Failure("is one of the model's limbs: " + limb, joint_of(name),
                   "make another joint it, --limb " + limb + ", or this one none, --reset limb");
 }
 
-Json& materials_of(Json& model) {
-  Json& materials = model["materials"];
-  if (materials.is_null()) materials = Json::object();
+document::Json& materials_of(document::Json& model) {
+  document::Json& materials = model["materials"];
+  if (materials.is_null()) materials = document::Json::object();
   return materials;
 }
 
-void require_known_material(Json& model, const std::string& name) {
+void require_known_material(document::Json& model, const std::string& name) {
   if (model.contains("materials") && model["materials"].contains(name)) return;
   throw Failure("is not in the model", material_of(name),
                 near(name, materials_known(model), "add it: mars model add"));
 }
 
-void change_material(Json& material, const MaterialChange& change) {
+void change_material(document::Json& material, const MaterialChange& change) {
   if (change.color) material["color"] = plain_vector(*change.color);
   const std::pair<const char*, const std::optional<double>*> numbers[] = {{"ambient", &change.ambient},
                                                                           {"diffuse", &change.diffuse},
@@ -245,26 +245,26 @@ void change_material(Json& material, const MaterialChange& change) {
 
 }  // namespace
 
-Json plain_number(double number) {
-  const double rounded = rounded_to(number, 10);
+document::Json plain_number(double number) {
+  const double rounded = document::rounded_to(number, 10);
   if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
   return rounded;
 }
 
-Json plain_vector(const glm::dvec3& vector) {
+document::Json plain_vector(const glm::dvec3& vector) {
   return {plain_number(vector.x), plain_number(vector.y), plain_number(vector.z)};
 }
 
-void put_in_order(Json& joint) { put_in_order(joint, kJointOrder); }
+void put_in_order(document::Json& joint) { put_in_order(joint, kJointOrder); }
 
-Json empty_model() { return {{"joints", Json::array()}}; }
+document::Json empty_model() { return {{"joints", document::Json::array()}}; }
 
-Json derived_model(const std::string& from) { return {{"from", from}, {"proportions", Json::object()}}; }
+document::Json derived_model(const std::string& from) { return {{"from", from}, {"proportions", document::Json::object()}}; }
 
-void add_joint(Json& model, const std::string& name, const JointChange& change) {
+void add_joint(document::Json& model, const std::string& name, const JointChange& change) {
   refuse_known(model, name);
-  Json joint = {{"name", name}};
-  if (!change.limits.empty()) joint["limits"] = Json::object();
+  document::Json joint = {{"name", name}};
+  if (!change.limits.empty()) joint["limits"] = document::Json::object();
   change_joint(model, joint, change);
   joints_of(model).push_back(joint);
   if (!change.limb) return;
@@ -274,15 +274,15 @@ void add_joint(Json& model, const std::string& name, const JointChange& change) 
   name_limb(model, name, *change.limb);
 }
 
-void set_joint(Json& model, const std::string& name, const JointChange& change) {
+void set_joint(document::Json& model, const std::string& name, const JointChange& change) {
   change_joint(model, joint_named(model, name), change);
   if (change.limb) name_limb(model, name, *change.limb);
   if (change.name && *change.name != name) rename_joint(model, name, *change.name);
 }
 
-void remove_joint(Json& model, const std::string& name, bool branch) {
+void remove_joint(document::Json& model, const std::string& name, bool branch) {
   joint_named(model, name);
-  const Json& joints = joints_of(model);
+  const document::Json& joints = joints_of(model);
   std::vector<std::string> going{name};
   for (std::size_t at = 0; at < going.size(); ++at) {
     const std::vector<std::string> children = children_of(joints, going[at]);
@@ -295,41 +295,41 @@ void remove_joint(Json& model, const std::string& name, bool branch) {
     throw Failure(going.size() == 1 ? "is the model's last" : "carries all the others", joint_of(name),
                   "a model has at least one joint");
   for (const std::string& each : going) refuse_limb(model, each);
-  Json left = Json::array();
-  for (const Json& joint : joints)
+  document::Json left = document::Json::array();
+  for (const document::Json& joint : joints)
     if (!std::ranges::count(going, joint["name"].get<std::string>())) left.push_back(joint);
   model["joints"] = std::move(left);
 }
 
-void add_material(Json& model, const std::string& name, const MaterialChange& change) {
-  Json material = Json::object();
+void add_material(document::Json& model, const std::string& name, const MaterialChange& change) {
+  document::Json material = document::Json::object();
   change_material(material, change);
-  Json& materials = materials_of(model);
+  document::Json& materials = materials_of(model);
   if (materials.contains(name) && materials[name] != material)
     throw Failure("is in the model already, and looks otherwise", material_of(name), "change it: mars model set");
   materials[name] = material;
 }
 
-void set_material(Json& model, const std::string& name, const MaterialChange& change,
+void set_material(document::Json& model, const std::string& name, const MaterialChange& change,
                   const std::optional<std::string>& new_name) {
   require_known_material(model, name);
   change_material(model["materials"][name], change);
   if (!new_name || *new_name == name) return;
   if (model["materials"].contains(*new_name))
     throw Failure("is in the model already", material_of(*new_name), "choose another name");
-  Json renamed = Json::object();
+  document::Json renamed = document::Json::object();
   for (auto item = model["materials"].begin(); item != model["materials"].end(); ++item)
     renamed[item.key() == name ? *new_name : item.key()] = item.value();
   model["materials"] = std::move(renamed);
-  for (Json& joint : joints_of(model))
+  for (document::Json& joint : joints_of(model))
     if (uses(joint, name)) joint["segment"]["material"] = *new_name;
 }
 
-void remove_material(Json& model, const std::string& name) {
+void remove_material(document::Json& model, const std::string& name) {
   require_known_material(model, name);
   std::vector<std::string> users;
   if (model.contains("joints"))
-    for (const Json& joint : model["joints"])
+    for (const document::Json& joint : model["joints"])
       if (uses(joint, name)) users.push_back(joint["name"]);
   if (!users.empty())
     throw Failure("is what " + listed(users) + (users.size() == 1 ? " is" : " are") + " made of", material_of(name),
@@ -338,4 +338,4 @@ void remove_material(Json& model, const std::string& name) {
   if (model["materials"].empty()) model.erase("materials");
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -12,7 +12,7 @@
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 enum class Freedom { as_it_was, fixed, free };
 
@@ -48,29 +48,29 @@ struct MaterialChange {
 };
 
 // A model without joints, to which the first is added at once.
-Json empty_model();
+document::Json empty_model();
 // A model that is made from another file by proportions.
-Json derived_model(const std::string& from);
+document::Json derived_model(const std::string& from);
 
 // A new joint with limits of some axes turns about no other; without any it is free.
-void add_joint(Json& model, const std::string& name, const JointChange& change);
+void add_joint(document::Json& model, const std::string& name, const JointChange& change);
 // A new name is also put where others name the joint.
-void set_joint(Json& model, const std::string& name, const JointChange& change);
+void set_joint(document::Json& model, const std::string& name, const JointChange& change);
 // Joints that hang on it are removed too if `branch`, else they are in the way.
-void remove_joint(Json& model, const std::string& name, bool branch);
+void remove_joint(document::Json& model, const std::string& name, bool branch);
 
 // One that is there already must look the same.
-void add_material(Json& model, const std::string& name, const MaterialChange& change);
+void add_material(document::Json& model, const std::string& name, const MaterialChange& change);
 // `new_name` is also put into the segments made of it.
-void set_material(Json& model, const std::string& name, const MaterialChange& change,
+void set_material(document::Json& model, const std::string& name, const MaterialChange& change,
                   const std::optional<std::string>& new_name);
-void remove_material(Json& model, const std::string& name);
+void remove_material(document::Json& model, const std::string& name);
 
 // The keys of a joint in the order in which people read them.
-void put_in_order(Json& joint);
+void put_in_order(document::Json& joint);
 
 // A number as a person would write it: 2, not 2.0; ten digits.
-Json plain_number(double number);
-Json plain_vector(const glm::dvec3& vector);
+document::Json plain_number(double number);
+document::Json plain_vector(const glm::dvec3& vector);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

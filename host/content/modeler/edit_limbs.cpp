@@ -9,7 +9,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/modeler/limbs.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr std::string_view kSideNames[] = {"left", "right"};
@@ -42,26 +42,26 @@ void require_limb(const std::string& joint, const std::string& limb) {
   const std::vector<std::string_view> names(known.begin(), known.end());
   throw Failure(
       "cannot be '" + limb + "', which is no limb", "joint '" + joint + "'",
-      did_you_mean(limb, names, "write pelvis, head, left.hip and the like: docs/model-format.md names them"));
+      document::did_you_mean(limb, names, "write pelvis, head, left.hip and the like: docs/model-format.md names them"));
 }
 
 }  // namespace
 
-void name_limb(Json& model, const std::string& joint, const std::string& limb) {
+void name_limb(document::Json& model, const std::string& joint, const std::string& limb) {
   require_limb(joint, limb);
   forget_limb(model, joint);
   const std::size_t dot = limb.find('.');
-  Json& limbs = model["limbs"];
+  document::Json& limbs = model["limbs"];
   if (dot == std::string::npos)
     limbs[limb] = joint;
   else
     limbs[limb.substr(0, dot)][limb.substr(dot + 1)] = joint;
 }
 
-void forget_limb(Json& model, const std::string& joint) {
+void forget_limb(document::Json& model, const std::string& joint) {
   const std::string limb = limb_of(model, joint);
   if (limb.empty()) return;
-  Json& limbs = model["limbs"];
+  document::Json& limbs = model["limbs"];
   const std::size_t dot = limb.find('.');
   if (dot == std::string::npos) {
     limbs.erase(limb);
@@ -73,26 +73,26 @@ void forget_limb(Json& model, const std::string& joint) {
   if (limbs.empty()) model.erase("limbs");
 }
 
-void rename_limb(Json& model, const std::string& from, const std::string& to) {
-  for_each_limb(model, [&](Json& limbs, const std::string& key, const std::string&) {
+void rename_limb(document::Json& model, const std::string& from, const std::string& to) {
+  for_each_limb(model, [&](document::Json& limbs, const std::string& key, const std::string&) {
     if (limbs[key] == from) limbs[key] = to;
   });
 }
 
-std::string limb_of(const Json& model, const std::string& joint) {
+std::string limb_of(const document::Json& model, const std::string& joint) {
   std::string found;
-  for_each_limb(model, [&](const Json& limbs, const std::string& key, const std::string& limb) {
+  for_each_limb(model, [&](const document::Json& limbs, const std::string& key, const std::string& limb) {
     if (limbs[key] == joint) found = limb;
   });
   return found;
 }
 
-std::string joint_that_is(const Json& model, const std::string& limb) {
+std::string joint_that_is(const document::Json& model, const std::string& limb) {
   std::string found;
-  for_each_limb(model, [&](const Json& limbs, const std::string& key, const std::string& name) {
+  for_each_limb(model, [&](const document::Json& limbs, const std::string& key, const std::string& name) {
     if (name == limb) found = limbs[key];
   });
   return found;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

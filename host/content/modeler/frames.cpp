@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr int kSteps = 8;  // of a patch's sides, where its surface is measured
@@ -21,7 +21,7 @@ std::array<double, 4> bernstein(double t) {
   return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
 }
 
-glm::dvec3 point_of(const node::Patch& patch, double u, double v) {
+glm::dvec3 point_of(const wire::Patch& patch, double u, double v) {
   const auto along_u = bernstein(u), along_v = bernstein(v);
   glm::dvec3 point(0);
   for (std::size_t j = 0; j < 4; ++j)
@@ -34,7 +34,7 @@ glm::dvec3 point_of(const node::Patch& patch, double u, double v) {
 
 std::vector<glm::dvec3> surface_points(const Shape& shape) {
   std::vector<glm::dvec3> points;
-  for (const node::Patch& patch : shape.patches)
+  for (const wire::Patch& patch : shape.patches)
     for (int j = 0; j <= kSteps; ++j)
       for (int i = 0; i <= kSteps; ++i) points.push_back(point_of(patch, double(i) / kSteps, double(j) / kSteps));
   if (shape.mesh)
@@ -74,10 +74,10 @@ Axes segment_frame(const Axes& joint_frame, const Joint& joint) {
   return {joint_frame.turn * segment_axes(joint), joint_frame.place};
 }
 
-node::Matrix t_matrix(const Axes& frame, const Box& sbb) {
+wire::Matrix t_matrix(const Axes& frame, const Box& sbb) {
   const glm::dvec3 extent = sbb.max - sbb.min;
   const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
-  node::Matrix matrix;
+  wire::Matrix matrix;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       matrix.m[row][column] = frame.turn[column][row] * extent[column];
@@ -121,4 +121,4 @@ std::optional<Box> rest_bounds(const Model& model) {
   return all;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -10,7 +10,7 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // Where a joint stands in the world: p' = turn p + place.
 struct Axes {
@@ -36,7 +36,7 @@ glm::dmat3 segment_axes(const Joint& joint);
 Axes segment_frame(const Axes& joint_frame, const Joint& joint);
 
 // The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
-node::Matrix t_matrix(const Axes& frame, const Box& sbb);
+wire::Matrix t_matrix(const Axes& frame, const Box& sbb);
 
 // Of every joint, in the model's own frame, with all joints at rest.
 std::vector<Axes> rest_frames(const Model& model);
@@ -47,4 +47,4 @@ std::vector<std::optional<Box>> segment_rest_bounds(const Model& model);
 // The least box around all of them; none: no joint has a segment.
 std::optional<Box> rest_bounds(const Model& model);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

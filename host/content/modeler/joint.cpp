@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::host {
+namespace mars::modeler {
 
 Box thickened(Box box) {
   for (int axis = 0; axis < 3; ++axis)
@@ -21,4 +21,4 @@ int Joint::freedoms() const {
       std::count_if(limits.begin(), limits.end(), [](const Limits& l) { return l.free(); }));
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -57,4 +57,4 @@ struct Joint {
   int freedoms() const;     // axes about which it can turn
 };
 
-}  // namespace mars::host
+}  // namespace mars::modeler

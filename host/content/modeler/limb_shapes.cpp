@@ -2,7 +2,7 @@
 
 #include "host/content/modeler/loft.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 // Rings as in body_shapes.cpp: at, front, back, width. The joint is at 0, the next one at -1; a hand is half
@@ -79,23 +79,23 @@ constexpr LoftFrame kThumbFrame{{0.065, 0, -0.13}, {0, -1, 0}, {0.83, 0, 0.55}, 
 
 }  // namespace
 
-std::vector<node::Patch> make_upper_limb() {
+std::vector<wire::Patch> make_upper_limb() {
   Net net;
   add_loft(net, {.rings = kUpperLimb});
   return fill_cube(net);
 }
 
-std::vector<node::Patch> make_lower_limb() {
+std::vector<wire::Patch> make_lower_limb() {
   Net net;
   add_loft(net, {.rings = kLowerLimb});
   return fill_cube(net);
 }
 
-std::vector<node::Patch> make_hand() {
+std::vector<wire::Patch> make_hand() {
   Net net;
   add_loft(net, {.rings = kMitten});
   add_loft(net, {.rings = kThumb, .around = 8, .frame = kThumbFrame});
   return fill_cube(net);
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

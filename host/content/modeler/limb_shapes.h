@@ -7,10 +7,10 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
-std::vector<node::Patch> make_upper_limb();  // an upper arm or a thigh
-std::vector<node::Patch> make_lower_limb();  // a forearm or a shin, its muscle behind
-std::vector<node::Patch> make_hand();        // a mitten, thumb forward, the same from left and right
+std::vector<wire::Patch> make_upper_limb();  // an upper arm or a thigh
+std::vector<wire::Patch> make_lower_limb();  // a forearm or a shin, its muscle behind
+std::vector<wire::Patch> make_hand();        // a mitten, thumb forward, the same from left and right
 
-}  // namespace mars::host
+}  // namespace mars::modeler

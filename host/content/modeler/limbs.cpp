@@ -5,17 +5,17 @@
 #include <unordered_set>
 #include <vector>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
-constexpr Keys kKeys[] = {{"limbs", kLimbsNames}, {"side", kLimbNames}};
+constexpr document::Keys kKeys[] = {{"limbs", kLimbsNames}, {"side", kLimbNames}};
 
 class LimbReader {
  public:
   explicit LimbReader(std::span<const Joint> joints) : joints_(joints) {}
 
-  Limbs read(const Element& element) {
-    const Fields fields(element, kKeys[0]);
+  Limbs read(const document::Element& element) {
+    const document::Fields fields(element, kKeys[0]);
     Limbs limbs;
     for (std::size_t part = 0; part < limbs.trunk.size(); ++part)
       limbs.trunk[part] = read_joint(fields, kTrunkNames[part]);
@@ -27,27 +27,27 @@ class LimbReader {
 
  private:
   template <typename Joints>
-  void read_side(const Fields& fields, std::string_view side, Joints& found) {
+  void read_side(const document::Fields& fields, std::string_view side, Joints& found) {
     const auto element = fields.find(side);
     if (!element) return;
-    const Fields limbs(*element, kKeys[1]);
+    const document::Fields limbs(*element, kKeys[1]);
     for (std::size_t limb = 0; limb < found.size(); ++limb) found[limb] = read_joint(limbs, kLimbNames[limb]);
     constexpr std::size_t legs = static_cast<std::size_t>(Limb::shoulder);
     require_order(limbs, std::span(found).first(legs), std::span(kLimbNames).first(legs));
     require_order(limbs, std::span(found).subspan(legs), std::span(kLimbNames).subspan(legs));
   }
 
-  std::size_t read_joint(const Fields& fields, std::string_view key) {
+  std::size_t read_joint(const document::Fields& fields, std::string_view key) {
     const auto element = fields.find(key);
     if (!element) return kNone;
-    const std::string name = read_text(*element);
+    const std::string name = document::read_text(*element);
     const auto found =
         std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.name == name; });
     if (found == joints_.end()) {
       std::vector<std::string_view> names;
       for (const Joint& joint : joints_) names.push_back(joint.name);
       element->refuse("is '" + name + "', which is no joint of this model",
-                      did_you_mean(name, names, "name a joint of this model, or leave the limb out"));
+                      document::did_you_mean(name, names, "name a joint of this model, or leave the limb out"));
     }
     const auto joint = static_cast<std::size_t>(found - joints_.begin());
     if (!used_.insert(joint).second)
@@ -55,7 +55,7 @@ class LimbReader {
     return joint;
   }
 
-  void require_order(const Fields& fields, std::span<const std::size_t> chain,
+  void require_order(const document::Fields& fields, std::span<const std::size_t> chain,
                      std::span<const std::string_view> names) const {
     std::size_t before = kNone, before_name = 0;
     for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -85,10 +85,10 @@ Limbs::Limbs() {
   for (auto& side : sides) side.fill(kNone);
 }
 
-Limbs read_limbs(const Element& element, std::span<const Joint> joints) {
+Limbs read_limbs(const document::Element& element, std::span<const Joint> joints) {
   return LimbReader(joints).read(element);
 }
 
-std::span<const Keys> limb_keys() { return kKeys; }
+std::span<const document::Keys> limb_keys() { return kKeys; }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

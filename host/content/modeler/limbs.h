@@ -9,7 +9,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/modeler/joint.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 enum class Side : std::size_t { left, right };
 enum class Trunk : std::size_t { pelvis, spine, chest, neck, head };
@@ -35,9 +35,9 @@ struct Limbs {
 };
 
 // A name must be one of the joints', none named twice, and each limb hang below the one before it.
-Limbs read_limbs(const Element& element, std::span<const Joint> joints);
+Limbs read_limbs(const document::Element& element, std::span<const Joint> joints);
 
 // The keys of the objects "limbs" and "side".
-std::span<const Keys> limb_keys();
+std::span<const document::Keys> limb_keys();
 
-}  // namespace mars::host
+}  // namespace mars::modeler

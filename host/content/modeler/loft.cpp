@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 using std::numbers::pi;
@@ -77,7 +77,7 @@ void add_loft(Net& net, const Loft& loft) {
   net.insert(net.end(), patches.begin(), patches.end());
 }
 
-std::vector<node::Patch> fill_cube(const Net& net) {
+std::vector<wire::Patch> fill_cube(const Net& net) {
   glm::dvec3 least = net[0][0], greatest = net[0][0];
   for (const auto& patch : net)
     for (const glm::dvec3& point : patch) {
@@ -90,4 +90,4 @@ std::vector<node::Patch> fill_cube(const Net& net) {
   return rounded(filling);
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

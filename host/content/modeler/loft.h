@@ -11,7 +11,7 @@
 #include "host/content/modeler/bspline.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // A cross section: an oval across the axis, half of it in front, half behind its middle.
 struct Ring {
@@ -57,6 +57,6 @@ struct Loft {
 void add_loft(Net& net, const Loft& loft);
 
 // The patches scaled so that their control points fill the unit cube, axis by axis.
-std::vector<node::Patch> fill_cube(const Net& net);
+std::vector<wire::Patch> fill_cube(const Net& net);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 struct Point {
@@ -147,4 +147,4 @@ std::optional<std::vector<Mesh::Triangle>> split(const Mesh& mesh, std::span<con
   return EarClipper(flattened(mesh, face)).run();
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline constexpr std::size_t kMostCorners = 4096;  // of a face
 inline constexpr double kDefaultCrease = 30;
@@ -41,4 +41,4 @@ bool turned_inside(const Mesh& mesh, std::span<const std::uint32_t> face);
 // convex. None where its outline crosses itself.
 std::optional<std::vector<Mesh::Triangle>> split(const Mesh& mesh, std::span<const std::uint32_t> face);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of a cosine
@@ -154,4 +154,4 @@ ShadedVertices shaded_vertices(const Mesh& mesh) {
   return Smoother(mesh).vertices();
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

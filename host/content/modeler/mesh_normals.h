@@ -10,7 +10,7 @@
 
 #include "host/content/modeler/mesh.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // Vertices that differ in place or normal, and the one of each of the mesh's corners.
 struct ShadedVertices {
@@ -21,4 +21,4 @@ struct ShadedVertices {
 
 ShadedVertices shaded_vertices(const Mesh& mesh);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -6,7 +6,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/modeler/mesh_normals.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;  // numbers of shaded vertices
@@ -55,10 +55,10 @@ class Cutter {
   void add(const Corners& triangle) {
     const auto fresh = static_cast<std::uint32_t>(std::count_if(
         triangle.begin(), triangle.end(), [&](std::uint32_t vertex) { return seen_[vertex].meshlet != number_; }));
-    if (number_ == 0 || now().triangle_count == node::kMeshletTriangles ||
-        now().vertex_count + fresh > node::kMeshletVertices)
+    if (number_ == 0 || now().triangle_count == wire::kMeshletTriangles ||
+        now().vertex_count + fresh > wire::kMeshletVertices)
       begin();
-    node::MeshTriangle corners;
+    wire::MeshTriangle corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = local(triangle[k]);
     out_.triangles.push_back(corners);
     ++now().triangle_count;
@@ -72,7 +72,7 @@ class Cutter {
     std::uint8_t local = 0;
   };
 
-  node::Meshlet& now() { return out_.meshlets.back(); }
+  wire::Meshlet& now() { return out_.meshlets.back(); }
 
   void begin() {
     out_.meshlets.push_back({static_cast<std::uint32_t>(out_.places.size()), 0,
@@ -111,4 +111,4 @@ Meshlets cut_meshlets(const Mesh& mesh) {
   return cutter.take();
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

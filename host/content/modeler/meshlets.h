@@ -7,16 +7,16 @@
 #include "host/content/modeler/mesh.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 struct Meshlets {
   std::vector<std::array<float, 3>> places;
   std::vector<std::array<float, 3>> normals;
-  std::vector<node::MeshTriangle> triangles;
-  std::vector<node::Meshlet> meshlets;
+  std::vector<wire::MeshTriangle> triangles;
+  std::vector<wire::Meshlet> meshlets;
 };
 
 // Triangles that lie near each other are in one meshlet; a vertex is in every meshlet that has triangles there.
 Meshlets cut_meshlets(const Mesh& mesh);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -11,18 +11,18 @@
 #include "host/content/modeler/mesh.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // Patches or a mesh in the unit cube, shared by all segments that name them.
 struct Shape {
   std::string name;
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   std::optional<Mesh> mesh{};
 };
 
 struct NamedMaterial {
   std::string name;
-  node::Material material;
+  wire::Material material;
 };
 
 struct Model {
@@ -32,6 +32,6 @@ struct Model {
   Limbs limbs{};
 };
 
-inline constexpr node::Material kDefaultMaterial{{0.8f, 0.8f, 0.8f}, 0.10f, 0.65f, 0.45f, 32, 2};
+inline constexpr wire::Material kDefaultMaterial{{0.8f, 0.8f, 0.8f}, 0.10f, 0.65f, 0.45f, 32, 2};
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -6,30 +6,30 @@
 #include "hal/failure/failure.h"
 #include "host/content/modeler/read_model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr int kMostSources = 16;  // files derived from each other, in a row
 
 // Of all segments, also those of the file that the model is derived from; what is not as it should be is left to
 // read_model() to refuse.
-void add_materials(const Element& model, int sources, std::vector<std::string>& names) {
+void add_materials(const document::Element& model, int sources, std::vector<std::string>& names) {
   if (const auto joints = model.find("joints"))
-    for (const Element joint : *joints) {
+    for (const document::Element joint : *joints) {
       const auto segment = joint.find("segment");
       const auto material = segment ? segment->find("material") : std::nullopt;
-      if (material && material->kind() == Kind::text) names.emplace_back(material->text());
+      if (material && material->kind() == document::Kind::text) names.emplace_back(material->text());
     }
   const auto from = model.find("from");
-  if (!from || from->kind() != Kind::text || sources == kMostSources) return;
+  if (!from || from->kind() != document::Kind::text || sources == kMostSources) return;
   const std::filesystem::path folder = std::filesystem::path(from->document().name()).parent_path();
-  const Document source = read_document(*from, folder / from->text());
+  const document::Document source = document::read_document(*from, folder / from->text());
   add_materials(source.root(), sources + 1, names);
 }
 
 }  // namespace
 
-Model read_own_model(const Element& element) {
+Model read_own_model(const document::Element& element) {
   if (element.find("actors") || element.find("models"))
     element.refuse("is a film, not a model",
                    "put the model into a file of its own and name it in the film: \"models\": {\"dog\": \"dog.json\"}");
@@ -39,18 +39,18 @@ Model read_own_model(const Element& element) {
 }
 
 Model load_own_model(const std::filesystem::path& path) {
-  const Document document = read_document(path);
+  const document::Document document = document::read_document(path);
   return read_own_model(document.root());
 }
 
-void create_model(const std::filesystem::path& path, const Json& model) {
+void create_model(const std::filesystem::path& path, const document::Json& model) {
   if (std::filesystem::exists(path))
     throw Failure("is there already", path.string(), "choose another name, or change it with mars model add or set");
-  write_json(path, model, read_own_model);
+  document::write_json(path, model, read_own_model);
 }
 
-void change_model(const std::filesystem::path& path, const std::function<void(Json& model)>& change) {
-  const auto changed = [&](Json& model) {
+void change_model(const std::filesystem::path& path, const std::function<void(document::Json& model)>& change) {
+  const auto changed = [&](document::Json& model) {
     load_own_model(path);
     try {
       change(model);
@@ -59,7 +59,7 @@ void change_model(const std::filesystem::path& path, const std::function<void(Js
                     failure.remedy);
     }
   };
-  change_json(path, changed, read_own_model);
+  document::change_json(path, changed, read_own_model);
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,16 +8,16 @@
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // As read_model(). Refuses films with what to do.
-Model read_own_model(const Element& element);
+Model read_own_model(const document::Element& element);
 Model load_own_model(const std::filesystem::path& path);
 
 // Writes a new model file. Refuses if there is one of this name.
-void create_model(const std::filesystem::path& path, const Json& model);
+void create_model(const std::filesystem::path& path, const document::Json& model);
 
 // Changes a model file; where `change` fails or leaves no valid model, it stays as it was, and the Failure names it.
-void change_model(const std::filesystem::path& path, const std::function<void(Json& model)>& change);
+void change_model(const std::filesystem::path& path, const std::function<void(document::Json& model)>& change);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,11 +8,11 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // Patches scaled from the bounds of their control points into the unit cube; the bounds as sbb restore them.
 struct PatchFile {
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   Box bounds;
   glm::dvec3 extent;  // of the points; 0 where they are flat
 };
@@ -20,4 +20,4 @@ struct PatchFile {
 // Each point is first multiplied by `placing`.
 PatchFile read_patch_file(const std::filesystem::path& path, const glm::dmat3& placing = glm::dmat3(1));
 
-}  // namespace mars::host
+}  // namespace mars::modeler

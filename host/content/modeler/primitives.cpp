@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 struct Flat {
@@ -30,12 +30,12 @@ float placed(double coordinate) { return static_cast<float>(0.5 + 0.5 * coordina
 
 // Turns a profile of cubic curves, points (radius, height) in -1..1, about the z axis. Outside is on its
 // right.
-std::vector<node::Patch> revolve(const std::vector<Flat>& profile) {
+std::vector<wire::Patch> revolve(const std::vector<Flat>& profile) {
   const auto ring = circle();
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   for (std::size_t curve = 0; curve + 3 < profile.size(); curve += 3)
     for (std::size_t arc = 0; arc < ring.size(); arc += 3) {
-      node::Patch& patch = patches.emplace_back();
+      wire::Patch& patch = patches.emplace_back();
       for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 4; ++i) {
           const Flat& around = ring[(arc + i) % ring.size()];
@@ -111,8 +111,8 @@ std::array<float, 3> rounded_point(const std::array<double, 3>& edge, const std:
 }
 
 // Adds the patch of point(i, j), unless it has no extent in one direction.
-void add_patch(std::vector<node::Patch>& patches, const auto& point) {
-  node::Patch patch;
+void add_patch(std::vector<wire::Patch>& patches, const auto& point) {
+  wire::Patch patch;
   bool along_u = false, along_v = false;
   for (std::size_t k = 0; k < 16; ++k) {
     patch.points[k] = point(k % 4, k / 4);
@@ -124,13 +124,13 @@ void add_patch(std::vector<node::Patch>& patches, const auto& point) {
 
 }  // namespace
 
-std::vector<node::Patch> make_box() {
+std::vector<wire::Patch> make_box() {
   constexpr std::array<float, 4> at = {0, 1.0f / 3, 2.0f / 3, 1};
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const bool far : {false, true}) {
       const std::size_t u = (axis + (far ? 1 : 2)) % 3, v = (axis + (far ? 2 : 1)) % 3;
-      node::Patch& patch = patches.emplace_back();
+      wire::Patch& patch = patches.emplace_back();
       for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 4; ++i) {
           auto& point = patch.points[4 * j + i];
@@ -142,15 +142,15 @@ std::vector<node::Patch> make_box() {
   return patches;
 }
 
-std::vector<node::Patch> make_sphere() {
+std::vector<wire::Patch> make_sphere() {
   std::vector<Flat> profile;  // from the south pole to the north pole
   arc_to(profile, 18, 30, {0, 0}, {1, 1});
   return revolve(profile);
 }
 
-std::vector<node::Patch> make_cylinder() { return make_cone(1); }
+std::vector<wire::Patch> make_cylinder() { return make_cone(1); }
 
-std::vector<node::Patch> make_cone(double top) {
+std::vector<wire::Patch> make_cone(double top) {
   std::vector<Flat> profile = {{0, -1}};
   line_to(profile, {1, -1});
   line_to(profile, {top, 1});
@@ -158,13 +158,13 @@ std::vector<node::Patch> make_cone(double top) {
   return revolve(profile);
 }
 
-std::vector<node::Patch> make_torus(double tube) {
+std::vector<wire::Patch> make_torus(double tube) {
   std::vector<Flat> profile;
   arc_to(profile, 0, 24, {1, 0}, {2 * tube, 1});
   return revolve(profile);
 }
 
-std::vector<node::Patch> make_capsule(double ends) {
+std::vector<wire::Patch> make_capsule(double ends) {
   std::vector<Flat> profile;
   arc_to(profile, 18, 24, {0, -1}, {1, 2 * ends});
   if (ends < 0.5) line_to(profile, {1, 1 - 2 * ends});
@@ -172,7 +172,7 @@ std::vector<node::Patch> make_capsule(double ends) {
   return revolve(profile);
 }
 
-std::vector<node::Patch> make_disc(double rim) {
+std::vector<wire::Patch> make_disc(double rim) {
   std::vector<Flat> profile = {{0, -1}};
   line_to(profile, {1 - 2 * rim, -1});
   arc_to(profile, 18, 30, {1, 0}, {2 * rim, 1});
@@ -180,10 +180,10 @@ std::vector<node::Patch> make_disc(double rim) {
   return revolve(profile);
 }
 
-std::vector<node::Patch> make_rounded_box(const std::array<double, 3>& edge) {
+std::vector<wire::Patch> make_rounded_box(const std::array<double, 3>& edge) {
   const auto ring = pulled_ring();
   const auto profile = pulled_profile();
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   for (std::size_t curve = 0; curve + 3 < profile.size(); curve += 3)
     for (std::size_t piece = 0; piece < ring.size(); piece += 3)
       add_patch(patches, [&](std::size_t i, std::size_t j) {
@@ -200,4 +200,4 @@ std::vector<node::Patch> make_rounded_box(const std::array<double, 3>& edge) {
   return patches;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

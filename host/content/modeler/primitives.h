@@ -11,29 +11,29 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
-std::vector<node::Patch> make_box();
-std::vector<node::Patch> make_sphere();
-std::vector<node::Patch> make_cylinder();
+std::vector<wire::Patch> make_box();
+std::vector<wire::Patch> make_sphere();
+std::vector<wire::Patch> make_cylinder();
 
 // `top`: radius of the upper cap over that of the lower, 0..1; 0 ends in a point.
-std::vector<node::Patch> make_cone(double top);
+std::vector<wire::Patch> make_cone(double top);
 
 // `tube`: radius of the tube across, over the width of the cube, below 0.25. Its height fills the cube, so
 // that an sbb of height 2 * tube * width makes it round.
-std::vector<node::Patch> make_torus(double tube);
+std::vector<wire::Patch> make_torus(double tube);
 
 // A cylinder with half an ellipsoid at either end. `ends`: the height of each over that of the cube, above 0
 // to 0.5; round where that times the sbb's height is half its width.
-std::vector<node::Patch> make_capsule(double ends);
+std::vector<wire::Patch> make_capsule(double ends);
 
 // Flat above and below, with a rim that is half a round. `rim`: its radius across over the width of the cube,
 // above 0 to 0.49; like a torus's tube it fills the height, round at height 2 * rim * width.
-std::vector<node::Patch> make_disc(double rim);
+std::vector<wire::Patch> make_disc(double rim);
 
 // A box with rounded edges and corners. `edge`: their radius along each axis over the cube's size, above 0 to
 // 0.5.
-std::vector<node::Patch> make_rounded_box(const std::array<double, 3>& edge);
+std::vector<wire::Patch> make_rounded_box(const std::array<double, 3>& edge);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,12 +8,12 @@
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr std::string_view kNames[] = {"joints", "branches", "scale", "height", "ground"};
-constexpr Keys kKeys[] = {{"proportions", kNames}};
-constexpr Range kFactors{1e-3, 1e3};
+constexpr document::Keys kKeys[] = {{"proportions", kNames}};
+constexpr document::Range kFactors{1e-3, 1e3};
 
 // The joints that the pattern fits, and those below if asked.
 std::vector<bool> chosen(const Scaling& scaling, const std::vector<Joint>& joints) {
@@ -28,7 +28,7 @@ std::vector<bool> chosen(const Scaling& scaling, const std::vector<Joint>& joint
   std::vector<std::string_view> names;
   for (const Joint& joint : joints) names.push_back(joint.name);
   throw Failure("is no joint of the model", "joint '" + scaling.pattern + "'",
-                did_you_mean(scaling.pattern, names, "name a joint, or several: *-leg"));
+                document::did_you_mean(scaling.pattern, names, "name a joint, or several: *-leg"));
 }
 
 // factors[i]: of joint i. Joints that hang on nothing are carried by `whole`.
@@ -66,26 +66,26 @@ void keep_ground(Model& model, double ground) {
 }
 
 // One number, or one for each axis.
-glm::dvec3 read_factors(const Element& element) {
-  return element.kind() == Kind::list ? read_vector(element, kFactors) : glm::dvec3(read_number(element, kFactors));
+glm::dvec3 read_factors(const document::Element& element) {
+  return element.kind() == document::Kind::list ? document::read_vector(element, kFactors) : glm::dvec3(document::read_number(element, kFactors));
 }
 
-Json written(const glm::dvec3& factors) {
+document::Json written(const glm::dvec3& factors) {
   return factors.x == factors.y && factors.y == factors.z ? plain_number(factors.x) : plain_vector(factors);
 }
 
-glm::dvec3 factors_in(const Json& json) {
+glm::dvec3 factors_in(const document::Json& json) {
   if (json.is_array()) return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   return glm::dvec3(json.get<double>());
 }
 
-void multiply(Json& object, const std::string& key, const glm::dvec3& factors) {
+void multiply(document::Json& object, const std::string& key, const glm::dvec3& factors) {
   object[key] = written(object.contains(key) ? factors * factors_in(object[key]) : factors);
 }
 
 // Proportions over those that a derived model has.
-void add_to(Json& json, const Proportions& more) {
-  if (json.is_null()) json = Json::object();
+void add_to(document::Json& json, const Proportions& more) {
+  if (json.is_null()) json = document::Json::object();
   for (const Scaling& scaling : more.joints)
     multiply(json[scaling.branch ? "branches" : "joints"], scaling.pattern, scaling.factors);
   if (more.scale != glm::dvec3(1)) multiply(json, "scale", more.scale);
@@ -129,32 +129,32 @@ void apply(const Proportions& proportions, Model& model) {
   if (proportions.ground && before) keep_ground(model, before->min.z);
 }
 
-Proportions read_proportions(const Element& element) {
-  const Fields fields(element, kKeys[0]);
+Proportions read_proportions(const document::Element& element) {
+  const document::Fields fields(element, kKeys[0]);
   Proportions proportions;
   for (const bool branch : {false, true}) {
     const auto list = fields.find(branch ? "branches" : "joints");
     if (!list) continue;
-    require_kind(*list, Kind::object);
-    for (const Element item : *list)
+    document::require_kind(*list, document::Kind::object);
+    for (const document::Element item : *list)
       proportions.joints.push_back({std::string(item.key()), branch, read_factors(item)});
   }
   if (const auto scale = fields.find("scale")) proportions.scale = read_factors(*scale);
-  if (const auto height = fields.find("height")) proportions.height = read_number(*height, {1e-6, kFarthest});
+  if (const auto height = fields.find("height")) proportions.height = document::read_number(*height, {1e-6, document::kFarthest});
   if (const auto ground = fields.find("ground")) {
-    require_kind(*ground, Kind::boolean);
+    document::require_kind(*ground, document::Kind::boolean);
     proportions.ground = ground->boolean();
   }
   return proportions;
 }
 
-std::span<const Keys> proportions_keys() { return kKeys; }
+std::span<const document::Keys> proportions_keys() { return kKeys; }
 
-void scale_model(Json& json, const Model& model, const Proportions& proportions) {
+void scale_model(document::Json& json, const Model& model, const Proportions& proportions) {
   Model scaled = model;
   apply(proportions, scaled);
   if (!json.contains("joints")) return add_to(json["proportions"], proportions);
-  for (Json& joint : json["joints"]) {
+  for (document::Json& joint : json["joints"]) {
     const auto named = [&](const Joint& each) { return each.name == joint["name"]; };
     const auto number = static_cast<std::size_t>(std::ranges::find_if(model.joints, named) - model.joints.begin());
     const Joint &from = model.joints[number], &to = scaled.joints[number];
@@ -165,4 +165,4 @@ void scale_model(Json& json, const Model& model, const Proportions& proportions)
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -15,7 +15,7 @@
 #include "host/content/document/json_file.h"
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // Of joints whose names fit the pattern, in which * stands for any text; `branch`: with all that hangs on them.
 struct Scaling {
@@ -37,13 +37,13 @@ bool fits(std::string_view pattern, std::string_view name);
 // Throws a Failure where a pattern fits no joint, or a height is asked of a model without segments.
 void apply(const Proportions& proportions, Model& model);
 
-Proportions read_proportions(const Element& element);
+Proportions read_proportions(const document::Element& element);
 
 // The objects' keys: "proportions".
-std::span<const Keys> proportions_keys();
+std::span<const document::Keys> proportions_keys();
 
 // Changes a model's JSON: its joints', or if it is derived from another file, its proportions. `model` is what
 // it is read as.
-void scale_model(Json& json, const Model& model, const Proportions& proportions);
+void scale_model(document::Json& json, const Model& model, const Proportions& proportions);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -5,25 +5,25 @@
 
 #include "host/content/modeler/bspline.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr std::string_view kEnds[] = {"clamped", "open", "periodic"};  // as in Ends
 
-PointGrid read_points(const Element& element) {
-  require_kind(element, Kind::list);
+PointGrid read_points(const document::Element& element) {
+  document::require_kind(element, document::Kind::list);
   if (element.size() == 0) element.refuse("is empty", "write rows of points");
   PointGrid rows;
   rows.reserve(element.size());
-  for (const Element item : element) {
-    require_kind(item, Kind::list);
+  for (const document::Element item : element) {
+    document::require_kind(item, document::Kind::list);
     if (!rows.empty() && item.size() != rows[0].size())
       item.refuse("has " + std::to_string(item.size()) + " points, the first row has " +
                       std::to_string(rows[0].size()),
                   "give every row as many points");
     auto& row = rows.emplace_back();
     row.reserve(item.size());
-    for (const Element point : item) row.push_back(read_vector(point, {0, 1}));
+    for (const document::Element point : item) row.push_back(document::read_vector(point, {0, 1}));
   }
   return rows;
 }
@@ -39,7 +39,7 @@ std::size_t times(const SplineDirection& direction, std::size_t i) {
   return count(front) + count(back) - 1;
 }
 
-void check_count(const Element& element, const SplineDirection& direction, std::size_t points) {
+void check_count(const document::Element& element, const SplineDirection& direction, std::size_t points) {
   const auto degree = static_cast<std::size_t>(direction.degree);
   const std::size_t wanted = direction.periodic ? points + 1 : points + degree + 1;
   if (element.size() != wanted)
@@ -50,9 +50,9 @@ void check_count(const Element& element, const SplineDirection& direction, std::
 }
 
 // That no knot stands so often that the surface tears there, or a point has no part in it.
-void check_times(const Element& element, const SplineDirection& direction, double from, double to) {
+void check_times(const document::Element& element, const SplineDirection& direction, double from, double to) {
   std::size_t i = 0;
-  for (const Element item : element) {
+  for (const document::Element item : element) {
     const bool at_end = !direction.periodic && (direction.knots[i] <= from || direction.knots[i] >= to);
     const std::size_t most = static_cast<std::size_t>(direction.degree) + (at_end ? 1 : 0);
     const std::size_t often = times(direction, i++);
@@ -65,14 +65,14 @@ void check_times(const Element& element, const SplineDirection& direction, doubl
 }
 
 // Reads them as bspline.h wants them.
-std::vector<double> read_knots(const Element& element, SplineDirection direction, std::size_t points) {
-  require_kind(element, Kind::list);
+std::vector<double> read_knots(const document::Element& element, SplineDirection direction, std::size_t points) {
+  document::require_kind(element, document::Kind::list);
   check_count(element, direction, points);
   auto& knots = direction.knots;
-  for (const Element item : element) {
-    knots.push_back(read_number(item));
+  for (const document::Element item : element) {
+    knots.push_back(document::read_number(item));
     if (knots.size() > 1 && knots.back() < knots.end()[-2])
-      item.refuse("is " + shown(knots.back()) + ", less than the knot before it",
+      item.refuse("is " + document::shown(knots.back()) + ", less than the knot before it",
                   "write knots that never descend");
   }
   const std::size_t first = direction.periodic ? 0 : static_cast<std::size_t>(direction.degree);
@@ -85,12 +85,12 @@ std::vector<double> read_knots(const Element& element, SplineDirection direction
 }
 
 // The direction `key` of the surface, which has so many points along it.
-SplineDirection read_direction(const Fields& surface, std::string_view key, std::size_t points) {
+SplineDirection read_direction(const document::Fields& surface, std::string_view key, std::size_t points) {
   std::uint32_t degree = kMostDegree;
   Ends ends = Ends::clamped;
-  std::optional<Element> knots;
+  std::optional<document::Element> knots;
   if (const auto element = surface.find(key)) {
-    const Fields fields(*element, kDirectionKeys);
+    const document::Fields fields(*element, kDirectionKeys);
     degree = fields.count("degree", kMostDegree, 1, kMostDegree);
     ends = static_cast<Ends>(fields.choice("ends", 0, kEnds));
     knots = fields.find("knots");
@@ -111,12 +111,12 @@ SplineDirection read_direction(const Fields& surface, std::string_view key, std:
 
 }  // namespace
 
-std::vector<node::Patch> read_bspline(const Element& element) {
-  const Fields fields(element, kBSplineKeys);
+std::vector<wire::Patch> read_bspline(const document::Element& element) {
+  const document::Fields fields(element, kBSplineKeys);
   const PointGrid points = read_points(fields.required("points"));
   const SplineDirection u = read_direction(fields, "u", points[0].size());
   const SplineDirection v = read_direction(fields, "v", points.size());
   return rounded(bezier_patches(points, u, v));
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,14 +8,14 @@
 #include "host/content/document/fields.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline constexpr std::string_view kBSplineNames[] = {"points", "u", "v"};
 inline constexpr std::string_view kDirectionNames[] = {"degree", "ends", "knots"};
-inline constexpr Keys kBSplineKeys{"bspline", kBSplineNames};
-inline constexpr Keys kDirectionKeys{"direction", kDirectionNames};
+inline constexpr document::Keys kBSplineKeys{"bspline", kBSplineNames};
+inline constexpr document::Keys kDirectionKeys{"direction", kDirectionNames};
 
 // The surface as patches, never none. Whatever does not fit is refused with its place and a remedy.
-std::vector<node::Patch> read_bspline(const Element& element);
+std::vector<wire::Patch> read_bspline(const document::Element& element);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

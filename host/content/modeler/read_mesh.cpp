@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <string>
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
-std::vector<Mesh::Place> read_places(const Element& list, Range range) {
-  require_kind(list, Kind::list);
+std::vector<Mesh::Place> read_places(const document::Element& list, document::Range range) {
+  document::require_kind(list, document::Kind::list);
   std::vector<Mesh::Place> places;
   places.reserve(list.size());
-  for (const Element item : list) {
-    const glm::dvec3 v = read_vector(item, range);
+  for (const document::Element item : list) {
+    const glm::dvec3 v = document::read_vector(item, range);
     places.push_back({float(v.x), float(v.y), float(v.z)});
   }
   return places;
 }
 
-void check_face(const Element& element, const Mesh& mesh, std::span<const std::uint32_t> face) {
+void check_face(const document::Element& element, const Mesh& mesh, std::span<const std::uint32_t> face) {
   for (std::size_t i = 0; i < face.size(); ++i)
     if (face[i] == face[(i + 1) % face.size()])
       element.refuse("names vertex " + std::to_string(face[i]) + " twice in a row", "name it once");
@@ -29,25 +29,25 @@ void check_face(const Element& element, const Mesh& mesh, std::span<const std::u
     element.refuse("crosses itself", "name its vertices in the order of its outline, or split it into triangles");
 }
 
-void read_faces(const Element& list, Mesh& mesh) {
-  require_kind(list, Kind::list);
+void read_faces(const document::Element& list, Mesh& mesh) {
+  document::require_kind(list, document::Kind::list);
   if (list.size() == 0) list.refuse("has no faces", "give at least one");
   const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-  for (const Element item : list) {
-    require_kind(item, Kind::list);
+  for (const document::Element item : list) {
+    document::require_kind(item, document::Kind::list);
     if (item.size() < 3 || item.size() > kMostCorners)
       item.refuse("has " + std::to_string(item.size()) + " vertices", "write 3 to 4096 numbers of vertices");
-    for (const Element corner : item) mesh.corners.push_back(read_count(corner, 0, last));
+    for (const document::Element corner : item) mesh.corners.push_back(document::read_count(corner, 0, last));
     mesh.ends.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
     check_face(item, mesh, mesh.face(mesh.ends.size() - 1));
   }
 }
 
-void read_normals(const Element& list, const Element& faces, Mesh& mesh) {
-  require_size(list, mesh.vertices.size());
+void read_normals(const document::Element& list, const document::Element& faces, Mesh& mesh) {
+  document::require_size(list, mesh.vertices.size());
   mesh.normals = read_places(list, {-1e6, 1e6});
   std::size_t number = 0;
-  for (const Element face : faces)
+  for (const document::Element face : faces)
     if (turned_inside(mesh, mesh.face(number++)))
       face.refuse("has normals that point to its inside",
                   "name its vertices counter-clockwise as seen from outside, or turn the normals");
@@ -55,13 +55,13 @@ void read_normals(const Element& list, const Element& faces, Mesh& mesh) {
 
 }  // namespace
 
-Mesh read_mesh(const Element& element) {
-  const Fields fields(element, kMeshKeys);
+Mesh read_mesh(const document::Element& element) {
+  const document::Fields fields(element, kMeshKeys);
   Mesh mesh;
-  const Element vertices = fields.required("vertices");
+  const document::Element vertices = fields.required("vertices");
   mesh.vertices = read_places(vertices, {0, 1});
   if (mesh.vertices.size() < 3) vertices.refuse("has fewer than 3 vertices", "give at least 3");
-  const Element faces = fields.required("faces");
+  const document::Element faces = fields.required("faces");
   read_faces(faces, mesh);
   mesh.crease = fields.number("crease", kDefaultCrease, {0, 180});
   if (const auto normals = fields.find("normals")) {
@@ -71,4 +71,4 @@ Mesh read_mesh(const Element& element) {
   return mesh;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -7,12 +7,12 @@
 #include "host/content/document/fields.h"
 #include "host/content/modeler/mesh.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline constexpr std::string_view kMeshNames[] = {"vertices", "faces", "crease", "normals"};
-inline constexpr Keys kMeshKeys{"mesh", kMeshNames};
+inline constexpr document::Keys kMeshKeys{"mesh", kMeshNames};
 
 // Every number is checked: what is read can be cut into meshlets.
-Mesh read_mesh(const Element& element);
+Mesh read_mesh(const document::Element& element);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

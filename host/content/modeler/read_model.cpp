@@ -15,7 +15,7 @@
 #include "host/content/modeler/read_mesh.h"
 #include "host/content/modeler/shape_library.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "limbs", "from", "proportions"};
@@ -26,7 +26,7 @@ constexpr std::string_view kSurfaceNames[] = {"bspline", "mesh"};
 constexpr std::string_view kSegmentNames[] = {"shape", "sbb",  "material", "ends", "top",
                                               "rim",   "tube", "edge",     "lid"};
 
-const Keys kKeys[] = {{"model", kModelNames},
+const document::Keys kKeys[] = {{"model", kModelNames},
                           {"joint", kJointNames},
                           {"limits", kLimitsNames},
                           {"segment", kSegmentNames},
@@ -38,14 +38,14 @@ const Keys kKeys[] = {{"model", kModelNames},
                           limb_keys()[0],
                           limb_keys()[1],
                           proportions_keys()[0]};
-constexpr const Keys& kModel = kKeys[0];
-constexpr const Keys& kJoint = kKeys[1];
-constexpr const Keys& kLimits = kKeys[2];
-constexpr const Keys& kSegment = kKeys[3];
-constexpr const Keys& kMaterial = kKeys[4];
-constexpr const Keys& kSurface = kKeys[5];
+constexpr const document::Keys& kModel = kKeys[0];
+constexpr const document::Keys& kJoint = kKeys[1];
+constexpr const document::Keys& kLimits = kKeys[2];
+constexpr const document::Keys& kSegment = kKeys[3];
+constexpr const document::Keys& kMaterial = kKeys[4];
+constexpr const document::Keys& kSurface = kKeys[5];
 
-constexpr Range kDegrees{-1e6, 1e6};
+constexpr document::Range kDegrees{-1e6, 1e6};
 constexpr double kLeastSine = 1e-3;  // between a joint's axes
 
 std::vector<std::string_view> names_of(const auto& items) {
@@ -54,30 +54,30 @@ std::vector<std::string_view> names_of(const auto& items) {
   return names;
 }
 
-node::Patch read_patch(const Element& element) {
-  require_size(element, 16);
-  node::Patch patch;
+wire::Patch read_patch(const document::Element& element) {
+  document::require_size(element, 16);
+  wire::Patch patch;
   std::size_t number = 0;
-  for (const Element item : element) {
-    const glm::dvec3 point = read_vector(item, {0, 1});
+  for (const document::Element item : element) {
+    const glm::dvec3 point = document::read_vector(item, {0, 1});
     for (int axis = 0; axis < 3; ++axis) patch.points[number][axis] = static_cast<float>(point[axis]);
     ++number;
   }
   return patch;
 }
 
-std::vector<node::Patch> read_patches(const Element& list) {
-  require_kind(list, Kind::list);
+std::vector<wire::Patch> read_patches(const document::Element& list) {
+  document::require_kind(list, document::Kind::list);
   if (list.size() == 0) list.refuse("has no patches", "give at least one, or take the shape out");
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   patches.reserve(list.size());
-  for (const Element patch : list) patches.push_back(read_patch(patch));
+  for (const document::Element patch : list) patches.push_back(read_patch(patch));
   return patches;
 }
 
-Shape read_own_shape(const std::string& name, const Element& element) {
-  if (element.kind() != Kind::object) return {name, read_patches(element), {}};
-  const Fields fields(element, kSurface);
+Shape read_own_shape(const std::string& name, const document::Element& element) {
+  if (element.kind() != document::Kind::object) return {name, read_patches(element), {}};
+  const document::Fields fields(element, kSurface);
   const auto bspline = fields.find("bspline"), mesh = fields.find("mesh");
   if (bspline.has_value() == mesh.has_value())
     element.refuse(mesh ? "is both a bspline and a mesh" : "is neither a bspline nor a mesh", "give it one of them");
@@ -91,8 +91,8 @@ class ModelReader {
   ModelReader(std::span<const std::string_view> film_materials, const std::vector<std::filesystem::path>& sources)
       : material_names_(film_materials.begin(), film_materials.end()), sources_(sources) {}
 
-  Model read(const Element& element) {
-    const Fields fields(element, kModel);
+  Model read(const document::Element& element) {
+    const document::Fields fields(element, kModel);
     if (const auto from = fields.find("from")) return derive(fields, *from);
     if (const auto proportions = fields.find("proportions"))
       proportions->refuse("stands without from", "name the model file they belong to: \"from\": \"human.json\"");
@@ -105,10 +105,10 @@ class ModelReader {
 
  private:
   // Another file's model with other proportions, and materials of its own in place of those of the same names.
-  Model derive(const Fields& fields, const Element& from) {
+  Model derive(const document::Fields& fields, const document::Element& from) {
     for (const std::string_view key : {"joints", "shapes", "limbs"})
       if (const auto other = fields.find(key))
-        other->refuse("stands beside from", "a derived model has those of " + read_text(from) + ": take it out");
+        other->refuse("stands beside from", "a derived model has those of " + document::read_text(from) + ": take it out");
     model_ = read_source(from);
     if (const auto materials = fields.find("materials")) replace_materials(*materials);
     try {
@@ -120,19 +120,19 @@ class ModelReader {
     return std::move(model_);
   }
 
-  Model read_source(const Element& from) const {
+  Model read_source(const document::Element& from) const {
     const std::filesystem::path folder = std::filesystem::path(from.document().name()).parent_path();
-    const std::filesystem::path path = (folder / read_text(from)).lexically_normal();
+    const std::filesystem::path path = (folder / document::read_text(from)).lexically_normal();
     if (std::ranges::count(sources_, path) || path == std::filesystem::path(from.document().name()).lexically_normal())
       from.refuse("derives the model from itself", "name a file with joints");
     std::vector<std::filesystem::path> sources = sources_;
     sources.push_back(path);
-    const Document document = read_document(from, path);
+    const document::Document document = document::read_document(from, path);
     std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
     return ModelReader(names, sources).read(document.root());
   }
 
-  void replace_materials(const Element& element) {
+  void replace_materials(const document::Element& element) {
     std::vector<NamedMaterial> others = std::exchange(model_.materials, {});
     read_materials(element);
     for (NamedMaterial& other : others)
@@ -140,16 +140,16 @@ class ModelReader {
         model_.materials.push_back(std::move(other));
   }
 
-  void read_materials(const Element& element) {
-    require_kind(element, Kind::object);
-    for (const Element item : element)
-      model_.materials.push_back({checked_name(item, item.key()), read_material(Fields(item, kMaterial))});
+  void read_materials(const document::Element& element) {
+    document::require_kind(element, document::Kind::object);
+    for (const document::Element item : element)
+      model_.materials.push_back({checked_name(item, item.key()), read_material(document::Fields(item, kMaterial))});
     for (const NamedMaterial& material : model_.materials) material_names_.insert(material.name);
   }
 
-  void read_shapes(const Element& element) {
-    require_kind(element, Kind::object);
-    for (const Element item : element) {
+  void read_shapes(const document::Element& element) {
+    document::require_kind(element, document::Kind::object);
+    for (const document::Element item : element) {
       const std::string name = checked_name(item, item.key());
       if (find_library_shape(name)) item.refuse("has the name of a primitive", "choose another name");
       model_.shapes.push_back(read_own_shape(name, item));
@@ -159,9 +159,9 @@ class ModelReader {
 
   // The shape that `fields` names: one of the model's own, or of the library, made once for each value of its
   // option.
-  std::size_t read_shape(const Fields& fields) {
-    const Element element = fields.required("shape");
-    const std::string name = read_text(element);
+  std::size_t read_shape(const document::Fields& fields) {
+    const document::Element element = fields.required("shape");
+    const std::string name = document::read_text(element);
     const LibraryShape* known = find_library_shape(name);
     refuse_other_options(fields, known ? known->option.key : "", name);
     if (!known) return find_own_shape(element, name);
@@ -171,45 +171,45 @@ class ModelReader {
     return made->second;
   }
 
-  static OptionValues read_option(const Fields& fields, const LibraryShape& shape) {
+  static OptionValues read_option(const document::Fields& fields, const LibraryShape& shape) {
     const ShapeOption& option = shape.option;
     OptionValues values = shape.defaults();
     const auto given = fields.find(option.key);
     if (!given) return values;
     const auto numbers = std::span(values).first(option.count);
-    if (option.count > 1 && given->kind() == Kind::list) {
-      require_size(*given, option.count);
+    if (option.count > 1 && given->kind() == document::Kind::list) {
+      document::require_size(*given, option.count);
       std::size_t at = 0;
-      for (const Element item : *given) numbers[at++] = read_number(item, option.range);
+      for (const document::Element item : *given) numbers[at++] = document::read_number(item, option.range);
     } else {
-      std::ranges::fill(numbers, read_number(*given, option.range));
+      std::ranges::fill(numbers, document::read_number(*given, option.range));
     }
     return values;
   }
 
-  std::size_t find_own_shape(const Element& element, const std::string& name) const {
+  std::size_t find_own_shape(const document::Element& element, const std::string& name) const {
     std::vector<std::string_view> own;
     for (std::size_t i = 0; i < own_shapes_; ++i) {
       if (model_.shapes[i].name == name) return i;
       own.push_back(model_.shapes[i].name);
     }
-    element.refuse("is " + in_quotes(name) + ", which is no shape of the library or of this model",
+    element.refuse("is " + document::in_quotes(name) + ", which is no shape of the library or of this model",
                    likely_shape(name, own));
   }
 
-  static void refuse_other_options(const Fields& fields, std::string_view own, const std::string& shape) {
+  static void refuse_other_options(const document::Fields& fields, std::string_view own, const std::string& shape) {
     for (const LibraryShape& other : shape_library())
       if (const auto option = fields.find(other.option.key); option && other.option.key != own)
         option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape,
                        "take it out");
   }
 
-  static Box read_box(const Element& element) {
-    require_size(element, 2);
+  static Box read_box(const document::Element& element) {
+    document::require_size(element, 2);
     const auto corners = element.begin();
     auto second = corners;
     ++second;
-    const Box box{read_vector(*corners), read_vector(*second)};
+    const Box box{document::read_vector(*corners), document::read_vector(*second)};
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.min[axis] < box.max[axis]))
         element.refuse(std::string("has no extent along ") + "xyz"[axis],
@@ -217,37 +217,37 @@ class ModelReader {
     return box;
   }
 
-  Segment read_segment(const Element& element) {
-    const Fields fields(element, kSegment);
+  Segment read_segment(const document::Element& element) {
+    const document::Fields fields(element, kSegment);
     Segment segment{read_shape(fields), {}, fields.text("material", "")};
     if (const auto sbb = fields.find("sbb")) segment.sbb = read_box(*sbb);
     if (!segment.material.empty() && !material_names_.contains(segment.material)) {
       const std::vector<std::string_view> names(material_names_.begin(), material_names_.end());
       fields.find("material")
-          ->refuse("is " + in_quotes(segment.material) + ", which is no material of the model or the film",
-                   did_you_mean(segment.material, names, "add it to the materials"));
+          ->refuse("is " + document::in_quotes(segment.material) + ", which is no material of the model or the film",
+                   document::did_you_mean(segment.material, names, "add it to the materials"));
     }
     return segment;
   }
 
-  static std::array<Limits, 3> read_limits(const Element& element) {
-    const Fields fields(element, kLimits);
+  static std::array<Limits, 3> read_limits(const document::Element& element) {
+    const document::Fields fields(element, kLimits);
     std::array<Limits, 3> limits;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       limits[axis] = {0, 0};
       const auto range = fields.find(kLimitsNames[axis]);
       if (!range) continue;
-      require_size(*range, 2);
+      document::require_size(*range, 2);
       auto bound = range->begin();
-      limits[axis].lower = read_number(*bound, kDegrees);
-      limits[axis].upper = read_number(*++bound, kDegrees);
+      limits[axis].lower = document::read_number(*bound, kDegrees);
+      limits[axis].upper = document::read_number(*++bound, kDegrees);
       if (limits[axis].lower > limits[axis].upper)
         range->refuse("has its lower limit above its upper", "write the lower first, degrees: \"" + std::string(kLimitsNames[axis]) + "\": [-30, 30]");
     }
     return limits;
   }
 
-  static void read_axes(const Fields& fields, Joint& joint) {
+  static void read_axes(const document::Fields& fields, Joint& joint) {
     const auto unit = [&](std::string_view key, const glm::dvec3& otherwise) {
       const glm::dvec3 axis = fields.vector(key, otherwise);
       const double length = glm::length(axis);
@@ -260,8 +260,8 @@ class ModelReader {
       fields.element().refuse("has parallel x and y axes", "give x_axis and y_axis different directions");
   }
 
-  Joint read_joint(const Element& element) {
-    const Fields fields(element, kJoint);
+  Joint read_joint(const document::Element& element) {
+    const document::Fields fields(element, kJoint);
     Joint joint;
     joint.name = read_name(fields.required("name"));
     joint.place = fields.vector("place", joint.place);
@@ -271,11 +271,11 @@ class ModelReader {
     return joint;
   }
 
-  void read_joints(const Element& list) {
-    require_kind(list, Kind::list);
+  void read_joints(const document::Element& list) {
+    document::require_kind(list, document::Kind::list);
     if (list.size() == 0) list.refuse("is empty", "a model has at least one joint");
-    std::vector<Element> elements;
-    for (const Element element : list) {
+    std::vector<document::Element> elements;
+    for (const document::Element element : list) {
       Joint joint = read_joint(element);
       const auto [first, is_new] = numbers_.try_emplace(joint.name, elements.size());
       if (!is_new)
@@ -289,19 +289,19 @@ class ModelReader {
     put_parents_first(elements);
   }
 
-  std::size_t find_parent(const Element& element) const {
+  std::size_t find_parent(const document::Element& element) const {
     const auto parent = element.find("parent");
     if (!parent) return kNone;
-    const std::string name = read_text(*parent);
+    const std::string name = document::read_text(*parent);
     const auto found = numbers_.find(name);
     if (found != numbers_.end()) return found->second;
     parent->refuse(
-        "is " + in_quotes(name) + ", which is no joint of this model",
-        did_you_mean(name, names_of(model_.joints), "name a joint of this model, or leave parent out"));
+        "is " + document::in_quotes(name) + ", which is no joint of this model",
+        document::did_you_mean(name, names_of(model_.joints), "name a joint of this model, or leave parent out"));
   }
 
   // Orders the joints as in the file, but each after its ancestors.
-  void put_parents_first(const std::vector<Element>& elements) {
+  void put_parents_first(const std::vector<document::Element>& elements) {
     const auto& joints = model_.joints;
     enum class State : char { unseen, waiting, placed };
     std::vector<State> state(joints.size(), State::unseen);
@@ -339,9 +339,9 @@ class ModelReader {
 
 }  // namespace
 
-std::span<const Keys> model_keys() { return kKeys; }
+std::span<const document::Keys> model_keys() { return kKeys; }
 
-std::string checked_name(const Element& element, std::string_view name) {
+std::string checked_name(const document::Element& element, std::string_view name) {
   if (name.empty()) element.refuse("has an empty name", "write a name");
   if (name.size() > 100)
     element.refuse("has a name of " + std::to_string(name.size()) + " bytes", "at most 100 bytes");
@@ -350,12 +350,12 @@ std::string checked_name(const Element& element, std::string_view name) {
   return std::string(name);
 }
 
-std::string read_name(const Element& element) { return checked_name(element, read_text(element)); }
+std::string read_name(const document::Element& element) { return checked_name(element, document::read_text(element)); }
 
-node::Material read_material(const Fields& fields) {
-  constexpr Range share{0, 10};
+wire::Material read_material(const document::Fields& fields) {
+  constexpr document::Range share{0, 10};
   const glm::dvec3 color = fields.color("color", {0.8, 0.8, 0.8});
-  node::Material material = kDefaultMaterial;
+  wire::Material material = kDefaultMaterial;
   for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
   material.ambient = static_cast<float>(fields.number("ambient", 0.10, share));
   material.diffuse = static_cast<float>(fields.number("diffuse", 0.65, share));
@@ -365,13 +365,13 @@ node::Material read_material(const Fields& fields) {
   return material;
 }
 
-Model read_model(const Element& element, std::span<const std::string_view> film_materials) {
+Model read_model(const document::Element& element, std::span<const std::string_view> film_materials) {
   return ModelReader(film_materials, {}).read(element);
 }
 
 Model load_model(const std::filesystem::path& path, std::span<const std::string_view> film_materials) {
-  const Document document = read_document(path);
+  const document::Document document = document::read_document(path);
   return read_model(document.root(), film_materials);
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -11,7 +11,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/modeler/frames.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr double kApart = 0.01;  // of the model's size: nearer limbs seem to touch
@@ -62,7 +62,7 @@ class Review {
     const glm::dvec3 rest = joint.rest();
     for (int axis = 0; axis < 3; ++axis)
       if (rest[axis] != 0 && joint.limits[axis].free())
-        doubts_.push_back(of(joint) + "rests at " + shown(rest[axis]) + " degrees about " + "xyz"[axis] +
+        doubts_.push_back(of(joint) + "rests at " + document::shown(rest[axis]) + " degrees about " + "xyz"[axis] +
                           ", for its limits leave 0 out");
   }
 
@@ -156,7 +156,7 @@ class Review {
     if (shapes.empty()) doubts_.push_back("no joint has a segment: nothing is seen");
   }
 
-  static std::string short_text(double number) { return formatted("%.3g", number); }
+  static std::string short_text(double number) { return document::formatted("%.3g", number); }
 
   const Model& model_;
   std::vector<std::optional<Box>> bounds_;  // of each joint's segment at rest
@@ -169,4 +169,4 @@ class Review {
 
 std::vector<std::string> doubts_about(const Model& model) { return Review(model).doubts(); }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

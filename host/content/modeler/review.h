@@ -7,8 +7,8 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 std::vector<std::string> doubts_about(const Model& model);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

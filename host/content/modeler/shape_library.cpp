@@ -7,7 +7,7 @@
 #include "host/content/modeler/primitives.h"
 #include "host/content/modeler/teapot.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr ShapeOption kNothing{};
@@ -20,18 +20,18 @@ constexpr ShapeOption kEdge{
     "edge", "radius of its edges over the sbb's size, along each axis", 3, 0.1, {0.001, 0.5}};
 constexpr ShapeOption kLid{"lid", "how much wider its lid is than Newell's", 1, 1.077, {0.1, 1.5}};
 
-template <std::vector<node::Patch> (*make)()>
-std::vector<node::Patch> plain(const OptionValues&) {
+template <std::vector<wire::Patch> (*make)()>
+std::vector<wire::Patch> plain(const OptionValues&) {
   return make();
 }
 
-template <std::vector<node::Patch> (*make)(double)>
-std::vector<node::Patch> varied(const OptionValues& values) {
+template <std::vector<wire::Patch> (*make)(double)>
+std::vector<wire::Patch> varied(const OptionValues& values) {
   return make(values[0]);
 }
 
 template <BodyPart part>
-std::vector<node::Patch> of_body(const OptionValues&) {
+std::vector<wire::Patch> of_body(const OptionValues&) {
   return make_body(part);
 }
 
@@ -85,7 +85,7 @@ const LibraryShape* find_library_shape(std::string_view name) {
 std::string likely_shape(std::string_view wanted, std::span<const std::string_view> own) {
   std::vector<std::string_view> names(own.begin(), own.end());
   for (const LibraryShape& shape : kLibrary) names.push_back(shape.name);
-  return did_you_mean(wanted, names, "name a shape of the library, or define it in the model's shapes");
+  return document::did_you_mean(wanted, names, "name a shape of the library, or define it in the model's shapes");
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

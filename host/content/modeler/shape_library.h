@@ -11,7 +11,7 @@
 #include "host/content/document/fields.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline constexpr std::size_t kMostNumbers = 3;  // of an option
 
@@ -25,14 +25,14 @@ struct ShapeOption {
   std::string_view what;
   std::size_t count = 1;  // of numbers
   double otherwise = 0;   // each number's default
-  Range range{};
+  document::Range range{};
 };
 
 struct LibraryShape {
   std::string_view name;
   std::string_view what;
   ShapeOption option;
-  std::vector<node::Patch> (*make)(const OptionValues& values);
+  std::vector<wire::Patch> (*make)(const OptionValues& values);
 
   OptionValues defaults() const;
 };
@@ -46,4 +46,4 @@ const LibraryShape* find_library_shape(std::string_view name);
 // The remedy for a name that is neither of the library nor of the model's `own` shapes.
 std::string likely_shape(std::string_view wanted, std::span<const std::string_view> own = {});
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -2,15 +2,15 @@
 
 #include "host/content/modeler/teapot_data.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 bool is_lid(std::size_t patch) { return patch >= 20 && patch < 28; }
 
 }  // namespace
 
-std::vector<node::Patch> make_teapot(double lid) {
-  std::vector<node::Patch> patches(kTeapotPatches.size());
+std::vector<wire::Patch> make_teapot(double lid) {
+  std::vector<wire::Patch> patches(kTeapotPatches.size());
   for (std::size_t number = 0; number < patches.size(); ++number)
     for (std::size_t i = 0; i < 16; ++i) {
       const auto& point = kTeapotPoints[kTeapotPatches[number][i]];
@@ -23,4 +23,4 @@ std::vector<node::Patch> make_teapot(double lid) {
   return patches;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

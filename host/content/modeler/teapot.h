@@ -6,12 +6,12 @@
 
 #include "host/content/modeler/model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 // The bounds of Newell's own coordinates: as sbb, they give the teapot the size it had.
 inline const Box kTeapotBounds{{-3, -2, 0}, {3.525, 2, 3.15}};
 
 // `lid` scales the lid across; 1 is Newell's own, whose lid leaves a gap, 1.077 makes it meet the rim.
-std::vector<node::Patch> make_teapot(double lid);
+std::vector<wire::Patch> make_teapot(double lid);
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -5,8 +5,9 @@
 #include <array>
 #include <cstdint>
 
-namespace mars::host {
+namespace mars::modeler {
 
+// clang-format off
 inline constexpr std::array<std::array<double, 3>, 290> kTeapotPoints = {{
     {1.4, 0, 2.4}, {1.4, -0.784, 2.4}, {0.784, -1.4, 2.4}, {0, -1.4, 2.4}, {1.3375, 0, 2.53125},
     {1.3375, -0.749, 2.53125}, {0.749, -1.3375, 2.53125}, {0, -1.3375, 2.53125}, {1.4375, 0, 2.53125},
@@ -104,4 +105,6 @@ inline constexpr std::array<std::array<std::uint16_t, 16>, 32> kTeapotPatches = 
     {265, 265, 265, 265, 282, 286, 287, 266, 285, 288, 289, 270, 95, 94, 93, 92},
 }};
 
-}  // namespace mars::host
+// clang-format on
+
+}  // namespace mars::modeler

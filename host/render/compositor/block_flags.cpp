@@ -2,7 +2,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::compositor {
 
 namespace {
 
@@ -73,4 +73,4 @@ void BlockFlags::add_row(const BlockFlags& other, std::uint32_t row) {
   for (std::size_t i = first; i < first + words_a_row_; ++i) words_[i] |= other.words_[i];
 }
 
-}  // namespace mars::host
+}  // namespace mars::compositor

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace mars::host {
+namespace mars::compositor {
 
 class BlockFlags {
  public:
@@ -76,4 +76,4 @@ class BlockFlags {
   std::vector<std::uint64_t> words_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::compositor

@@ -7,7 +7,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::compositor {
 
 namespace {
 
@@ -19,7 +19,7 @@ std::uint64_t new_name() {
 
 // Calls visit(row, part) for each stretch of `runs` within one row of blocks.
 template <typename Visit>
-void for_rows(std::span<const node::Run> runs, std::uint32_t block, Visit visit) {
+void for_rows(std::span<const wire::Run> runs, std::uint32_t block, Visit visit) {
   for (std::size_t first = 0, last; first < runs.size(); first = last) {
     const std::uint32_t row = runs[first].line / block;
     last = first + 1;
@@ -61,9 +61,9 @@ void copy_run(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
 }
 
 // Copies the runs' pixels, which begin at `source`; where they end.
-const std::uint32_t* copy_runs(std::span<const node::Run> runs, const std::uint32_t* source, std::uint32_t width,
+const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, std::uint32_t width,
                                std::uint32_t* picture) {
-  for (const node::Run& run : runs) {
+  for (const wire::Run& run : runs) {
     copy_run(source, run.count, picture + std::size_t{run.line} * width + run.first);
     source += run.count;
   }
@@ -87,7 +87,7 @@ void Compositor::begin_interval() {
   last_number_.reset();
 }
 
-void Compositor::paste_constant(std::span<const node::Run> runs, std::span<const std::uint32_t> pixels,
+void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels,
                                 Frame* keyframe) {
   check_runs(runs, pixels.size());
   check(keyframe == nullptr || keyframe->background == name_, "a keyframe has all CFB so far");
@@ -95,7 +95,7 @@ void Compositor::paste_constant(std::span<const node::Run> runs, std::span<const
   name_ = new_name();
   if (!saved_) saved_ = std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t{width_} * height_);
   const std::uint32_t* source = pixels.data();
-  for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const node::Run> part) {
+  for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
     extend_background(row, part);
     const std::uint32_t* end = copy_runs(part, source, width_, saved_.get());
     if (keyframe != nullptr) copy_runs(part, source, width_, keyframe->pixels.data());
@@ -107,8 +107,8 @@ void Compositor::paste_constant(std::span<const node::Run> runs, std::span<const
 }
 
 // Blocks that the runs are the first to touch become plain background.
-void Compositor::extend_background(std::uint32_t row, std::span<const node::Run> runs) {
-  for (const node::Run& run : runs) fresh_.set_pixels(run.line, run.first, run.count);
+void Compositor::extend_background(std::uint32_t row, std::span<const wire::Run> runs) {
+  for (const wire::Run& run : runs) fresh_.set_pixels(run.line, run.first, run.count);
   fresh_.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
     constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool known) {
       if (known) return;
@@ -153,11 +153,11 @@ void Compositor::write_back(Frame& frame) const {
   }
 }
 
-void Compositor::paste_moving(Frame& frame, std::span<const node::Run> runs,
+void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs,
                               std::span<const std::uint32_t> pixels) const {
   check_runs(runs, pixels.size());
   copy_runs(runs, pixels.data(), width_, frame.pixels.data());
-  for (const node::Run& run : runs) frame.overwritten.set_pixels(run.line, run.first, run.count);
+  for (const wire::Run& run : runs) frame.overwritten.set_pixels(run.line, run.first, run.count);
 }
 
 void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
@@ -173,9 +173,9 @@ void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
   last_number_ = number;
 }
 
-void Compositor::check_runs(std::span<const node::Run> runs, std::size_t pixels) const {
+void Compositor::check_runs(std::span<const wire::Run> runs, std::size_t pixels) const {
   std::size_t counted = 0;
-  for (const node::Run& run : runs) {
+  for (const wire::Run& run : runs) {
     if (run.count == 0 || run.line >= height_ || std::uint32_t{run.first} + run.count > width_) {
       throw Failure("a strip draws outside the picture: " + std::to_string(run.count) +
                         " pixels from column " + std::to_string(run.first) + " of line " +
@@ -192,4 +192,4 @@ void Compositor::check_runs(std::span<const node::Run> runs, std::size_t pixels)
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::compositor

@@ -11,7 +11,7 @@
 //
 // An interval of one frame needs no saved background: all its pixels go over the plain one by paste_moving.
 //
-// Runs and pixels are those of node::Strip. Runs that reach outside the picture, or pixels that are not as
+// Runs and pixels are those of mars::wire::Strip. Runs that reach outside the picture, or pixels that are not as
 // many as the runs count, throw Failure before anything is written.
 #pragma once
 
@@ -23,7 +23,7 @@
 #include "host/render/compositor/frame.h"
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::compositor {
 
 class Compositor {
  public:
@@ -34,13 +34,13 @@ class Compositor {
   void begin_interval();
   // Part of the CFB goes into the saved background, and into `keyframe` (unless nullptr), which was begun and
   // has all CFB so far.
-  void paste_constant(std::span<const node::Run> runs, std::span<const std::uint32_t> pixels, Frame* keyframe);
+  void paste_constant(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels, Frame* keyframe);
 
   // Makes `frame` show the saved background as it is now: writes its flagged blocks back, and where it showed
   // another background the blocks in which either has CFB.
   void begin_frame(Frame& frame) const;
   // Part of the MFB goes over it.
-  void paste_moving(Frame& frame, std::span<const node::Run> runs,
+  void paste_moving(Frame& frame, std::span<const wire::Run> runs,
                     std::span<const std::uint32_t> pixels) const;
   // It is frame `number`; its `changed` says which blocks differ from the frame this compositor finished before.
   void finish_frame(Frame& frame, std::uint32_t number);
@@ -49,8 +49,8 @@ class Compositor {
   std::uint64_t background_name() const { return name_; }
 
  private:
-  void check_runs(std::span<const node::Run> runs, std::size_t pixels) const;
-  void extend_background(std::uint32_t row, std::span<const node::Run> runs);
+  void check_runs(std::span<const wire::Run> runs, std::size_t pixels) const;
+  void extend_background(std::uint32_t row, std::span<const wire::Run> runs);
   void write_back(Frame& frame) const;
 
   std::uint32_t width_;
@@ -66,4 +66,4 @@ class Compositor {
   BlockFlags fresh_;                          // extend_background's; empty between calls
 };
 
-}  // namespace mars::host
+}  // namespace mars::compositor

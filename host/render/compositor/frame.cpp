@@ -1,6 +1,6 @@
 #include "host/render/compositor/frame.h"
 
-namespace mars::host {
+namespace mars::compositor {
 
 Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t plain)
     : width(width),
@@ -11,4 +11,4 @@ Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block, std
       constant(width, height, block),
       overwritten(width, height, block) {}
 
-}  // namespace mars::host
+}  // namespace mars::compositor

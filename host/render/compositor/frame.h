@@ -9,7 +9,7 @@
 
 #include "host/render/compositor/block_flags.h"
 
-namespace mars::host {
+namespace mars::compositor {
 
 struct Frame {
   // Every pixel is `plain`.
@@ -32,4 +32,4 @@ struct Frame {
   BlockFlags overwritten;
 };
 
-}  // namespace mars::host
+}  // namespace mars::compositor

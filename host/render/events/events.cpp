@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace mars::host {
+namespace mars::events {
 
 using nlohmann::json;
 
@@ -118,4 +118,4 @@ std::optional<Event> read_event(std::string_view line) {
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::events

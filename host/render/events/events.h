@@ -12,7 +12,7 @@
 
 #include "host/render/events/progress.h"
 
-namespace mars::host {
+namespace mars::events {
 
 // The host reads and compiles the film, which takes long for a long one, and claims its frames in the folder, where it
 // may wait for other runs. Nodes wait meanwhile.
@@ -94,4 +94,4 @@ std::string line_of(const Event& event);
 // None for a line that is no event, or one that this version does not know.
 std::optional<Event> read_event(std::string_view line);
 
-}  // namespace mars::host
+}  // namespace mars::events

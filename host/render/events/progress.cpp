@@ -1,6 +1,6 @@
 #include "host/render/events/progress.h"
 
-namespace mars::host {
+namespace mars::events {
 
 namespace {
 
@@ -24,4 +24,4 @@ std::optional<Progress::Left> Progress::left() const {
   return Left{left_of(keyframes, inbetweens), left_of(inbetweens, keyframes)};
 }
 
-}  // namespace mars::host
+}  // namespace mars::events

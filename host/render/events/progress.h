@@ -7,9 +7,9 @@
 
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::events {
 
-using node::FrameKind;
+using wire::FrameKind;
 
 struct Progress {
   struct Kind {
@@ -42,4 +42,4 @@ struct Progress {
   bool operator==(const Progress&) const = default;
 };
 
-}  // namespace mars::host
+}  // namespace mars::events

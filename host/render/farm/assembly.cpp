@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
-Frame* begun(Frame* frame, const Compositor& compositor) {
+compositor::Frame* begun(compositor::Frame* frame, const compositor::Compositor& compositor) {
   if (frame == nullptr) return nullptr;
   compositor.begin_frame(*frame);
   return frame;
@@ -14,7 +14,7 @@ Frame* begun(Frame* frame, const Compositor& compositor) {
 
 }  // namespace
 
-Assembly::Assembly(const Task& task, const hal::Group& group)
+Assembly::Assembly(const Task& task, const collectives::Group& group)
     : group_(group),
       interval_(task.interval),
       keyframe_(task.frames.front()),
@@ -25,14 +25,14 @@ Assembly::Assembly(const Task& task, const hal::Group& group)
   for (std::size_t k = 1; k < task.frames.size(); ++k) {
     Parts& parts = parts_[task.frames[k]];
     parts.contributors_left = 1;
-    parts.contributor = group.first + node::contributor_of_inbetween(task.first_inbetween + k - 1, group.count);
+    parts.contributor = group.first + wire::contributor_of_inbetween(task.first_inbetween + k - 1, group.count);
   }
 }
 
-bool Assembly::wants(const node::Strip& strip) const {
+bool Assembly::wants(const wire::Strip& strip) const {
   const auto found = parts_.find(strip.frame);
   if (found == parts_.end() || strip.interval != interval_) return false;
-  const auto kind = strip.frame == keyframe_ ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+  const auto kind = strip.frame == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
   return strip.kind == kind && is_contributor(found->second, strip.node);
 }
 
@@ -44,7 +44,7 @@ bool Assembly::is_contributor(const Parts& parts, std::int32_t node) const {
 }
 
 void Assembly::receive(StripMessage strip) {
-  const node::Strip& header = strip.header();
+  const wire::Strip& header = strip.header();
   Parts& parts = parts_.at(header.frame);
   if (header.last == 1) {
     --parts.contributors_left;
@@ -55,14 +55,14 @@ void Assembly::receive(StripMessage strip) {
   parts.strips.push_back(std::move(strip));
 }
 
-bool Assembly::prepare(const Compositor& compositor, SinkPool& sinks) {
+bool Assembly::prepare(const compositor::Compositor& compositor, sinks::SinkPool& sinks) {
   const bool background_known = background_there() || parts_.at(keyframe_).picture == nullptr;
   if (prepared_ != nullptr || not_begun_ == 0 || !background_known) return false;
   prepared_ = begun(sinks.early_frame(compositor.background_name()), compositor);
   return prepared_ != nullptr;
 }
 
-bool Assembly::begin(Parts& parts, const Compositor& compositor, SinkPool& sinks) {
+bool Assembly::begin(Parts& parts, const compositor::Compositor& compositor, sinks::SinkPool& sinks) {
   const std::uint64_t background = compositor.background_name();
   if (prepared_ != nullptr)
     parts.picture = std::exchange(prepared_, nullptr);
@@ -75,7 +75,7 @@ bool Assembly::begin(Parts& parts, const Compositor& compositor, SinkPool& sinks
   return true;
 }
 
-std::optional<Assembly::Pasted> Assembly::paste(Compositor& compositor, SinkPool& sinks, StripStore& store) {
+std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store) {
   const auto ready = std::find_if(waiting_.begin(), waiting_.end(), [&](std::uint32_t number) {
     Parts& parts = parts_.at(number);
     return (number == keyframe_ || background_there()) &&
@@ -85,7 +85,7 @@ std::optional<Assembly::Pasted> Assembly::paste(Compositor& compositor, SinkPool
   const std::uint32_t number = *ready;
   waiting_.erase(ready);
   Parts& parts = parts_.at(number);
-  Pasted pasted{number, number == keyframe_ ? node::FrameKind::keyframe : node::FrameKind::inbetween, nullptr, {}, {}};
+  Pasted pasted{number, number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween, nullptr, {}, {}};
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
     if (strip.header().last == 0) pasted.sent_more.push_back(strip.header().node);
@@ -100,7 +100,7 @@ std::optional<Assembly::Pasted> Assembly::paste(Compositor& compositor, SinkPool
   return pasted;
 }
 
-void Assembly::paste_strip(const StripMessage& strip, Frame& picture, Compositor& compositor) const {
+void Assembly::paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor) const {
   if (alone_) {
     compositor.paste_moving(picture, strip.runs(), strip.pixels());
   } else {
@@ -109,4 +109,4 @@ void Assembly::paste_strip(const StripMessage& strip, Frame& picture, Compositor
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

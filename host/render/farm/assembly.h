@@ -14,16 +14,16 @@
 #include "host/render/farm/strip_message.h"
 #include "host/render/sinks/sink_pool.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 class Assembly {
  public:
   // `group` draws the task.
-  Assembly(const Task& task, const hal::Group& group);
+  Assembly(const Task& task, const collectives::Group& group);
 
   std::uint32_t interval() const { return interval_; }
   // Whether it is a strip that is still to come: of a frame of the task, from a node that draws it.
-  bool wants(const node::Strip& strip) const;
+  bool wants(const wire::Strip& strip) const;
   // A strip it wants.
   void receive(StripMessage strip);
 
@@ -31,19 +31,19 @@ class Assembly {
   // is done. Buffers come from `sinks`.
 
   // The frame that begins next gets its buffer before its strips come, if there are enough; whether it did.
-  bool prepare(const Compositor& compositor, SinkPool& sinks);
+  bool prepare(const compositor::Compositor& compositor, sinks::SinkPool& sinks);
 
   struct Pasted {
     std::uint32_t number;
-    node::FrameKind kind;
-    Frame* whole;  // the finished frame; nullptr while strips of it are to come
+    wire::FrameKind kind;
+    compositor::Frame* whole;  // the finished frame; nullptr while strips of it are to come
     // Nodes whose strips of it were pasted now, each as often as it had some that were not its last.
     std::vector<std::int32_t> sent_more;
     std::vector<std::int32_t> contributors;  // the nodes that drew it, where it is whole
   };
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
   // goes to `store`.
-  std::optional<Pasted> paste(Compositor& compositor, SinkPool& sinks, StripStore& store);
+  std::optional<Pasted> paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store);
 
   bool done() const { return parts_.empty(); }
 
@@ -56,15 +56,15 @@ class Assembly {
     std::int32_t contributors_left = 0;
     std::vector<std::int32_t> contributors;  // whose last strip has come
     std::vector<StripMessage> strips;        // to be pasted
-    Frame* picture = nullptr;                // where they go; begun
+    compositor::Frame* picture = nullptr;                // where they go; begun
   };
 
   bool is_contributor(const Parts& parts, std::int32_t node) const;
   bool background_there() const { return !parts_.contains(keyframe_); }
-  bool begin(Parts& parts, const Compositor& compositor, SinkPool& sinks);
-  void paste_strip(const StripMessage& strip, Frame& picture, Compositor& compositor) const;
+  bool begin(Parts& parts, const compositor::Compositor& compositor, sinks::SinkPool& sinks);
+  void paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor) const;
 
-  hal::Group group_;
+  collectives::Group group_;
   std::uint32_t interval_;
   std::uint32_t keyframe_;
   bool alone_;  // the keyframe has no inbetweens: nobody needs its saved background
@@ -72,7 +72,7 @@ class Assembly {
   std::map<std::uint32_t, Parts> parts_;  // of frames that are not finished
   std::deque<std::uint32_t> waiting_;     // those with strips to be pasted, as they came
   std::size_t not_begun_;                 // those without a picture
-  Frame* prepared_ = nullptr;             // begun for one of these
+  compositor::Frame* prepared_ = nullptr;             // begun for one of these
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

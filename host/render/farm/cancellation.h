@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-namespace mars::host {
+namespace mars::farm {
 
 class Cancellation {
  public:
@@ -15,4 +15,4 @@ class Cancellation {
   std::atomic<bool> cancelled_ = false;
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

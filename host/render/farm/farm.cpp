@@ -11,19 +11,19 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/farm/tracing.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 constexpr std::size_t kTasksAhead = 2;  // given to a group at a time, so that it never waits for the host
 
 void give_credit(std::span<const std::int32_t> nodes) {
-  const node::Credit credit{1};
-  for (const std::int32_t node : nodes) csend(node::kCredit, &credit, sizeof credit, node, 0);
+  const wire::Credit credit{1};
+  for (const std::int32_t node : nodes) csend(wire::kCredit, &credit, sizeof credit, node, 0);
 }
 
 class Farm {
  public:
-  Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, SinkPool& sinks,
+  Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, sinks::SinkPool& sinks,
        const FarmListener& listener);
 
   FarmReport run();
@@ -48,7 +48,7 @@ class Farm {
   std::span<const std::byte> film_block_;
   const Plan& plan_;
   const FarmOptions& options_;
-  SinkPool& sinks_;
+  sinks::SinkPool& sinks_;
   const FarmListener& listener_;
   NodeInbox inbox_;
   std::optional<Tracing> tracing_;  // once all nodes are there
@@ -66,7 +66,7 @@ class Farm {
   double start_ = 0;
 };
 
-Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, SinkPool& sinks,
+Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, sinks::SinkPool& sinks,
            const FarmListener& listener)
     : film_block_(film_block),
       plan_(plan),
@@ -75,8 +75,8 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       listener_(listener),
       inbox_(sinks.shape().width, sinks.shape().height, options.cancellation),
       frames_left_(plan.frames()) {
-  const std::uint32_t background = pixel_of(node::FilmView(film_block, "film").settings().background);
-  for (const hal::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape(), background);
+  const std::uint32_t background = pixel_of(wire::FilmView(film_block, "film").settings().background);
+  for (const collectives::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape(), background);
 }
 
 FarmReport Farm::run() {
@@ -96,14 +96,14 @@ bool Farm::greet_nodes() {
 bool Farm::load_film() {
   const double booted = dclock();
   tracing_.emplace(options_.trace, inbox_, options_.credits);
-  node::Load load{};
+  wire::Load load{};
   load.memory = options_.memory;
   load.credits = options_.credits;
   load.mapping = options_.mapping;
   load.groups = static_cast<std::int32_t>(groups_.size());
   load.traced = options_.trace != nullptr ? 1 : 0;
   report_.film_bytes = film_block_.size();
-  const bool loaded = host::load_film(film_block_, load, inbox_);
+  const bool loaded = farm::load_film(film_block_, load, inbox_);
   report_.load_seconds = dclock() - booted;
   return loaded;
 }
@@ -115,14 +115,14 @@ void Farm::render() {
     note_taken();
     tracing_->drain();
     if (compose_one()) continue;
-    if (iprobe(node::any_of(node::kStrip, node::kFault, node::kTrace)))
+    if (iprobe(wire::any_of(wire::kStrip, wire::kFault, wire::kTrace)))
       receive();
     else if (!prepare_one())
       flick();
   }
   report_.render_seconds = dclock() - start_;
   if (frames_left_ > 0) return;
-  const ScopedSpan span(HostSpan::finish);
+  const ScopedSpan span(trace::HostSpan::finish);
   sinks_.finish();
   note_taken();
   report_.total_seconds = dclock() - start_;
@@ -131,7 +131,7 @@ void Farm::render() {
 // Nodes that still draw then send no more strips, and end when the keyframes they were given are drawn.
 void Farm::stop_nodes() {
   if (tracing_ && frames_left_ == 0) tracing_->read_clocks_again();
-  for (long node = 0; node < numnodes(); ++node) csend(node::kStop, nullptr, 0, node, 0);
+  for (long node = 0; node < numnodes(); ++node) csend(wire::kStop, nullptr, 0, node, 0);
   if (tracing_) tracing_->finish();
 }
 
@@ -154,30 +154,30 @@ void Farm::give_when_asked() {
 void Farm::give(GroupWork& to) {
   const double given = dclock() - start_;
   const Task& task = plan_.tasks[next_task_++];
-  const ScopedSpan span(HostSpan::give, task.interval);
-  const hal::Group& group = to.group();
+  const ScopedSpan span(trace::HostSpan::give, task.interval);
+  const collectives::Group& group = to.group();
   const auto frames = static_cast<std::uint32_t>(task.frames.size());
-  const node::Render command{task.interval, group.first, group.count, frames, task.first_inbetween};
+  const wire::Render command{task.interval, group.first, group.count, frames, task.first_inbetween};
   std::vector<std::byte> message(sizeof command + frames * sizeof(std::uint32_t));
   std::memcpy(message.data(), &command, sizeof command);
   std::memcpy(message.data() + sizeof command, task.frames.data(), frames * sizeof(std::uint32_t));
   for (int node = group.first; node < group.first + group.count; ++node)
-    csend(node::kRender, message.data(), static_cast<long>(message.size()), node, 0);
+    csend(wire::kRender, message.data(), static_cast<long>(message.size()), node, 0);
   to.give(task, given);
 }
 
 void Farm::receive() {
   switch (infotype()) {
-    case node::kFault: inbox_.receive_fault();
-    case node::kTrace: tracing_->receive(); break;
+    case wire::kFault: inbox_.receive_fault();
+    case wire::kTrace: tracing_->receive(); break;
     default: receive_strip();
   }
 }
 
 void Farm::receive_strip() {
-  ScopedSpan span(HostSpan::strip);
+  ScopedSpan span(trace::HostSpan::strip);
   StripMessage strip = inbox_.receive_strip(store_);
-  const node::Strip& header = strip.header();
+  const wire::Strip& header = strip.header();
   span.set_value(header.frame);
   const auto wanting = std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
   if (wanting == groups_.end())
@@ -188,7 +188,7 @@ void Farm::receive_strip() {
 
 // While nothing comes: a buffer for a frame that is being drawn; whether there was one to prepare.
 bool Farm::prepare_one() {
-  ScopedSpan span(HostSpan::prepare);
+  ScopedSpan span(trace::HostSpan::prepare);
   if (std::any_of(groups_.begin(), groups_.end(), [&](GroupWork& group) { return group.prepare(sinks_); })) return true;
   span.forget();
   return false;
@@ -196,7 +196,7 @@ bool Farm::prepare_one() {
 
 // Pastes what came of one frame, if it can be; whether it did.
 bool Farm::compose_one() {
-  ScopedSpan span(HostSpan::compose);
+  ScopedSpan span(trace::HostSpan::compose);
   for (GroupWork& group : groups_) {
     const auto composed = group.compose(sinks_, store_);
     if (!composed) continue;
@@ -219,7 +219,7 @@ void Farm::submit(const GroupWork::Composed& composed) {
 }
 
 void Farm::note_taken() {
-  for (const SinkPool::Taken& taken : sinks_.taken()) {
+  for (const sinks::SinkPool::Taken& taken : sinks_.taken()) {
     tracing_->taken(taken);
     const auto found = with_sinks_.find(taken.number);
     give_credit(found->second.contributors);
@@ -240,8 +240,8 @@ std::uint32_t pixel_of(const std::array<float, 3>& color) {
 }
 
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
-                       SinkPool& sinks, const FarmListener& listener) {
+                       sinks::SinkPool& sinks, const FarmListener& listener) {
   return Farm(film_block, plan, options, sinks, listener).run();
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -17,21 +17,21 @@
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 struct FarmOptions {
-  node::Mapping mapping = node::Mapping::greedy;
+  wire::Mapping mapping = wire::Mapping::greedy;
   std::uint64_t memory = 0;                       // bytes for a frame on a node; 0: as the node with the least offers
-  std::int32_t credits = node::kMaxCredits;       // strips a node may have on the way
+  std::int32_t credits = wire::kMaxCredits;       // strips a node may have on the way
   bool each_frame = false;                        // report what is known of each frame, which grows with the film
-  Trace* trace = nullptr;                         // to be filled; none: nothing is recorded
+  trace::Trace* trace = nullptr;                         // to be filled; none: nothing is recorded
   const Cancellation* cancellation = nullptr;     // none: nobody cancels
 };
 
 struct FinishedFrame {
   std::uint32_t number;
   std::uint32_t interval;
-  node::FrameKind kind;
+  wire::FrameKind kind;
   double seconds;  // since the first command, when its last strip had come and it was composed
   double given = 0;  // likewise, when its task was given to a group
 };
@@ -39,7 +39,7 @@ struct FinishedFrame {
 // Called from the thread that runs the farm.
 struct FarmListener {
   // All nodes are there; keyframes and inbetweens are what will be drawn.
-  std::function<void(std::span<const node::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
+  std::function<void(std::span<const wire::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
   std::function<void(const FinishedFrame&)> finished;  // the sinks have it
   // If there is one, tasks are given to the first group alone, one at a time: it is asked when the sinks have all
   // frames given before, and may wait. False: no more frames are wanted.
@@ -47,9 +47,9 @@ struct FarmListener {
 };
 
 struct FarmReport {
-  std::vector<node::Hello> nodes;
+  std::vector<wire::Hello> nodes;
   // Where each frame's were asked for: the last strip of each node, with all its counts, as they came.
-  std::vector<node::Strip> strips;
+  std::vector<wire::Strip> strips;
   std::vector<FinishedFrame> frames;
   std::uint64_t film_bytes = 0;
   double load_seconds = 0;    // from the last node's Hello until all have the film
@@ -61,9 +61,9 @@ struct FarmReport {
 // The calling HAL process is the host. When all frames are with the sinks, or when it is cancelled, Stop has been sent
 // to all nodes. Throws Failure when a node or a sink fails; the nodes are then still waiting, for whoever ends the run.
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
-                       SinkPool& sinks, const FarmListener& listener);
+                       sinks::SinkPool& sinks, const FarmListener& listener);
 
 // The pixel (protocol.h) of a colour 0..1.
 std::uint32_t pixel_of(const std::array<float, 3>& color);
 
-}  // namespace mars::host
+}  // namespace mars::farm

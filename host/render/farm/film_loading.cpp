@@ -7,43 +7,43 @@
 #include "hal/nx/nx_messages.h"
 #include "host/render/farm/tracing.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
-std::uint64_t least_memory(std::span<const node::Hello> hellos) {
+std::uint64_t least_memory(std::span<const wire::Hello> hellos) {
   return std::min_element(hellos.begin(), hellos.end(), [](const auto& a, const auto& b) { return a.memory < b.memory; })
       ->memory;
 }
 
-void send_load(const node::Load& load, std::span<const node::Hello> hellos) {
+void send_load(const wire::Load& load, std::span<const wire::Hello> hellos) {
   std::vector<std::byte> message(sizeof load + hellos.size() * sizeof hellos[0].machine);
   std::memcpy(message.data(), &load, sizeof load);
   std::byte* to = message.data() + sizeof load;
-  for (const node::Hello& hello : hellos) {
+  for (const wire::Hello& hello : hellos) {
     std::memcpy(to, &hello.machine, sizeof hello.machine);
     to += sizeof hello.machine;
   }
-  for (const node::Hello& hello : hellos)
-    csend(node::kLoad, message.data(), static_cast<long>(message.size()), hello.node, 0);
+  for (const wire::Hello& hello : hellos)
+    csend(wire::kLoad, message.data(), static_cast<long>(message.size()), hello.node, 0);
 }
 
 // The messages' ids. In pieces, for a message has less than 2 GiB.
-std::vector<long> send_block(std::span<const std::byte> block, std::span<const node::Hello> hellos) {
+std::vector<long> send_block(std::span<const std::byte> block, std::span<const wire::Hello> hellos) {
   std::vector<long> sends;
-  for (std::size_t at = 0; at < block.size(); at += node::kFilmPiece) {
-    const auto piece = block.subspan(at, std::min<std::size_t>(block.size() - at, node::kFilmPiece));
-    for (const node::Hello& hello : hellos)
+  for (std::size_t at = 0; at < block.size(); at += wire::kFilmPiece) {
+    const auto piece = block.subspan(at, std::min<std::size_t>(block.size() - at, wire::kFilmPiece));
+    for (const wire::Hello& hello : hellos)
       if (hello.machine == hello.node)
-        sends.push_back(isend(node::kFilmBlock, piece.data(), static_cast<long>(piece.size()), hello.node, 0));
+        sends.push_back(isend(wire::kFilmBlock, piece.data(), static_cast<long>(piece.size()), hello.node, 0));
   }
   return sends;
 }
 
 }  // namespace
 
-bool load_film(std::span<const std::byte> block, node::Load load, NodeInbox& inbox) {
-  const ScopedSpan span(HostSpan::load, block.size());
-  load.stamp = node::own_stamp();
+bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inbox) {
+  const ScopedSpan span(trace::HostSpan::load, block.size());
+  load.stamp = wire::own_stamp();
   load.film_bytes = block.size();
   if (load.memory == 0) load.memory = least_memory(inbox.hellos());
   send_load(load, inbox.hellos());
@@ -53,4 +53,4 @@ bool load_film(std::span<const std::byte> block, node::Load load, NodeInbox& inb
   return loaded;
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

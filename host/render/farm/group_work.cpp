@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-namespace mars::host {
+namespace mars::farm {
 
-GroupWork::GroupWork(const hal::Group& group, const SinkPool::Shape& sinks, std::uint32_t background)
+GroupWork::GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks, std::uint32_t background)
     : group_(group), compositor_(sinks.width, sinks.height, sinks.block, background) {}
 
 void GroupWork::give(const Task& task, double now) { tasks_.push_back({Assembly(task, group_), now}); }
 
-bool GroupWork::wants(const node::Strip& strip) const {
+bool GroupWork::wants(const wire::Strip& strip) const {
   return std::any_of(tasks_.begin(), tasks_.end(), [&](const Given& task) { return task.assembly.wants(strip); });
 }
 
@@ -20,11 +20,11 @@ void GroupWork::receive(StripMessage strip) {
   task->assembly.receive(std::move(strip));
 }
 
-bool GroupWork::prepare(SinkPool& sinks) {
+bool GroupWork::prepare(sinks::SinkPool& sinks) {
   return !tasks_.empty() && tasks_.front().assembly.prepare(compositor_, sinks);
 }
 
-std::optional<GroupWork::Composed> GroupWork::compose(SinkPool& sinks, StripStore& store) {
+std::optional<GroupWork::Composed> GroupWork::compose(sinks::SinkPool& sinks, StripStore& store) {
   if (tasks_.empty()) return std::nullopt;
   auto& [assembly, given] = tasks_.front();
   std::optional<Assembly::Pasted> pasted = assembly.paste(compositor_, sinks, store);
@@ -37,4 +37,4 @@ std::optional<GroupWork::Composed> GroupWork::compose(SinkPool& sinks, StripStor
   return composed;
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -10,31 +10,31 @@
 #include "host/render/compositor/compositor.h"
 #include "host/render/farm/assembly.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 class GroupWork {
  public:
   // For pictures that go to `sinks`. `background`: the pixel where nothing is drawn.
-  GroupWork(const hal::Group& group, const SinkPool::Shape& sinks, std::uint32_t background);
+  GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks, std::uint32_t background);
 
-  const hal::Group& group() const { return group_; }
+  const collectives::Group& group() const { return group_; }
   // Tasks given and not done.
   std::size_t tasks() const { return tasks_.size(); }
   // `now`: in seconds since the first task was given to any group.
   void give(const Task& task, double now);
 
   // Whether it is a strip that is still to come.
-  bool wants(const node::Strip& strip) const;
+  bool wants(const wire::Strip& strip) const;
   void receive(StripMessage strip);
 
   // As Assembly's, for the first task that is not done.
-  bool prepare(SinkPool& sinks);
+  bool prepare(sinks::SinkPool& sinks);
   struct Composed {
     Assembly::Pasted pasted;
     std::uint32_t interval;
     double given;  // when its task was
   };
-  std::optional<Composed> compose(SinkPool& sinks, StripStore& store);
+  std::optional<Composed> compose(sinks::SinkPool& sinks, StripStore& store);
 
  private:
   struct Given {
@@ -42,9 +42,9 @@ class GroupWork {
     double given;
   };
 
-  hal::Group group_;
-  Compositor compositor_;  // the first task's
+  collectives::Group group_;
+  compositor::Compositor compositor_;  // the first task's
   std::deque<Given> tasks_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

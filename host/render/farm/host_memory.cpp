@@ -4,7 +4,7 @@
 
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 constexpr std::uint64_t kMostForFrames = std::uint64_t{1} << 30;
@@ -13,17 +13,17 @@ constexpr std::uint32_t kLeastFrames = 2;  // one is composed while the other is
 }  // namespace
 
 std::uint64_t HostMemory::strip_bytes() const {
-  return std::uint64_t{nodes} * static_cast<std::uint64_t>(credits) * node::kMaxStripBytes;
+  return std::uint64_t{nodes} * static_cast<std::uint64_t>(credits) * wire::kMaxStripBytes;
 }
 
 std::uint64_t HostMemory::most_bytes() const {
   return (std::uint64_t{frames} + backgrounds) * frame_bytes + strip_bytes();
 }
 
-HostMemory share_host_memory(std::uint64_t budget, const node::FilmSettings& film, std::uint32_t nodes,
+HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, std::uint32_t nodes,
                              std::uint32_t groups, std::uint32_t sink_threads) {
   HostMemory memory{budget, std::uint64_t{film.width} * film.height * sizeof(std::uint32_t), kLeastFrames, groups, nodes,
-                    node::kMaxCredits};
+                    wire::kMaxCredits};
   while (memory.credits > 1 && memory.most_bytes() > budget) --memory.credits;
   const std::uint64_t left = budget - std::min(budget, memory.most_bytes());
   const std::uint64_t for_frames = std::min(kMostForFrames, left + kLeastFrames * memory.frame_bytes);
@@ -32,4 +32,4 @@ HostMemory share_host_memory(std::uint64_t budget, const node::FilmSettings& fil
   return memory;
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -6,7 +6,7 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 struct HostMemory {
   std::uint64_t budget = 0;       // bytes, as it was given
@@ -14,7 +14,7 @@ struct HostMemory {
   std::uint32_t frames = 0;       // buffers of the sinks, at least 2
   std::uint32_t backgrounds = 0;  // saved ones: one a group
   std::uint32_t nodes = 0;
-  std::int32_t credits = 0;  // strips that each may have on the way, 1..node::kMaxCredits
+  std::int32_t credits = 0;  // strips that each may have on the way, 1..wire::kMaxCredits
 
   // Bytes of all strips on the way, at most; of all parts. Above the budget only where the least of each part is.
   std::uint64_t strip_bytes() const;
@@ -22,7 +22,7 @@ struct HostMemory {
 };
 
 // Backgrounds come first, then credits, then buffers: two more than the sinks have threads, but no more than fit 1 GiB.
-HostMemory share_host_memory(std::uint64_t budget, const node::FilmSettings& film, std::uint32_t nodes,
+HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, std::uint32_t nodes,
                              std::uint32_t groups, std::uint32_t sink_threads);
 
-}  // namespace mars::host
+}  // namespace mars::farm

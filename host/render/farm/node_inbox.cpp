@@ -7,7 +7,7 @@
 
 #include "hal/nx/nx_messages.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 template <std::size_t N>
@@ -19,9 +19,9 @@ std::string node_name(int node) { return "node " + std::to_string(node); }
 
 // The name of its machine, which every version's Hello has behind the stamp; "" if there is none.
 std::string machine_in(std::span<const std::byte> hello) {
-  std::array<char, sizeof node::Hello::host> name{};
-  if (hello.size() < sizeof(node::WireStamp) + name.size()) return "";
-  std::memcpy(name.data(), hello.data() + sizeof(node::WireStamp), name.size());
+  std::array<char, sizeof wire::Hello::host> name{};
+  if (hello.size() < sizeof(wire::WireStamp) + name.size()) return "";
+  std::memcpy(name.data(), hello.data() + sizeof(wire::WireStamp), name.size());
   return is_text(name) ? name.data() : "";
 }
 
@@ -61,12 +61,12 @@ void NodeInbox::require(bool holds, int node, const char* what) const {
 }
 
 void NodeInbox::wait(long type) const {
-  cprobe(node::any_of(type, long{node::kFault}));
-  if (infotype() == node::kFault) receive_fault();
+  cprobe(wire::any_of(type, long{wire::kFault}));
+  if (infotype() == wire::kFault) receive_fault();
 }
 
 bool NodeInbox::wait_unless_cancelled(long type) const {
-  while (cancellation_ != nullptr && iprobe(node::any_of(type, long{node::kFault})) == 0) {
+  while (cancellation_ != nullptr && iprobe(wire::any_of(type, long{wire::kFault})) == 0) {
     if (cancellation_->cancelled()) return false;
     flick();
   }
@@ -76,7 +76,7 @@ bool NodeInbox::wait_unless_cancelled(long type) const {
 
 bool NodeInbox::receive_hellos() {
   for (int i = 0; i < nodes_; ++i) {
-    if (!wait_unless_cancelled(node::kHello)) return false;
+    if (!wait_unless_cancelled(wire::kHello)) return false;
     receive_hello();
   }
   check_machines();
@@ -86,10 +86,10 @@ bool NodeInbox::receive_hellos() {
 void NodeInbox::receive_hello() {
   const int node = static_cast<int>(infonode());
   std::vector<std::byte> message(static_cast<std::size_t>(infocount()));
-  crecv(node::kHello, message.data(), static_cast<long>(message.size()));
-  node::check_stamp(message, with_machine(machine_in(message), node), "the host");
-  require(message.size() == sizeof(node::Hello), node, "a greeting of another size");
-  node::Hello hello;
+  crecv(wire::kHello, message.data(), static_cast<long>(message.size()));
+  wire::check_stamp(message, with_machine(machine_in(message), node), "the host");
+  require(message.size() == sizeof(wire::Hello), node, "a greeting of another size");
+  wire::Hello hello;
   std::memcpy(&hello, message.data(), sizeof hello);
   require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd), node, "names without end");
   const auto index = static_cast<std::size_t>(node);
@@ -100,7 +100,7 @@ void NodeInbox::receive_hello() {
 
 // The lowest of a machine's nodes gets the film for all.
 void NodeInbox::check_machines() const {
-  for (const node::Hello& hello : hellos_) {
+  for (const wire::Hello& hello : hellos_) {
     const bool known = hello.machine >= 0 && hello.machine <= hello.node &&
                        hellos_[static_cast<std::size_t>(hello.machine)].machine == hello.machine;
     require(known, hello.node, "a machine that is not there");
@@ -109,11 +109,11 @@ void NodeInbox::check_machines() const {
 
 bool NodeInbox::wait_until_loaded() {
   for (int i = 0; i < nodes_; ++i) {
-    if (!wait_unless_cancelled(node::kLoaded)) return false;
+    if (!wait_unless_cancelled(wire::kLoaded)) return false;
     const int node = static_cast<int>(infonode());
     require(infocount() == 0 && !loaded_[static_cast<std::size_t>(node)], node, "word of the film that makes no sense");
     loaded_[static_cast<std::size_t>(node)] = true;
-    crecv(node::kLoaded, nullptr, 0);
+    crecv(wire::kLoaded, nullptr, 0);
   }
   return true;
 }
@@ -121,44 +121,44 @@ bool NodeInbox::wait_until_loaded() {
 StripMessage NodeInbox::receive_strip(StripStore& store) {
   const int node = static_cast<int>(infonode());
   const auto size = static_cast<std::size_t>(infocount());
-  require(size >= sizeof(node::Strip) && size <= node::kMaxStripBytes, node, "a strip of an impossible size");
+  require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
   StripBytes bytes = store.take(size);
-  crecv(node::kStrip, bytes.data.get(), static_cast<long>(size));
+  crecv(wire::kStrip, bytes.data.get(), static_cast<long>(size));
   std::optional<StripMessage> strip = StripMessage::read(std::move(bytes));
   require(strip.has_value(), node, "a strip that is not what its header says");
   check_strip(strip->header(), strip->runs(), node);
   return std::move(*strip);
 }
 
-void NodeInbox::check_strip(const node::Strip& strip, std::span<const node::Run> runs, int sender) const {
+void NodeInbox::check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const {
   require(strip.node == sender, sender, "another node's strip");
   require(strip.last <= 1, sender, "a strip that is neither the last nor another");
   require(strip.first_line <= strip.last_line && strip.last_line <= height_, sender, "lines outside the picture");
-  for (const node::Run& run : runs) {
+  for (const wire::Run& run : runs) {
     require(run.line >= strip.first_line && run.line < strip.last_line, sender, "pixels outside the strip's lines");
     require(run.count > 0 && std::uint32_t{run.first} + run.count <= width_, sender, "pixels outside the picture");
   }
 }
 
-std::span<const hal::Event> NodeInbox::receive_events() {
+std::span<const messages::Event> NodeInbox::receive_events() {
   const int node = static_cast<int>(infonode());
   const auto size = static_cast<std::size_t>(infocount());
-  require(size > 0 && size % sizeof(hal::Event) == 0, node, "events of an impossible size");
-  events_.resize(size / sizeof(hal::Event));
-  crecv(node::kTrace, events_.data(), static_cast<long>(size));
+  require(size > 0 && size % sizeof(messages::Event) == 0, node, "events of an impossible size");
+  events_.resize(size / sizeof(messages::Event));
+  crecv(wire::kTrace, events_.data(), static_cast<long>(size));
   const auto index = static_cast<std::size_t>(node);
   const auto recorded = std::span(events_).first(events_.size() - 1);
-  const bool sound = !ended_[index] && events_.back().kind == hal::Event::Kind::lost &&
+  const bool sound = !ended_[index] && events_.back().kind == messages::Event::Kind::lost &&
                      std::all_of(recorded.begin(), recorded.end(), [this](const auto& e) { return is_event(e); });
   require(sound, node, "events that make no sense");
   ended_[index] = events_.back().number == 1;
   return events_;
 }
 
-bool NodeInbox::is_event(const hal::Event& event) const {
-  using Kind = hal::Event::Kind;
+bool NodeInbox::is_event(const messages::Event& event) const {
+  using Kind = messages::Event::Kind;
   switch (event.kind) {
-    case Kind::span: return event.what >= 0 && event.what <= static_cast<int>(node::Phase::inbetween);
+    case Kind::span: return event.what >= 0 && event.what <= static_cast<int>(wire::Phase::inbetween);
     case Kind::sent:
     case Kind::taken: return event.what >= 0 && event.peer >= 0 && event.peer <= nodes_;
     case Kind::waited: return event.what >= -1 && event.peer >= -1 && event.peer <= nodes_;
@@ -168,21 +168,21 @@ bool NodeInbox::is_event(const hal::Event& event) const {
 }
 
 double NodeInbox::receive_time(int node) {
-  wait(node::kClock);
+  wait(wire::kClock);
   double time = 0;
   require(infocount() == sizeof time, static_cast<int>(infonode()), "a time of an impossible size");
   require(infonode() == node, static_cast<int>(infonode()), "a time that was not asked for");
-  crecv(node::kClock, &time, sizeof time);
+  crecv(wire::kClock, &time, sizeof time);
   return time;
 }
 
 void NodeInbox::receive_fault() const {
   const int node = static_cast<int>(infonode());
-  require(infocount() == sizeof(node::Fault), node, "a fault of an impossible size");
-  node::Fault fault;
-  crecv(node::kFault, &fault, sizeof fault);
+  require(infocount() == sizeof(wire::Fault), node, "a fault of an impossible size");
+  wire::Fault fault;
+  crecv(wire::kFault, &fault, sizeof fault);
   fault.reason.back() = '\0';
   throw NodeFailure(fault.reason.data(), node, std::max(fault.frame, -1));
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -14,7 +14,7 @@
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 // A node cannot go on, or sends what makes no sense.
 class NodeFailure : public Failure {
@@ -35,7 +35,7 @@ class NodeInbox {
 
   // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
   bool receive_hellos();
-  const std::vector<node::Hello>& hellos() const { return hellos_; }
+  const std::vector<wire::Hello>& hellos() const { return hellos_; }
   // Waits until every node has the film. False: cancelled before.
   bool wait_until_loaded();
   // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
@@ -44,7 +44,7 @@ class NodeInbox {
   // Each receives a message that was probed last.
   StripMessage receive_strip(StripStore& store);
   // The sender's events, valid until the next call.
-  std::span<const hal::Event> receive_events();
+  std::span<const messages::Event> receive_events();
   // Whether it has sent its last.
   bool events_ended(int node) const { return ended_.at(static_cast<std::size_t>(node)); }
   double receive_time(int node);
@@ -59,18 +59,18 @@ class NodeInbox {
   bool wait_unless_cancelled(long type) const;
   void receive_hello();
   void check_machines() const;
-  void check_strip(const node::Strip& strip, std::span<const node::Run> runs, int sender) const;
-  bool is_event(const hal::Event& event) const;
+  void check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const;
+  bool is_event(const messages::Event& event) const;
 
   const std::uint32_t width_;
   const std::uint32_t height_;
   const Cancellation* const cancellation_;
   const int nodes_;
-  std::vector<node::Hello> hellos_;
+  std::vector<wire::Hello> hellos_;
   std::vector<bool> greeted_;
   std::vector<bool> loaded_;
   std::vector<bool> ended_;  // its trace
-  std::vector<hal::Event> events_;
+  std::vector<messages::Event> events_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

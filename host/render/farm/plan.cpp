@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 constexpr std::size_t kTasksPerGroup = 4;
@@ -15,13 +15,13 @@ std::uint32_t Plan::inbetweens() const {
   return static_cast<std::uint32_t>(count);
 }
 
-Plan make_plan(const node::FilmView& film, const PlanRequest& request, int nodes) {
+Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes) {
   Plan plan{make_tasks(film, request.frames, request.coherence), {}};
   plan.groups = make_groups(nodes, static_cast<int>(request.groups), plan.tasks.size());
   return plan;
 }
 
-std::vector<Task> make_tasks(const node::FilmView& film, std::span<const std::uint32_t> frames, bool coherence) {
+std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence) {
   std::vector<Task> tasks;
   std::uint64_t inbetweens = 0;
   std::uint32_t interval = 0;
@@ -38,12 +38,12 @@ std::vector<Task> make_tasks(const node::FilmView& film, std::span<const std::ui
   return tasks;
 }
 
-std::vector<hal::Group> make_groups(int nodes, int groups, std::size_t tasks) {
+std::vector<collectives::Group> make_groups(int nodes, int groups, std::size_t tasks) {
   const std::size_t most = std::min(tasks / kTasksPerGroup, static_cast<std::size_t>(nodes));
   const int count = std::clamp(groups == 0 ? static_cast<int>(most) : groups, 1, nodes);
-  std::vector<hal::Group> out;
-  for (int i = 0; i < count; ++i) out.push_back(hal::group_of(nodes, count, i));
+  std::vector<collectives::Group> out;
+  for (int i = 0; i < count; ++i) out.push_back(collectives::group_of(nodes, count, i));
   return out;
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

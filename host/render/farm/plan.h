@@ -10,7 +10,7 @@
 #include "hal/collectives/group.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 // Frames of one interval for one group: the first is the keyframe, drawn by all its nodes.
 struct Task {
@@ -28,19 +28,19 @@ struct PlanRequest {
 
 struct Plan {
   std::vector<Task> tasks;
-  std::vector<hal::Group> groups;
+  std::vector<collectives::Group> groups;
 
   std::uint32_t keyframes() const { return static_cast<std::uint32_t>(tasks.size()); }
   std::uint32_t inbetweens() const;
   std::uint32_t frames() const { return keyframes() + inbetweens(); }
 };
 
-Plan make_plan(const node::FilmView& film, const PlanRequest& request, int nodes);
+Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes);
 
-std::vector<Task> make_tasks(const node::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);
+std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);
 
 // `nodes` nodes as `groups` groups of about equal size, side by side. 0 groups: one for every four tasks, so that what one
 // task takes longer than another evens out; with fewer than eight tasks one group of all nodes, as in the thesis.
-std::vector<hal::Group> make_groups(int nodes, int groups, std::size_t tasks);
+std::vector<collectives::Group> make_groups(int nodes, int groups, std::size_t tasks);
 
-}  // namespace mars::host
+}  // namespace mars::farm

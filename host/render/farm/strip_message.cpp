@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace mars::host {
+namespace mars::farm {
 
 StripBytes StripStore::take(std::size_t size) {
   const auto fits = std::find_if(spare_.rbegin(), spare_.rend(), [&](const StripBytes& s) { return s.capacity >= size; });
@@ -16,7 +16,7 @@ StripBytes StripStore::take(std::size_t size) {
   }
   if (bytes.capacity < size) {
     // Of which only what is used takes memory.
-    const std::size_t capacity = std::max(size, std::min(std::bit_ceil(size), node::kMaxStripBytes));
+    const std::size_t capacity = std::max(size, std::min(std::bit_ceil(size), wire::kMaxStripBytes));
     bytes.data.reset();
     bytes = {std::make_unique_for_overwrite<std::byte[]>(capacity), 0, capacity};
   }
@@ -25,30 +25,30 @@ StripBytes StripStore::take(std::size_t size) {
 }
 
 std::optional<StripMessage> StripMessage::read(StripBytes bytes) {
-  if (bytes.size < sizeof(node::Strip)) return std::nullopt;
+  if (bytes.size < sizeof(wire::Strip)) return std::nullopt;
   StripMessage message(std::move(bytes));
-  const node::Strip& strip = message.header();
+  const wire::Strip& strip = message.header();
   const std::uint64_t rest = message.bytes_.size - sizeof strip;
-  const std::uint64_t run_bytes = (std::uint64_t{strip.constant_runs} + strip.moving_runs) * sizeof(node::Run);
+  const std::uint64_t run_bytes = (std::uint64_t{strip.constant_runs} + strip.moving_runs) * sizeof(wire::Run);
   const bool fits = strip.pixels <= rest / sizeof(std::uint32_t) && rest == strip.pixels * sizeof(std::uint32_t) + run_bytes;
-  const bool inbetween = strip.kind == node::FrameKind::inbetween && strip.constant_runs == 0;
-  if (!fits || !(inbetween || strip.kind == node::FrameKind::keyframe)) return std::nullopt;
+  const bool inbetween = strip.kind == wire::FrameKind::inbetween && strip.constant_runs == 0;
+  if (!fits || !(inbetween || strip.kind == wire::FrameKind::keyframe)) return std::nullopt;
   std::uint64_t moving_pixels = 0;
-  for (const node::Run& run : message.moving_runs()) moving_pixels += run.count;
-  for (const node::Run& run : message.constant_runs()) message.constant_pixels_ += run.count;
+  for (const wire::Run& run : message.moving_runs()) moving_pixels += run.count;
+  for (const wire::Run& run : message.constant_runs()) message.constant_pixels_ += run.count;
   if (message.constant_pixels_ + moving_pixels != strip.pixels) return std::nullopt;
   return message;
 }
 
 std::span<const std::uint32_t> StripMessage::pixels() const {
-  return {reinterpret_cast<const std::uint32_t*>(bytes_.data.get() + sizeof(node::Strip)),
+  return {reinterpret_cast<const std::uint32_t*>(bytes_.data.get() + sizeof(wire::Strip)),
           static_cast<std::size_t>(header().pixels)};
 }
 
-std::span<const node::Run> StripMessage::runs() const {
-  const auto at = sizeof(node::Strip) + header().pixels * sizeof(std::uint32_t);
-  return {reinterpret_cast<const node::Run*>(bytes_.data.get() + at),
+std::span<const wire::Run> StripMessage::runs() const {
+  const auto at = sizeof(wire::Strip) + header().pixels * sizeof(std::uint32_t);
+  return {reinterpret_cast<const wire::Run*>(bytes_.data.get() + at),
           std::size_t{header().constant_runs} + header().moving_runs};
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -11,7 +11,7 @@
 
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 // The bytes of one message; undefined until it is received.
 struct StripBytes {
@@ -35,10 +35,10 @@ class StripMessage {
   // None unless the bytes are exactly what the strip's header promises.
   static std::optional<StripMessage> read(StripBytes bytes);
 
-  const node::Strip& header() const { return *reinterpret_cast<const node::Strip*>(bytes_.data.get()); }
-  std::span<const node::Run> runs() const;
-  std::span<const node::Run> constant_runs() const { return runs().first(header().constant_runs); }
-  std::span<const node::Run> moving_runs() const { return runs().subspan(header().constant_runs); }
+  const wire::Strip& header() const { return *reinterpret_cast<const wire::Strip*>(bytes_.data.get()); }
+  std::span<const wire::Run> runs() const;
+  std::span<const wire::Run> constant_runs() const { return runs().first(header().constant_runs); }
+  std::span<const wire::Run> moving_runs() const { return runs().subspan(header().constant_runs); }
   std::span<const std::uint32_t> pixels() const;
   std::span<const std::uint32_t> constant_pixels() const { return pixels().first(constant_pixels_); }
   std::span<const std::uint32_t> moving_pixels() const { return pixels().subspan(constant_pixels_); }
@@ -53,4 +53,4 @@ class StripMessage {
   std::uint64_t constant_pixels_ = 0;
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -3,23 +3,23 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 constexpr std::size_t kHostEvents = 1 << 13;  // more than between two turns of the farm's loop
 constexpr int kReadings = 16;                 // of a node's clock, of which the best counts
 
-ClockReading read_clock_once(int node, NodeInbox& inbox) {
+trace::ClockReading read_clock_once(int node, NodeInbox& inbox) {
   const double asked = dclock();
-  csend(node::kClock, nullptr, 0, node, 0);
+  csend(wire::kClock, nullptr, 0, node, 0);
   const double answer = inbox.receive_time(node);
-  return ClockReading::of(asked, answer, dclock());
+  return trace::ClockReading::of(asked, answer, dclock());
 }
 
-ClockReading read_clock(int node, NodeInbox& inbox) {
-  ClockReading best = read_clock_once(node, inbox);
+trace::ClockReading read_clock(int node, NodeInbox& inbox) {
+  trace::ClockReading best = read_clock_once(node, inbox);
   for (int i = 1; i < kReadings && !best.shares_clock(); ++i) {
-    const ClockReading next = read_clock_once(node, inbox);
+    const trace::ClockReading next = read_clock_once(node, inbox);
     if (next.error < best.error) best = next;
   }
   return best;
@@ -27,16 +27,16 @@ ClockReading read_clock(int node, NodeInbox& inbox) {
 
 }  // namespace
 
-Tracing::Tracing(Trace* trace, NodeInbox& inbox, int credits) : trace_(trace), inbox_(inbox) {
+Tracing::Tracing(trace::Trace* trace, NodeInbox& inbox, int credits) : trace_(trace), inbox_(inbox) {
   if (trace_ == nullptr) return;
   const std::size_t nodes = inbox.hellos().size();
   trace_->begin(inbox.hellos(), credits, dclock());
   for (int node = 0; node < static_cast<int>(nodes); ++node) {
-    const ClockReading reading = read_clock(node, inbox);
+    const trace::ClockReading reading = read_clock(node, inbox);
     trace_->add(node, reading);
     if (!reading.shares_clock()) foreign_.push_back(node);
   }
-  recorder_.emplace(kHostEvents + 4 * nodes, node::kTrace);
+  recorder_.emplace(kHostEvents + 4 * nodes, wire::kTrace);
 }
 
 Tracing::~Tracing() {
@@ -49,7 +49,7 @@ void Tracing::drain() {
 
 void Tracing::empty_recorder(bool last) { trace_->add(trace_->host(), recorder_->turn(last)); }
 
-void Tracing::taken(const SinkPool::Taken& frame) {
+void Tracing::taken(const sinks::SinkPool::Taken& frame) {
   if (trace_ != nullptr) trace_->add(frame);
 }
 
@@ -68,17 +68,17 @@ void Tracing::finish() {
   if (trace_ == nullptr) return;
   for (int node = 0; node < static_cast<int>(inbox_.hellos().size()); ++node) {
     while (!inbox_.events_ended(node)) {
-      inbox_.wait(node::kTrace);
+      inbox_.wait(wire::kTrace);
       receive();
     }
   }
 }
 
-ScopedSpan::ScopedSpan(HostSpan what, std::uint64_t value)
-    : what_(what), value_(value), begin_(hal::process().recorder() != nullptr ? dclock() : 0) {}
+ScopedSpan::ScopedSpan(trace::HostSpan what, std::uint64_t value)
+    : what_(what), value_(value), begin_(messages::process().recorder() != nullptr ? dclock() : 0) {}
 
 ScopedSpan::~ScopedSpan() {
-  if (begin_ != 0) hal::record_span(static_cast<int>(what_), begin_, dclock(), value_);
+  if (begin_ != 0) messages::record_span(static_cast<int>(what_), begin_, dclock(), value_);
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -9,19 +9,19 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/trace/trace.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 class Tracing {
  public:
   // `trace` may be nullptr. The calling process is the host, all nodes are there and have no film yet.
-  Tracing(Trace* trace, NodeInbox& inbox, int credits);
+  Tracing(trace::Trace* trace, NodeInbox& inbox, int credits);
   ~Tracing();
   Tracing(const Tracing&) = delete;
   Tracing& operator=(const Tracing&) = delete;
 
   // Now and then: empties the host's recorder before it is full.
   void drain();
-  void taken(const SinkPool::Taken& frame);
+  void taken(const sinks::SinkPool::Taken& frame);
   // Receives a node's Trace message that has come.
   void receive();
   // When all frames are there and nodes are idle: reads the clocks again where they are not the host's own.
@@ -32,16 +32,16 @@ class Tracing {
  private:
   void empty_recorder(bool last);
 
-  Trace* trace_;
+  trace::Trace* trace_;
   NodeInbox& inbox_;
-  std::optional<hal::Recorder> recorder_;
+  std::optional<messages::Recorder> recorder_;
   std::vector<int> foreign_;  // nodes with clocks of their own
 };
 
 // Records its own lifetime as a span of the host's, where the run is traced.
 class ScopedSpan {
  public:
-  explicit ScopedSpan(HostSpan what, std::uint64_t value = 0);
+  explicit ScopedSpan(trace::HostSpan what, std::uint64_t value = 0);
   ~ScopedSpan();
   ScopedSpan(const ScopedSpan&) = delete;
   ScopedSpan& operator=(const ScopedSpan&) = delete;
@@ -51,9 +51,9 @@ class ScopedSpan {
   void forget() { begin_ = 0; }
 
  private:
-  HostSpan what_;
+  trace::HostSpan what_;
   std::uint64_t value_;
   double begin_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -6,13 +6,13 @@
 
 #include "topology/placement.h"
 
-namespace mars::host {
+namespace mars::report {
 
 using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json node_json(const node::Hello& hello) {
+ordered_json node_json(const wire::Hello& hello) {
   return {{"node", hello.node},
           {"machine", hello.machine},
           {"host", hello.host.data()},
@@ -23,29 +23,29 @@ ordered_json node_json(const node::Hello& hello) {
           {"memory", hello.memory}};
 }
 
-ordered_json memory_json(const HostMemory& memory) {
+ordered_json memory_json(const farm::HostMemory& memory) {
   return {{"budget", memory.budget},           {"frames", memory.frames},   {"frame_bytes", memory.frame_bytes},
           {"backgrounds", memory.backgrounds}, {"credits", memory.credits}, {"strip_bytes", memory.strip_bytes()},
           {"most_bytes", memory.most_bytes()}};
 }
 
 // What the furthest neighbours share across each dimension of the hypercube of all nodes.
-ordered_json dimensions_json(const std::vector<node::Hello>& hellos) {
+ordered_json dimensions_json(const std::vector<wire::Hello>& hellos) {
   std::vector<topology::Location> nodes;
-  for (const node::Hello& hello : hellos) nodes.push_back({hello.machine, hello.seat});
+  for (const wire::Hello& hello : hellos) nodes.push_back({hello.machine, hello.seat});
   ordered_json texts = ordered_json::array();
   for (const topology::Closeness closeness : topology::dimensions(nodes))
     texts.push_back(topology::text_of(closeness));
   return texts;
 }
 
-ordered_json seconds_json(const node::PhaseTimes& times) {
+ordered_json seconds_json(const wire::PhaseTimes& times) {
   return {{"dice", times.dice},         {"sum", times.sum},      {"map", times.map},
           {"exchange", times.exchange}, {"fill", times.fill},    {"scanline", times.scanline},
           {"depth", times.depth},       {"credit", times.credit}};
 }
 
-ordered_json work_json(const node::WorkCounts& work) {
+ordered_json work_json(const wire::WorkCounts& work) {
   return {{"patches", work.patches},
           {"vertices", work.vertices},
           {"triangles", work.triangles},
@@ -60,7 +60,7 @@ ordered_json work_json(const node::WorkCounts& work) {
 }
 
 // A strip that is a node's last of a frame: it has all the node's counts.
-ordered_json part_json(const node::Strip& strip) {
+ordered_json part_json(const wire::Strip& strip) {
   return {{"node", strip.node},
           {"first_line", strip.first_line},
           {"last_line", strip.last_line},
@@ -68,11 +68,11 @@ ordered_json part_json(const node::Strip& strip) {
           {"work", work_json(strip.work)}};
 }
 
-ordered_json frame_json(const FinishedFrame& frame, std::vector<const node::Strip*>& strips) {
+ordered_json frame_json(const farm::FinishedFrame& frame, std::vector<const wire::Strip*>& strips) {
   std::sort(strips.begin(), strips.end(), [](const auto* a, const auto* b) { return a->node < b->node; });
   ordered_json parts = ordered_json::array();
-  for (const node::Strip* strip : strips) parts.push_back(part_json(*strip));
-  const bool keyframe = frame.kind == node::FrameKind::keyframe;
+  for (const wire::Strip* strip : strips) parts.push_back(part_json(*strip));
+  const bool keyframe = frame.kind == wire::FrameKind::keyframe;
   return {{"frame", frame.number},
           {"interval", frame.interval},
           {"kind", keyframe ? "keyframe" : "inbetween"},
@@ -82,23 +82,23 @@ ordered_json frame_json(const FinishedFrame& frame, std::vector<const node::Stri
           {"nodes", parts}};
 }
 
-ordered_json frames_json(const FarmReport& report) {
-  std::map<std::uint32_t, std::vector<const node::Strip*>> strips;
-  for (const node::Strip& strip : report.strips) {
+ordered_json frames_json(const farm::FarmReport& report) {
+  std::map<std::uint32_t, std::vector<const wire::Strip*>> strips;
+  for (const wire::Strip& strip : report.strips) {
     if (strip.last == 1) strips[strip.frame].push_back(&strip);
   }
-  std::vector<FinishedFrame> frames = report.frames;
+  std::vector<farm::FinishedFrame> frames = report.frames;
   std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
   ordered_json rows = ordered_json::array();
-  for (const FinishedFrame& frame : frames) rows.push_back(frame_json(frame, strips[frame.number]));
+  for (const farm::FinishedFrame& frame : frames) rows.push_back(frame_json(frame, strips[frame.number]));
   return rows;
 }
 
 }  // namespace
 
-std::string report_text(const ReportHead& head, const FarmReport& report) {
+std::string report_text(const ReportHead& head, const farm::FarmReport& report) {
   ordered_json nodes = ordered_json::array();
-  for (const node::Hello& hello : report.nodes) nodes.push_back(node_json(hello));
+  for (const wire::Hello& hello : report.nodes) nodes.push_back(node_json(hello));
   const ordered_json all = {{"film", head.film},
                             {"checksum", head.checksum},
                             {"backend", head.backend},
@@ -116,4 +116,4 @@ std::string report_text(const ReportHead& head, const FarmReport& report) {
   return all.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace mars::host
+}  // namespace mars::report

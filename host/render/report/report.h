@@ -8,7 +8,7 @@
 #include "host/render/farm/farm.h"
 #include "host/render/farm/host_memory.h"
 
-namespace mars::host {
+namespace mars::report {
 
 // What the farm does not know of its own run.
 struct ReportHead {
@@ -18,9 +18,9 @@ struct ReportHead {
   std::vector<std::string> arguments;  // the options, as given to the host
   std::uint32_t width = 0;             // pixels
   std::uint32_t height = 0;
-  HostMemory memory;
+  farm::HostMemory memory;
 };
 
-std::string report_text(const ReportHead& head, const FarmReport& report);
+std::string report_text(const ReportHead& head, const farm::FarmReport& report);
 
-}  // namespace mars::host
+}  // namespace mars::report

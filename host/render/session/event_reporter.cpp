@@ -4,14 +4,14 @@
 #include <set>
 #include <span>
 
-namespace mars::host {
+namespace mars::session {
 namespace {
 
-Booted booted_event(std::span<const node::Hello> hellos, const std::string& backend) {
-  Booted event;
+events::Booted booted_event(std::span<const wire::Hello> hellos, const std::string& backend) {
+  events::Booted event;
   event.backend = backend;
   std::set<std::int32_t> machines;
-  for (const node::Hello& hello : hellos) {
+  for (const wire::Hello& hello : hellos) {
     machines.insert(hello.machine);
     event.nodes.push_back({hello.node, hello.host.data(), hello.rank, hello.binding.data(), hello.simd.data()});
   }
@@ -21,23 +21,23 @@ Booted booted_event(std::span<const node::Hello> hellos, const std::string& back
 
 }  // namespace
 
-void EventReporter::report(const Event& event) const { std::cout << line_of(event) << std::flush; }
+void EventReporter::report(const events::Event& event) const { std::cout << events::line_of(event) << std::flush; }
 
-FarmListener EventReporter::listener(std::size_t intervals) {
+farm::FarmListener EventReporter::listener(std::size_t intervals) {
   progress_.intervals = static_cast<std::uint32_t>(intervals);
-  FarmListener listener;
-  listener.booted = [this](std::span<const node::Hello> hellos, std::uint32_t keyframes, std::uint32_t inbetweens) {
+  farm::FarmListener listener;
+  listener.booted = [this](std::span<const wire::Hello> hellos, std::uint32_t keyframes, std::uint32_t inbetweens) {
     progress_.keyframes.of = keyframes;
     progress_.inbetweens.of = inbetweens;
     report(booted_event(hellos, backend_));
     report(progress_);
   };
-  listener.finished = [this](const FinishedFrame& frame) {
-    report(FrameTaken{frame.number, frame.interval, frame.kind});
+  listener.finished = [this](const farm::FinishedFrame& frame) {
+    report(events::FrameTaken{frame.number, frame.interval, frame.kind});
     progress_.count(frame.kind, frame.interval, frame.seconds);
     report(progress_);
   };
   return listener;
 }
 
-}  // namespace mars::host
+}  // namespace mars::session

@@ -7,19 +7,19 @@
 #include "host/render/events/events.h"
 #include "host/render/farm/farm.h"
 
-namespace mars::host {
+namespace mars::session {
 
 class EventReporter {
  public:
   explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
 
-  void report(const Event& event) const;
+  void report(const events::Event& event) const;
   // What the farm's listener hears, of a film of so many intervals. The reporter outlives the listener.
-  FarmListener listener(std::size_t intervals);
+  farm::FarmListener listener(std::size_t intervals);
 
  private:
   const std::string backend_;
-  Progress progress_;
+  events::Progress progress_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::session

@@ -20,32 +20,32 @@
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::session {
 namespace {
 
 // Where the frames go: a folder with its sink, or nowhere.
 class Destination {
  public:
-  Destination(const RenderJob& job, const CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
+  Destination(const RenderJob& job, const film::CompiledFilm& film, const std::vector<std::uint32_t>& frames) {
     if (job.folder.empty()) {
-      sink_ = std::make_unique<NullSink>();
+      sink_ = std::make_unique<sinks::NullSink>();
       return;
     }
-    const node::FilmSettings& settings = film.view().settings();
-    folder_.emplace(job.folder, Manifest{job.film, checksum_of(film.block()), settings.width, settings.height,
+    const wire::FilmSettings& settings = film.view().settings();
+    folder_.emplace(job.folder, sinks::Manifest{job.film, document::checksum_of(film.block()), settings.width, settings.height,
                                          settings.rate, settings.frames, frames, {}});
-    sink_ = std::make_unique<PngSink>(*folder_);
+    sink_ = std::make_unique<sinks::PngSink>(*folder_);
   }
 
-  Sink& sink() { return *sink_; }
+  sinks::Sink& sink() { return *sink_; }
   // Once it has taken all frames.
   void finish() {
     if (folder_) folder_->finish();
   }
 
  private:
-  std::optional<FrameFolder> folder_;
-  std::unique_ptr<Sink> sink_;
+  std::optional<sinks::FrameFolder> folder_;
+  std::unique_ptr<sinks::Sink> sink_;
 };
 
 // Sinks work while nodes wait for credit, so they may have every processor.
@@ -53,20 +53,20 @@ std::uint32_t sink_threads(const topology::Machine& machine) {
   return static_cast<std::uint32_t>(std::clamp(machine.processors(), 2, 16));
 }
 
-HostMemory memory_for(const topology::Machine& machine, const node::FilmSettings& film, const Plan& plan) {
+farm::HostMemory memory_for(const topology::Machine& machine, const wire::FilmSettings& film, const farm::Plan& plan) {
   const std::uint64_t budget = topology::memory_share(machine.memory(), topology::memory_limit(), 1);
-  return share_host_memory(budget, film, static_cast<std::uint32_t>(numnodes()),
+  return farm::share_host_memory(budget, film, static_cast<std::uint32_t>(numnodes()),
                            static_cast<std::uint32_t>(plan.groups.size()), sink_threads(machine));
 }
 
-SinkPool::Shape pool_shape(const topology::Machine& machine, const node::FilmSettings& film, std::uint32_t block,
+sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::FilmSettings& film, std::uint32_t block,
                            std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(machine), frames);
-  return {film.width, film.height, block, frames, threads, pixel_of(film.background)};
+  return {film.width, film.height, block, frames, threads, farm::pixel_of(film.background)};
 }
 
-FarmOptions farm_options(const RenderJob& job, const HostMemory& memory, Trace* trace) {
-  FarmOptions farm;
+farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace) {
+  farm::FarmOptions farm;
   farm.mapping = job.mapping;
   farm.credits = memory.credits;
   farm.each_frame = !job.report.empty();
@@ -75,51 +75,51 @@ FarmOptions farm_options(const RenderJob& job, const HostMemory& memory, Trace* 
 }
 
 // Fails early where the trace is not writable, not after the last frame.
-std::unique_ptr<Trace> begin_trace(const RenderJob& job) {
+std::unique_ptr<trace::Trace> begin_trace(const RenderJob& job) {
   if (job.trace.empty()) return nullptr;
-  check_can_write(job.trace);
-  return std::make_unique<Trace>();
+  document::check_can_write(job.trace);
+  return std::make_unique<trace::Trace>();
 }
 
-CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter, double& seconds) {
-  reporter.report(Loading{job.film});
+film::CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter, double& seconds) {
+  reporter.report(events::Loading{job.film});
   const double started = dclock();
-  CompiledFilm film = job.load_film([&](const std::string& line) { reporter.report(Warning{line}); });
+  film::CompiledFilm film = job.load_film([&](const std::string& line) { reporter.report(events::Warning{line}); });
   seconds = dclock() - started;
   return film;
 }
 
-void render(const RenderJob& job, EventReporter& reporter, Trace* trace) {
+void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
   double load_seconds = 0;
-  const CompiledFilm film = load_film(job, reporter, load_seconds);
-  const node::FilmView view = film.view();
-  const node::FilmSettings& settings = view.settings();
-  const PlanRequest request{job.frames.of_film(settings.frames), job.coherence, job.groups};
-  const Plan plan = make_plan(view, request, static_cast<int>(numnodes()));
+  const film::CompiledFilm film = load_film(job, reporter, load_seconds);
+  const wire::FilmView view = film.view();
+  const wire::FilmSettings& settings = view.settings();
+  const farm::PlanRequest request{job.frames.of_film(settings.frames), job.coherence, job.groups};
+  const farm::Plan plan = farm::make_plan(view, request, static_cast<int>(numnodes()));
   const topology::Machine machine = topology::Machine::here();
-  const HostMemory memory = memory_for(machine, settings, plan);
+  const farm::HostMemory memory = memory_for(machine, settings, plan);
 
-  if (!job.report.empty()) check_can_write(job.report);  // likewise early
+  if (!job.report.empty()) document::check_can_write(job.report);  // likewise early
   Destination destination(job, film, request.frames);
-  reporter.report(Loaded{load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
-  SinkPool pool(destination.sink(), pool_shape(machine, settings, job.block, memory.frames));
-  const FarmReport report = render_film(film.block(), plan, farm_options(job, memory, trace), pool,
+  reporter.report(events::Loaded{load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
+  sinks::SinkPool pool(destination.sink(), pool_shape(machine, settings, job.block, memory.frames));
+  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), pool,
                                         reporter.listener(view.intervals().size()));
   destination.finish();
   if (!job.report.empty()) {
-    const ReportHead head{job.film,       checksum_of(film.block()), job.backend, job.arguments,
+    const report::ReportHead head{job.film,       document::checksum_of(film.block()), job.backend, job.arguments,
                           settings.width, settings.height,           memory};
-    write_whole_file(job.report, report_text(head, report));
+    document::write_whole_file(job.report, report::report_text(head, report));
   }
-  if (trace) write_trace(job.trace, {job.film, job.backend}, *trace);
-  reporter.report(Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
+  if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);
+  reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});
 }
 
 // Why the run ends; of a node's failure also the command that shows it again, with one frame where it is known.
-Fault fault_of(const std::exception& reason, const RenderJob& job) {
+events::Fault fault_of(const std::exception& reason, const RenderJob& job) {
   const Failure failure = explain(reason);
-  Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
-  const auto* at_node = dynamic_cast<const NodeFailure*>(&reason);
+  events::Fault fault{failure.problem, failure.where, failure.remedy, {}, {}, ""};
+  const auto* at_node = dynamic_cast<const farm::NodeFailure*>(&reason);
   if (at_node == nullptr) return fault;
   fault.node = at_node->node;
   if (at_node->frame >= 0) fault.frame = at_node->frame;
@@ -131,7 +131,7 @@ Fault fault_of(const std::exception& reason, const RenderJob& job) {
 
 void run_session(const RenderJob& job) {
   EventReporter reporter(job.backend);
-  std::unique_ptr<Trace> trace;
+  std::unique_ptr<trace::Trace> trace;
   try {
     trace = begin_trace(job);
     render(job, reporter, trace.get());
@@ -139,10 +139,10 @@ void run_session(const RenderJob& job) {
     reporter.report(fault_of(reason, job));
     if (trace && trace->begun()) {
       trace->fail(reason_of(reason), dclock());
-      write_trace(job.trace, {job.film, job.backend}, *trace);
+      trace::write_trace(job.trace, {job.film, job.backend}, *trace);
     }
     throw;
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::session

@@ -12,15 +12,15 @@
 #include "host/content/film/frame_set.h"
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::session {
 
 struct RenderJob {
   std::string film;  // its file, as the person gave it
   // Reads and compiles it, which may take long; `warn` takes one line about what a person would want to mend.
-  std::function<CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
+  std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
   std::string folder;  // for the frames; "": they go nowhere
-  FrameSet frames;
-  node::Mapping mapping = node::Mapping::greedy;
+  film::FrameSet frames;
+  wire::Mapping mapping = wire::Mapping::greedy;
   bool coherence = true;
   std::uint32_t block = 16;  // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;  // as in PlanRequest
@@ -36,4 +36,4 @@ struct RenderJob {
 // for the caller, which ends the run.
 void run_session(const RenderJob& job);
 
-}  // namespace mars::host
+}  // namespace mars::session

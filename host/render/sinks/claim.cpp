@@ -18,7 +18,7 @@
 #include "host/content/film/frame_set.h"
 #include "host/render/sinks/record.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -36,7 +36,7 @@ std::optional<fs::path> file_of(const RunFiles& run, std::string_view ending) {
 // As it can be read at a glance: of a long list only where it begins and ends.
 std::string frames_text(const std::vector<std::uint32_t>& frames) {
   constexpr std::size_t kLongestList = 40;
-  const std::string list = FrameSet(frames).text();
+  const std::string list = film::FrameSet(frames).text();
   if (frames.size() == 1) return "frame " + list;
   if (list.size() <= kLongestList) return "frames " + list;
   return std::to_string(frames.size()) + " frames from " + std::to_string(frames.front()) + " to " +
@@ -86,7 +86,7 @@ bool has_claim(const RunFiles& run) { return file_of(run, kClaimEnding).has_valu
 std::optional<Claim> claim_of(const RunFiles& run) {
   const std::optional<fs::path> file = file_of(run, kClaimEnding);
   if (!file) return std::nullopt;
-  const std::optional<std::string> text = read_file_if_there(*file, kLargestRecord);
+  const std::optional<std::string> text = document::read_file_if_there(*file, kLargestRecord);
   if (!text) return std::nullopt;
   try {
     const json from = parse_record(*text);
@@ -104,7 +104,7 @@ std::optional<Manifest> rendered_by(const RunFiles& run) {
   Manifest& manifest = claim->manifest;
   manifest.pixel_hashes.assign(manifest.frames.size(), "");
   const std::optional<fs::path> file = file_of(run, kHashesEnding);
-  const std::optional<std::string> text = file ? read_file_if_there(*file, kLargestRecord) : std::nullopt;
+  const std::optional<std::string> text = file ? document::read_file_if_there(*file, kLargestRecord) : std::nullopt;
   std::istringstream lines(text.value_or(""));
   std::uint32_t frame = 0;
   for (std::string hash; lines >> frame >> hash;) {
@@ -117,7 +117,7 @@ std::optional<Manifest> rendered_by(const RunFiles& run) {
 HashLog::HashLog(fs::path file)
     : file_(std::move(file)),
       number_(open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666)) {
-  if (number_ < 0) fail_file("write", file_, errno);
+  if (number_ < 0) document::fail_file("write", file_, errno);
 }
 
 HashLog::~HashLog() { close(number_); }
@@ -126,7 +126,7 @@ void HashLog::add(std::uint32_t frame, const std::string& hash) {
   const std::string line = std::to_string(frame) + " " + hash + "\n";
   const std::lock_guard lock(mutex_);
   const ssize_t written = write(number_, line.data(), line.size());
-  if (written != static_cast<ssize_t>(line.size())) fail_file("write", file_, written < 0 ? errno : ENOSPC);
+  if (written != static_cast<ssize_t>(line.size())) document::fail_file("write", file_, written < 0 ? errno : ENOSPC);
 }
 
 void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& folder) {
@@ -146,4 +146,4 @@ void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& f
                 "give other frames with --frames, another folder with -o, or wait");
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -14,7 +14,7 @@
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 struct Claim {
   ProcessName process;
@@ -53,4 +53,4 @@ class HashLog {
 // Throws Failure, which names the run and what it renders, where its claim and `wanted` would be mixed.
 void refuse_rival(const RunFiles& run, const Manifest& wanted, const std::filesystem::path& folder);
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -14,7 +14,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/whole_file.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace fs = std::filesystem;
 
@@ -114,7 +114,7 @@ void FolderTurn::fail_late() const {
 }
 
 void FolderTurn::fail(const char* act, int error) const {
-  if (error != ENOENT) fail_file(act, file_, error);
+  if (error != ENOENT) document::fail_file(act, file_, error);
   throw Failure("this run was held up, and another has taken it for ended", file_.parent_path().string(),
                 "start it again");
 }
@@ -129,4 +129,4 @@ bool FolderTurn::has_ended(const RunFiles& run) const {
   return now && last > 0 && *now - last > kLongestSilence;  // 0: its files are renamed or gone meanwhile
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

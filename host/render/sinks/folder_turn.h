@@ -17,7 +17,7 @@
 #include "host/render/sinks/growing_pauses.h"
 #include "host/render/sinks/runs_folder.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 class FolderTurn {
  public:
@@ -59,4 +59,4 @@ class FolderTurn {
   GrowingPauses pauses_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -15,7 +15,7 @@
 #include "host/images/png_file.h"
 #include "host/render/sinks/record.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -28,15 +28,15 @@ constexpr std::chrono::seconds kShortPatience{2};  // of a run that fails: a per
 void create_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) fail_file("create the folder", path, error.value());
-  if (!fs::is_directory(path, error)) fail_file("create the folder", path, ENOTDIR);
+  if (error) document::fail_file("create the folder", path, error.value());
+  if (!fs::is_directory(path, error)) document::fail_file("create the folder", path, ENOTDIR);
 }
 
 // What frames.json says; none where there is none. Throws Failure where it cannot be read or says nothing sound: then
 // nobody knows any more what belongs into the folder, and nobody may decide that nothing does.
 std::optional<Manifest> read_frames_json(const fs::path& folder) {
   const fs::path path = folder / kManifestName;
-  const std::optional<std::string> text = read_file_if_there(path, kLargestRecord);
+  const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);
   if (!text) return std::nullopt;
   try {
     return manifest_of(parse_record(*text));
@@ -54,7 +54,7 @@ std::optional<Manifest> manifest_of_same_film(const fs::path& folder, const std:
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
   const std::string text = to_json(manifest).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-  replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
+  document::replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
 }
 
 // False, and nothing is added, where the manifest is of another film.
@@ -71,7 +71,7 @@ bool add_to_manifest(const Manifest& rendered, const fs::path& folder, const Run
 void remove_parts(const RunFiles& run) {
   std::error_code ignored;  // what stays is found by the next run
   for (const fs::path& file : run.files)
-    if (file.extension() == kPartSuffix) fs::remove(file, ignored);
+    if (file.extension() == document::kPartSuffix) fs::remove(file, ignored);
 }
 
 // The claim last, so that whatever is left of a run is known to be its.
@@ -92,7 +92,7 @@ void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const Fol
 }
 
 void remove_frame(const fs::path& file) {
-  if (unlink(file.c_str()) != 0 && errno != ENOENT) fail_file("remove", file, errno);
+  if (unlink(file.c_str()) != 0 && errno != ENOENT) document::fail_file("remove", file, errno);
 }
 
 // Names that were made in the folder are on the disk too; not every file system can do that.
@@ -130,7 +130,7 @@ void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
   }
   add_frames(*all, manifest);
   const std::string text = text_of(Claim{runs_.self(), time(nullptr), manifest});
-  replace_file(runs_.own_file(kClaimEnding), runs_.own_file(".claim.part"), std::as_bytes(std::span(text)));
+  document::replace_file(runs_.own_file(kClaimEnding), runs_.own_file(".claim.part"), std::as_bytes(std::span(text)));
   lease_.emplace(runs_.own_file(kClaimEnding));
   hashes_.emplace(runs_.own_file(kHashesEnding));
   write_manifest(*all, path_, runs_);
@@ -170,8 +170,8 @@ void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::s
   lease_->check();
   hashes_->add(frame, pixel_hash);
   record(frame, pixel_hash);
-  const std::string part = "." + frame_file_name(frame, rendered_.film_frames) + std::string(kPartSuffix);
-  replace_file(file_of(frame), runs_.own_file(part), png);
+  const std::string part = "." + frame_file_name(frame, rendered_.film_frames) + std::string(document::kPartSuffix);
+  document::replace_file(file_of(frame), runs_.own_file(part), png);
 }
 
 // In memory too: at its end a run depends on nothing that it would have to read again.
@@ -203,8 +203,8 @@ Manifest read_manifest(const fs::path& folder) {
   return std::move(*manifest);
 }
 
-void PngSink::take(const Frame& frame) {
-  folder_.put(frame.number, pixel_hash(frame.pixels), encode_png(frame.width, frame.height, frame.pixels));
+void PngSink::take(const compositor::Frame& frame) {
+  folder_.put(frame.number, pixel_hash(frame.pixels), images::encode_png(frame.width, frame.height, frame.pixels));
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -20,7 +20,7 @@
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 class FrameFolder {
  public:
@@ -70,10 +70,10 @@ class PngSink : public Sink {
  public:
   // `folder` must outlive the sink.
   explicit PngSink(FrameFolder& folder) : folder_(folder) {}
-  void take(const Frame& frame) override;
+  void take(const compositor::Frame& frame) override;
 
  private:
   FrameFolder& folder_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::host {
+namespace mars::sinks {
 
 std::chrono::microseconds GrowingPauses::next() {
   constexpr std::chrono::microseconds kLongest = std::chrono::milliseconds(100);
@@ -11,4 +11,4 @@ std::chrono::microseconds GrowingPauses::next() {
   return std::chrono::microseconds(from_half(random_));
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <random>
 
-namespace mars::host {
+namespace mars::sinks {
 
 class GrowingPauses {
  public:
@@ -17,4 +17,4 @@ class GrowingPauses {
   std::chrono::microseconds longest_{2000};
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

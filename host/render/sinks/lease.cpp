@@ -8,7 +8,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace {
 
@@ -70,4 +70,4 @@ void Lease::confirm() {
                   "see whether its disk can still be written");
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-namespace mars::host {
+namespace mars::sinks {
 
 // Seconds that pass also while the machine sleeps.
 double seconds_since_boot();
@@ -46,4 +46,4 @@ class Lease {
   std::thread thread_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

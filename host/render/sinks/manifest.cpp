@@ -12,7 +12,7 @@
 #include "host/render/sinks/record.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 using nlohmann::json;
 
@@ -25,8 +25,8 @@ constexpr auto kKeys = std::to_array<std::string_view>(
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
   json stretches = json::array();
-  const FrameSet set(frames);
-  for (const FrameSet::Stretch& stretch : set.stretches()) stretches.push_back({stretch.first, *stretch.last});
+  const film::FrameSet set(frames);
+  for (const film::FrameSet::Stretch& stretch : set.stretches()) stretches.push_back({stretch.first, *stretch.last});
   return stretches;
 }
 
@@ -70,7 +70,7 @@ std::vector<std::string> hashes_of(const json& list, std::size_t frames) {
 }  // namespace
 
 std::string pixel_hash(const std::vector<std::uint32_t>& pixels) {
-  return checksum_of(std::as_bytes(std::span(pixels)));
+  return document::checksum_of(std::as_bytes(std::span(pixels)));
 }
 
 void add_frames(Manifest& manifest, const Manifest& more) {
@@ -118,10 +118,10 @@ Manifest manifest_of(const json& from) {
   Manifest manifest;
   manifest.film = record.text("film", kLongestFilm);
   manifest.checksum = record.checksum("checksum");
-  manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, node::kMaxSide));
-  manifest.height = static_cast<std::uint32_t>(record.whole_number("height", 1, node::kMaxSide));
+  manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, wire::kMaxSide));
+  manifest.height = static_cast<std::uint32_t>(record.whole_number("height", 1, wire::kMaxSide));
   manifest.rate = record.positive_number("rate");
-  manifest.film_frames = static_cast<std::uint32_t>(record.whole_number("film_frames", 1, node::kMostFrames));
+  manifest.film_frames = static_cast<std::uint32_t>(record.whole_number("film_frames", 1, wire::kMostFrames));
   manifest.frames = frames_of(record.list("frames"), manifest.film_frames);
   if (from.contains("pixel_hashes"))
     manifest.pixel_hashes = hashes_of(record.list("pixel_hashes"), manifest.frames.size());
@@ -134,4 +134,4 @@ std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames) {
   return "frame-" + std::string(digits - std::min(digits, number.size()), '0') + number + ".png";
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

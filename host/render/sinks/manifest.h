@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::sinks {
 
 struct Manifest {
   std::string film;      // its file's name, as the person gave it
@@ -40,4 +40,4 @@ Manifest manifest_of(const nlohmann::json& from);
 // Names sort as frames do: as many digits as the film's last frame needs, at least four.
 std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames);
 
-}  // namespace mars::host
+}  // namespace mars::sinks

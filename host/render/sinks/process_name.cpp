@@ -17,7 +17,7 @@
 
 #include "host/render/sinks/record.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace {
 
@@ -95,4 +95,4 @@ Running is_running(const ProcessName& process, const ProcessName& seen_from) {
   return kill(static_cast<pid_t>(process.number), 0) != 0 && errno == ESRCH ? Running::no : Running::unknown;
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

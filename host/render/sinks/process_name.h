@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace mars::host {
+namespace mars::sinks {
 
 struct ProcessName {
   std::string host;       // for people
@@ -30,4 +30,4 @@ enum class Running { yes, no, unknown };  // unknown: it cannot be seen from her
 // As far as the process `seen_from` can see. One that has ended and waits for its parent does not run.
 Running is_running(const ProcessName& process, const ProcessName& seen_from);
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -7,7 +7,7 @@
 #include "hal/failure/failure.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 using nlohmann::json;
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kChecksumDigits = 32;
 constexpr std::uintmax_t kMostBytesOfAFrame = 64;  // its hash in quotes, indented, and a stretch of its own
-static_assert(kLargestRecord >= node::kMostFrames * kMostBytesOfAFrame);
+static_assert(kLargestRecord >= wire::kMostFrames * kMostBytesOfAFrame);
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t kLongestShown = 40;
@@ -101,4 +101,4 @@ void refuse_value(std::string_view key, const json& value, const std::string& ex
   throw Failure(std::string(key) + ": " + shown(value) + " is not " + expected, "", "");
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace mars::host {
+namespace mars::sinks {
 
 // Bytes of any one file there: enough for the longest film's 1,000,000 frames, with a hash each.
 inline constexpr std::uintmax_t kLargestRecord = std::uintmax_t{64} << 20;
@@ -42,4 +42,4 @@ bool is_checksum(const nlohmann::json& value);
 // "pixel_hashes: 3 is not a text".
 [[noreturn]] void refuse_value(std::string_view key, const nlohmann::json& value, const std::string& expected);
 
-}  // namespace mars::host
+}  // namespace mars::sinks

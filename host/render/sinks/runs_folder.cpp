@@ -14,7 +14,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/render/sinks/record.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace fs = std::filesystem;
 
@@ -26,7 +26,7 @@ constexpr const char* kRunsName = ".runs";
 std::string run_name(const ProcessName& self) {
   std::string host = self.host;
   std::ranges::replace_if(host, [](unsigned char c) { return !std::isalnum(c); }, '-');
-  return host + "-" + std::to_string(self.number) + "-" + unique_word();
+  return host + "-" + std::to_string(self.number) + "-" + document::unique_word();
 }
 
 std::string run_of(const fs::path& file) {
@@ -60,7 +60,7 @@ void RunsFolder::make() const {
     if (stat(frames_.c_str(), &frames) == 0) chmod(path_.c_str(), frames.st_mode & 07777);
     return;
   }
-  if (errno != EEXIST) fail_file("create the folder", path_, errno);
+  if (errno != EEXIST) document::fail_file("create the folder", path_, errno);
   std::error_code none;
   const fs::file_type type = fs::symlink_status(path_, none).type();
   if (type != fs::file_type::directory && type != fs::file_type::not_found)
@@ -70,7 +70,7 @@ void RunsFolder::make() const {
 fs::path RunsFolder::add_own_file(std::string_view ending, std::string_view text) const {
   const fs::path file = own_file(ending);
   do make();  // again where another run removes it, empty, before our file is there
-  while (!create_file(file, text));
+  while (!document::create_file(file, text));
   return file;
 }
 
@@ -103,13 +103,13 @@ void RunsFolder::remove_if_empty() const {
 
 ProcessName process_of(const RunFiles& run) {
   for (const fs::path& file : run.files) {
-    if (file.extension() == kPartSuffix || file.extension() == kHashesEnding) continue;
+    if (file.extension() == document::kPartSuffix || file.extension() == kHashesEnding) continue;
     try {
-      return process_name_of(parse_record(read_file(file, kLargestRecord)));
+      return process_name_of(parse_record(document::read_file(file, kLargestRecord)));
     } catch (const std::exception&) {  // it is gone meanwhile, or not whole yet
     }
   }
   return {};
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -14,7 +14,7 @@
 
 #include "host/render/sinks/process_name.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 inline constexpr std::string_view kClaimEnding = ".claim";
 inline constexpr std::string_view kHashesEnding = ".hashes";
@@ -57,4 +57,4 @@ class RunsFolder {
 // The process that a run's files name; one of no number where none of them can be read.
 ProcessName process_of(const RunFiles& run);
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -3,20 +3,20 @@
 
 #include "host/render/compositor/frame.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 class Sink {
  public:
   virtual ~Sink() = default;
   // Called from several threads at once, each with a frame of its own, in any order of frames. Throws
   // Failure where the frame could not be taken.
-  virtual void take(const Frame& frame) = 0;
+  virtual void take(const compositor::Frame& frame) = 0;
 };
 
 // Takes frames to nowhere, to measure what comes before.
 class NullSink : public Sink {
  public:
-  void take(const Frame&) override {}
+  void take(const compositor::Frame&) override {}
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

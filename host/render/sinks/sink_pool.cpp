@@ -6,7 +6,7 @@
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) {
   check(shape.frames >= 1 && shape.threads >= 1, "a sink pool has a frame and a thread");
@@ -35,19 +35,19 @@ SinkPool::~SinkPool() {
 }
 
 void SinkPool::make_frame() {
-  frames_.push_back(std::make_unique<Frame>(shape_.width, shape_.height, shape_.block, shape_.background));
+  frames_.push_back(std::make_unique<compositor::Frame>(shape_.width, shape_.height, shape_.block, shape_.background));
   const std::lock_guard lock(mutex_);
   free_.push_back(frames_.back().get());
 }
 
-Frame* SinkPool::free_frame(std::uint64_t background) { return take_free(background, 0); }
+compositor::Frame* SinkPool::free_frame(std::uint64_t background) { return take_free(background, 0); }
 
-Frame* SinkPool::early_frame(std::uint64_t background) {
+compositor::Frame* SinkPool::early_frame(std::uint64_t background) {
   return take_free(background, std::max<std::size_t>(1, shape_.frames / 2));
 }
 
 // One of the free frames, if more than `left` are.
-Frame* SinkPool::take_free(std::uint64_t background, std::size_t left) {
+compositor::Frame* SinkPool::take_free(std::uint64_t background, std::size_t left) {
   std::unique_lock lock(mutex_);
   throw_failure();
   if (free_.size() + shape_.frames - frames_.size() <= left) return nullptr;
@@ -57,16 +57,16 @@ Frame* SinkPool::take_free(std::uint64_t background, std::size_t left) {
     lock.lock();
   }
   // The one given back last is the likeliest to be in a cache still.
-  const auto shows_it = [&](const Frame* frame) { return frame->background == background; };
+  const auto shows_it = [&](const compositor::Frame* frame) { return frame->background == background; };
   auto best = std::find_if(free_.rbegin(), free_.rend(), shows_it);
   if (best == free_.rend()) best = free_.rbegin();
   std::swap(*best, free_.back());
-  Frame* frame = free_.back();
+  compositor::Frame* frame = free_.back();
   free_.pop_back();
   return frame;
 }
 
-void SinkPool::submit(Frame* frame) {
+void SinkPool::submit(compositor::Frame* frame) {
   {
     const std::lock_guard lock(mutex_);
     throw_failure();
@@ -121,4 +121,4 @@ void SinkPool::throw_failure() {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

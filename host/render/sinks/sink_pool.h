@@ -15,7 +15,7 @@
 
 #include "host/render/sinks/sink.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 class SinkPool {
  public:
@@ -39,11 +39,11 @@ class SinkPool {
 
   // A frame to compose, the caller's until submitted, preferably one that shows the saved background of that
   // name; nullptr when all are with the sink.
-  Frame* free_frame(std::uint64_t background = 0);
+  compositor::Frame* free_frame(std::uint64_t background = 0);
   // Likewise for a frame that is long in the making: nullptr also where that left less than half of all, or
   // none, to frames that are soon submitted.
-  Frame* early_frame(std::uint64_t background = 0);
-  void submit(Frame* frame);
+  compositor::Frame* early_frame(std::uint64_t background = 0);
+  void submit(compositor::Frame* frame);
   // A frame the sink has taken, and when, in seconds of dclock().
   struct Taken {
     std::uint32_t number;
@@ -60,21 +60,21 @@ class SinkPool {
  private:
   void make_frame();
   void start_threads();
-  Frame* take_free(std::uint64_t background, std::size_t left);
+  compositor::Frame* take_free(std::uint64_t background, std::size_t left);
   void work(std::uint32_t thread);
   void take(std::unique_lock<std::mutex>& lock, std::uint32_t thread);
   void throw_failure();
 
   Sink& sink_;
   const Shape shape_;
-  std::vector<std::unique_ptr<Frame>> frames_;  // made as they are needed
+  std::vector<std::unique_ptr<compositor::Frame>> frames_;  // made as they are needed
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable submitted_;
   std::condition_variable idle_;
-  std::vector<Frame*> free_;
+  std::vector<compositor::Frame*> free_;
   struct Waiting {
-    Frame* frame;
+    compositor::Frame* frame;
     double submitted;
   };
   std::deque<Waiting> waiting_;
@@ -86,4 +86,4 @@ class SinkPool {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

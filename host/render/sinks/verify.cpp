@@ -9,7 +9,7 @@
 #include "host/render/sinks/frame_folder.h"
 #include "host/images/png_file.h"
 
-namespace mars::host {
+namespace mars::sinks {
 
 namespace fs = std::filesystem;
 
@@ -21,11 +21,11 @@ std::string size_text(std::uint32_t width, std::uint32_t height) {
 
 // "" where the frame is as it should be. `expected`: the hash of its pixels; none where nobody recorded any.
 std::string trouble_with(const fs::path& file, const Manifest& manifest, const std::optional<std::string>& expected,
-                         Checksum& pixels) {
+                         document::Checksum& pixels) {
   std::error_code none;
   if (fs::status(file, none).type() == fs::file_type::not_found) return "missing";
   try {
-    const Image image = read_png(file);
+    const images::Image image = images::read_png(file);
     if (image.width != manifest.width || image.height != manifest.height) {
       return size_text(image.width, image.height) + " pixels instead of " +
              size_text(manifest.width, manifest.height);
@@ -45,7 +45,7 @@ Verdict verify_folder(const fs::path& folder) {
   const Manifest manifest = read_manifest(folder);
   Verdict verdict;
   verdict.compared = !manifest.pixel_hashes.empty();
-  Checksum pixels;
+  document::Checksum pixels;
   for (std::size_t i = 0; i < manifest.frames.size(); ++i) {
     const std::uint32_t frame = manifest.frames[i];
     const fs::path file = folder / frame_file_name(frame, manifest.film_frames);
@@ -58,4 +58,4 @@ Verdict verify_folder(const fs::path& folder) {
   return verdict;
 }
 
-}  // namespace mars::host
+}  // namespace mars::sinks

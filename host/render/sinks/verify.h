@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::sinks {
 
 struct Verdict {
   struct Trouble {
@@ -24,4 +24,4 @@ struct Verdict {
 // Throws Failure where there is no folder or no manifest.
 Verdict verify_folder(const std::filesystem::path& folder);
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mars::host {
+namespace mars::trace {
 
 ClockReading ClockReading::of(double asked, double answer, double heard) {
   return {answer, (asked + heard) / 2 - answer, (heard - asked) / 2};
@@ -24,4 +24,4 @@ double NodeClock::error() const {
   return std::max(first_ ? first_->error : 0, last_ ? last_->error : 0);
 }
 
-}  // namespace mars::host
+}  // namespace mars::trace

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace mars::host {
+namespace mars::trace {
 
 struct ClockReading {
   double node = 0;    // seconds of the node's clock
@@ -30,4 +30,4 @@ class NodeClock {
   std::optional<ClockReading> last_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::trace

@@ -6,10 +6,10 @@
 #include <tuple>
 #include <utility>
 
-namespace mars::host {
+namespace mars::trace {
 namespace {
 
-using Kind = hal::Event::Kind;
+using Kind = messages::Event::Kind;
 
 // Names a message among all: between two ranks they arrive in the order sent.
 struct MessageKey {
@@ -21,7 +21,7 @@ struct MessageKey {
 };
 
 MessageKey key_of(const Trace::Record& record) {
-  const hal::Event& event = record.event;
+  const messages::Event& event = record.event;
   if (event.kind == Kind::sent) return {record.rank, event.peer, event.number};
   return {event.peer, record.rank, event.number};
 }
@@ -51,12 +51,12 @@ struct Change {
 
 void add_changes(const TimelineItem& item, int host, std::vector<Change>& changes) {
   const auto& [event, rank] = item.record;
-  if (event.kind == Kind::sent && event.what == node::kStrip) {
+  if (event.kind == Kind::sent && event.what == wire::kStrip) {
     changes.push_back({item.begin, Counter::credits, rank, -1});
     changes.push_back({item.begin, Counter::strips_on_the_way, host, 1});
-  } else if (event.kind == Kind::taken && event.what == node::kStrip) {
+  } else if (event.kind == Kind::taken && event.what == wire::kStrip) {
     changes.push_back({item.end, Counter::strips_on_the_way, host, -1});
-  } else if (event.kind == Kind::taken && event.what == node::kCredit) {
+  } else if (event.kind == Kind::taken && event.what == wire::kCredit) {
     changes.push_back({item.end, Counter::credits, rank, 1});
   } else if (event.kind == Kind::span && rank == host && event.what == static_cast<int>(HostSpan::write)) {
     changes.push_back({item.begin - std::int64_t{event.number} * 1000, Counter::frames_with_sinks, host, 1});
@@ -94,4 +94,4 @@ std::vector<CounterStep> counters_of(const Trace& trace, const std::vector<Timel
   return steps;
 }
 
-}  // namespace mars::host
+}  // namespace mars::trace

@@ -7,7 +7,7 @@
 
 #include "host/render/trace/trace.h"
 
-namespace mars::host {
+namespace mars::trace {
 
 struct TimelineItem {
   std::int64_t begin;  // nanoseconds since the trace's beginning
@@ -31,4 +31,4 @@ struct CounterStep {
 // In order of time.
 std::vector<CounterStep> counters_of(const Trace& trace, const std::vector<TimelineItem>& timeline);
 
-}  // namespace mars::host
+}  // namespace mars::trace

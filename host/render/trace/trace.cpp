@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-namespace mars::host {
+namespace mars::trace {
 
 Trace::Trace(std::size_t most_events) : most_(most_events) { records_.reserve(most_events); }
 
-void Trace::begin(std::span<const node::Hello> nodes, int credits, double now) {
+void Trace::begin(std::span<const wire::Hello> nodes, int credits, double now) {
   nodes_.assign(nodes.begin(), nodes.end());
   clocks_.resize(nodes.size() + 1);
   lost_.resize(nodes.size() + 1);
@@ -15,16 +15,16 @@ void Trace::begin(std::span<const node::Hello> nodes, int credits, double now) {
   begin_ = now;
 }
 
-void Trace::add(int rank, std::span<const hal::Event> half) {
-  for (const hal::Event& event : half.first(half.size() - 1)) keep({event, rank});
+void Trace::add(int rank, std::span<const messages::Event> half) {
+  for (const messages::Event& event : half.first(half.size() - 1)) keep({event, rank});
   lost_.at(static_cast<std::size_t>(rank)) = half.back().value;
 }
 
-void Trace::add(const SinkPool::Taken& frame) {
-  hal::Event event{};
+void Trace::add(const sinks::SinkPool::Taken& frame) {
+  messages::Event event{};
   event.begin = frame.begun;
   event.end = frame.ended;
-  event.kind = hal::Event::Kind::span;
+  event.kind = messages::Event::Kind::span;
   event.what = static_cast<std::int32_t>(HostSpan::write);
   event.value = frame.number;
   event.peer = static_cast<std::int32_t>(frame.thread);
@@ -55,4 +55,4 @@ double Trace::clock_error() const {
 
 std::uint64_t Trace::lost() const { return std::accumulate(lost_.begin(), lost_.end(), std::uint64_t{0}); }
 
-}  // namespace mars::host
+}  // namespace mars::trace

@@ -13,7 +13,7 @@
 #include "host/render/trace/node_clock.h"
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::trace {
 
 // Spans of the host's own; their value is a frame's number, or what is said.
 enum class HostSpan : std::int32_t {
@@ -33,20 +33,20 @@ class Trace {
   explicit Trace(std::size_t most_events = kMostEvents);
 
   // All nodes are there, and may have `credits` strips on the way. The trace begins at `now`.
-  void begin(std::span<const node::Hello> nodes, int credits, double now);
+  void begin(std::span<const wire::Hello> nodes, int credits, double now);
   // A half of a rank's recorder; the host's rank is the number of nodes.
-  void add(int rank, std::span<const hal::Event> half);
-  void add(const SinkPool::Taken& frame);
+  void add(int rank, std::span<const messages::Event> half);
+  void add(const sinks::SinkPool::Taken& frame);
   void add(int node, const ClockReading& reading) { clocks_.at(static_cast<std::size_t>(node)).add(reading); }
   // The run fails.
   void fail(const std::string& reason, double now);
 
   struct Record {
-    hal::Event event;
+    messages::Event event;
     int rank;
   };
   const std::vector<Record>& records() const { return records_; }
-  const std::vector<node::Hello>& nodes() const { return nodes_; }
+  const std::vector<wire::Hello>& nodes() const { return nodes_; }
   int host() const { return static_cast<int>(nodes_.size()); }
   int credits() const { return credits_; }
   bool begun() const { return !nodes_.empty(); }
@@ -72,7 +72,7 @@ class Trace {
 
   std::size_t most_;
   std::vector<Record> records_;
-  std::vector<node::Hello> nodes_;
+  std::vector<wire::Hello> nodes_;
   std::vector<NodeClock> clocks_;     // by rank; the host's has no reading
   std::vector<std::uint64_t> lost_;   // by rank
   int credits_ = 0;
@@ -82,4 +82,4 @@ class Trace {
   std::optional<Fault> fault_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::trace

@@ -10,11 +10,11 @@
 #include "host/content/document/whole_file.h"
 #include "host/render/trace/timeline.h"
 
-namespace mars::host {
+namespace mars::trace {
 namespace {
 
 using nlohmann::ordered_json;
-using Kind = hal::Event::Kind;
+using Kind = messages::Event::Kind;
 
 constexpr int kMainThread = 1;  // thread ids of 0 mean "idle" to some viewers
 constexpr int kFirstSinkThread = 2;
@@ -34,15 +34,15 @@ std::string text_of(const ordered_json& value) {
 }
 
 std::string message_name(std::int32_t type) {
-  if (type >= hal::kFirstInternalType) return "sums";
-  if (type >= node::triangles_from(0)) return kNodeMessageNames.at(static_cast<std::size_t>(type - node::triangles_from(0)) % 3);
+  if (type >= messages::kFirstInternalType) return "sums";
+  if (type >= wire::triangles_from(0)) return kNodeMessageNames.at(static_cast<std::size_t>(type - wire::triangles_from(0)) % 3);
   const auto index = static_cast<std::size_t>(type);
   return index < kMessageNames.size() ? kMessageNames[index] : "type " + std::to_string(type);
 }
 
 class Writer {
  public:
-  Writer(const Trace& trace, const Write& write) : trace_(trace), write_(write) {}
+  Writer(const Trace& trace, const document::Write& write) : trace_(trace), write_(write) {}
 
   void write(const TraceHead& head);
 
@@ -66,7 +66,7 @@ class Writer {
   void flush();
 
   const Trace& trace_;
-  const Write& write_;
+  const document::Write& write_;
   std::string text_;
   bool first_ = true;
 };
@@ -113,7 +113,7 @@ void Writer::names() {
   };
   process(trace_.host(), "host", 0);
   name("thread_name", trace_.host(), kMainThread, {{"name", "farm"}});
-  for (const node::Hello& node : trace_.nodes()) {
+  for (const wire::Hello& node : trace_.nodes()) {
     std::string called = "node " + std::to_string(node.node) + " on " + node.host.data();
     if (node.binding[0] != '\0') called += std::string(", ") + node.binding.data();
     process(node.node, called, node.node + 1);
@@ -126,25 +126,25 @@ void Writer::names() {
 }
 
 int Writer::thread_of(const Trace::Record& record) const {
-  const hal::Event& event = record.event;
+  const messages::Event& event = record.event;
   const bool of_sink = event.kind == Kind::span && record.rank == trace_.host() &&
                        event.what == static_cast<int>(HostSpan::write);
   return of_sink ? kFirstSinkThread + event.peer : kMainThread;
 }
 
 std::string Writer::slice_name(const Trace::Record& record) const {
-  const hal::Event& event = record.event;
+  const messages::Event& event = record.event;
   if (event.kind == Kind::sent) return "send " + message_name(event.what);
   if (event.kind == Kind::taken) return "take " + message_name(event.what);
   if (event.kind == Kind::waited) return event.peer < 0 ? "wait until sent" : "wait for " + message_name(event.what);
   const auto what = static_cast<std::size_t>(event.what);
   if (record.rank == trace_.host()) return kHostSpanNames.at(what);
-  const bool frame = what >= static_cast<std::size_t>(node::Phase::keyframe);
+  const bool frame = what >= static_cast<std::size_t>(wire::Phase::keyframe);
   return kPhaseNames.at(what) + (frame ? " " + std::to_string(event.frame) : std::string());
 }
 
 std::string Writer::slice_arguments(const Trace::Record& record) const {
-  const hal::Event& event = record.event;
+  const messages::Event& event = record.event;
   const std::string value = std::to_string(event.value);
   std::string frame = record.rank == trace_.host() ? "" : "\"frame\":" + std::to_string(event.frame);
   if (event.kind != Kind::span) {
@@ -153,7 +153,7 @@ std::string Writer::slice_arguments(const Trace::Record& record) const {
     return (event.kind == Kind::sent ? "\"to\":" : "\"from\":") + peer_text(event.peer) + ",\"bytes\":" + value + frame;
   }
   if (record.rank != trace_.host()) {
-    const bool whole = event.what >= static_cast<int>(node::Phase::keyframe);
+    const bool whole = event.what >= static_cast<int>(wire::Phase::keyframe);
     return frame + (whole ? ",\"interval\":" + value : "");
   }
   switch (static_cast<HostSpan>(event.what)) {
@@ -222,7 +222,7 @@ void Writer::write(const TraceHead& head) {
 }  // namespace
 
 void write_trace(const std::filesystem::path& path, const TraceHead& head, const Trace& trace) {
-  write_whole_file(path, [&](const Write& write) { Writer(trace, write).write(head); });
+  document::write_whole_file(path, [&](const document::Write& write) { Writer(trace, write).write(head); });
 }
 
-}  // namespace mars::host
+}  // namespace mars::trace

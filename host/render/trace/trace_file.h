@@ -7,7 +7,7 @@
 
 #include "host/render/trace/trace.h"
 
-namespace mars::host {
+namespace mars::trace {
 
 // What a trace does not know of its run.
 struct TraceHead {
@@ -18,4 +18,4 @@ struct TraceHead {
 // Whole or not at all; throws Failure where it cannot be written.
 void write_trace(const std::filesystem::path& path, const TraceHead& head, const Trace& trace);
 
-}  // namespace mars::host
+}  // namespace mars::trace

@@ -16,7 +16,7 @@
 #include "host/shell/commands/motion_command.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::commands {
 namespace {
 
 constexpr const char* kFooter = R"(FILM is changed in place, whole or not at all. Begin with
@@ -35,24 +35,24 @@ struct Words {
   std::int64_t shift = 0;
   double stretch = 0, anticipation = 0, overshoot = 0;
 
-  Choice choice() const { return {all, thing, parts}; }
+  animator::Choice choice() const { return {all, thing, parts}; }
 };
 
 // Changes the film file by `change`; it stays as it was where that fails or the result is no film.
-void edit(const Words& words, const std::function<Remarks(Json&, const Film&)>& change) {
-  Remarks remarks;
+void edit(const Words& words, const std::function<animator::Remarks(document::Json&, const animator::Film&)>& change) {
+  animator::Remarks remarks;
   std::string note;
-  const auto changed = [&](Json& json, const Film& film) {
-    const std::uint32_t before = last_key(json);
+  const auto changed = [&](document::Json& json, const animator::Film& film) {
+    const std::uint32_t before = animator::last_key(json);
     remarks = change(json, film);
-    const std::uint32_t last = last_key(json);
+    const std::uint32_t last = animator::last_key(json);
     if (words.lengthen && last >= film.frames) json["frames"] = last + 1;
     if (!words.lengthen && last >= film.frames && last > before)
       note = "the last key is at frame " + std::to_string(last) + "; the film shows only its " +
              std::to_string(film.frames) + (film.frames == 1 ? " frame" : " frames") +
              ": --lengthen, or set its frames to " + std::to_string(last + 1) + "\n";
   };
-  change_film(words.film, changed);
+  film::change_film(words.film, changed);
   for (const std::string& remark : remarks) std::cerr << "mars: " << remark << '\n';
   std::cout << note;
 }
@@ -86,7 +86,7 @@ class Command {
   }
   Command& to(const char* help) {
     app_->add_option("--to", words_.to, help)->required()->type_name("FRAME")->check(
-        CLI::Range(0u, node::kMostFrames).description(""));
+        CLI::Range(0u, wire::kMostFrames).description(""));
     return *this;
   }
   Command& clamp() {
@@ -138,9 +138,9 @@ void add_pose(CLI::App& animate, Words& words) {
   command.app()->get_option("ACTOR")->required();
   command.app()->get_option("PART=NUMBERS")->required();
   command.runs([&words] {
-    edit(words, [&](Json& json, const Film& film) {
-      return pose(json, film, words.thing, words.parts, read_frame(words.frame), read_typed_ease(words.ease),
-                  words.clamp ? Beyond::clamped : Beyond::refused);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::pose(json, film, words.thing, words.parts, animator::read_frame(words.frame), animator::read_typed_ease(words.ease),
+                  words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
     });
   });
 }
@@ -151,9 +151,9 @@ void add_key(CLI::App& animate, Words& words) {
       "From this key to the next; without it the film moves as before. Example: --ease both");
   command.clamp().lengthen().runs([&words] {
     require_thing(words);
-    edit(words, [&](Json& json, const Film& film) {
-      return make_keys(json, film, words.choice(), read_frame(words.frame), read_typed_ease(words.ease),
-                       words.clamp ? Beyond::clamped : Beyond::refused);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame), animator::read_typed_ease(words.ease),
+                       words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
     });
   });
 }
@@ -163,8 +163,8 @@ void add_displacing(CLI::App& animate, Words& words, const char* name, const cha
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
   command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, keep] {
     require_thing(words);
-    edit(words, [&](Json& json, const Film& film) {
-      return (keep ? copy_keys : move_keys)(json, film, words.choice(), read_frame_range(words.frame), words.to);
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return (keep ? animator::copy_keys : animator::move_keys)(json, film, words.choice(), animator::read_frame_range(words.frame), words.to);
     });
   });
 }
@@ -173,20 +173,20 @@ void add_delete(CLI::App& animate, Words& words) {
   Command command(animate, words, "delete", "Delete keys");
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE").runs([&words] {
     require_thing(words);
-    edit(words, [&](Json& json, const Film& film) {
-      return delete_keys(json, film, words.choice(), read_frame_range(words.frame));
+    edit(words, [&](document::Json& json, const animator::Film& film) {
+      return animator::delete_keys(json, film, words.choice(), animator::read_frame_range(words.frame));
     });
   });
 }
 
-Remarks retime(const Words& words, CLI::App& command, Json& json, const Film& film) {
-  const FrameRange range = read_frame_range(words.frame);
-  if (command.count("--hold")) return hold(json, film, words.choice(), read_frame(words.frame), words.hold);
-  if (command.count("--shift")) return shift(json, film, words.choice(), read_frame(words.frame), words.shift);
-  if (command.count("--stretch")) return stretch(json, film, words.choice(), range, words.stretch);
-  if (command.count("--ease")) return ease_keys(json, film, words.choice(), range, *read_typed_ease(words.ease));
-  return ease_keys(json, film, words.choice(), range,
-                   swinging(words.anticipation / 100, words.overshoot / 100));
+animator::Remarks retime(const Words& words, CLI::App& command, document::Json& json, const animator::Film& film) {
+  const animator::FrameRange range = animator::read_frame_range(words.frame);
+  if (command.count("--hold")) return animator::hold(json, film, words.choice(), animator::read_frame(words.frame), words.hold);
+  if (command.count("--shift")) return animator::shift(json, film, words.choice(), animator::read_frame(words.frame), words.shift);
+  if (command.count("--stretch")) return animator::stretch(json, film, words.choice(), range, words.stretch);
+  if (command.count("--ease")) return animator::ease_keys(json, film, words.choice(), range, *animator::read_typed_ease(words.ease));
+  return animator::ease_keys(json, film, words.choice(), range,
+                   animator::swinging(words.anticipation / 100, words.overshoot / 100));
 }
 
 void add_time(CLI::App& animate, Words& words) {
@@ -196,7 +196,7 @@ void add_time(CLI::App& animate, Words& words) {
   app->add_option("--hold", words.hold,
                   "Stand still for N frames from the frame on; later keys move back. Example: --hold 12")
       ->type_name("N")
-      ->check(CLI::Range(1u, node::kMostFrames).description(""));
+      ->check(CLI::Range(1u, wire::kMostFrames).description(""));
   app->add_option("--stretch", words.stretch,
                   "Multiply the length of the range by FACTOR; later keys move along. Example: --stretch 1.5")
       ->type_name("FACTOR")
@@ -204,7 +204,7 @@ void add_time(CLI::App& animate, Words& words) {
   app->add_option("--shift", words.shift,
                   "Move keys at the frame and after it N frames later, or earlier. Example: --shift -6")
       ->type_name("N")
-      ->check(CLI::Range(-std::int64_t{node::kMostFrames}, std::int64_t{node::kMostFrames}).description(""));
+      ->check(CLI::Range(-std::int64_t{wire::kMostFrames}, std::int64_t{wire::kMostFrames}).description(""));
   for (const auto& [name, value, help] :
        {std::tuple("--anticipate", &words.anticipation,
                    "Swing back first after the frame's keys, by percent of the way. Example: --anticipate 15"),
@@ -219,7 +219,7 @@ void add_time(CLI::App& animate, Words& words) {
     if (wishes != 1)
       throw Failure(wishes == 0 ? "is not given" : "is given twice", "the change of timing",
                     "use one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
-    edit(words, [&](Json& json, const Film& film) { return retime(words, *app, json, film); });
+    edit(words, [&](document::Json& json, const animator::Film& film) { return retime(words, *app, json, film); });
   });
 }
 
@@ -228,19 +228,19 @@ void add_list(CLI::App& animate, Words& words) {
   command.thing("An actor, or camera; default: all that has keys. Example: robot").parts("PART", kParts);
   command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
   command.runs([&words] {
-    FilmFile file = open_film(words.film);
-    const FrameRange range = words.frame.empty() ? FrameRange{0, node::kMostFrames} : read_frame_range(words.frame);
-    std::cout << keys_table(file.json, file.film, {words.thing.empty(), words.thing, words.parts}, range);
+    film::FilmFile file = film::open_film(words.film);
+    const animator::FrameRange range = words.frame.empty() ? animator::FrameRange{0, wire::kMostFrames} : animator::read_frame_range(words.frame);
+    std::cout << animator::keys_table(file.json, file.film, {words.thing.empty(), words.thing, words.parts}, range);
   });
 }
 
 void add_check(CLI::App& animate, Words& words, int& code) {
   Command command(animate, words, "check", "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
-    const Findings findings = check_film(open_film(words.film).film);
+    const animator::Findings findings = animator::check_film(film::open_film(words.film).film);
     for (const std::string& line : findings.lines) std::cout << line << '\n';
     if (findings.lines.empty()) std::cout << words.film << ": all joints stay within their limits; no errors\n";
-    if (findings.trouble) code = kFailed;
+    if (findings.trouble) code = options::kFailed;
   });
 }
 
@@ -264,4 +264,4 @@ void add_animate(CLI::App& app, int& code) {
   animate->parse_complete_callback([words] {});  // keeps what was typed
 }
 
-}  // namespace mars::host
+}  // namespace mars::commands

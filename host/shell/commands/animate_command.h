@@ -5,9 +5,9 @@ namespace CLI {
 class App;
 }
 
-namespace mars::host {
+namespace mars::commands {
 
 // `code` becomes the exit code where it is not 0.
 void add_animate(CLI::App& app, int& code);
 
-}  // namespace mars::host
+}  // namespace mars::commands

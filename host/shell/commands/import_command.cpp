@@ -7,7 +7,7 @@
 
 #include "host/content/importer/import_file.h"
 
-namespace mars::host {
+namespace mars::commands {
 namespace {
 
 constexpr const char* kAfterwards = R"(Prints at the end what was read and what was not, such as bones, animations
@@ -34,7 +34,7 @@ std::string small_axis(std::string& word) {
 }  // namespace
 
 void add_import(CLI::App& app) {
-  const auto options = std::make_shared<ImportOptions>();
+  const auto options = std::make_shared<importer::ImportOptions>();
   CLI::App* command = app.add_subcommand("import", "Make a model file from a mesh file or a patch file");
   command
       ->add_option("FILE", options->from,
@@ -62,7 +62,7 @@ void add_import(CLI::App& app) {
       ->type_name("DEGREES");
   command->add_flag("--force", options->force, "Replace a model file that is there already. Example: --force");
   command->footer(kAfterwards);
-  command->callback([options] { std::cout << import_model(*options); });
+  command->callback([options] { std::cout << importer::import_model(*options); });
 }
 
-}  // namespace mars::host
+}  // namespace mars::commands

@@ -18,7 +18,7 @@
 #include "host/shell/options/command_line.h"
 #include "host/shell/options/wrapped.h"
 
-namespace mars::host {
+namespace mars::commands {
 namespace {
 
 constexpr const char* kWay = R"(A figure from nothing:
@@ -36,7 +36,7 @@ struct Words {
   std::vector<std::tuple<std::string, double, double>> limits;
   std::vector<std::string> options, resets, joints, branches;
   std::optional<double> height;
-  MaterialChange look;
+  modeler::MaterialChange look;
   bool fixed = false, free = false, branch = false, no_ground = false;
 };
 
@@ -62,28 +62,28 @@ std::pair<std::string, std::vector<double>> option_of(const std::string& text) {
   return option;
 }
 
-JointChange change_of(const Words& words) {
-  JointChange change;
+modeler::JointChange change_of(const Words& words) {
+  modeler::JointChange change;
   change.reset = words.resets;
   change.name = given(words.name);
   change.parent = given(words.parent);
   change.place = vector_of(words.place);
   change.x_axis = vector_of(words.x_axis);
   change.y_axis = vector_of(words.y_axis);
-  if (words.fixed) change.freedom = Freedom::fixed;
-  if (words.free) change.freedom = Freedom::free;
+  if (words.fixed) change.freedom = modeler::Freedom::fixed;
+  if (words.free) change.freedom = modeler::Freedom::free;
   for (const auto& [axis, lower, upper] : words.limits) change.limits.push_back({axis[0], {lower, upper}});
   change.shape = given(words.shape);
   for (const std::string& text : words.options) change.options.push_back(option_of(text));
   if (!words.sbb.empty())
-    change.sbb = Box{{words.sbb[0], words.sbb[1], words.sbb[2]}, {words.sbb[3], words.sbb[4], words.sbb[5]}};
+    change.sbb = modeler::Box{{words.sbb[0], words.sbb[1], words.sbb[2]}, {words.sbb[3], words.sbb[4], words.sbb[5]}};
   change.material = given(words.material);
   change.limb = given(words.limb);
   return change;
 }
 
-MaterialChange look_of(const Words& words) {
-  MaterialChange look = words.look;
+modeler::MaterialChange look_of(const Words& words) {
+  modeler::MaterialChange look = words.look;
   look.color = vector_of(words.color);
   return look;
 }
@@ -109,7 +109,7 @@ void require_sense(const Words& words) {
     throw Failure("no joint is named", words.file, "name it after the file");
 }
 
-bool has_material(const Json& model, const std::string& name) {
+bool has_material(const document::Json& model, const std::string& name) {
   return model.contains("materials") && model["materials"].contains(name);
 }
 
@@ -117,46 +117,46 @@ void run_new(const Words& words) {
   if (!words.from.empty()) {
     if (of_a_joint(words) || !words.joint.empty() || !words.material.empty())
       throw Failure("a model made from another has that one's joints", words.file, "give only --from");
-    return create_model(words.file, derived_model(words.from));
+    return modeler::create_model(words.file, modeler::derived_model(words.from));
   }
   require_sense_of_options(words);
-  Json model = empty_model();
+  document::Json model = modeler::empty_model();
   const std::string joint = words.joint.empty() ? "body" : words.joint;
-  if (look_of(words).any()) add_material(model, words.material, look_of(words));
-  add_joint(model, joint, change_of(words));
-  create_model(words.file, model);
+  if (look_of(words).any()) modeler::add_material(model, words.material, look_of(words));
+  modeler::add_joint(model, joint, change_of(words));
+  modeler::create_model(words.file, model);
 }
 
 void run_add(const Words& words) {
   require_sense(words);
-  change_model(words.file, [&](Json& model) {
-    if (words.joint.empty() || look_of(words).any()) add_material(model, words.material, look_of(words));
-    if (!words.joint.empty()) add_joint(model, words.joint, change_of(words));
+  modeler::change_model(words.file, [&](document::Json& model) {
+    if (words.joint.empty() || look_of(words).any()) modeler::add_material(model, words.material, look_of(words));
+    if (!words.joint.empty()) modeler::add_joint(model, words.joint, change_of(words));
   });
 }
 
 void run_set(const Words& words) {
   require_sense(words);
-  change_model(words.file, [&](Json& model) {
-    if (words.joint.empty()) return set_material(model, words.material, look_of(words), given(words.name));
+  modeler::change_model(words.file, [&](document::Json& model) {
+    if (words.joint.empty()) return modeler::set_material(model, words.material, look_of(words), given(words.name));
     if (look_of(words).any() && !has_material(model, words.material))
-      add_material(model, words.material, look_of(words));
+      modeler::add_material(model, words.material, look_of(words));
     else if (look_of(words).any())
-      set_material(model, words.material, look_of(words), std::nullopt);
-    set_joint(model, words.joint, change_of(words));
+      modeler::set_material(model, words.material, look_of(words), std::nullopt);
+    modeler::set_joint(model, words.joint, change_of(words));
   });
 }
 
 void run_remove(const Words& words) {
   require_sense(words);
-  change_model(words.file, [&](Json& model) {
-    if (!words.joint.empty()) remove_joint(model, words.joint, words.branch);
-    if (!words.material.empty()) remove_material(model, words.material);
+  modeler::change_model(words.file, [&](document::Json& model) {
+    if (!words.joint.empty()) modeler::remove_joint(model, words.joint, words.branch);
+    if (!words.material.empty()) modeler::remove_material(model, words.material);
   });
 }
 
 void run_scale(const Words& words) {
-  Proportions proportions;
+  modeler::Proportions proportions;
   const bool alike = words.factors.size() == 1;
   const glm::dvec3 factors = words.factors.empty() ? glm::dvec3(1)
                              : alike               ? glm::dvec3(words.factors[0])
@@ -166,14 +166,14 @@ void run_scale(const Words& words) {
   if (proportions.joints.empty()) proportions.scale = factors;
   proportions.height = words.height;
   proportions.ground = !words.no_ground;
-  change_model(words.file, [&](Json& model) { scale_model(model, load_own_model(words.file), proportions); });
+  modeler::change_model(words.file, [&](document::Json& model) { modeler::scale_model(model, modeler::load_own_model(words.file), proportions); });
 }
 
-void run_show(const Words& words) { std::cout << describe_model(load_own_model(words.file)); }
+void run_show(const Words& words) { std::cout << modeler::describe_model(modeler::load_own_model(words.file)); }
 
 void run_check(const Words& words) {
-  const Model model = load_own_model(words.file);
-  const std::vector<std::string> doubts = doubts_about(model);
+  const modeler::Model model = modeler::load_own_model(words.file);
+  const std::vector<std::string> doubts = modeler::doubts_about(model);
   for (const std::string& doubt : doubts) std::cout << words.file << ": " << doubt << '\n';
   std::cout << words.file << ": a model of " << model.joints.size()
             << (model.joints.size() == 1 ? " joint, " : " joints, ")
@@ -182,11 +182,11 @@ void run_check(const Words& words) {
 
 std::string shapes_text() {
   std::string text;
-  for (const LibraryShape& shape : shape_library()) {
+  for (const modeler::LibraryShape& shape : modeler::shape_library()) {
     text += (text.empty() ? "" : ", ") + std::string(shape.name);
     if (!shape.option.key.empty()) text += " (" + std::string(shape.option.key) + ")";
   }
-  return "Shapes of the library, and their options for --with:\n  " + wrapped(text, 2) + "\n";
+  return "Shapes of the library, and their options for --with:\n  " + options::wrapped(text, 2) + "\n";
 }
 
 void add_numbers(CLI::App& app, const char* name, std::vector<double>& numbers, int count, const char* type,
@@ -288,7 +288,7 @@ constexpr Verb kVerbs[] = {
            app, "--reset", words.resets, "WHAT",
            "Back to its default: parent, place, axes, limits, segment, sbb, material or limb. "
            "Example: --reset axes")
-           ->check(CLI::IsMember(std::vector<std::string>(std::begin(kResets), std::end(kResets))).description(""));
+           ->check(CLI::IsMember(std::vector<std::string>(std::begin(modeler::kResets), std::end(modeler::kResets))).description(""));
        add_look_options(app, words);
      }},
     {"scale", "Make all, or some joints, larger or smaller along their own axes", run_scale,
@@ -333,4 +333,4 @@ void add_model(CLI::App& app) {
   model->footer(kWay);  // last, or each of its commands would have it
 }
 
-}  // namespace mars::host
+}  // namespace mars::commands

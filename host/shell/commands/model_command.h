@@ -5,8 +5,8 @@ namespace CLI {
 class App;
 }
 
-namespace mars::host {
+namespace mars::commands {
 
 void add_model(CLI::App& app);
 
-}  // namespace mars::host
+}  // namespace mars::commands

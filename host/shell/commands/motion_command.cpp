@@ -12,7 +12,7 @@
 #include "host/content/film/film_json.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::commands {
 namespace {
 
 // What a person typed for one action.
@@ -25,7 +25,7 @@ struct Typed {
 
 // With as many frames as `last` needs, if that is wanted; else what a person should know of a film that is too
 // short.
-std::string grown(Json& film, std::uint32_t last, bool lengthen) {
+std::string grown(document::Json& film, std::uint32_t last, bool lengthen) {
   const auto frames = film.at("frames").get<std::uint32_t>();
   if (last < frames) return "";
   if (lengthen) film["frames"] = last + 1;
@@ -35,7 +35,7 @@ std::string grown(Json& film, std::uint32_t last, bool lengthen) {
 }
 
 // All its values at once, or none.
-void require_all(const Action& action, const Parameter& parameter, const std::vector<std::string>& values) {
+void require_all(const motion::Action& action, const motion::Parameter& parameter, const std::vector<std::string>& values) {
   if (values.empty() || values.size() == parameter.count()) return;
   const std::string name = "--" + std::string(parameter.name);
   throw Failure(name + " has " + std::to_string(values.size()) + " of its " +
@@ -43,13 +43,13 @@ void require_all(const Action& action, const Parameter& parameter, const std::ve
                 std::string(action.name), "write " + name + " " + std::string(parameter.example));
 }
 
-void add_action(CLI::App& animate, const std::string& film, const Action& action) {
+void add_action(CLI::App& animate, const std::string& film, const motion::Action& action) {
   CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
   const auto typed = std::make_shared<Typed>();
   typed->values.resize(action.parameters.size());
   command->add_option("ACTOR", typed->actor, "The actor. Example: anna")->required();
   for (std::size_t i = 0; i < action.parameters.size(); ++i) {
-    const Parameter& parameter = action.parameters[i];
+    const motion::Parameter& parameter = action.parameters[i];
     const std::string name = "--" + std::string(parameter.name);
     std::string help(parameter.meaning);
     help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
@@ -64,20 +64,20 @@ void add_action(CLI::App& animate, const std::string& film, const Action& action
           ->add_option("--at", typed->at,
                        "The frame at which it begins; default: the actor's last key. Example: --at 24")
           ->type_name("FRAME")
-          ->check(CLI::Range(0u, node::kMostFrames).description(""));
+          ->check(CLI::Range(0u, wire::kMostFrames).description(""));
   command->add_flag("--lengthen", typed->lengthen,
                     "Give the film as many frames as this needs. Example: --lengthen");
   command->callback([&film, &action, typed, at] {
-    Wishes::Values values;
+    motion::Wishes::Values values;
     for (std::size_t i = 0; i < typed->values.size(); ++i) {
       require_all(action, action.parameters[i], typed->values[i]);
       if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
     }
-    Performed done;
+    motion::Performed done;
     std::string note;
-    change_film(film, [&](Json& json, const Film&) {
-      done = perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
-                     Wishes(values, std::string(action.name)));
+    film::change_film(film, [&](document::Json& json, const animator::Film&) {
+      done = motion::perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
+                     motion::Wishes(values, std::string(action.name)));
       note = grown(json, done.last, typed->lengthen);
     });
     std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report)
@@ -94,10 +94,10 @@ void add_script(CLI::App& animate, const std::string& film) {
   command->add_flag("--lengthen", *lengthen,
                     "Give the film as many frames as the script needs. Example: --lengthen");
   command->callback([&film, script, lengthen] {
-    Played played;
+    motion::Played played;
     std::string note;
-    change_film(film, [&](Json& json, const Film&) {
-      played = play_script(json, film, read_file(*script), *script);
+    film::change_film(film, [&](document::Json& json, const animator::Film&) {
+      played = motion::play_script(json, film, document::read_file(*script), *script);
       if (!played.cut) note = grown(json, played.last, *lengthen);
     });
     for (const std::string& line : played.report) std::cout << line << '\n';
@@ -108,8 +108,8 @@ void add_script(CLI::App& animate, const std::string& film) {
 }  // namespace
 
 void add_motion(CLI::App& animate, const std::string& film) {
-  for (const Action& action : actions()) add_action(animate, film, action);
+  for (const motion::Action& action : motion::actions()) add_action(animate, film, action);
   add_script(animate, film);
 }
 
-}  // namespace mars::host
+}  // namespace mars::commands

@@ -7,9 +7,9 @@ namespace CLI {
 class App;
 }
 
-namespace mars::host {
+namespace mars::commands {
 
 // Adds a command for each action, and script. `film` is what stands before them, read when one of them runs.
 void add_motion(CLI::App& animate, const std::string& film);
 
-}  // namespace mars::host
+}  // namespace mars::commands

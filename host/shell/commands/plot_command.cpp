@@ -9,7 +9,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_json.h"
 
-namespace mars::host {
+namespace mars::commands {
 namespace {
 
 struct Words {
@@ -21,12 +21,12 @@ void plot(const Words& words) {
   const std::filesystem::path output = words.output;
   if (output.extension() != ".png" && output.extension() != ".svg")
     throw Failure("is neither .png nor .svg", words.output, "name the picture like angles.png or angles.svg");
-  FilmFile file = open_film(words.film);
-  const Choice choice{words.thing.empty(), words.thing, words.parts};
-  const PlotAs as = output.extension() == ".png" ? PlotAs::png : PlotAs::svg;
-  check_can_write(output);
-  const std::string picture = draw_with_gnuplot(plot_script(file.json, file.film, choice, as));
-  write_whole_file(output, picture);
+  film::FilmFile file = film::open_film(words.film);
+  const animator::Choice choice{words.thing.empty(), words.thing, words.parts};
+  const animator::PlotAs as = output.extension() == ".png" ? animator::PlotAs::png : animator::PlotAs::svg;
+  document::check_can_write(output);
+  const std::string picture = animator::draw_with_gnuplot(animator::plot_script(file.json, file.film, choice, as));
+  document::write_whole_file(output, picture);
 }
 
 }  // namespace
@@ -44,4 +44,4 @@ void add_plot(CLI::App& app) {
   command->callback([words] { plot(*words); });
 }
 
-}  // namespace mars::host
+}  // namespace mars::commands

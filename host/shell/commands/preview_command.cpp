@@ -17,14 +17,14 @@
 #include "host/preview/reloading_pictures.h"
 #include "host/preview/write_pictures.h"
 
-namespace mars::host {
+namespace mars::commands {
 namespace {
 
 struct Wishes {
   std::string source;
-  WriteWishes write;
-  Look look;
-  Graphics graphics = Graphics::automatic;
+  preview::WriteWishes write;
+  preview::Look look;
+  preview::Graphics graphics = preview::Graphics::automatic;
 };
 
 // A value that makes no sense is a usage error: it names the option, exit code 2.
@@ -40,10 +40,10 @@ std::function<void(const std::string&)> taking(const char* name, Take take) {
 }
 
 void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
-  WriteWishes& write = wishes->write;
+  preview::WriteWishes& write = wishes->write;
   command
       .add_option_function<std::string>("-o,--output", taking("--output", [wishes](const std::string& text) {
-                                          check_kind(text);
+                                          preview::check_kind(text);
                                           wishes->write.file = text;
                                         }),
                                         "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
@@ -52,8 +52,8 @@ void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
   command
       .add_option_function<std::string>(
           "--size", taking("--size", [wishes](const std::string& text) {
-            const PictureSize size = read_picture_size(text);
-            wishes->write.extent = PictureSize{size.width, size.height};
+            const images::PictureSize size = images::read_picture_size(text);
+            wishes->write.extent = images::PictureSize{size.width, size.height};
           }),
           "Pixels of each picture that is written; default: the film's own; on a sheet 320x180, in a GIF at most 960x540. Example: --size 480x270")
       ->type_name("WxH");
@@ -63,10 +63,10 @@ void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
           "Frames that are written; default: all, on a sheet 12. Example: --frames 0-47")
       ->type_name("LIST");
   command.add_option("--every", write.every, "Only every Nth of these. Example: --every 8")
-      ->check(CLI::Range(1u, node::kMostFrames).description(""))
+      ->check(CLI::Range(1u, wire::kMostFrames).description(""))
       ->type_name("N");
   command.add_option("--columns", write.columns, "Pictures in a row of a sheet. Example: --columns 4")
-      ->check(CLI::Range(1u, node::kMaxSide).description(""))
+      ->check(CLI::Range(1u, wire::kMaxSide).description(""))
       ->type_name("N");
 }
 
@@ -88,47 +88,47 @@ void add_choice(CLI::App& command, const char* name, const std::vector<std::stri
 
 void add_graphics(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
   add_choice(command, "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
-             [wishes](std::size_t number) { wishes->graphics = static_cast<Graphics>(number); },
+             [wishes](std::size_t number) { wishes->graphics = static_cast<preview::Graphics>(number); },
              "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
              "default: asked of the terminal. Example: --graphics blocks");
 }
 
 // Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
-void play_in_terminal(const Wishes& wishes, const std::function<int(Terminal&)>& play_in) {
+void play_in_terminal(const Wishes& wishes, const std::function<int(preview::Terminal&)>& play_in) {
   int ended_by = 0;
   {
-    const hal::TerminalKind kind = hal::terminal_kind();
-    Terminal terminal(wishes.graphics, kind.name, kind.colors24);
+    const messages::TerminalKind kind = messages::terminal_kind();
+    preview::Terminal terminal(wishes.graphics, kind.name, kind.colors24);
     ended_by = play_in(terminal);
   }
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
 }
 
-void write_preview(Wishes& wishes, const Previewed& film, const MakeSurface& make_surface) {
+void write_preview(Wishes& wishes, const preview::Previewed& film, const MakeSurface& make_surface) {
   const auto surface = make_surface(film.film);
-  wishes.look.frames = frames_to_write(wishes.write, film.view.frames);
+  wishes.look.frames = preview::frames_to_write(wishes.write, film.view.frames);
   wishes.look.smooth = wishes.look.wait = true;
-  FilmPictures pictures(film.view, *surface, wishes.look);
-  write_pictures(pictures, wishes.write);
+  preview::FilmPictures pictures(film.view, *surface, wishes.look);
+  preview::write_pictures(pictures, wishes.write);
 }
 
 void preview(Wishes& wishes, const MakeSurface& make_surface) {
-  RecordedReads reads;
-  auto film = std::make_unique<Previewed>(load_previewed(wishes.source));
+  document::RecordedReads reads;
+  auto film = std::make_unique<preview::Previewed>(preview::load_previewed(wishes.source));
   if (!wishes.write.file.empty()) return write_preview(wishes, *film, make_surface);
-  std::optional<ReloadingPictures> pictures;
-  play_in_terminal(wishes, [&](Terminal& terminal) {
-    wishes.look.smooth = terminal.graphics() >= Graphics::blocks;  // few pixels: they cost little, and need it most
+  std::optional<preview::ReloadingPictures> pictures;
+  play_in_terminal(wishes, [&](preview::Terminal& terminal) {
+    wishes.look.smooth = terminal.graphics() >= preview::Graphics::blocks;  // few pixels: they cost little, and need it most
     pictures.emplace(wishes.source, std::move(film), reads.stamps(), make_surface, wishes.look);
-    return play(*pictures, terminal);
+    return preview::play(*pictures, terminal);
   });
   if (pictures->stop()) std::quick_exit(0);  // nobody wants the film any more: its end is not waited for
 }
 
 void play_folder(const Wishes& wishes) {
-  FolderPictures pictures(wishes.source);
-  if (!wishes.write.file.empty()) return write_pictures(pictures, wishes.write);
-  play_in_terminal(wishes, [&](Terminal& terminal) { return play(pictures, terminal); });
+  preview::FolderPictures pictures(wishes.source);
+  if (!wishes.write.file.empty()) return preview::write_pictures(pictures, wishes.write);
+  play_in_terminal(wishes, [&](preview::Terminal& terminal) { return preview::play(pictures, terminal); });
 }
 
 }  // namespace
@@ -142,11 +142,11 @@ void add_preview(CLI::App& app, const MakeSurface& make_surface) {
       ->required();
   add_choice(*command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
              [wishes](std::size_t number) {
-               wishes->look.as = number < 4 ? std::optional(static_cast<As>(number)) : std::nullopt;
+               wishes->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
              },
              "How models are shown first; default: prisms. Example: --as stick");
   add_choice(*command, "--view", {"camera", "front", "side", "top"},
-             [wishes](std::size_t number) { wishes->look.from = static_cast<From>(number); },
+             [wishes](std::size_t number) { wishes->look.from = static_cast<preview::From>(number); },
              "Where it is seen from first; default: the film's camera. Example: --view side");
   add_graphics(*command, wishes);
   add_output(*command, wishes);
@@ -162,4 +162,4 @@ void add_play(CLI::App& app) {
   command->callback([wishes] { play_folder(*wishes); });
 }
 
-}  // namespace mars::host
+}  // namespace mars::commands

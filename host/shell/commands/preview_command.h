@@ -11,12 +11,12 @@ namespace CLI {
 class App;
 }
 
-namespace mars::host {
+namespace mars::commands {
 
 // Rendered frames of a film that outlives them.
-using MakeSurface = std::function<std::unique_ptr<SurfaceSource>(const CompiledFilm& film)>;
+using MakeSurface = std::function<std::unique_ptr<preview::SurfaceSource>(const film::CompiledFilm& film)>;
 
 void add_preview(CLI::App& app, const MakeSurface& make_surface);
 void add_play(CLI::App& app);
 
-}  // namespace mars::host
+}  // namespace mars::commands

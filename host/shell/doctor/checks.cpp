@@ -6,7 +6,7 @@
 #include "host/content/document/text.h"
 #include "host/shell/launch/text_reader.h"
 
-namespace mars::host {
+namespace mars::doctor {
 namespace {
 
 using State = Finding::State;
@@ -25,16 +25,16 @@ bool has(const std::string& text, const char* part) { return text.find(part) != 
 bool several_machines(const Facts& facts) { return facts.slurm && facts.slurm->machines > 1; }
 
 // "5.0.3", with its first number; "" where an mpirun that prints this is another MPI's.
-std::string version_of(Mpi mpi, const std::string& printed) {
+std::string version_of(launch::Mpi mpi, const std::string& printed) {
   const auto behind = [&](std::initializer_list<const char*> words) -> std::string {
-    TextReader reader(printed);
+    launch::TextReader reader(printed);
     for (const char* each : words)
       if (!reader.find(each)) return "";
     reader.skip_space();
     const std::string version = reader.word().value_or("");
     return !version.empty() && std::isdigit(static_cast<unsigned char>(version.front())) ? version : "";
   };
-  if (mpi == Mpi::mpich) return behind({"HYDRA", "Version:"});
+  if (mpi == launch::Mpi::mpich) return behind({"HYDRA", "Version:"});
   for (const char* name : {"(Open MPI)", "(Open RTE)", "(OpenRTE)", "(PRRTE)"})
     if (const std::string version = behind({name}); !version.empty()) return version;
   return "";
@@ -42,12 +42,12 @@ std::string version_of(Mpi mpi, const std::string& printed) {
 
 Finding check_mpi(const Facts& facts) {
   const char* about = "MPI";
-  const Mpi mpi = facts.programs.mpi;
-  const std::string name = name_of(mpi);
-  const std::string load = "(module load " + std::string(mpi == Mpi::mpich ? "mpich" : "openmpi") + ")";
+  const launch::Mpi mpi = facts.programs.mpi;
+  const std::string name = launch::name_of(mpi);
+  const std::string load = "(module load " + std::string(mpi == launch::Mpi::mpich ? "mpich" : "openmpi") + ")";
   if (!facts.programs.mpirun) {
     const std::string remedy =
-        "install " + name + " (Debian: " + package_of(mpi) + "), or load it " + load;
+        "install " + name + " (Debian: " + launch::package_of(mpi) + "), or load it " + load;
     if (several_machines(facts) || !facts.programs.threads)
       return {State::trouble, about, "mpirun was not found", remedy};
     return {State::note, about, "mpirun was not found: nodes are threads of one process",
@@ -71,7 +71,7 @@ Finding check_mpi(const Facts& facts) {
 
 Finding check_programs(const Facts& facts) {
   const char* about = "programs";
-  const Programs& programs = facts.programs;
+  const launch::Programs& programs = facts.programs;
   std::vector<std::string> lacking;
   for (const auto& [name, there] : {std::pair{"mars-host", programs.host.has_value()},
                                     std::pair{"mars-node", programs.node.has_value()},
@@ -80,11 +80,11 @@ Finding check_programs(const Facts& facts) {
   }
   if (!lacking.empty()) {
     const bool needed = programs.mpirun || !programs.threads;
-    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + joined(lacking),
+    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + document::joined(lacking),
             "build MARS where MPI is installed, and keep its programs in one folder"};
   }
   if (!facts.lacking.empty()) {
-    return {State::trouble, about, "mars-node lacks libraries: " + joined(facts.lacking),
+    return {State::trouble, about, "mars-node lacks libraries: " + document::joined(facts.lacking),
             "load the MPI that MARS was built with (module load ...), or install it on this machine"};
   }
   const auto folder = programs.node->parent_path();
@@ -97,8 +97,8 @@ Finding check_programs(const Facts& facts) {
 
 Finding check_processors(const Facts& facts) {
   const std::uint32_t cores = facts.surroundings.cores;
-  std::string found = counted(cores, "core");
-  if (facts.processors != cores) found += ", " + counted(facts.processors, "hardware thread");
+  std::string found = document::counted(cores, "core");
+  if (facts.processors != cores) found += ", " + document::counted(facts.processors, "hardware thread");
   found += ", " + facts.simd;
   if (facts.processors < facts.machine_processors) {
     return {facts.slurm ? State::good : State::note, "processors",
@@ -116,17 +116,17 @@ Finding check_nodes(const Facts& facts) {
   if (facts.slurm && facts.slurm->tasks != 0 && !several_machines(facts) &&
       facts.slurm->tasks < facts.nodes + 1) {
     return {State::note, about,
-            "the job has " + counted(facts.slurm->tasks, "task") + ", the host and " +
-                counted(facts.nodes, "node") + " want " + std::to_string(facts.nodes + 1),
+            "the job has " + document::counted(facts.slurm->tasks, "task") + ", the host and " +
+                document::counted(facts.nodes, "node") + " want " + std::to_string(facts.nodes + 1),
             "ask for one task more than nodes (sbatch -n " + std::to_string(facts.nodes + 1) +
                 "), or use --nodes " + std::to_string(std::max(1u, facts.slurm->tasks - 1))};
   }
   if (facts.nodes > cores) {
     return {State::note, about,
-            counted(facts.nodes, "node") + " on " + counted(cores, "core") + ": they take turns, bound to none",
+            document::counted(facts.nodes, "node") + " on " + document::counted(cores, "core") + ": they take turns, bound to none",
             "--nodes " + std::to_string(cores) + " gives each a core of its own"};
   }
-  return {State::good, about, counted(facts.nodes, "node") + " on " + counted(cores, "core") + ": each bound to its own",
+  return {State::good, about, document::counted(facts.nodes, "node") + " on " + document::counted(cores, "core") + ": each bound to its own",
           ""};
 }
 
@@ -165,10 +165,10 @@ Finding check_shared(const Facts& facts) {
 // 8 and 16 nodes on one machine.
 Finding check_open_files(const Facts& facts) {
   const std::uint64_t needed = 40 + 4 * std::uint64_t{facts.nodes};
-  if (facts.open_files >= needed) return {State::good, "open files", "enough for " + counted(facts.nodes, "node"), ""};
+  if (facts.open_files >= needed) return {State::good, "open files", "enough for " + document::counted(facts.nodes, "node"), ""};
   return {State::trouble, "open files",
           "a process may have " + std::to_string(facts.open_files) + ", mpirun needs about " + std::to_string(needed) +
-              " for " + counted(facts.nodes, "node"),
+              " for " + document::counted(facts.nodes, "node"),
           "ulimit -n " + std::to_string(std::max<std::uint64_t>(1024, needed))};
 }
 
@@ -183,7 +183,7 @@ Finding check_copies(const Facts& facts) {
 Finding check_user(const Facts& facts) {
   const std::string place = facts.container.empty() ? "" : " in a container (" + facts.container + ")";
   if (!facts.surroundings.root) return {State::good, "user", "not root" + place, ""};
-  if (facts.programs.mpi == Mpi::mpich) return {State::good, "user", "root" + place, ""};
+  if (facts.programs.mpi == launch::Mpi::mpich) return {State::good, "user", "root" + place, ""};
   return {State::note, "user", "root" + place + ": Open MPI starts as root only with two settings",
           "mars render sets them; for mpirun by hand export OMPI_ALLOW_RUN_AS_ROOT=1 "
           "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
@@ -209,8 +209,8 @@ Finding check_video(const Facts& facts) {
 
 void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
   const SlurmJob& job = *facts.slurm;
-  const std::string found = "job " + job.id + ", " + counted(job.machines, "machine") +
-                            (job.tasks != 0 ? ", " + counted(job.tasks, "task") : "");
+  const std::string found = "job " + job.id + ", " + document::counted(job.machines, "machine") +
+                            (job.tasks != 0 ? ", " + document::counted(job.tasks, "task") : "");
   findings.push_back({State::good, "Slurm", found, ""});
   if (!job.srun) {
     const bool stuck = several_machines(facts) && facts.surroundings.no_remote_shell;
@@ -230,9 +230,9 @@ void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
 
 std::string bytes_text(std::uint64_t bytes) {
   const double mebibytes = static_cast<double>(bytes) / kMiB;
-  if (bytes >= 10 * 1024 * kMiB) return formatted("%.0f GiB", mebibytes / 1024);
-  if (bytes >= 1024 * kMiB) return formatted("%.1f GiB", mebibytes / 1024);
-  return formatted("%.0f MiB", mebibytes);
+  if (bytes >= 10 * 1024 * kMiB) return document::formatted("%.0f GiB", mebibytes / 1024);
+  if (bytes >= 1024 * kMiB) return document::formatted("%.1f GiB", mebibytes / 1024);
+  return document::formatted("%.0f MiB", mebibytes);
 }
 
 std::vector<Finding> check_machine(const Facts& facts) {
@@ -250,18 +250,18 @@ std::vector<Finding> check_machine(const Facts& facts) {
   return findings;
 }
 
-Finding check_start(const Trial& trial) {
+Finding check_start(const launch::Trial& trial) {
   if (trial.failure) {
     const Failure& failure = *trial.failure;
     const std::string found = failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem;
     return {State::trouble, "a start", found, failure.remedy + (failure.remedy.empty() ? "" : "\n") + trial.command};
   }
-  const Booted& booted = trial.booted;
+  const events::Booted& booted = trial.booted;
   return {State::good, "a start",
-          counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") + " (" +
-              booted.backend + ") booted in " + formatted("%.1f", trial.boot_seconds) + " s, rendered " +
-              counted(trial.frames, "frame"),
+          document::counted(booted.nodes.size(), "node") + " on " + document::counted(booted.machines, "machine") + " (" +
+              booted.backend + ") booted in " + document::formatted("%.1f", trial.boot_seconds) + " s, rendered " +
+              document::counted(trial.frames, "frame"),
           ""};
 }
 
-}  // namespace mars::host
+}  // namespace mars::doctor

@@ -7,7 +7,7 @@
 #include "host/shell/doctor/facts.h"
 #include "host/shell/launch/launch.h"
 
-namespace mars::host {
+namespace mars::doctor {
 
 struct Finding {
   enum class State { good, note, trouble };
@@ -24,9 +24,9 @@ struct Finding {
 std::vector<Finding> check_machine(const Facts& facts);
 
 // How a start went.
-Finding check_start(const Trial& trial);
+Finding check_start(const launch::Trial& trial);
 
 // "8 GiB", "63 MiB"
 std::string bytes_text(std::uint64_t bytes);
 
-}  // namespace mars::host
+}  // namespace mars::doctor

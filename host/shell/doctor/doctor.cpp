@@ -9,7 +9,7 @@
 #include "host/child/environment.h"
 #include "host/child/programs.h"
 
-namespace mars::host {
+namespace mars::doctor {
 namespace {
 
 // The least of "4(x3),2", processors by machine: what a step may ask of every machine.
@@ -24,10 +24,10 @@ std::uint32_t least_processors(const std::string& text) {
 }
 
 // A doctor on every machine of the job, with as many processors as it gives.
-Command ask_all(const std::filesystem::path& srun, const SlurmJob& job, std::uint32_t nodes_each,
+child::Command ask_all(const std::filesystem::path& srun, const SlurmJob& job, std::uint32_t nodes_each,
                 const std::filesystem::path& self) {
   const std::string machines = std::to_string(job.machines);
-  const std::string given = own_environment().value("SLURM_JOB_CPUS_PER_NODE").value_or("1");
+  const std::string given = child::own_environment().value("SLURM_JOB_CPUS_PER_NODE").value_or("1");
   return {{},
           {srun.string(), "--overlap", "--mpi=none", "--nodes=" + machines, "--ntasks=" + machines,
            "--ntasks-per-node=1", "--cpus-per-task=" + std::to_string(least_processors(given)), self.string(),
@@ -39,17 +39,17 @@ struct Answers {
   std::string complaints;
 };
 
-Answers ask(const Command& command) {
+Answers ask(const child::Command& command) {
   constexpr std::chrono::seconds kLongest{60};
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
   Answers answers;
-  Child child(command);
+  child::Child child(command);
   child.wait({[&](const std::string& line) { add_line(line, answers.machines); },
               [&](const std::string& line) { answers.complaints += line + "\n"; },
               [&] {
                 if (std::chrono::steady_clock::now() > deadline) child.stop();
               }});
-  fail_if_stopped(child);
+  child::fail_if_stopped(child);
   return answers;
 }
 
@@ -58,7 +58,7 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
                                          const std::filesystem::path& self) {
   const std::vector<MachineFindings> here{{facts.host, check_machine(facts)}};
   if (!facts.slurm || facts.slurm->machines < 2) return here;
-  const auto srun = find_program("srun", program_path(own_environment()));
+  const auto srun = child::find_program("srun", child::program_path(child::own_environment()));
   if (!srun) return here;
   const std::uint32_t machines = facts.slurm->machines;
   Answers answers = ask(ask_all(*srun, *facts.slurm, (facts.nodes + machines - 1) / machines, self));
@@ -75,12 +75,12 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
 }
 
 // None where there is nothing to start, which the checks report.
-std::optional<Trial> try_to_start(const DoctorOptions& options, const Programs& programs,
+std::optional<launch::Trial> try_to_start(const DoctorOptions& options, const launch::Programs& programs,
                                   const std::filesystem::path& self) {
   if (!programs.threads && !(programs.mpirun && programs.host && programs.node)) return std::nullopt;
-  RenderOptions render;
+  options::RenderOptions render;
   render.nodes = options.nodes;
-  return try_start(render, self);
+  return launch::try_start(render, self);
 }
 
 std::string names_of(const std::vector<MachineFindings>& machines) {
@@ -92,12 +92,12 @@ std::string names_of(const std::vector<MachineFindings>& machines) {
 }  // namespace
 
 bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self) {
-  Facts facts = gather_facts(self, options.nodes, Ask::programs);
+  Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
   if (options.this_machine) {
     std::cout << lines_of({facts.host, check_machine(facts)}) << std::flush;
     return true;
   }
-  const std::optional<Trial> trial = try_to_start(options, facts.programs, self);
+  const std::optional<launch::Trial> trial = try_to_start(options, facts.programs, self);
   if (trial && !trial->booted.nodes.empty()) facts.nodes = static_cast<std::uint32_t>(trial->booted.nodes.size());
   std::vector<Finding> findings;
   const std::vector<MachineFindings> machines = look_at_all(facts, findings, self);
@@ -111,13 +111,13 @@ bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self)
   return !in_trouble(findings);
 }
 
-Adviser adviser(const std::filesystem::path& self) {
-  const auto question = [self](Ask ask) {
-    return [self, ask](const RenderOptions& options) {
+launch::Adviser adviser(const std::filesystem::path& self) {
+  const auto question = [self](launch::Ask ask) {
+    return [self, ask](const options::RenderOptions& options) {
       return short_text(check_machine(gather_facts(self, options.nodes, ask)));
     };
   };
-  return {question(Ask::no_programs), question(Ask::programs)};
+  return {question(launch::Ask::no_programs), question(launch::Ask::programs)};
 }
 
-}  // namespace mars::host
+}  // namespace mars::doctor

@@ -8,7 +8,7 @@
 
 #include "host/shell/launch/launch.h"
 
-namespace mars::host {
+namespace mars::doctor {
 
 struct DoctorOptions {
   std::uint32_t nodes = 0;    // 0: as mars render without --nodes
@@ -21,6 +21,6 @@ struct DoctorOptions {
 bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self);
 
 // What mars render prints when a start fails.
-Adviser adviser(const std::filesystem::path& self);
+launch::Adviser adviser(const std::filesystem::path& self);
 
-}  // namespace mars::host
+}  // namespace mars::doctor

@@ -14,7 +14,7 @@
 #include "host/child/programs.h"
 #include "topology/machine.h"
 
-namespace mars::host {
+namespace mars::doctor {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,16 +26,16 @@ std::string answer(const std::vector<std::string>& words) {
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
   std::string text;
   const auto take = [&](const std::string& line) { text += line + "\n"; };
-  std::optional<Child> child;
+  std::optional<child::Child> child;
   try {
-    child.emplace(Command{{}, words});
+    child.emplace(child::Command{{}, words});
   } catch (const Failure&) {
     return "";
   }
   child->wait({take, take, [&] {
                  if (std::chrono::steady_clock::now() > deadline) child->stop();
                }});
-  fail_if_stopped(*child);
+  child::fail_if_stopped(*child);
   return text;
 }
 
@@ -45,7 +45,7 @@ std::string host_name() {
   return name;
 }
 
-std::string container(const Environment& environment) {
+std::string container(const child::Environment& environment) {
   if (const auto name = environment.value("container")) return *name;
   if (environment.value("APPTAINER_NAME") || environment.value("SINGULARITY_NAME")) return "apptainer";
   std::error_code ignored;
@@ -95,7 +95,7 @@ std::uint32_t number(const std::optional<std::string>& text, std::uint32_t other
   return value;
 }
 
-std::optional<SlurmJob> slurm_job(const Environment& environment, const std::string& path, Ask ask) {
+std::optional<SlurmJob> slurm_job(const child::Environment& environment, const std::string& path, launch::Ask ask) {
   const auto id = environment.value("SLURM_JOB_ID");
   if (!id) return std::nullopt;
   SlurmJob job{*id,
@@ -105,40 +105,40 @@ std::optional<SlurmJob> slurm_job(const Environment& environment, const std::str
                environment.value("SRUN_CPUS_PER_TASK").value_or(""),
                false,
                std::nullopt};
-  const auto srun = find_program("srun", path);
+  const auto srun = child::find_program("srun", path);
   job.srun = srun.has_value();
-  if (srun && ask == Ask::programs) job.plugins = answer({srun->string(), "--mpi=list"});
+  if (srun && ask == launch::Ask::programs) job.plugins = answer({srun->string(), "--mpi=list"});
   return job;
 }
 
 }  // namespace
 
-Facts gather_facts(const fs::path& self, std::uint32_t nodes, Ask ask) {
-  const Environment environment = own_environment();
-  const std::string path = program_path(environment);
+Facts gather_facts(const fs::path& self, std::uint32_t nodes, launch::Ask ask) {
+  const child::Environment environment = child::own_environment();
+  const std::string path = child::program_path(environment);
   const topology::Machine machine = topology::Machine::here();
   Facts facts;
   facts.host = host_name();
   facts.container = container(environment);
-  facts.programs = find_programs(self, path);
-  facts.surroundings = look_around(path, ask);
-  if (facts.programs.mpirun && ask == Ask::programs)
+  facts.programs = launch::find_programs(self, path);
+  facts.surroundings = launch::look_around(path, ask);
+  if (facts.programs.mpirun && ask == launch::Ask::programs)
     facts.mpirun_version = answer({facts.programs.mpirun->string(), "--version"});
-  if (facts.programs.node && ask == Ask::programs) facts.lacking = lacking_libraries(*facts.programs.node);
+  if (facts.programs.node && ask == launch::Ask::programs) facts.lacking = lacking_libraries(*facts.programs.node);
   facts.processors = static_cast<std::uint32_t>(machine.processors());
   facts.machine_processors = static_cast<std::uint32_t>(sysconf(_SC_NPROCESSORS_ONLN));
   facts.simd = simd();
   facts.memory = machine.memory();
   facts.limit = topology::memory_limit();
-  facts.memory_setting = hal::read_settings().memory;
+  facts.memory_setting = messages::read_settings().memory;
   facts.open_files = open_files_limit();
   facts.shared = space("/dev/shm");
-  facts.temporary = temporary_folder(environment);
+  facts.temporary = child::temporary_folder(environment);
   facts.temporary_space = writable_space(facts.temporary);
-  facts.ffmpeg = find_program("ffmpeg", path).has_value();
+  facts.ffmpeg = child::find_program("ffmpeg", path).has_value();
   facts.slurm = slurm_job(environment, path, ask);
   facts.nodes = nodes != 0 ? nodes : facts.processors;
   return facts;
 }
 
-}  // namespace mars::host
+}  // namespace mars::doctor

@@ -11,7 +11,7 @@
 #include "host/shell/launch/command.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::doctor {
 
 struct Space {
   std::uint64_t total = 0;  // bytes
@@ -32,8 +32,8 @@ struct SlurmJob {
 struct Facts {
   std::string host;
   std::string container;  // "docker", "podman", ...; "" in none
-  Programs programs;
-  Surroundings surroundings;
+  launch::Programs programs;
+  launch::Surroundings surroundings;
   std::optional<std::string> mpirun_version;  // all that mpirun --version says; none: it was not asked
   std::vector<std::string> lacking;      // libraries that mars-node needs and this machine has not
   std::uint32_t processors = 1;          // that this process may use
@@ -52,6 +52,6 @@ struct Facts {
 };
 
 // `self`: the running program's own file; `nodes`: 0 for one a processor. Throws Failure where a signal stops it.
-Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes, Ask ask);
+Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes, launch::Ask ask);
 
-}  // namespace mars::host
+}  // namespace mars::doctor

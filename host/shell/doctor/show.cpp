@@ -8,7 +8,7 @@
 #include "host/shell/options/wrapped.h"
 #include "topology/placement.h"
 
-namespace mars::host {
+namespace mars::doctor {
 namespace {
 
 using nlohmann::json;
@@ -29,9 +29,9 @@ const char* word_of(State state) {
 
 std::string text_of(const Finding& finding) {
   std::string line = padded(std::string(kStateColumn, ' ') + word_of(finding.state), kAboutColumn);
-  line = padded(line + finding.about, kFoundColumn) + wrapped(finding.found, kFoundColumn) + "\n";
+  line = padded(line + finding.about, kFoundColumn) + options::wrapped(finding.found, kFoundColumn) + "\n";
   if (finding.remedy.empty()) return line;
-  return line + std::string(kFoundColumn, ' ') + "-> " + wrapped(finding.remedy, kFoundColumn + 3) + "\n";
+  return line + std::string(kFoundColumn, ' ') + "-> " + options::wrapped(finding.remedy, kFoundColumn + 3) + "\n";
 }
 
 std::size_t count(std::span<const Finding> findings, State state) {
@@ -188,4 +188,4 @@ std::string placement_text(const topology::Machine& machine, int nodes, int rese
   return text;
 }
 
-}  // namespace mars::host
+}  // namespace mars::doctor

@@ -11,7 +11,7 @@
 #include "host/shell/doctor/checks.h"
 #include "topology/machine.h"
 
-namespace mars::host {
+namespace mars::doctor {
 
 struct MachineFindings {
   std::string host;
@@ -45,4 +45,4 @@ bool add_line(std::string_view line, std::vector<MachineFindings>& machines);
 // Which node gets which cores of a machine, and how close that makes them.
 std::string placement_text(const topology::Machine& machine, int nodes, int reserved);
 
-}  // namespace mars::host
+}  // namespace mars::doctor

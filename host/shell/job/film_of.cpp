@@ -4,7 +4,7 @@
 #include "host/content/animator/read_film.h"
 #include "host/content/film/film_file.h"
 
-namespace mars::host {
+namespace mars::job {
 namespace {
 
 // A box that turns over a table: something stands still, something moves.
@@ -19,26 +19,26 @@ constexpr const char* kTrial = R"({
 
 constexpr const char* kNoActors = ": has no actors: every frame shows the background alone (give the film actors)";
 
-CompiledFilm load_with_warnings(const std::string& path, const CompileOptions& compiling, const Warn& warn) {
-  if (is_compiled_film(path)) {
-    CompiledFilm film = load_film(path, compiling);
+film::CompiledFilm load_with_warnings(const std::string& path, const film::CompileOptions& compiling, const Warn& warn) {
+  if (film::is_compiled_film(path)) {
+    film::CompiledFilm film = film::load_film(path, compiling);
     if (film.actors == 0) warn(path + kNoActors);
     return film;
   }
-  const Film film = read_film(path);
+  const animator::Film film = animator::read_film(path);
   if (film.actors.empty()) warn(path + kNoActors);
-  for (const std::string& line : warnings_of(film)) warn(line);
-  return compile(film, compiling);
+  for (const std::string& line : animator::warnings_of(film)) warn(line);
+  return film::compile(film, compiling);
 }
 
 }  // namespace
 
-CompiledFilm load_film_of(const RenderOptions& options, const Warn& warn) {
-  CompileOptions compiling;
-  if (options.intervals == Intervals::keyframes) compiling.cutting = Cutting::keyframes;
+film::CompiledFilm load_film_of(const options::RenderOptions& options, const Warn& warn) {
+  film::CompileOptions compiling;
+  if (options.intervals == options::Intervals::keyframes) compiling.cutting = animator::Cutting::keyframes;
   if (options.size) compiling.size = {options.size->width, options.size->height};
-  if (options.film == kTrialFilm) return compile(read_film(Document(kTrial, kTrialFilm).root(), {}), compiling);
+  if (options.film == options::kTrialFilm) return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
   return load_with_warnings(options.film, compiling, warn);
 }
 
-}  // namespace mars::host
+}  // namespace mars::job

@@ -7,13 +7,13 @@
 #include "host/content/film/compile.h"
 #include "host/shell/options/render_options.h"
 
-namespace mars::host {
+namespace mars::job {
 
 // Takes one line about what a person would want to mend.
 using Warn = std::function<void(const std::string& line)>;
 
 // `warn` is called before the film's motion is computed, as that may take long; of a .mars file, which has no keys,
 // it learns only whether anybody acts.
-CompiledFilm load_film_of(const RenderOptions& options, const Warn& warn);
+film::CompiledFilm load_film_of(const options::RenderOptions& options, const Warn& warn);
 
-}  // namespace mars::host
+}  // namespace mars::job

@@ -2,26 +2,26 @@
 
 #include "host/shell/job/film_of.h"
 
-namespace mars::host {
+namespace mars::job {
 namespace {
 
-std::string replay_of(RenderOptions options, const std::string& backend, std::uint32_t nodes,
+std::string replay_of(options::RenderOptions options, const std::string& backend, std::uint32_t nodes,
                       std::optional<std::uint32_t> frame) {
-  if (frame) options.frames = FrameSet(std::to_string(*frame));
+  if (frame) options.frames = film::FrameSet(std::to_string(*frame));
   options.nodes = nodes;
-  options.backend = backend == "mpi" ? Backend::mpi : Backend::threads;
+  options.backend = backend == "mpi" ? options::Backend::mpi : options::Backend::threads;
   std::string command = "mars render";
-  for (const std::string& argument : arguments_for(Program::mars, options)) command += " " + argument;
+  for (const std::string& argument : options::arguments_for(options::Program::mars, options)) command += " " + argument;
   return command;
 }
 
 }  // namespace
 
-RenderJob job_of(const RenderOptions& options, const std::string& backend) {
-  RenderJob job;
+session::RenderJob job_of(const options::RenderOptions& options, const std::string& backend) {
+  session::RenderJob job;
   job.film = options.film;
   job.load_film = [options](const auto& warn) { return load_film_of(options, warn); };
-  job.folder = options.sink == SinkKind::png ? options.folder : "";
+  job.folder = options.sink == options::SinkKind::png ? options.folder : "";
   job.frames = options.frames;
   job.mapping = options.mapping;
   job.coherence = !options.no_coherence;
@@ -30,11 +30,11 @@ RenderJob job_of(const RenderOptions& options, const std::string& backend) {
   job.report = options.report;
   job.trace = options.trace;
   job.backend = backend;
-  job.arguments = arguments_for(Program::host, options);
+  job.arguments = options::arguments_for(options::Program::host, options);
   job.replay = [options, backend](std::uint32_t nodes, std::optional<std::uint32_t> frame) {
     return replay_of(options, backend, nodes, frame);
   };
   return job;
 }
 
-}  // namespace mars::host
+}  // namespace mars::job

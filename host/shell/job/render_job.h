@@ -6,9 +6,9 @@
 #include "host/render/session/session.h"
 #include "host/shell/options/render_options.h"
 
-namespace mars::host {
+namespace mars::job {
 
 // `backend` is the name of the one that carries messages.
-RenderJob job_of(const RenderOptions& options, const std::string& backend);
+session::RenderJob job_of(const options::RenderOptions& options, const std::string& backend);
 
-}  // namespace mars::host
+}  // namespace mars::job

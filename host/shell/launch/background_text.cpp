@@ -11,7 +11,7 @@
 
 #include "hal/failure/explain.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 std::atomic<int> searches{0};  // that have not ended
@@ -57,4 +57,4 @@ int exit_code(int code) {
   _exit(code);
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -7,7 +7,7 @@
 #include <future>
 #include <string>
 
-namespace mars::host {
+namespace mars::launch {
 
 class BackgroundText {
  public:
@@ -32,4 +32,4 @@ class BackgroundText {
 // destroy what that thread uses.
 int exit_code(int code);
 
-}  // namespace mars::host
+}  // namespace mars::launch

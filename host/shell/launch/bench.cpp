@@ -6,7 +6,7 @@
 #include "host/content/document/text.h"
 #include "host/child/exec.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,11 +36,11 @@ std::string list_benchmarks(const fs::path& program) {
 void run_benchmark(const fs::path& program, const std::string& name, const std::vector<std::string>& words) {
   const std::vector<std::string> names = names_in(folder_of(program));
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + joined(names));
+    throw Failure("there is no benchmark '" + name + "'", "", "those here: " + document::joined(names));
   }
-  Command command{{}, {folder_of(program) / name / "run"}};
+  child::Command command{{}, {folder_of(program) / name / "run"}};
   command.words.insert(command.words.end(), words.begin(), words.end());
-  become(command, "build it again: ./bootstrap bench");
+  child::become(command, "build it again: ./bootstrap bench");
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::launch {
 
 // The benchmarks beside `program`, BUILD/bin/mars, as a person reads them. Throws Failure where there are none.
 std::string list_benchmarks(const std::filesystem::path& program);
@@ -15,4 +15,4 @@ std::string list_benchmarks(const std::filesystem::path& program);
 [[noreturn]] void run_benchmark(const std::filesystem::path& program, const std::string& name,
                                 const std::vector<std::string>& words);
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -22,7 +22,7 @@
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 namespace fs = std::filesystem;
 
@@ -32,9 +32,9 @@ constexpr const char* kLoopback = "mars-loopback.so";
 
 std::optional<fs::path> find_ours(const std::string& name, const fs::path& self, const std::string& path) {
   for (const fs::path& folder : {self.parent_path(), self.parent_path().parent_path() / "libexec"}) {
-    if (runnable(folder / name)) return folder / name;
+    if (child::runnable(folder / name)) return folder / name;
   }
-  return find_program(name, path);
+  return child::find_program(name, path);
 }
 
 // Open MPI's large messages within a machine are copied by the receiver straight from the sender's memory,
@@ -46,7 +46,7 @@ bool may_copy() {
   const auto sleep = []() -> int {
     for (;;) pause();
   };
-  const Process other(sleep, {.signal_at_our_end = SIGKILL});
+  const child::Process other(sleep, {.signal_at_our_end = SIGKILL});
   const iovec local{&to, sizeof to};
   const iovec remote{&from, sizeof from};
   return process_vm_readv(other.id(), &local, 1, &remote, 1, 0) == sizeof from;
@@ -54,8 +54,8 @@ bool may_copy() {
 
 std::vector<std::string> settings_in_use() {
   std::vector<std::string> names;
-  for (const hal::Setting& setting : hal::settings_table()) {
-    if (own_environment().value(setting.name)) names.emplace_back(setting.name);
+  for (const messages::Setting& setting : messages::settings_table()) {
+    if (child::own_environment().value(setting.name)) names.emplace_back(setting.name);
   }
   return names;
 }
@@ -63,7 +63,7 @@ std::vector<std::string> settings_in_use() {
 using Variables = std::vector<std::pair<std::string, std::string>>;
 
 // Those that a person did not set.
-void add_settings(Command& command, const Variables& settings, const Surroundings& surroundings) {
+void add_settings(child::Command& command, const Variables& settings, const Surroundings& surroundings) {
   for (const auto& setting : settings)
     if (!surroundings.environment.value(setting.first)) command.environment.push_back(setting);
 }
@@ -77,21 +77,21 @@ const Variables kKeepalive = {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
 constexpr std::array kOtherMachines = {"PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS", "LSB_DJOB_HOSTFILE", "LSB_MCPU_HOSTS",
                                        "OMPI_MCA_orte_default_hostfile", "HYDRA_HOST_FILE"};
 
-bool on_this_machine_alone(const RenderOptions& options, const Surroundings& surroundings) {
+bool on_this_machine_alone(const options::RenderOptions& options, const Surroundings& surroundings) {
   return options.hostfile.empty() && surroundings.tasks == 0 &&
          std::none_of(kOtherMachines.begin(), kOtherMachines.end(),
                       [&](const char* name) { return surroundings.environment.value(name).has_value(); });
 }
 
 // Nobody outside of this machine can connect to the job. The loader separates names by blanks and colons.
-void add_loopback(Command& command, const Programs& programs, const Surroundings& surroundings) {
+void add_loopback(child::Command& command, const Programs& programs, const Surroundings& surroundings) {
   if (!programs.loopback || programs.loopback->string().find_first_of(" :") != std::string::npos) return;
   const auto others = surroundings.environment.value("LD_PRELOAD");
   command.environment.emplace_back("LD_PRELOAD", programs.loopback->string() + (others ? ":" + *others : ""));
 }
 
-void add_arguments(Command& command, Program program, const RenderOptions& options) {
-  for (std::string& word : arguments_for(program, options)) command.words.push_back(std::move(word));
+void add_arguments(child::Command& command, options::Program program, const options::RenderOptions& options) {
+  for (std::string& word : options::arguments_for(program, options)) command.words.push_back(std::move(word));
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ const char* package_of(Mpi mpi) { return mpi == Mpi::mpich ? "mpich" : "openmpi-
 std::optional<fs::path> find_mpirun(Mpi mpi, const std::string& path) {
   static constexpr std::string_view kOpenMpi[] = {"mpirun.openmpi", "mpirun"};
   static constexpr std::string_view kMpich[] = {"mpirun.mpich", "mpiexec.hydra", "mpirun"};
-  return mpi == Mpi::mpich ? find_first_program(kMpich, path) : find_first_program(kOpenMpi, path);
+  return mpi == Mpi::mpich ? child::find_first_program(kMpich, path) : child::find_first_program(kOpenMpi, path);
 }
 
 std::optional<fs::path> find_loopback(const fs::path& self) {
@@ -116,10 +116,10 @@ std::optional<fs::path> find_loopback(const fs::path& self) {
   return std::nullopt;
 }
 
-std::string shell_text(const Command& command) {
+std::string shell_text(const child::Command& command) {
   std::string text;
-  for (const auto& [name, value] : command.environment) text += name + "=" + shell_word(value) + " ";
-  for (const std::string& word : command.words) text += shell_word(word) + " ";
+  for (const auto& [name, value] : command.environment) text += name + "=" + document::shell_word(value) + " ";
+  for (const std::string& word : command.words) text += document::shell_word(word) + " ";
   text.pop_back();
   return text;
 }
@@ -130,9 +130,9 @@ Programs find_programs(const fs::path& self, const std::string& path) {
 }
 
 Surroundings look_around(const std::string& path, Ask ask) {
-  const bool remote_shell = find_program("ssh", path) || find_program("rsh", path);
+  const bool remote_shell = child::find_program("ssh", path) || child::find_program("rsh", path);
   const topology::Machine machine = topology::Machine::here();
-  const std::string tasks = own_environment().value("SLURM_TASKS_PER_NODE").value_or("");
+  const std::string tasks = child::own_environment().value("SLURM_TASKS_PER_NODE").value_or("");
   return {static_cast<std::uint32_t>(machine.cores()),
           static_cast<std::uint32_t>(machine.processors()),
           task_count(tasks),
@@ -141,7 +141,7 @@ Surroundings look_around(const std::string& path, Ask ask) {
           !remote_shell,
           settings_in_use(),
           process_limit().addresses,
-          own_environment()};
+          child::own_environment()};
 }
 
 std::uint32_t task_count(const std::string& tasks_per_node) {
@@ -199,28 +199,28 @@ std::vector<Slots> read_hostfile(const fs::path& hostfile) {
   return hosts;
 }
 
-std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& surroundings) {
+std::uint32_t default_nodes(const options::RenderOptions& options, const Surroundings& surroundings) {
   std::uint32_t tasks = options.hostfile.empty() ? surroundings.tasks : 0;
   if (!options.hostfile.empty()) {
     for (const Slots& slots : read_hostfile(options.hostfile)) tasks += slots.count;
   }
-  if (tasks == 0 || options.backend == Backend::threads) return surroundings.processors;
+  if (tasks == 0 || options.backend == options::Backend::threads) return surroundings.processors;
   return std::max(tasks, 2u) - 1;
 }
 
-Backend choose_backend(Backend asked, const Programs& programs) {
+options::Backend choose_backend(options::Backend asked, const Programs& programs) {
   const bool mpi = programs.mpirun && programs.host && programs.node;
-  const Backend backend = asked != Backend::automatic ? asked : mpi ? Backend::mpi : Backend::threads;
-  if (backend == Backend::mpi && !programs.mpirun) {
+  const options::Backend backend = asked != options::Backend::automatic ? asked : mpi ? options::Backend::mpi : options::Backend::threads;
+  if (backend == options::Backend::mpi && !programs.mpirun) {
     throw Failure("mpirun was not found", "",
                   std::string("install ") + name_of(programs.mpi) + " (Debian: " + package_of(programs.mpi) +
                       "), or use --backend threads");
   }
-  if (backend == Backend::mpi && !mpi) {
+  if (backend == options::Backend::mpi && !mpi) {
     throw Failure("mars-host and mars-node were not found beside mars or in the PATH", "",
                   "build MARS where MPI is installed, or use --backend threads");
   }
-  if (backend == Backend::threads && !programs.threads) {
+  if (backend == options::Backend::threads && !programs.threads) {
     throw Failure("mars-threads was not found beside mars or in the PATH", "", "build or install MARS whole");
   }
   return backend;
@@ -232,8 +232,8 @@ namespace {
 constexpr std::uint64_t kLeastForMpi = std::uint64_t{400} << 20;
 
 // Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
-Command mpich_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
-  Command command{{}, {programs.mpirun->string(), "-bind-to", "none"}};
+child::Command mpich_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+  child::Command command{{}, {programs.mpirun->string(), "-bind-to", "none"}};
   if (on_this_machine_alone(options, surroundings)) {
     add_settings(command, {{"UCX_TLS", "sm,self"}}, surroundings);
     add_loopback(command, programs, surroundings);
@@ -246,8 +246,8 @@ Command mpich_start(const RenderOptions& options, const Programs& programs, cons
   return command;
 }
 
-Command open_mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
-  Command command;
+child::Command open_mpi_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+  child::Command command;
   const auto add = [&](const Variables& settings) { add_settings(command, settings, surroundings); };
   // As root Open MPI starts as root only with two settings; as the only user of a container there is nobody else to be.
   if (surroundings.root) {
@@ -268,7 +268,7 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
     add(kKeepalive);
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
-  if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", word_of_file(options.hostfile)});
+  if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", options::word_of_file(options.hostfile)});
   const std::uint32_t slots = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
   // A hostfile has its own slots; what is more than these goes round over its hosts.
   if (!options.hostfile.empty() || options.nodes + 1 > slots) command.words.emplace_back("--oversubscribe");
@@ -279,7 +279,7 @@ Command open_mpi_start(const RenderOptions& options, const Programs& programs, c
 
 }  // namespace
 
-Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+child::Command mpi_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
   if (surroundings.address_limit != 0 && surroundings.address_limit < kLeastForMpi)
     throw Failure("the limit of " + std::to_string(surroundings.address_limit >> 10) +
                       " kB of addresses a process is too small for MPI",
@@ -288,20 +288,20 @@ Command mpi_start(const RenderOptions& options, const Programs& programs, const 
                                       : open_mpi_start(options, programs, surroundings);
 }
 
-Command mpi_command(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
-  Command command = mpi_start(options, programs, surroundings);
+child::Command mpi_command(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+  child::Command command = mpi_start(options, programs, surroundings);
   // Nodes bind themselves, each by its place on its machine.
   command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
-  add_arguments(command, Program::host, options);
+  add_arguments(command, options::Program::host, options);
   command.words.insert(command.words.end(),
                        {":", "-n", std::to_string(options.nodes), programs.node->string()});
   return command;
 }
 
-Command threads_command(const RenderOptions& options, const Programs& programs) {
-  Command command{{}, {programs.threads->string()}};
-  add_arguments(command, Program::threads, options);
+child::Command threads_command(const options::RenderOptions& options, const Programs& programs) {
+  child::Command command{{}, {programs.threads->string()}};
+  add_arguments(command, options::Program::threads, options);
   return command;
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -12,10 +12,10 @@
 #include "host/child/environment.h"
 #include "host/shell/options/render_options.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 // A command as it can be pasted into a shell.
-std::string shell_text(const Command& command);
+std::string shell_text(const child::Command& command);
 
 // Whose mpirun starts the programs. Intel's and others that come from MPICH are as MPICH is.
 enum class Mpi { open_mpi, mpich };
@@ -54,7 +54,7 @@ struct Surroundings {
   bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
   std::vector<std::string> settings;  // MARS_* variables that are set, for nodes on other machines
   std::uint64_t address_limit = 0;    // bytes of addresses that a process may have: ulimit -v; 0: no limit
-  Environment environment{{}};        // what it sets of MPI's settings counts
+  child::Environment environment{{}};        // what it sets of MPI's settings counts
 };
 
 // Whether programs and processes are started to find facts: none may be while a job is waited for (Child).
@@ -76,17 +76,17 @@ std::vector<Slots> read_hostfile(const std::filesystem::path& hostfile);
 
 // How many nodes render where a person does not say: the slots of the hostfile or the batch system beside
 // the host; else, and for threads, one a processor.
-std::uint32_t default_nodes(const RenderOptions& options, const Surroundings& surroundings);
+std::uint32_t default_nodes(const options::RenderOptions& options, const Surroundings& surroundings);
 
 // Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
-Backend choose_backend(Backend asked, const Programs& programs);
+options::Backend choose_backend(options::Backend asked, const Programs& programs);
 
 // mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'. Throws Failure
 // where the memory limit is too small for any MPI.
-Command mpi_start(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
+child::Command mpi_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
 
 // mpirun with one host and options.nodes nodes; one process of as many threads. `options.nodes` is settled.
-Command mpi_command(const RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
-Command threads_command(const RenderOptions& options, const Programs& programs);
+child::Command mpi_command(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
+child::Command threads_command(const options::RenderOptions& options, const Programs& programs);
 
-}  // namespace mars::host
+}  // namespace mars::launch

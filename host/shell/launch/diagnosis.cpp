@@ -14,7 +14,7 @@
 #include "host/shell/launch/mpi_words.h"
 #include "host/shell/launch/text_reader.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 namespace {
 
@@ -41,7 +41,7 @@ std::string remedy_for(int signal) {
   return "please report it with the film";
 }
 
-Failure failure_from(const Fault& fault) {
+Failure failure_from(const events::Fault& fault) {
   const std::string again = fault.replay.empty() ? "" : "to see it again: " + fault.replay;
   const std::string remedy =
       fault.remedy.empty() || again.empty() ? fault.remedy + again : fault.remedy + "; " + again;
@@ -49,16 +49,16 @@ Failure failure_from(const Fault& fault) {
 }
 
 // Rank 0 is the host, as we start it; which node another is shows once they have booted.
-std::string who_is(int rank, const std::optional<Booted>& booted) {
+std::string who_is(int rank, const std::optional<events::Booted>& booted) {
   if (rank == 0) return "the host";
   if (!booted) return "a node";
-  for (const Booted::Node& node : booted->nodes)
+  for (const events::Booted::Node& node : booted->nodes)
     if (node.rank == rank) return "node " + std::to_string(node.node);
   return "rank " + std::to_string(rank);
 }
 
 // "mpirun noticed that process rank 2 with PID 0 on node ada exited on signal 9 (Killed)."
-std::optional<Failure> lost_rank(const std::string& line, const std::optional<Booted>& booted) {
+std::optional<Failure> lost_rank(const std::string& line, const std::optional<events::Booted>& booted) {
   for (TextReader words(line); words.find("process rank ");) {
     const auto rank = words.number();
     if (!rank || !words.skip(" with PID ") || !words.number() || !words.skip(" on node ")) continue;
@@ -93,17 +93,17 @@ std::string name_of(const std::string& address) {
 
 std::string without_port(const std::string& address) { return address.substr(0, address.rfind(':')); }
 
-std::string machines_of(const Booted& booted) {
+std::string machines_of(const events::Booted& booted) {
   std::set<std::string> names;
-  for (const Booted::Node& node : booted.nodes) names.insert(node.host);
-  return joined(names, " or ");
+  for (const events::Booted::Node& node : booted.nodes) names.insert(node.host);
+  return document::joined(names, " or ");
 }
 
 // Which machine was lost, if the words report such a loss. Open MPI has three ways to say it:
 // "ORTE has lost communication with a remote daemon. ... Remote daemon: [[6456,0],2] on node n3";
 // where the daemon's ssh ends first "ORTE was unable to reliably start one or more daemons", long after they have
 // started; and a rank's "connect() to 10.77.0.14:1028 failed", which alone names the machine then.
-std::optional<std::string> machine_lost(const std::string& line, const std::optional<Booted>& booted) {
+std::optional<std::string> machine_lost(const std::string& line, const std::optional<events::Booted>& booted) {
   TextReader daemon(line);
   if (daemon.find("lost communication with a remote daemon") && daemon.find("Remote daemon: ") && daemon.find(" on node "))
     return daemon.word();
@@ -115,7 +115,7 @@ std::optional<std::string> machine_lost(const std::string& line, const std::opti
   return std::nullopt;
 }
 
-std::optional<Failure> lost_machine(const std::string& line, const std::optional<Booted>& booted) {
+std::optional<Failure> lost_machine(const std::string& line, const std::optional<events::Booted>& booted) {
   const std::optional<std::string> machine = machine_lost(line, booted);
   if (!machine) return std::nullopt;
   return Failure("does not answer any more", "machine " + *machine,
@@ -152,14 +152,14 @@ Failure with_advice(const Failure& failure, const Advice& advice) {
 
 }  // namespace
 
-Failure stopped(const Remains& remains, const RenderOptions& options) {
+Failure stopped(const Remains& remains, const options::RenderOptions& options) {
   return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
                      std::to_string(remains.progress.done()) + " of " +
                      std::to_string(remains.progress.of()) + " frames",
                  options.folder, "");
 }
 
-Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice) {
+Failure diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice) {
   if (remains.passed_on != 0) return stopped(remains, options);
   if (remains.fault) return failure_from(*remains.fault);
   const auto advised = [&](const Failure& failure) {
@@ -174,4 +174,4 @@ Failure diagnose(const Remains& remains, const RenderOptions& options, const Adv
   return advised(unknown(remains));
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -12,15 +12,15 @@
 #include "host/child/child.h"
 #include "host/shell/options/render_options.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 struct Remains {
-  std::optional<Booted> booted;        // once all nodes were there
-  std::optional<Fault> fault;
-  Ending ending;
+  std::optional<events::Booted> booted;        // once all nodes were there
+  std::optional<events::Fault> fault;
+  child::Ending ending;
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none
   std::deque<std::string> last_words;  // lines of standard error, the last ones
-  Progress progress;
+  events::Progress progress;
   std::string program;  // that was started
 };
 
@@ -28,9 +28,9 @@ struct Remains {
 using Advice = std::function<std::string()>;
 
 // Of a run that a person's signal ended.
-Failure stopped(const Remains& remains, const RenderOptions& options);
+Failure stopped(const Remains& remains, const options::RenderOptions& options);
 
 // The one message a person gets; with advice where the run never began or nothing else is known.
-Failure diagnose(const Remains& remains, const RenderOptions& options, const Advice& advice);
+Failure diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice);
 
-}  // namespace mars::host
+}  // namespace mars::launch

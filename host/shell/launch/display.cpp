@@ -7,7 +7,7 @@
 
 #include "host/content/document/text.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 namespace {
 
@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds kTerminalPeriod{100};
 constexpr std::chrono::milliseconds kLinePeriod{2000};
 constexpr const char* kClearLine = "\r\x1b[K";
 
-std::string one_decimal(double value) { return formatted("%.1f", value); }
+std::string one_decimal(double value) { return document::formatted("%.1f", value); }
 
 // A line that wraps could not be written over.
 std::string fitting(const std::string& text) {
@@ -26,7 +26,7 @@ std::string fitting(const std::string& text) {
   return text.substr(0, size.ws_col - 1u);
 }
 
-std::string left_text(const Progress& progress) {
+std::string left_text(const events::Progress& progress) {
   const auto left = progress.left();
   if (!left) return "";
   std::string text = ", " + clock_text(left->keyframes + left->inbetweens) + " left";
@@ -39,11 +39,11 @@ std::string left_text(const Progress& progress) {
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<unsigned long>(std::lround(std::min(seconds, 1e9)));
-  if (whole >= 3600) return formatted("%lu:%02lu:%02lu", whole / 3600, whole / 60 % 60, whole % 60);
-  return formatted("%lu:%02lu", whole / 60, whole % 60);
+  if (whole >= 3600) return document::formatted("%lu:%02lu:%02lu", whole / 3600, whole / 60 % 60, whole % 60);
+  return document::formatted("%lu:%02lu", whole / 60, whole % 60);
 }
 
-std::string progress_text(const Progress& progress) {
+std::string progress_text(const events::Progress& progress) {
   std::string text = "frame " + std::to_string(progress.done()) + " of " + std::to_string(progress.of());
   if (progress.done() == 0) return text;
   text += ", interval " + std::to_string(progress.interval + 1) + " of " + std::to_string(progress.intervals);
@@ -51,22 +51,22 @@ std::string progress_text(const Progress& progress) {
   return text + left_text(progress);
 }
 
-std::string booted_text(const Booted& booted) {
-  std::string text = counted(booted.nodes.size(), "node") + " on " + counted(booted.machines, "machine") +
+std::string booted_text(const events::Booted& booted) {
+  std::string text = document::counted(booted.nodes.size(), "node") + " on " + document::counted(booted.machines, "machine") +
                      " (" + booted.backend + ")";
   std::string simd;
-  for (const Booted::Node& node : booted.nodes) {
+  for (const events::Booted::Node& node : booted.nodes) {
     if (simd.find(node.simd) == std::string::npos) simd += (simd.empty() ? "" : ", ") + node.simd;
   }
   return text + ", " + simd;
 }
 
-std::string done_text(const Done& done) {
-  std::string text = counted(done.frames, "frame");
+std::string done_text(const events::Done& done) {
+  std::string text = document::counted(done.frames, "frame");
   if (!done.folder.empty()) text += " in " + done.folder;
   text += ", " + one_decimal(done.seconds) + " seconds";
   if (done.seconds > 0) text += ", " + one_decimal(done.frames / done.seconds) + " frames/s";
-  if (done.trace_lacks > 0) text += "\nthe trace was full: it lacks " + counted(done.trace_lacks, "later event");
+  if (done.trace_lacks > 0) text += "\nthe trace was full: it lacks " + document::counted(done.trace_lacks, "later event");
   return text;
 }
 
@@ -77,7 +77,7 @@ void Display::print(const std::string& line) {
   out_ << line << std::endl;
 }
 
-void Display::show(const Progress& progress) {
+void Display::show(const events::Progress& progress) {
   if (kind_ == Kind::silent || !due()) return;
   if (kind_ == Kind::lines) {
     if (progress.done() > shown_) out_ << progress_text(progress) << std::endl;
@@ -105,4 +105,4 @@ Display::Kind kind_of_output(bool quiet) {
   return isatty(STDOUT_FILENO) ? Display::Kind::terminal : Display::Kind::lines;
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -8,16 +8,16 @@
 
 #include "host/render/events/events.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 // Seconds as 0:07 or 1:02:03.
 std::string clock_text(double seconds);
 
 // "frame 12 of 72, interval 2 of 5, 8.3 frames/s, 0:07 left (keyframes 0:03, inbetweens 0:04)"
-std::string progress_text(const Progress& progress);
+std::string progress_text(const events::Progress& progress);
 
-std::string booted_text(const Booted& booted);
-std::string done_text(const Done& done);
+std::string booted_text(const events::Booted& booted);
+std::string done_text(const events::Done& done);
 
 class Display {
  public:
@@ -28,7 +28,7 @@ class Display {
   // A line that stays.
   void print(const std::string& line);
   // How far it is: shown when due.
-  void show(const Progress& progress);
+  void show(const events::Progress& progress);
   // Leaves the terminal's progress line as it is and goes below it.
   void settle();
 
@@ -45,4 +45,4 @@ class Display {
 // For standard output.
 Display::Kind kind_of_output(bool quiet);
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -15,7 +15,7 @@
 #include "host/render/sinks/frame_folder.h"
 #include "topology/machine.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 namespace {
 
@@ -25,13 +25,13 @@ constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a
 constexpr std::chrono::seconds kSlowLoad{3};    // of compiling the film, until a person learns what takes so long
 constexpr std::chrono::seconds kLongestTrial{30};
 
-Command command_for(RenderOptions& options, const std::filesystem::path& self) {
-  const std::string path = program_path(own_environment());
+child::Command command_for(options::RenderOptions& options, const std::filesystem::path& self) {
+  const std::string path = child::program_path(child::own_environment());
   const Programs programs = find_programs(self, path);
   options.backend = choose_backend(options.backend, programs);
   const Surroundings surroundings = look_around(path);
   if (options.nodes == 0) options.nodes = default_nodes(options, surroundings);
-  if (options.backend == Backend::threads) return threads_command(options, programs);
+  if (options.backend == options::Backend::threads) return threads_command(options, programs);
   return mpi_command(options, programs, surroundings);
 }
 
@@ -43,13 +43,13 @@ class Run {
   explicit Run(Display& display) : display_(display) {}
 
   // `waited` is called once when nodes have been waited for for `patience` and did not all answer; `tick` now and then.
-  void follow(const Command& command, Clock::duration patience, const std::function<void(Child&)>& waited,
+  void follow(const child::Command& command, Clock::duration patience, const std::function<void(child::Child&)>& waited,
               const std::function<void()>& tick) {
     remains_.program = command.words.front();
     bool overdue = false;
-    Command started = command;
+    child::Command started = command;
     const SessionFolders folders(started);
-    Child child(started);
+    child::Child child(started);
     remains_.ending = child.wait({[this](const std::string& line) { take_output(line); },
                                   [this](const std::string& line) { take_error(line); },
                                   [&] {
@@ -64,28 +64,28 @@ class Run {
   }
 
   bool well() const { return done_ && remains_.ending.code == 0 && remains_.ending.signal == 0; }
-  const Done& done() const { return *done_; }
+  const events::Done& done() const { return *done_; }
   const Remains& remains() const { return remains_; }
   double boot_seconds() const { return boot_seconds_; }
 
  private:
   void take_output(const std::string& line) {
-    const std::optional<Event> event = read_event(line);
+    const std::optional<events::Event> event = events::read_event(line);
     if (!event) return take_error(line);  // the words of an mpirun
-    if (const auto* loading = std::get_if<Loading>(&*event)) begin_loading(*loading);
-    if (const auto* loaded = std::get_if<Loaded>(&*event)) end_loading(*loaded);
-    if (const auto* warning = std::get_if<Warning>(&*event)) std::cerr << "mars: warning: " << warning->text << '\n';
-    if (const auto* booted = std::get_if<Booted>(&*event)) {
+    if (const auto* loading = std::get_if<events::Loading>(&*event)) begin_loading(*loading);
+    if (const auto* loaded = std::get_if<events::Loaded>(&*event)) end_loading(*loaded);
+    if (const auto* warning = std::get_if<events::Warning>(&*event)) std::cerr << "mars: warning: " << warning->text << '\n';
+    if (const auto* booted = std::get_if<events::Booted>(&*event)) {
       display_.print(booted_text(*booted));
       remains_.booted = *booted;
       boot_seconds_ = std::chrono::duration<double>(Clock::now() - started_).count();
     }
-    if (const auto* progress = std::get_if<Progress>(&*event)) remains_.progress = *progress;
-    if (const auto* fault = std::get_if<Fault>(&*event); fault && !remains_.fault) remains_.fault = *fault;
-    if (const auto* done = std::get_if<Done>(&*event)) done_ = *done;
+    if (const auto* progress = std::get_if<events::Progress>(&*event)) remains_.progress = *progress;
+    if (const auto* fault = std::get_if<events::Fault>(&*event); fault && !remains_.fault) remains_.fault = *fault;
+    if (const auto* done = std::get_if<events::Done>(&*event)) done_ = *done;
   }
 
-  void begin_loading(const Loading& loading) {
+  void begin_loading(const events::Loading& loading) {
     loading_ = loading;
     waiting_since_ = Clock::now();
   }
@@ -97,7 +97,7 @@ class Run {
   }
 
   // Nodes are waited for only from now on: the host does not listen to them before.
-  void end_loading(const Loaded& loaded) {
+  void end_loading(const events::Loaded& loaded) {
     loading_.reset();
     waiting_since_ = Clock::now();
     if (slow_load_shown_) display_.print("loaded in " + clock_text(loaded.seconds));
@@ -111,27 +111,27 @@ class Run {
   Display& display_;
   const Clock::time_point started_ = Clock::now();
   Clock::time_point waiting_since_ = started_;  // for nodes; while loading_, for the film
-  std::optional<Loading> loading_;
+  std::optional<events::Loading> loading_;
   bool slow_load_shown_ = false;
   double boot_seconds_ = 0;
-  std::optional<Done> done_;
+  std::optional<events::Done> done_;
   Remains remains_;
 };
 
 }  // namespace
 
-void launch_render(RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
+void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser) {
   Display display(kind_of_output(options.quiet), std::cout);
-  for (const std::string& line : hal::unknown_settings()) display.print(line);
-  hal::read_settings();  // wrong settings fail before anything is started
-  const Command command = command_for(options, self);
+  for (const std::string& line : messages::unknown_settings()) display.print(line);
+  messages::read_settings();  // wrong settings fail before anything is started
+  const child::Command command = command_for(options, self);
   display.print(shell_text(command));
   const Advice advice = [&] { return adviser.after_a_failed_start(options); };
   BackgroundText hint;
   Run run(display);
   run.follow(
       command, kSlowStart,
-      [&](Child&) {
+      [&](child::Child&) {
         display.print("no node has answered for " + std::to_string(kSlowStart.count()) + " seconds");
         hint.begin([ask = adviser.while_it_starts, options] { return ask(options); });
       },
@@ -141,23 +141,23 @@ void launch_render(RenderOptions options, const std::filesystem::path& self, con
   display.settle();
   if (!run.well()) {
     const Failure failure = diagnose(run.remains(), options, advice);
-    if (!options.folder.empty()) clear_ended_runs(options.folder);
+    if (!options.folder.empty()) sinks::clear_ended_runs(options.folder);
     throw failure;
   }
   display.print(done_text(run.done()));
 }
 
-Trial try_start(RenderOptions options, const std::filesystem::path& self) {
-  options.film = kTrialFilm;
-  options.sink = SinkKind::none;
-  hal::read_settings();
-  const Command command = command_for(options, self);
+Trial try_start(options::RenderOptions options, const std::filesystem::path& self) {
+  options.film = options::kTrialFilm;
+  options.sink = options::SinkKind::none;
+  messages::read_settings();
+  const child::Command command = command_for(options, self);
   Display nothing(Display::Kind::silent, std::cout);
   Run run(nothing);
   bool given_up = false;
   run.follow(
       command, kLongestTrial,
-      [&](Child& child) {
+      [&](child::Child& child) {
         given_up = true;
         child.stop();
       },
@@ -176,4 +176,4 @@ Trial try_start(RenderOptions options, const std::filesystem::path& self) {
   return trial;
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

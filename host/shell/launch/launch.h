@@ -12,30 +12,30 @@
 #include "host/shell/launch/diagnosis.h"
 #include "host/shell/options/render_options.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 // What is wrong with the surroundings for a run with these options, in lines.
 struct Adviser {
-  using Question = std::function<std::string(const RenderOptions& options)>;
+  using Question = std::function<std::string(const options::RenderOptions& options)>;
   Question while_it_starts;  // asked on a thread of its own while the run is waited for: starts no program
   Question after_a_failed_start;
 };
 
 // Returns when all frames are where they belong. `self`: the running program's own file. Throws Failure where
 // the run fails or is stopped; nothing it started runs on.
-void launch_render(RenderOptions options, const std::filesystem::path& self, const Adviser& adviser);
+void launch_render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser);
 
 // A start as launch_render's, of the film kTrialFilm.
 struct Trial {
   std::string command;  // as it can be typed
   double boot_seconds = 0;
-  Booted booted;  // no nodes: it did not come so far
+  events::Booted booted;  // no nodes: it did not come so far
   std::uint32_t frames = 0;
   std::optional<Failure> failure;
 };
 
 // Shows nothing; the number of nodes and the backend are those of `options`. Throws Failure where there is
 // nothing to start.
-Trial try_start(RenderOptions options, const std::filesystem::path& self);
+Trial try_start(options::RenderOptions options, const std::filesystem::path& self);
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -5,7 +5,7 @@
 
 #include "host/shell/launch/text_reader.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 constexpr const char* kTooFewSlots = "the allocation has too few slots for the host and the nodes";
@@ -72,4 +72,4 @@ std::optional<Failure> meaning_of(const std::string& text) {
   return Failure(known->problem, "", known->remedy);
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

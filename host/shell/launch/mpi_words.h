@@ -9,7 +9,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 struct MpiWords {
   std::string_view words;  // as Open MPI writes them, on one line
@@ -23,4 +23,4 @@ std::span<const MpiWords> mpi_words();
 // The first of them that `text` holds, wherever its lines are broken.
 std::optional<Failure> meaning_of(const std::string& text);
 
-}  // namespace mars::host
+}  // namespace mars::launch

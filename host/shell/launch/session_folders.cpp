@@ -13,7 +13,7 @@
 #include "host/child/environment.h"
 #include "host/child/process.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,17 +58,17 @@ void remove_ended_in(const fs::path& base) {
 
 }  // namespace
 
-SessionFolders::SessionFolders(Command& command) {
+SessionFolders::SessionFolders(child::Command& command) {
   std::error_code unknown;  // where we are: then a relative name means nothing
-  const fs::path temporary = fs::absolute(temporary_folder(own_environment()), unknown);
+  const fs::path temporary = fs::absolute(child::temporary_folder(child::own_environment()), unknown);
   for (const fs::path& base : {temporary, fs::path(kSharedMemory)}) remove_ended_in(base);
   if (!command.session_folders) return;
   if (!unknown) add(temporary, {"OMPI_MCA_orte_tmpdir_base"}, command);
   add(kSharedMemory, {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"}, command);
 }
 
-void SessionFolders::add(const fs::path& base, std::initializer_list<const char*> settings, Command& command) {
-  const Environment environment = own_environment();
+void SessionFolders::add(const fs::path& base, std::initializer_list<const char*> settings, child::Command& command) {
+  const child::Environment environment = child::own_environment();
   std::vector<const char*> wanted;
   for (const char* setting : settings)
     if (!environment.value(setting)) wanted.push_back(setting);
@@ -101,7 +101,7 @@ std::optional<SessionFolders::Folder> SessionFolders::make_in(const fs::path& ba
 // Its locks are closed with all it had open, or it would wait for itself.
 void SessionFolders::leave_to_another() const {
   if (folders_.empty()) return;
-  run_detached([this] {
+  child::run_detached([this] {
     for (const Folder& folder : folders_) {
       const int ended = open_folder(folder.path(), 0);
       if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
@@ -111,4 +111,4 @@ void SessionFolders::leave_to_another() const {
   });
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

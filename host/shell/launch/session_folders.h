@@ -13,13 +13,13 @@
 
 #include "host/shell/launch/command.h"
 
-namespace mars::host {
+namespace mars::launch {
 
 class SessionFolders {
  public:
   // First removes what this user's jobs left that have ended on this machine. Then, where `command` wants them, makes
   // the folders and names them in its environment; without those that cannot be made or that a person named.
-  explicit SessionFolders(Command& command);
+  explicit SessionFolders(child::Command& command);
   ~SessionFolders() = default;  // removes them
   SessionFolders(const SessionFolders&) = delete;
   SessionFolders& operator=(const SessionFolders&) = delete;
@@ -46,9 +46,9 @@ class SessionFolders {
 
   static std::optional<Folder> make_in(const std::filesystem::path& base);
   // A folder in `base` for those of the settings that no person has set.
-  void add(const std::filesystem::path& base, std::initializer_list<const char*> settings, Command& command);
+  void add(const std::filesystem::path& base, std::initializer_list<const char*> settings, child::Command& command);
 
   std::vector<Folder> folders_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
@@ -50,4 +50,4 @@ std::string on_one_line(std::string_view text) {
   return line;
 }
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace mars::host {
+namespace mars::launch {
 
 class TextReader {
  public:
@@ -32,4 +32,4 @@ class TextReader {
 // With one blank for each run of white space, none at the ends: help texts are wrapped at any word.
 std::string on_one_line(std::string_view text);
 
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -15,7 +15,7 @@
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::nx_jobs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,9 +24,9 @@ constexpr const char* kHostSetting = "MARS_NX_HOST";
 
 // Here, or where a shell would find it.
 fs::path program_file(const std::string& word, const char* remedy = "") {
-  if (runnable(word)) return fs::absolute(word);
+  if (child::runnable(word)) return fs::absolute(word);
   if (word.find('/') == std::string::npos)
-    if (const auto found = find_program(word, program_path(own_environment()))) return *found;
+    if (const auto found = child::find_program(word, child::program_path(child::own_environment()))) return *found;
   std::error_code ignored;
   if (fs::is_directory(word, ignored)) throw Failure("is a folder, not a program", word, "");
   if (fs::exists(word, ignored))
@@ -61,22 +61,22 @@ void check_mpi_can_start(const NxRun& job, const NxPrograms& programs) {
 }
 
 // mpirun as it begins, and how many nodes it starts.
-Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t& nodes) {
-  const std::string path = program_path(own_environment());
-  Programs starters;
-  starters.loopback = find_loopback(fs::read_symlink("/proc/self/exe"));
-  starters.mpirun = find_mpirun(starters.mpi, path);
+child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t& nodes) {
+  const std::string path = child::program_path(child::own_environment());
+  launch::Programs starters;
+  starters.loopback = launch::find_loopback(fs::read_symlink("/proc/self/exe"));
+  starters.mpirun = launch::find_mpirun(starters.mpi, path);
   if (!starters.mpirun)
     throw Failure("mpirun was not found", "",
                   "install Open MPI (Debian: openmpi-bin), or use --over processes");
-  RenderOptions start;
+  options::RenderOptions start;
   start.hostfile = job.hostfile;
-  start.backend = Backend::mpi;
-  Surroundings surroundings = look_around(path);
+  start.backend = options::Backend::mpi;
+  launch::Surroundings surroundings = launch::look_around(path);
   start.nodes = nodes =
-      job.nodes == 0 ? default_nodes(start, surroundings) : static_cast<std::uint32_t>(job.nodes);
+      job.nodes == 0 ? launch::default_nodes(start, surroundings) : static_cast<std::uint32_t>(job.nodes);
   surroundings.settings.emplace_back(kHostSetting);
-  Command command = mpi_start(start, starters, surroundings);
+  child::Command command = launch::mpi_start(start, starters, surroundings);
   command.environment.emplace_back(kHostSetting, programs.host.empty() ? "no" : "yes");
   return command;
 }
@@ -85,7 +85,7 @@ Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t
 [[noreturn]] void run_mpi(const NxRun& job, const NxPrograms& programs) {
   check_mpi_can_start(job, programs);
   std::uint32_t nodes = 0;
-  Command command = mpi_start_of(job, programs, nodes);
+  child::Command command = mpi_start_of(job, programs, nodes);
   const auto add = [&](std::uint32_t count, const fs::path& program) {
     command.words.insert(command.words.end(), {"-n", std::to_string(count), program.string()});
     command.words.insert(command.words.end(), job.arguments.begin(), job.arguments.end());
@@ -95,16 +95,16 @@ Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t
     command.words.emplace_back(":");
   }
   add(nodes, programs.node);
-  const SessionFolders folders(command);
+  const launch::SessionFolders folders(command);
   folders.leave_to_another();
-  become(command);
+  child::become(command);
 }
 
 bool over_mpi(const NxRun& job) {
   if (job.over == Over::processes && !job.hostfile.empty())
     throw Failure("processes are all on this machine", "", "leave out --hostfile, or use --over mpi");
   if (job.over != Over::automatic) return job.over == Over::mpi;
-  return !job.hostfile.empty() || own_environment().value("SLURM_TASKS_PER_NODE").has_value();
+  return !job.hostfile.empty() || child::own_environment().value("SLURM_TASKS_PER_NODE").has_value();
 }
 
 // More processes than this would keep the machine busy with changing between them.
@@ -122,7 +122,7 @@ void check_nodes(int nodes, const topology::Machine& machine) {
 
 int run_nx(NxRun job, const RunProcesses& run_processes) {
   const NxPrograms programs = programs_of(job);
-  const hal::Settings settings = hal::read_settings();
+  const messages::Settings settings = messages::read_settings();
   if (over_mpi(job)) run_mpi(job, programs);
   const topology::Machine machine = topology::Machine::here();
   if (job.nodes == 0) job.nodes = machine.processors();
@@ -130,4 +130,4 @@ int run_nx(NxRun job, const RunProcesses& run_processes) {
   return run_processes(job, programs, settings.nx_memory.value_or(message_memory(machine)));
 }
 
-}  // namespace mars::host
+}  // namespace mars::nx_jobs

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::host {
+namespace mars::nx_jobs {
 
 inline constexpr int kMostNxNodes = 1 << 12;
 
@@ -35,4 +35,4 @@ using RunProcesses = std::function<int(const NxRun& job, const NxPrograms& progr
 // mpirun.
 int run_nx(NxRun job, const RunProcesses& run_processes);
 
-}  // namespace mars::host
+}  // namespace mars::nx_jobs

@@ -14,7 +14,7 @@
 #include "host/content/document/fields.h"
 #include "host/shell/options/wrapped.h"
 
-namespace mars::host {
+namespace mars::options {
 namespace {
 
 std::string line_of(const std::vector<std::string>& fields) {
@@ -47,7 +47,7 @@ std::string lines_of(const CLI::App& command, const std::string& name) {
 
 std::string option_list(const CLI::App& app) {
   std::string text = lines_of(app, app.get_name());
-  for (const hal::Setting& each : hal::settings_table()) {
+  for (const messages::Setting& each : messages::settings_table()) {
     text += line_of({"setting", each.name, std::string(each.meaning) + "; without it: " + each.fallback});
   }
   return text;
@@ -134,7 +134,7 @@ std::string misfit(const CLI::App& command) {
   const std::string name = word.substr(0, word.find('='));
   const bool option = word.starts_with('-');
   const std::vector<std::string> known = option ? options_of(command) : commands_of(command);
-  const std::string near = did_you_mean(name, std::vector<std::string_view>(known.begin(), known.end()), "");
+  const std::string near = document::did_you_mean(name, std::vector<std::string_view>(known.begin(), known.end()), "");
   const char* what = option ? " is not an option" : known.empty() ? " is one word too many" : " is not a command";
   return "'" + name + "'" + what + (near.empty() ? "" : " (" + near + ")");
 }
@@ -200,4 +200,4 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::options

@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace mars::host {
+namespace mars::options {
 
 inline constexpr int kFailed = 1;
 inline constexpr int kUsage = 2;
@@ -22,4 +22,4 @@ inline constexpr int kUsage = 2;
 //   setting   NAME     MEANING                    of the environment
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
 
-}  // namespace mars::host
+}  // namespace mars::options

@@ -12,7 +12,7 @@
 #include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::options {
 
 namespace {
 
@@ -34,22 +34,22 @@ constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
 constexpr std::array kWords<SinkKind>{"png", "none"};
 template <>
-constexpr std::array kWords<node::Mapping>{"greedy", "optimal"};
+constexpr std::array kWords<wire::Mapping>{"greedy", "optimal"};
 
 template <typename Enumeration>
 requires std::is_enum_v<Enumeration>
 void read(const std::string& text, Enumeration& value) {
   const auto& words = kWords<Enumeration>;
   const auto found = std::find(words.begin(), words.end(), text);
-  if (found == words.end()) throw Failure("'" + text + "' is not " + joined(words, " or "), "", "");
+  if (found == words.end()) throw Failure("'" + text + "' is not " + document::joined(words, " or "), "", "");
   value = static_cast<Enumeration>(found - words.begin());
 }
 
 void read(const std::string& text, std::string& value) { value = text; }
 
-void read(const std::string& text, FrameSet& value) { value = FrameSet(text); }
+void read(const std::string& text, film::FrameSet& value) { value = film::FrameSet(text); }
 
-void read(const std::string& text, std::optional<PictureSize>& value) { value = read_picture_size(text); }
+void read(const std::string& text, std::optional<images::PictureSize>& value) { value = images::read_picture_size(text); }
 
 // A number of at least one.
 struct Count {
@@ -64,7 +64,7 @@ void read_count(const std::string& text, const Count& count, RenderOptions& opti
     value = 0;
     return;
   }
-  value = number_in<std::uint32_t>(text).value_or(0);
+  value = document::number_in<std::uint32_t>(text).value_or(0);
   if (value < 1 || value > count.most) {
     throw Failure("'" + text + "' is not a number from 1 to " + std::to_string(count.most) +
                       (count.may_be_auto ? " or auto" : ""),
@@ -79,9 +79,9 @@ requires std::is_enum_v<Enumeration> std::string text_of(Enumeration value) {
 
 std::string text_of(const std::string& name) { return word_of_file(name); }
 
-std::string text_of(const FrameSet& frames) { return frames.text(); }
+std::string text_of(const film::FrameSet& frames) { return frames.text(); }
 
-std::string text_of(const std::optional<PictureSize>& size) {
+std::string text_of(const std::optional<images::PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
 
@@ -189,7 +189,7 @@ std::vector<Entry> table() {
              "Example: --intervals keyframes"),
       flag(all, "--no-coherence", &RenderOptions::no_coherence,
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
-      number(all, "--block", {&RenderOptions::block, false, node::kMaxSide},
+      number(all, "--block", {&RenderOptions::block, false, wire::kMaxSide},
              "Side of the compositor's blocks in pixels: same pictures. Example: --block 32"),
       number(
           all, "--groups", {&RenderOptions::groups, true, many},
@@ -263,4 +263,4 @@ std::vector<std::string> arguments_for(Program program, const RenderOptions& opt
   return arguments;
 }
 
-}  // namespace mars::host
+}  // namespace mars::options

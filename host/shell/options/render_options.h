@@ -16,7 +16,7 @@ namespace CLI {
 class App;
 }
 
-namespace mars::host {
+namespace mars::options {
 
 // In place of a film's file: a tiny film that every program has in it, to see whether a start works.
 inline constexpr const char* kTrialFilm = ":trial";
@@ -31,9 +31,9 @@ struct RenderOptions {
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
   std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
-  FrameSet frames;
-  std::optional<PictureSize> size;  // none: the film's own
-  node::Mapping mapping = node::Mapping::greedy;
+  film::FrameSet frames;
+  std::optional<images::PictureSize> size;  // none: the film's own
+  wire::Mapping mapping = wire::Mapping::greedy;
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
@@ -65,4 +65,4 @@ std::string word_of_file(const std::string& name);
 // The arguments that make `program` read these options again, those it takes; defaults are left out.
 std::vector<std::string> arguments_for(Program program, const RenderOptions& options);
 
-}  // namespace mars::host
+}  // namespace mars::options

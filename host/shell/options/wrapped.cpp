@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace mars::host {
+namespace mars::options {
 
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t columns) {
   const std::string margin(indent, ' ');
@@ -26,4 +26,4 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t col
   return result;
 }
 
-}  // namespace mars::host
+}  // namespace mars::options

@@ -2,7 +2,10 @@
 // triangles no larger than kMostExtent: places relative to the triangle stay below 2^15, sums of products below 2^31.
 #include "node/raster/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::raster::MARS_SET {
+
+using namespace simd::MARS_SET;
+
 namespace {
 
 using Mask = hn::Mask<IntTag>;
@@ -22,7 +25,7 @@ void order(Point& a, Point& b) {
 }
 
 // First row or column whose sample lies at or after a place.
-Ints sample_after(Ints place) { return hn::ShiftRight<8>(hn::Add(place, constant(kSampleOffset - 1))); }
+Ints sample_after(Ints place) { return hn::ShiftRight<8>(hn::Add(place, constant(shape::kSampleOffset - 1))); }
 
 // A side's crossing of a row is (numerator / denominator) columns from where columns are counted.
 struct Side {
@@ -57,7 +60,7 @@ struct Triangle3 {
   Point a, b, c;
 };
 
-Triangle3 load(const Vertices& v, const Triangles& triangles, std::uint32_t at, bool consecutive) {
+Triangle3 load(const shape::Vertices& v, const shape::Triangles& triangles, std::uint32_t at, bool consecutive) {
   const auto corner = [&](const std::uint32_t* numbers) {
     const std::uint32_t first = numbers[at];
     if (consecutive) return Point{hn::LoadU(kInts, v.x + first), hn::LoadU(kInts, v.y + first)};
@@ -74,8 +77,8 @@ Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may
   order(t.b, t.c);
   order(t.a, t.b);
   const Ints column = hn::ShiftRight<8>(left);
-  const Ints x = hn::Add(hn::ShiftLeft<8>(column), constant(kSampleOffset));
-  Ints y = hn::Add(hn::ShiftLeft<8>(first_row), constant(kSampleOffset));
+  const Ints x = hn::Add(hn::ShiftLeft<8>(column), constant(shape::kSampleOffset));
+  Ints y = hn::Add(hn::ShiftLeft<8>(first_row), constant(shape::kSampleOffset));
   Side full(t.a, t.c, x, y), upper(t.a, t.b, x, y), lower(t.b, t.c, x, y);
   const Ints end = hn::IfThenElseZero(may, hn::ShiftLeft<8>(last_row));
   Mask covers = hn::Lt(y, y);
@@ -93,7 +96,7 @@ Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may
     const Ints columns = hn::IfThenElseZero(covered, hn::Or(first, hn::ShiftLeft<16>(last)));
     hn::Store(columns, kInts, reinterpret_cast<std::int32_t*>(out.columns[r]) + lane);
     covers = hn::Or(covers, covered);
-    y = hn::Add(y, constant(kSubpixels));
+    y = hn::Add(y, constant(shape::kSubpixels));
     full.next_row();
     upper.next_row();
     lower.next_row();
@@ -102,7 +105,7 @@ Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may
 
 }  // namespace
 
-void classify(const ClassifyTask& task, const Vertices& v, const Triangles& triangles, const Batch& batch,
+void classify(const ClassifyTask& task, const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch,
              Classified& out) {
   out.decided = out.undecided = out.faces = 0;
   const std::uint32_t count = batch.last - batch.first;
@@ -111,7 +114,7 @@ void classify(const ClassifyTask& task, const Vertices& v, const Triangles& tria
     const Ints x1 = hn::Sub(t.b.x, t.a.x), y1 = hn::Sub(t.b.y, t.a.y), x2 = hn::Sub(t.c.x, t.a.x),
                y2 = hn::Sub(t.c.y, t.a.y);
     const Ints longest = hn::Max(hn::Max(hn::Abs(x1), hn::Abs(x2)), hn::Max(hn::Abs(y1), hn::Abs(y2)));
-    const Mask small = hn::Lt(longest, constant(kMostExtent * kSubpixels / 2));
+    const Mask small = hn::Lt(longest, constant(kMostExtent * shape::kSubpixels / 2));
     const Ints area = hn::Sub(hn::Mul(x1, y2), hn::Mul(x2, y1));
     const Ints lengths = hn::Add(hn::Add(hn::Abs(x1), hn::Abs(y1)), hn::Add(hn::Abs(x2), hn::Abs(y2)));
     const Mask sure = hn::And(small, hn::Gt(hn::Abs(area), hn::Mul(constant(kThin), lengths)));
@@ -146,4 +149,4 @@ void classify(const ClassifyTask& task, const Vertices& v, const Triangles& tria
   }
 }
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::raster::MARS_SET

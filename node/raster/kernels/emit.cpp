@@ -5,7 +5,7 @@
 
 #include "node/raster/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::raster::MARS_SET {
 namespace {
 
 // Four floats in one register; arithmetic is lane by lane.
@@ -26,8 +26,8 @@ void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_mov
 
 }  // namespace
 
-void set_up_planes(const Vertices& v, const Corner3& corners, const ScreenShape& shape,
-                   const PatchIdentity& identity, Triangle& out) {
+void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, const ScreenShape& shape,
+                   const PatchIdentity& identity, geometry::Triangle& out) {
   const float sign = shape.faces ? 1.0f : -1.0f;
   const Float4 turned = {1, sign, sign, sign};
   const Float4 first = turned * load(v.values[corners.a]);
@@ -43,7 +43,7 @@ void set_up_planes(const Vertices& v, const Corner3& corners, const ScreenShape&
   out.material = identity.material;
 }
 
-void emit(const Vertices& v, const Triangles& triangles, const Batch& batch, const Classified& e, std::uint32_t lanes,
+void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& e, std::uint32_t lanes,
           const PatchIdentity& identity, SetUpSpace& out) {
   SetUpSpace space = out;
   for (std::uint32_t left = lanes & e.decided; left != 0; left &= left - 1) {
@@ -69,4 +69,4 @@ void emit(const Vertices& v, const Triangles& triangles, const Batch& batch, con
   out = space;
 }
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::raster::MARS_SET

@@ -4,15 +4,15 @@
 #include "node/simd/vectors.h"
 #include "node/raster/kernels.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::raster::MARS_SET {
 
-void classify(const ClassifyTask& task, const Vertices& vertices, const Triangles& triangles, const Batch& batch,
+void classify(const ClassifyTask& task, const shape::Vertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
               Classified& out);
-void set_up_planes(const Vertices& vertices, const Corner3& corners, const ScreenShape& shape,
-                   const PatchIdentity& identity, Triangle& out);
-void emit(const Vertices& vertices, const Triangles& triangles, const Batch& batch, const Classified& classified,
+void set_up_planes(const shape::Vertices& vertices, const shape::Corner3& corners, const ScreenShape& shape,
+                   const PatchIdentity& identity, geometry::Triangle& out);
+void emit(const shape::Vertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& classified,
           std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
-Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line, float* depth,
+shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line, float* depth,
             std::uint32_t* ids);
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::raster::MARS_SET

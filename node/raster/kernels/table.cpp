@@ -1,8 +1,8 @@
 #include "node/raster/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::raster::MARS_SET {
 
 extern const RasterKernels raster_kernels;
 const RasterKernels raster_kernels = {classify, set_up_planes, emit, draw};
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::raster::MARS_SET

@@ -1,7 +1,10 @@
 // Which triangle a line's samples show.
 #include "node/raster/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::raster::MARS_SET {
+
+using namespace simd::MARS_SET;
+
 namespace {
 
 // Boxes ahead whose triangles are fetched: they come from all over memory.
@@ -14,8 +17,8 @@ using Wide = hn::CappedTag<float, 8>;
 
 // Whether triangle a is the one seen where both are as near: the lower patch's, then the first within it. None is what
 // was there before.
-bool precedes(const Triangle* triangles, std::uint32_t a, std::uint32_t b) {
-  if (b == kNoTriangle) return false;
+bool precedes(const geometry::Triangle* triangles, std::uint32_t a, std::uint32_t b) {
+  if (b == shading::kNoTriangle) return false;
   const std::uint32_t patch_a = triangles[a].patch, patch_b = triangles[b].patch;
   return patch_a != patch_b ? patch_a < patch_b : a < b;
 }
@@ -28,7 +31,7 @@ struct Depth {
 
 // `triangle` takes over those of the samples marked by `tied` that it precedes.
 template <typename Tag>
-[[gnu::noinline]] void settle(Tag floats, hn::Mask<Tag> tied, const Triangle* triangles, std::uint32_t triangle,
+[[gnu::noinline]] void settle(Tag floats, hn::Mask<Tag> tied, const geometry::Triangle* triangles, std::uint32_t triangle,
                               std::uint32_t* ids) {
   constexpr int kStep = static_cast<int>(hn::MaxLanes(Tag()));
   float marks[kStep];
@@ -39,12 +42,12 @@ template <typename Tag>
 
 // Draws `count` samples, the first at dx, as many at once as `floats` has lanes.
 template <typename Tag>
-void draw_samples(Tag floats, const Depth& plane, float dx, int count, const Triangle* triangles,
+void draw_samples(Tag floats, const Depth& plane, float dx, int count, const geometry::Triangle* triangles,
                   std::uint32_t triangle, float* depth, std::uint32_t* ids) {
   const hn::Rebind<std::uint32_t, Tag> numbers;
   constexpr int kStep = static_cast<int>(hn::MaxLanes(Tag()));
   const auto on_line = hn::Set(floats, plane.on_line), per_x = hn::Set(floats, plane.per_x);
-  auto along = hn::Add(hn::Set(floats, dx), hn::Mul(hn::Iota(floats, 0.0f), hn::Set(floats, kSubpixels)));
+  auto along = hn::Add(hn::Set(floats, dx), hn::Mul(hn::Iota(floats, 0.0f), hn::Set(floats, shape::kSubpixels)));
   for (int k = 0; k < count; k += kStep) {
     const auto here = hn::Add(on_line, hn::Mul(along, per_x));
     const auto there = hn::LoadU(floats, depth + k);
@@ -58,25 +61,25 @@ void draw_samples(Tag floats, const Depth& plane, float dx, int count, const Tri
     const auto shown = hn::LoadU(numbers, ids + k);
     hn::StoreU(hn::IfThenElse(hn::RebindMask(numbers, nearer), hn::Set(numbers, triangle), shown), numbers, ids + k);
     if (!hn::AllFalse(floats, tied)) settle(floats, tied, triangles, triangle, ids + k);
-    along = hn::Add(along, hn::Set(floats, static_cast<float>(kStep) * kSubpixels));
+    along = hn::Add(along, hn::Set(floats, static_cast<float>(kStep) * shape::kSubpixels));
   }
 }
 
 }  // namespace
 
-Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
+shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
             float* __restrict depth, std::uint32_t* __restrict ids) {
-  Extent extent{0xffffffffu, 0};
-  const std::int32_t y = static_cast<std::int32_t>(line) * kSubpixels + kSampleOffset;
+  shading::Extent extent{0xffffffffu, 0};
+  const std::int32_t y = static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset;
   for (std::uint32_t b = 0; b < count; ++b) {
     __builtin_prefetch(triangles + boxes[b + kAhead < count ? b + kAhead : b].triangle);
     const EdgeBox box = boxes[b];
-    const Triangle& t = triangles[box.triangle];
+    const geometry::Triangle& t = triangles[box.triangle];
     extent.first = box.first < extent.first ? box.first : extent.first;
     extent.last = box.last > extent.last ? box.last : extent.last;
     const auto dy = static_cast<float>(y - t.first_y);
-    const auto dx = static_cast<float>(box.first * kSubpixels + kSampleOffset - t.first_x);
-    const Depth plane{t.at_first[kDepth] + dy * t.per_y[kDepth], t.per_x[kDepth]};
+    const auto dx = static_cast<float>(box.first * shape::kSubpixels + shape::kSampleOffset - t.first_x);
+    const Depth plane{t.at_first[shape::kDepth] + dy * t.per_y[shape::kDepth], t.per_x[shape::kDepth]};
     const int width = box.last - box.first;
     if (width == 1)
       draw_samples(Narrow(), plane, dx, width, triangles, box.triangle, depth + box.first, ids + box.first);
@@ -86,4 +89,4 @@ Extent draw(const Triangle* triangles, const EdgeBox* boxes, std::uint32_t count
   return extent;
 }
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::raster::MARS_SET

@@ -4,9 +4,9 @@
 #include "node/simd/vectors.h"
 #include "node/shading/kernels.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::shading::MARS_SET {
 
-Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
              std::uint32_t* pixels);
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::shading::MARS_SET

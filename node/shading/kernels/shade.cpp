@@ -8,7 +8,10 @@
 
 #include "node/shading/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::shading::MARS_SET {
+
+using namespace simd::MARS_SET;
+
 namespace {
 
 Floats constant(float number) { return hn::Set(kFloats, number); }
@@ -20,8 +23,8 @@ Floats dot(const Floats* a, const Floats* b) {
 
 // All values of one sample and what they are computed from: four lanes that the compiler keeps in one register, for
 // whatever instruction set; arithmetic is lane by lane.
-typedef float Sample __attribute__((vector_size(sizeof(float) * kValues)));
-typedef std::int32_t Places __attribute__((vector_size(sizeof(std::int32_t) * kValues)));
+typedef float Sample __attribute__((vector_size(sizeof(float) * shape::kValues)));
+typedef std::int32_t Places __attribute__((vector_size(sizeof(std::int32_t) * shape::kValues)));
 
 Sample load(const float* values) {
   Sample out;
@@ -37,9 +40,9 @@ struct Stretch {
 
 // Samples of one line that show something, close together, and what becomes of them.
 constexpr std::uint32_t kBlock = 256;
-constexpr std::uint32_t kCapacity = kBlock + kVectorSlack;
+constexpr std::uint32_t kCapacity = kBlock + simd::kVectorSlack;
 struct Block {
-  alignas(64) float values[kCapacity][kValues];
+  alignas(64) float values[kCapacity][shape::kValues];
   alignas(64) float column[kCapacity];
   alignas(64) float facing[kCapacity];  // of one light: N.L
   alignas(64) float square[kCapacity];  // and (R.V)^2; 0 where it is not to be seen
@@ -65,17 +68,17 @@ std::uint32_t find(bool something, const std::uint32_t* ids, std::uint32_t colum
 
 // Adds `count` samples from `column` on, none of them a gap, and as many as fit. Whether neighbours show
 // the same triangle is not asked: the answer costs more than the planes of a sample.
-void interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint32_t line, std::uint32_t column,
+void interpolate(const geometry::Triangle* triangles, const std::uint32_t* ids, std::uint32_t line, std::uint32_t column,
                  std::uint32_t count, Block& block) {
-  Places sample = {static_cast<std::int32_t>(column) * kSubpixels + kSampleOffset,
-                   static_cast<std::int32_t>(line) * kSubpixels + kSampleOffset, 0, 0};
-  const Places step = {kSubpixels, 0, 0, 0};
+  Places sample = {static_cast<std::int32_t>(column) * shape::kSubpixels + shape::kSampleOffset,
+                   static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset, 0, 0};
+  const Places step = {shape::kSubpixels, 0, 0, 0};
   const std::uint32_t* id = ids + column;
-  float(*values)[kValues] = block.values + block.count;
+  float(*values)[shape::kValues] = block.values + block.count;
   std::uint32_t material =
       block.stretch_count > 0 ? block.stretches[block.stretch_count - 1].material : ~triangles[*id].material;
   for (const std::uint32_t* end = id + count; id != end; ++id, ++values, sample += step) {
-    const Triangle& t = triangles[*id];
+    const geometry::Triangle& t = triangles[*id];
     if (t.material != material) {
       material = t.material;
       block.stretches[block.stretch_count++] = {static_cast<std::uint32_t>(values - block.values), material};
@@ -92,7 +95,7 @@ void interpolate(const Triangle* triangles, const std::uint32_t* ids, std::uint3
 }
 
 // Fills facing and square for one light.
-void face(const Projection& p, std::uint32_t line, const EyeLight& light, Block& block) {
+void face(const shape::Projection& p, std::uint32_t line, const geometry::EyeLight& light, Block& block) {
   const Floats per_pixel = constant(1.0f / p.scale), center = constant(p.center[0] - 0.5f), one = constant(1.0f);
   const Floats up = constant((static_cast<float>(line) + 0.5f - p.center[1]) * (1.0f / p.scale));
   const Floats vector[3] = {constant(light.vector[0]), constant(light.vector[1]), constant(light.vector[2])};
@@ -146,7 +149,7 @@ Floats raise(Floats square, float exponent) {
 struct MaterialLanes {
   Floats ambient[3], diffuse[3], specular;
 
-  explicit MaterialLanes(const Material& m) : specular(constant(255.0f * m.specular)) {
+  explicit MaterialLanes(const wire::Material& m) : specular(constant(255.0f * m.specular)) {
     for (std::size_t c = 0; c < 3; ++c) {
       const float own = 255.0f * m.color[c];
       ambient[c] = constant(m.ambient * own);
@@ -166,7 +169,7 @@ struct MaterialLanes {
 // What a vector of samples shows, for vectors in the order of a block.
 class Materials {
  public:
-  Materials(const Material* materials, const Block& block)
+  Materials(const wire::Material* materials, const Block& block)
       : materials_(materials), block_(block), lanes_(material(0)) {}
 
   const MaterialLanes& lanes() const { return lanes_; }
@@ -192,14 +195,14 @@ class Materials {
   }
 
  private:
-  const Material& material(std::uint32_t stretch) const { return materials_[block_.stretches[stretch].material]; }
+  const wire::Material& material(std::uint32_t stretch) const { return materials_[block_.stretches[stretch].material]; }
   std::uint32_t next_first() const { return last_ + 1 < block_.stretch_count ? block_.stretches[last_ + 1].first : ~0u; }
   // The vector's samples from a stretch's first on.
   hn::Mask<FloatTag> since(std::uint32_t stretch) const {
     return hn::Not(hn::FirstN(kFloats, block_.stretches[stretch].first - at_));
   }
 
-  const Material* materials_;
+  const wire::Material* materials_;
   const Block& block_;
   MaterialLanes lanes_;
   std::uint32_t at_ = 0;
@@ -220,7 +223,7 @@ Ints pack(const Floats* color) {
 }
 
 // Adds one light to the block's colours; the first begins with the ambient ones, the last makes pixels of them.
-void add_light(const Material* all, const EyeLight& light, bool first, bool last, Block& block,
+void add_light(const wire::Material* all, const geometry::EyeLight& light, bool first, bool last, Block& block,
                std::uint32_t* pixels) {
   const Floats shines[3] = {constant(light.color[0]), constant(light.color[1]), constant(light.color[2])};
   Materials materials(all, block);
@@ -242,8 +245,8 @@ void add_light(const Material* all, const EyeLight& light, bool first, bool last
 }
 
 void shade_block(const Shading& shading, std::uint32_t line, Block& block, std::uint32_t* pixels) {
-  const EyeLight dark{};
-  const EyeLight* lights = shading.light_count > 0 ? shading.lights : &dark;
+  const geometry::EyeLight dark{};
+  const geometry::EyeLight* lights = shading.light_count > 0 ? shading.lights : &dark;
   const std::uint32_t count = shading.light_count > 0 ? shading.light_count : 1;
   for (std::uint32_t l = 0; l < count; ++l) {
     face(shading.projection, line, lights[l], block);
@@ -253,7 +256,7 @@ void shade_block(const Shading& shading, std::uint32_t line, Block& block, std::
 
 }  // namespace
 
-Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Run* runs,
+Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
              std::uint32_t* pixels) {
   Shaded done{0, 0};
   Block block;
@@ -280,4 +283,4 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
   return done;
 }
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::shading::MARS_SET

@@ -1,7 +1,10 @@
 // How a patch bends, as it is seen, at sixteen places.
 #include "node/shape/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::shape::MARS_SET {
+
+using namespace simd::MARS_SET;
+
 namespace {
 
 Floats constant(float number) { return hn::Set(kFloats, number); }
@@ -64,4 +67,4 @@ Fineness estimate_curvature(const CurvatureWeights& weights, const float (*point
   return {hn::GetLane(hn::MaxOfLanes(kFloats, most_u)), hn::GetLane(hn::MaxOfLanes(kFloats, most_v))};
 }
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::shape::MARS_SET

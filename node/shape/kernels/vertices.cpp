@@ -3,7 +3,10 @@
 
 #include "node/shape/kernels/functions.h"
 
-namespace mars::node::MARS_SET {
+namespace mars::shape::MARS_SET {
+
+using namespace simd::MARS_SET;
+
 namespace {
 
 Floats constant(float number) { return hn::Set(kFloats, number); }
@@ -111,4 +114,4 @@ bool project(const Projection& p, const Vertices& v, int count) {
   return any;
 }
 
-}  // namespace mars::node::MARS_SET
+}  // namespace mars::shape::MARS_SET

@@ -14,7 +14,7 @@ std::uint32_t level(float intensity) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(clamped * 255.0f + 0.5f));
 }
 
-void shade(const Stretch& s, const node::Material& m, const node::EyeLight& light, int count,
+void shade(const Stretch& s, const wire::Material& m, const geometry::EyeLight& light, int count,
            std::uint32_t* __restrict pixels) {
   const float lx = light.vector[0], ly = light.vector[1], lz = light.vector[2];
   for (int k = 0; k < count; ++k) {
@@ -42,17 +42,17 @@ void shade(const Stretch& s, const node::Material& m, const node::EyeLight& ligh
 // Triangles come from all over memory: the kernel fetches them ahead, so does its floor.
 constexpr std::ptrdiff_t kAhead = 32;
 
-void write_depths(const node::Triangle* triangles, const Piece* pieces, std::size_t count, float* __restrict depth) {
+void write_depths(const geometry::Triangle* triangles, const Piece* pieces, std::size_t count, float* __restrict depth) {
   const Piece* const end = pieces + count;
   for (const Piece* piece = pieces; piece != end; ++piece) {
     __builtin_prefetch(triangles + piece[end - piece > kAhead ? kAhead : 0].triangle);
-    const node::Triangle& t = triangles[piece->triangle];
+    const geometry::Triangle& t = triangles[piece->triangle];
     const auto line = static_cast<std::int32_t>(piece->line), last = static_cast<std::int32_t>(piece->last);
-    const auto dy = static_cast<float>(line * node::kSubpixels + node::kSampleOffset - t.first_y);
-    const float on_line = t.at_first[node::kDepth] + dy * t.per_y[node::kDepth], per_x = t.per_x[node::kDepth];
-    const std::int32_t from_first = node::kSampleOffset - t.first_x;
+    const auto dy = static_cast<float>(line * shape::kSubpixels + shape::kSampleOffset - t.first_y);
+    const float on_line = t.at_first[shape::kDepth] + dy * t.per_y[shape::kDepth], per_x = t.per_x[shape::kDepth];
+    const std::int32_t from_first = shape::kSampleOffset - t.first_x;
     for (auto column = static_cast<std::int32_t>(piece->first); column < last; ++column)
-      depth[column] = on_line + static_cast<float>(column * node::kSubpixels + from_first) * per_x;
+      depth[column] = on_line + static_cast<float>(column * shape::kSubpixels + from_first) * per_x;
   }
 }
 

@@ -26,14 +26,14 @@ struct Stretch {
 
 struct Bare {
   // Interpolates, normalises both, N.L, R.V to the 32nd by five squarings, and packs `count` pixels.
-  void (*shade)(const Stretch& stretch, const node::Material& material, const node::EyeLight& light, int count,
+  void (*shade)(const Stretch& stretch, const wire::Material& material, const geometry::EyeLight& light, int count,
                 std::uint32_t* pixels);
   // The planes' depths at the samples of all pieces, each written once to the one line `depth`.
-  void (*write_depths)(const node::Triangle* triangles, const Piece* pieces, std::size_t count, float* depth);
+  void (*write_depths)(const geometry::Triangle* triangles, const Piece* pieces, std::size_t count, float* depth);
   // The same samples' depths, computed before and lying one behind the other at `from`.
   void (*copy_depths)(const float* from, const Piece* pieces, std::size_t count, float* depth);
 };
 
-const Bare& bare_for(node::InstructionSet set);
+const Bare& bare_for(simd::InstructionSet set);
 
 }  // namespace mars::bench

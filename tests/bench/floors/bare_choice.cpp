@@ -7,11 +7,11 @@ extern const Bare bare_sse4;
 extern const Bare bare_avx2;
 extern const Bare bare_avx512;
 
-const Bare& bare_for(node::InstructionSet set) {
+const Bare& bare_for(simd::InstructionSet set) {
   switch (set) {
-    case node::InstructionSet::avx512: return bare_avx512;
-    case node::InstructionSet::avx2: return bare_avx2;
-    case node::InstructionSet::sse4: return bare_sse4;
+    case simd::InstructionSet::avx512: return bare_avx512;
+    case simd::InstructionSet::avx2: return bare_avx2;
+    case simd::InstructionSet::sse4: return bare_sse4;
     default: return bare_sse2;
   }
 }

@@ -35,14 +35,14 @@ double seconds(const Work& work) {
 // One scene with the kernels of one instruction set; every step says how many seconds it took.
 class Bench {
  public:
-  Bench(Workload& workload, node::InstructionSet set)
+  Bench(Workload& workload, simd::InstructionSet set)
       : work_(workload),
         instruction_set_(set),
         bare_(bare_for(set)),
-        depth_(workload.width() + node::kVectorSlack),
-        ids_(depth_.size(), node::kNoTriangle),
+        depth_(workload.width() + simd::kVectorSlack),
+        ids_(depth_.size(), shading::kNoTriangle),
         depths_(workload.pixels()),
-        pixels_(workload.pixels() + node::kVectorSlack + kRow),
+        pixels_(workload.pixels() + simd::kVectorSlack + kRow),
         runs_(workload.pixels() + 1) {}
 
   // The bare loop over as many pixels as are seen, so many at a time.
@@ -69,32 +69,32 @@ class Bench {
     double shade = 0;
   };
   Scanlines scanlines() {
-    const node::RasterKernels& raster = node::raster_kernels(instruction_set_);
-    const node::ShadingKernels& shading = node::shading_kernels(instruction_set_);
+    const raster::RasterKernels& raster = raster::raster_kernels(instruction_set_);
+    const shading::ShadingKernels& shading = shading::shading_kernels(instruction_set_);
     Scanlines spent;
     std::uint64_t pixels = 0, runs = 0;
     for (std::uint32_t line = 0; line < work_.height(); ++line) {
       const auto boxes = work_.boxes().stationary(line);
       if (boxes.empty()) continue;
       std::fill(depth_.begin(), depth_.end(), 0.0f);
-      node::Extent extent{};
+      shading::Extent extent{};
       spent.draw += seconds([&] {
         extent = raster.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
                                depth_.data(), ids_.data());
       });
-      node::Shaded done{};
+      shading::Shaded done{};
       spent.shade += seconds([&] {
         done = shading.shade(work_.shading(), ids_.data(), line, extent, runs_.data() + runs, pixels_.data() + pixels);
       });
       pixels += done.pixels;
       runs += done.runs;
-      std::fill(ids_.begin() + extent.first, ids_.begin() + extent.last, node::kNoTriangle);
+      std::fill(ids_.begin() + extent.first, ids_.begin() + extent.last, shading::kNoTriangle);
     }
     return spent;
   }
 
   double dice() {
-    node::Dicer dicer(instruction_set_);
+    shape::Dicer dicer(instruction_set_);
     return seconds([&] { work_.dice(dicer); });
   }
   double dice_and_set_up() {
@@ -106,13 +106,13 @@ class Bench {
 
  private:
   Workload& work_;
-  node::InstructionSet instruction_set_;
+  simd::InstructionSet instruction_set_;
   const Bare& bare_;
   std::vector<float> depth_;  // of one line
   std::vector<std::uint32_t> ids_;
   std::vector<float> depths_;  // of all that is seen
   std::vector<std::uint32_t> pixels_;
-  std::vector<node::Run> runs_;
+  std::vector<wire::Run> runs_;
 };
 
 // Keeps the best time of every benchmark, and prints nothing.
@@ -192,7 +192,7 @@ void print(const std::vector<Case>& cases, const Best& best) {
   }
   std::puts("\nOther steps, ns a    vertex  classified     emitted  box filled");
   for (const Case& one : cases) {
-    const node::WorkCounts& counts = one.work->counts();
+    const wire::WorkCounts& counts = one.work->counts();
     const double dice = ns(one, "dice"), set_up = ns(one, "make") - dice;
     print_row(one.name, {dice / static_cast<double>(counts.vertices), set_up / static_cast<double>(one.work->classified()),
                          set_up / static_cast<double>(counts.triangles),
@@ -224,8 +224,8 @@ int run(int argc, char** argv) {
     workloads.push_back(std::make_unique<Workload>(film));
     print_counts(*workloads.back(), film.stem().string());
     for (const char* limit : {"avx512", "avx2", "sse4", "sse2"}) {
-      const node::InstructionSet set = node::best_instruction_set(limit);
-      if (node::name_of(set) != std::string(limit)) continue;  // this CPU has it not
+      const simd::InstructionSet set = simd::best_instruction_set(limit);
+      if (simd::name_of(set) != std::string(limit)) continue;  // this CPU has it not
       cases.push_back({film.stem().string() + '/' + limit, std::make_unique<Bench>(*workloads.back(), set),
                        workloads.back().get()});
     }

@@ -13,7 +13,7 @@ constexpr std::size_t kMemory = std::size_t{1} << 30;  // address space; pages c
 }  // namespace
 
 Workload::Workload(const std::filesystem::path& film)
-    : film_(host::load_film(film)),
+    : film_(film::load_film(film)),
       view_(film_.view()),
       scene_(view_),
       made_(kMemory),
@@ -23,24 +23,24 @@ Workload::Workload(const std::filesystem::path& film)
       wanted_(line_counts_.size(), 1) {
   scene_.set_interval(0);
   scene_.set_frame(0);
-  const node::InstructionSet set = node::best_instruction_set("");
+  const simd::InstructionSet set = simd::best_instruction_set("");
   make(set);
   for (std::size_t line = 0; line < line_counts_.size(); ++line) ebc_[line + 1] = ebc_[line] + line_counts_[line];
   fill();
-  node::Dicer dicer(set);
+  shape::Dicer dicer(set);
   dice(dicer);
   find_pieces();
 }
 
-void Workload::dice(node::Dicer& dicer) {
+void Workload::dice(shape::Dicer& dicer) {
   classified_ = 0;
   const int rate = static_cast<int>(view_.settings().dice);
   for (std::size_t s = 0; s < view_.segments().size(); ++s) {
-    const node::Shape& shape = view_.shapes()[view_.segments()[s].shape];
-    const node::EyeMatrix matrix = scene_.matrix(s);
+    const wire::Shape& shape = view_.shapes()[view_.segments()[s].shape];
+    const shape::EyeMatrix matrix = scene_.matrix(s);
     for (std::uint32_t i = 0; i < shape.patch_count; ++i) {
-      const node::EyePatch patch = node::to_eye(matrix, view_.patches()[shape.first_patch + i]);
-      if (node::unseen(patch, scene_.projection(), static_cast<float>(width()), static_cast<float>(height()))) continue;
+      const shape::EyePatch patch = shape::to_eye(matrix, view_.patches()[shape.first_patch + i]);
+      if (shape::unseen(patch, scene_.projection(), static_cast<float>(width()), static_cast<float>(height()))) continue;
       dicer.dice(patch, scene_.projection(), rate);
       classified_ += dicer.triangles().count;
     }
@@ -48,10 +48,10 @@ void Workload::dice(node::Dicer& dicer) {
 }
 
 // All as if they stood still.
-void Workload::make(node::InstructionSet set) {
+void Workload::make(simd::InstructionSet set) {
   made_.clear();
   counts_ = {};
-  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, node::FrameKind::keyframe, {},
+  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {},
                                                                    {wanted_, line_counts_}, made_, counts_);
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
@@ -62,24 +62,24 @@ void Workload::make(node::InstructionSet set) {
 
 void Workload::fill() {
   filled_.clear();
-  node::LineFiller filler({0, height()}, ebc_, polygons_.triangles, filled_);
+  raster::LineFiller filler({0, height()}, ebc_, polygons_.triangles, filled_);
   filler.add(polygons_);
   boxes_ = filler.finish();
 }
 
 void Workload::find_pieces() {
-  const node::RasterKernels& kernels = node::raster_kernels(node::best_instruction_set(""));
-  std::vector<float> depth(width() + node::kVectorSlack);
+  const raster::RasterKernels& kernels = raster::raster_kernels(simd::best_instruction_set(""));
+  std::vector<float> depth(width() + simd::kVectorSlack);
   std::vector<std::uint32_t> ids(depth.size());
   for (std::uint32_t line = 0; line < height(); ++line) {
     std::fill(depth.begin(), depth.end(), 0.0f);
-    std::fill(ids.begin(), ids.end(), node::kNoTriangle);
+    std::fill(ids.begin(), ids.end(), shading::kNoTriangle);
     const auto boxes = boxes_.stationary(line);
     kernels.draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth.data(),
                  ids.data());
     for (std::uint32_t first = 0, last; first < width(); first = last) {
       for (last = first + 1; last < width() && ids[last] == ids[first];) ++last;
-      if (ids[first] == node::kNoTriangle) continue;
+      if (ids[first] == shading::kNoTriangle) continue;
       pieces_.push_back({ids[first], line, first, last});
       pixels_ += last - first;
     }

@@ -21,14 +21,14 @@ class Workload {
   explicit Workload(const std::filesystem::path& film);
 
   // The steps again: patches to vertices; these to triangles and edge boxes; those into their lines.
-  void dice(node::Dicer& dicer);
-  void make(node::InstructionSet set);
+  void dice(shape::Dicer& dicer);
+  void make(simd::InstructionSet set);
   void fill();
 
-  const node::WorkCounts& counts() const { return counts_; }  // vertices; triangles that touch a sample
+  const wire::WorkCounts& counts() const { return counts_; }  // vertices; triangles that touch a sample
   std::uint64_t classified() const { return classified_; }        // triangles of all diced patches
-  const node::Shading& shading() const { return shading_; }
-  const node::LineBoxes& boxes() const { return boxes_; }
+  const shading::Shading& shading() const { return shading_; }
+  const raster::LineBoxes& boxes() const { return boxes_; }
   std::uint32_t width() const { return static_cast<std::uint32_t>(scene_.width()); }
   std::uint32_t height() const { return static_cast<std::uint32_t>(scene_.height()); }
   // The visible stretches of one triangle each, line by line.
@@ -38,17 +38,17 @@ class Workload {
  private:
   void find_pieces();
 
-  host::CompiledFilm film_;
-  node::FilmView view_;
-  node::Scene scene_;
-  node::Arena made_, filled_;
+  film::CompiledFilm film_;
+  wire::FilmView view_;
+  geometry::Scene scene_;
+  raster::Arena made_, filled_;
   std::vector<std::uint32_t> line_counts_;
   std::vector<std::uint64_t> ebc_;
   std::vector<std::uint8_t> wanted_;
-  node::Polygons polygons_{};
-  node::LineBoxes boxes_{};
-  node::Shading shading_{};
-  node::WorkCounts counts_{};
+  raster::Polygons polygons_{};
+  raster::LineBoxes boxes_{};
+  shading::Shading shading_{};
+  wire::WorkCounts counts_{};
   std::uint64_t classified_ = 0;
   std::vector<Piece> pieces_;
   std::uint64_t pixels_ = 0;

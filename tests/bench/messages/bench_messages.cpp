@@ -109,16 +109,16 @@ void wait_idly() {
 }
 
 void sums() {
-  for (const auto& [means, name] : {std::pair{hal::CollectiveMethod::cube, "gdsum "}, {hal::CollectiveMethod::network, "gdsum by MPI "}})
+  for (const auto& [means, name] : {std::pair{messages::CollectiveMethod::cube, "gdsum "}, {messages::CollectiveMethod::network, "gdsum by MPI "}})
     for (const Size& size : {Size{"1", 1, 1000}, Size{"2160", 2160, 100}, Size{"100000", 100'000, 4}}) {
       std::vector<double> x(size.bytes), work(size.bytes);
       const int count = std::max(2, size.count / static_cast<int>(numnodes() / 2));
-      hal::process().set_collectives(means);
+      messages::process().set_collectives(means);
       compare((name + std::string(size.name)).c_str(), count, 1, [&] { raw_sum(x.data(), 1); },
               [&] { gdsum(x.data(), static_cast<long>(size.bytes), work.data()); },
               [&] { raw_sum(x.data(), size.bytes); });
     }
-  hal::process().set_collectives(hal::CollectiveMethod::automatic);
+  messages::process().set_collectives(messages::CollectiveMethod::automatic);
 }
 
 int run(int, char**) {
@@ -145,4 +145,4 @@ int run(int, char**) {
 }  // namespace
 }  // namespace mars::bench
 
-int main(int argc, char** argv) { return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, mars::bench::run); }
+int main(int argc, char** argv) { return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, mars::bench::run); }

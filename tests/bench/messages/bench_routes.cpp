@@ -18,7 +18,7 @@ namespace {
 constexpr long kDone = 8;
 
 // Seconds of the slowest node.
-double once(hal::CrystalRouter& router, const std::vector<hal::Parcel>& parcels, hal::Route route) {
+double once(collectives::CrystalRouter& router, const std::vector<collectives::Parcel>& parcels, collectives::Route route) {
   gsync();
   const double begin = dclock();
   router.exchange({0, static_cast<int>(numnodes())}, parcels, route);
@@ -29,17 +29,17 @@ double once(hal::CrystalRouter& router, const std::vector<hal::Parcel>& parcels,
 
 struct Named {
   const char* name;
-  hal::Route route;
+  collectives::Route route;
 };
-constexpr Named kRoutes[] = {{"crystal", hal::Route::crystal}, {"direct", hal::Route::direct}, {"mpi", hal::Route::network}};
+constexpr Named kRoutes[] = {{"crystal", collectives::Route::crystal}, {"direct", collectives::Route::direct}, {"mpi", collectives::Route::network}};
 
 void measure(int others, std::size_t bytes, int rounds, const std::string& only) {
   const auto nodes = static_cast<int>(numnodes());
   std::mt19937 random(static_cast<unsigned>(mynode()));
   const std::vector<std::byte> data(bytes);
-  std::vector<hal::Parcel> parcels;
+  std::vector<collectives::Parcel> parcels;
   for (int i = 0; i < others; ++i) parcels.push_back({static_cast<int>(random() % static_cast<unsigned>(nodes)), data});
-  hal::CrystalRouter router;
+  collectives::CrystalRouter router;
   std::vector<double> best;
   for (const Named& each : kRoutes) {
     if (!only.empty() && only != each.name) continue;
@@ -74,4 +74,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace mars::bench
 
-int main(int argc, char** argv) { return mars::hal::run_mpi(argc, argv, mars::hal::Role::by_rank, mars::bench::run); }
+int main(int argc, char** argv) { return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, mars::bench::run); }

@@ -18,7 +18,7 @@ namespace {
   throw Failure("a mesh cannot hold " + what, where, "use a scene like those in examples/make_scenes.py");
 }
 
-void check_plain(const node::FilmView& film, const std::string& where) {
+void check_plain(const wire::FilmView& film, const std::string& where) {
   if (film.settings().dice == 0) refuse("adaptive dicing", where);
   if (film.settings().camera.count != 1) refuse("a camera that moves", where);
   const auto& lights = film.light_tracks();
@@ -26,8 +26,8 @@ void check_plain(const node::FilmView& film, const std::string& where) {
     refuse("other light than one direction", where);
   if (film.intervals().size() > 1) refuse("several render intervals", where);
   if (film.moving(film.intervals()[0]).size() > 1) refuse("several moving segments", where);
-  const node::Material& all = film.materials()[0];
-  for (const node::Material& m : film.materials())
+  const wire::Material& all = film.materials()[0];
+  for (const wire::Material& m : film.materials())
     if (m.ambient != all.ambient || m.diffuse != all.diffuse || m.specular != all.specular ||
         m.exponent != all.exponent)
       refuse("materials that differ in more than colour", where);
@@ -35,10 +35,10 @@ void check_plain(const node::FilmView& film, const std::string& where) {
     refuse("an exponent that is no power of two", where);
 }
 
-MeshHead head_of(const node::Scene& scene) {
-  const node::FilmSettings& settings = scene.film().settings();
-  const node::Projection& p = scene.projection();
-  const node::EyeLight& light = scene.lights()[0];
+MeshHead head_of(const geometry::Scene& scene) {
+  const wire::FilmSettings& settings = scene.film().settings();
+  const shape::Projection& p = scene.projection();
+  const geometry::EyeLight& light = scene.lights()[0];
   MeshHead head{};
   head.magic = kMeshMagic;
   head.width = settings.width;
@@ -49,7 +49,7 @@ MeshHead head_of(const node::Scene& scene) {
   head.background = settings.background;
   head.to_light = {light.vector[0], light.vector[1], light.vector[2]};
   head.light = {light.color[0], light.color[1], light.color[2]};
-  const node::Material& material = scene.film().materials()[0];
+  const wire::Material& material = scene.film().materials()[0];
   head.ambient = material.ambient;
   head.diffuse = material.diffuse;
   head.specular = material.specular;
@@ -58,33 +58,33 @@ MeshHead head_of(const node::Scene& scene) {
   return head;
 }
 
-void add_patch(const node::Dicer& diced, MeshPatch part, Mesh& mesh) {
+void add_patch(const shape::Dicer& diced, MeshPatch part, Mesh& mesh) {
   part.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
   part.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size());
   part.vertices = static_cast<std::uint32_t>(diced.vertex_count());
   part.triangles = diced.triangles().count;
-  const node::Vertices& v = diced.vertices();
+  const shape::Vertices& v = diced.vertices();
   for (std::uint32_t k = 0; k < part.vertices; ++k)
     mesh.vertices.push_back({{v.place[0][k], v.place[1][k], v.place[2][k]},
                              {v.normal[0][k], v.normal[1][k], v.normal[2][k]}});
   const std::uint32_t first = part.first_vertex;
   for (std::uint32_t k = 0; k < part.triangles; ++k) {
-    const node::Corner3 t = diced.triangles()[k];
+    const shape::Corner3 t = diced.triangles()[k];
     mesh.triangles.push_back({first + t.a, first + t.b, first + t.c});
   }
   mesh.patches.push_back(part);
 }
 
-void add_segments(const node::Scene& scene, bool moving, Mesh& mesh) {
-  const node::FilmView& film = scene.film();
-  node::Dicer dicer(node::best_instruction_set(""));
+void add_segments(const geometry::Scene& scene, bool moving, Mesh& mesh) {
+  const wire::FilmView& film = scene.film();
+  shape::Dicer dicer(simd::best_instruction_set(""));
   for (std::uint32_t s = 0; s < film.segments().size(); ++s) {
     if (scene.moves(s) != moving) continue;
-    const node::EyeMatrix matrix = scene.matrix(s);
-    if (node::mirrors(matrix)) refuse("a mirrored segment", std::string(film.name(film.segments()[s])));
-    const node::Shape& shape = film.shapes()[film.segments()[s].shape];
-    for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
-      dicer.dice(node::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
+    const shape::EyeMatrix matrix = scene.matrix(s);
+    if (shape::mirrors(matrix)) refuse("a mirrored segment", std::string(film.name(film.segments()[s])));
+    const wire::Shape& shape = film.shapes()[film.segments()[s].shape];
+    for (const wire::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count)) {
+      dicer.dice(shape::to_eye(matrix, patch), scene.projection(), static_cast<int>(film.settings().dice));
       add_patch(dicer, {s, scene.material(s), moving ? 1u : 0u, 0, 0, 0, 0}, mesh);
     }
   }
@@ -125,12 +125,12 @@ bool is_rigid(const Square& m) {
   return true;
 }
 
-std::vector<Motion> motion_of(const node::FilmView& film) {
+std::vector<Motion> motion_of(const wire::FilmView& film) {
   constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   std::vector<Motion> motion(film.settings().frames, kStill);
   const auto movers = film.moving(film.intervals()[0]);
   if (movers.empty()) return motion;
-  const node::Segment& mover = film.segments()[movers[0]];
+  const wire::Segment& mover = film.segments()[movers[0]];
   const Square eye = film.camera_at(0).world_to_eye.m;
   const Square back = inverse(times(eye, film.matrix_at(mover, 0).m));
   for (std::uint32_t frame = 0; frame < motion.size(); ++frame) {
@@ -142,14 +142,14 @@ std::vector<Motion> motion_of(const node::FilmView& film) {
   return motion;
 }
 
-Mesh mesh_of(const node::FilmView& film, const std::string& where) {
+Mesh mesh_of(const wire::FilmView& film, const std::string& where) {
   check_plain(film, where);
-  node::Scene scene(film);
+  geometry::Scene scene(film);
   scene.set_interval(0);
   scene.set_frame(0);
   Mesh mesh{};
   mesh.head = head_of(scene);
-  for (const node::Material& m : film.materials()) mesh.looks.push_back(m.color);
+  for (const wire::Material& m : film.materials()) mesh.looks.push_back(m.color);
   for (const bool moving : {false, true}) add_segments(scene, moving, mesh);
   mesh.motion = motion_of(film);
   mesh.head.looks = static_cast<std::uint32_t>(mesh.looks.size());
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const mars::host::CompiledFilm film = mars::host::load_film(argv[1]);
+    const mars::film::CompiledFilm film = mars::film::load_film(argv[1]);
     mars::bench::write_mesh(mars::bench::mesh_of(film.view(), argv[1]), argv[2]);
     return 0;
   } catch (const std::exception& failure) {

@@ -8,12 +8,12 @@
 
 int main(int argc, char** argv) {
   using namespace mars;
-  return hal::run_mpi(argc, argv, hal::Role::by_rank, [](int count, char** words) {
+  return mpi::run_mpi(argc, argv, mpi::Role::by_rank, [](int count, char** words) {
     if (count != 3) throw std::runtime_error("usage: bench-ours-mpi FILM whole|inbetween|latency");
     if (mynode() == myhost())
       bench::compete(words[1], bench::course_of(words[2]), "MPI");
     else
-      host::run_node_job();
+      programs::run_node_job();
     return 0;
   });
 }

@@ -19,21 +19,20 @@
 namespace {
 
 using namespace mars;
-using namespace mars::host;
 
 constexpr std::size_t kWantedPoints = 100'000;
 constexpr std::uint32_t kFrames = 48;
 constexpr int kRounds = 3;
 
-std::size_t points_of(const View& view) {
+std::size_t points_of(const preview::View& view) {
   std::size_t points = 0;
-  for (const Part& part : view.parts[static_cast<std::size_t>(As::vertices)])
+  for (const preview::Part& part : view.parts[static_cast<std::size_t>(preview::As::vertices)])
     points += view.lines[part.lines].points.size() / 3;
   return points;
 }
 
 // Figures in rows of five, each bowing and turning on its place.
-View crowd(int figures) {
+preview::View crowd(int figures) {
   std::string actors;
   for (int i = 0; i < figures; ++i) {
     char text[400];
@@ -47,8 +46,8 @@ View crowd(int figures) {
   const std::string json = "{\"frames\": " + std::to_string(kFrames) +
                            ", \"size\": [960, 540], \"camera\": {\"eye\": [-11, -1, 5], \"at\": [4, 0, 1.6], \"fov\": 40},"
                            "\"models\": {\"human\": \"models/human.json\"}, \"actors\": [" + actors + "]}";
-  const Film film = read_film(Document(json, "crowd").root(), MARS_EXAMPLES);
-  return view_of(compile(film), &film);
+  const animator::Film film = animator::read_film(document::Document(json, "crowd").root(), MARS_EXAMPLES);
+  return preview::view_of(film::compile(film), &film);
 }
 
 double processor_milliseconds() {
@@ -63,11 +62,11 @@ struct Result {
 };
 
 // The round of least time.
-Result measure(const View& view, As as, PictureSize extent, Graphics graphics) {
-  const bool blocks = graphics == Graphics::blocks;
+Result measure(const preview::View& view, preview::As as, images::PictureSize extent, preview::Graphics graphics) {
+  const bool blocks = graphics == preview::Graphics::blocks;
   const std::uint32_t pen = blocks ? 2 : 1;
-  const FilmDrawing lines(view);
-  Drawing drawing(pen * extent.width, pen * extent.height);
+  const preview::FilmDrawing lines(view);
+  preview::Drawing drawing(pen * extent.width, pen * extent.height);
   Result best;
   for (int round = 0; round < kRounds; ++round) {
     const auto terminal = make_terminal_picture(graphics);
@@ -75,7 +74,7 @@ Result measure(const View& view, As as, PictureSize extent, Graphics graphics) {
     for (std::uint32_t frame = 0; frame < view.frames; ++frame) {
       const double begun = processor_milliseconds();
       lines.draw(drawing, as, frame, view.camera_at(frame), pen, true);
-      const Image image = blocks ? halved(drawing.image()) : drawing.image();
+      const images::Image image = blocks ? preview::halved(drawing.image()) : drawing.image();
       const double drawn = processor_milliseconds();
       now.bytes += terminal->shown(image).size() / view.frames;
       now.draw += (drawn - begun) / view.frames;
@@ -93,17 +92,17 @@ void run() {
   sched_setaffinity(0, sizeof one, &one);
   const std::size_t of_one = points_of(crowd(1));
   const double begun = processor_milliseconds();
-  const View view = crowd(static_cast<int>((kWantedPoints + of_one - 1) / of_one));
+  const preview::View view = crowd(static_cast<int>((kWantedPoints + of_one - 1) / of_one));
   std::printf("%zu control points, %zu segments, %u frames; compiled and made ready in %.0f ms\n\n", points_of(view),
               view.parts[1].size(), view.frames, processor_milliseconds() - begun);
   std::printf("%-10s %-8s %-9s %9s %9s %9s %10s\n", "shown as", "on", "pixels", "draw ms", "encode ms", "frames/s",
               "kB a frame");
-  const std::map<As, const char*> shown{{As::stick, "stick"}, {As::vertices, "vertices"}, {As::prisms, "prisms"}};
-  const std::map<Graphics, const char*> terminals{
-      {Graphics::kitty, "kitty"}, {Graphics::sixel, "sixel"}, {Graphics::blocks, "blocks"}};
+  const std::map<preview::As, const char*> shown{{preview::As::stick, "stick"}, {preview::As::vertices, "vertices"}, {preview::As::prisms, "prisms"}};
+  const std::map<preview::Graphics, const char*> terminals{
+      {preview::Graphics::kitty, "kitty"}, {preview::Graphics::sixel, "sixel"}, {preview::Graphics::blocks, "blocks"}};
   for (const auto& [as, as_name] : shown)
     for (const auto& [graphics, name] : terminals) {
-      const PictureSize extent = graphics == Graphics::blocks ? PictureSize{160, 90} : PictureSize{960, 540};
+      const images::PictureSize extent = graphics == preview::Graphics::blocks ? images::PictureSize{160, 90} : images::PictureSize{960, 540};
       const Result result = measure(view, as, extent, graphics);
       const std::string pixels = std::to_string(extent.width) + "x" + std::to_string(extent.height);
       std::printf("%-10s %-8s %-9s %9.2f %9.2f %9.0f %10.1f\n", as_name, name, pixels.c_str(), result.draw,

@@ -9,7 +9,7 @@
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/counting_backend.h"
 
-namespace mars::hal {
+namespace mars::collectives {
 namespace {
 
 // Every node has a few bytes for two others.
@@ -28,8 +28,8 @@ TEST_P(Routes, CrystalSendsOneMessageADimension) {
   const int nodes = GetParam();
   const auto corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
   const auto dimensions = static_cast<unsigned>(std::countr_zero(static_cast<unsigned>(corners)));
-  Counts counts;
-  run_threads(nodes, [] {}, [] { exchange_few(Route::crystal); }, counting(counts));
+  messages::Counts counts;
+  threads::run_threads(nodes, [] {}, [] { exchange_few(Route::crystal); }, messages::counting(counts));
   for (int node = 0; node < nodes; ++node) {
     const bool folded = node >= corners, folds = node + corners < nodes;
     EXPECT_EQ(counts.sent({.from = node}).messages, folded ? 1u : dimensions + (folds ? 1 : 0)) << node;
@@ -38,8 +38,8 @@ TEST_P(Routes, CrystalSendsOneMessageADimension) {
 
 TEST_P(Routes, DirectSendsOneMessageANode) {
   const int nodes = GetParam();
-  Counts counts;
-  run_threads(nodes, [] {}, [] { exchange_few(Route::direct); }, counting(counts));
+  messages::Counts counts;
+  threads::run_threads(nodes, [] {}, [] { exchange_few(Route::direct); }, messages::counting(counts));
   for (int node = 0; node < nodes; ++node)
     EXPECT_EQ(counts.sent({.from = node}).messages, static_cast<unsigned>(nodes - 1)) << node;
 }
@@ -48,8 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Nodes, Routes, testing::Values(1, 2, 3, 4, 5, 7, 8, 13,
 
 // To agree on the route is one more exchange.
 TEST(RouteChoice, CostsOneMessageADimension) {
-  Counts counts;
-  run_threads(64, [] {}, [] { exchange_few(Route::automatic); }, counting(counts));
+  messages::Counts counts;
+  threads::run_threads(64, [] {}, [] { exchange_few(Route::automatic); }, messages::counting(counts));
   EXPECT_EQ(counts.sent({}).messages, 64u * (6 + 6));
 }
 
@@ -60,4 +60,4 @@ TEST(RouteChoice, GoesByNodesAndBytes) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::collectives

@@ -4,7 +4,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 // The host answers each node's question twice over, one byte longer each time.
@@ -114,4 +114,4 @@ RULE(answers_that_wait_too_long, "an answer that waits already and is too long f
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -6,7 +6,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 // Of the calling thread.
@@ -64,4 +64,4 @@ RULE(flick_gives_time_away, "flick gives the processor away", "a loop of it does
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

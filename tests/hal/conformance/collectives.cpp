@@ -11,7 +11,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 // Whose arguments are wrong in turn: the first, one between, the last.
@@ -145,4 +145,4 @@ RULE(different_lists_of_lengths, "gcolx with another list on one node is EQLEN",
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -7,7 +7,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 long x = 0;  // never sent from, never received into
@@ -114,4 +114,4 @@ RULE(twins_return_their_results, "a twin that succeeds returns what its plain ca
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -6,7 +6,7 @@
 #include "hal/messages/call_failure.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 
 void broken(const std::string& how, const Place& at) {
   throw std::runtime_error(std::string(at.file_name()) + ":" + std::to_string(at.line()) + ": " + how);
@@ -21,14 +21,14 @@ void expect_fails(int code, const std::function<void()>& call, const std::vector
                   const Place& at) {
   try {
     call();
-  } catch (const CallFailure& failure) {
+  } catch (const messages::CallFailure& failure) {
     if (failure.code != code) {
       broken("\"" + std::string(failure.what()) + "\" has errno " + std::to_string(failure.code) + ", not " +
                  std::to_string(code),
              at);
     }
-    const Backend& backend = process().backend();
-    expect_in(failure.what(), {rank_name(backend.rank(), backend.host())}, at);
+    const messages::Backend& backend = messages::process().backend();
+    expect_in(failure.what(), {messages::rank_name(backend.rank(), backend.host())}, at);
     expect_in(failure.what(), parts, at);
     return;
   }
@@ -43,4 +43,4 @@ void expect_errno(int code, const std::function<long()>& twin, const Place& at) 
   if (left != code) broken("errno is " + std::to_string(left) + ", not " + std::to_string(code), at);
 }
 
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 
 using Place = std::source_location;
 
@@ -49,4 +49,4 @@ void expect_errno(int code, const std::function<long()>& twin, const Place& at =
   expect_fails(code, [&] { call arguments; }, {#call, __VA_ARGS__}); \
   expect_errno(code, [&] { return _##call arguments; })
 
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

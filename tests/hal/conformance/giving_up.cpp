@@ -6,7 +6,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 RULE(cancelled_receives, "msgcancel of a receive frees its id, and its message goes to the next receive that selects it",
@@ -202,4 +202,4 @@ RULE(flush_of_the_reserved, "flushmsg checks its arguments", "EQTYPE, EQNODE, EQ
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -9,7 +9,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 struct Call {
@@ -333,4 +333,4 @@ RULE(wrong_arguments_of_handlers, "hsend, hrecv and hsendrecv check as isend and
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

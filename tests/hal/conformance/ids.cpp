@@ -7,7 +7,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 RULE(first_posted_first_served, "a message goes to the first posted receive that selects it",
@@ -135,4 +135,4 @@ RULE(info_is_of_what_was_asked, "info* tell of the message whose msgwait, msgdon
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

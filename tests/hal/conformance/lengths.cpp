@@ -7,7 +7,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 RULE(zero_length, "a message may be empty, and be received into no buffer",
@@ -129,4 +129,4 @@ RULE(too_long_for_an_irecv, "irecv of a message that waits and is too long fails
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -13,7 +13,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 // The order that hal/collectives/group_sum.h promises, done by one; merge(a, b) leaves its result in a.
@@ -33,14 +33,14 @@ double sum_in_order(const std::vector<double>& values) {
 
 double awkward(long node) { return 1.0 / (3 + static_cast<double>(node)) + 1e10 * static_cast<double>(node % 3); }
 
-void sum_in(const Group& group) {
+void sum_in(const collectives::Group& group) {
   if (mynode() < group.first || mynode() >= group.first + group.count) return;
   std::vector<double> x = {awkward(mynode()), -awkward(mynode())};
   std::vector<double> high = x;
   std::vector<double> work(2), all;
   for (int node = group.first; node < group.first + group.count; ++node) all.push_back(awkward(node));
-  group_sum(group, x, work);
-  group_high(group, high, work);
+  collectives::group_sum(group, x, work);
+  collectives::group_high(group, high, work);
   expect_equal(x[0], sum_in_order(all));
   expect_equal(x[1], -sum_in_order(all));
   expect_equal(high[0], *std::max_element(all.begin(), all.end()));
@@ -104,13 +104,13 @@ RULE(gopf_has_one_order, "gopf combines in that order too, the lower node's oper
 RULE(a_machine_shares_memory, "the nodes of a machine see one block of memory, aligned to 64",
      "none has a block of its own") {
   if (is_host()) return;
-  const Neighbourhood here = neighbourhood();
+  const messages::Neighbourhood here = messages::neighbourhood();
   // These tests run on one machine; where nodes are simulated, each has its own.
   if (here.count != 1) expect_equal(here.count, numnodes());
   expect_equal(here.machine, mynode() - here.index);
   expect_equal(here.index, here.count == 1 ? 0 : mynode());
   for (const std::size_t size : {0, 1, 1000, 500'000}) {
-    const SharedMemory memory(size);
+    const messages::SharedMemory memory(size);
     expect_equal(memory.bytes().size(), size);
     expect_equal(reinterpret_cast<std::uintptr_t>(memory.bytes().data()) % 64, 0);
     const auto wanted = [](std::size_t i) { return static_cast<std::byte>(i % 251); };
@@ -123,23 +123,23 @@ RULE(a_machine_shares_memory, "the nodes of a machine see one block of memory, a
 }
 
 RULE(traffic_is_counted, "traffic() counts messages and bytes to nodes and to the host", "receives do not count") {
-  const Traffic before = traffic();
+  const messages::Traffic before = messages::traffic();
   char bytes[100] = "";
   if (mynode() == 0) {
     csend(90, bytes, 100, -1, 0);
     csend(90, bytes, 7, myhost(), 0);
     msgwait(isend(90, bytes, 3, myhost(), 0));
     const auto nodes = static_cast<std::uint64_t>(numnodes() - 1);
-    expect_equal(traffic().to_nodes.messages - before.to_nodes.messages, nodes);
-    expect_equal(traffic().to_nodes.bytes - before.to_nodes.bytes, 100 * nodes);
-    expect_equal(traffic().to_host.messages - before.to_host.messages, 2);
-    expect_equal(traffic().to_host.bytes - before.to_host.bytes, 10);
+    expect_equal(messages::traffic().to_nodes.messages - before.to_nodes.messages, nodes);
+    expect_equal(messages::traffic().to_nodes.bytes - before.to_nodes.bytes, 100 * nodes);
+    expect_equal(messages::traffic().to_host.messages - before.to_host.messages, 2);
+    expect_equal(messages::traffic().to_host.bytes - before.to_host.bytes, 10);
     return;
   }
   crecv(90, bytes, 100);
   if (is_host()) crecv(90, bytes, 100);
-  expect_equal(traffic().to_nodes.bytes, before.to_nodes.bytes);
+  expect_equal(messages::traffic().to_nodes.bytes, before.to_nodes.bytes);
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -3,10 +3,10 @@
 
 #include "tests/hal/conformance/rules.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 TEST(Rules, HoldOverMpi) { run_rules(); }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -9,7 +9,7 @@
 
 #include "tests/hal/conformance/rules.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 TEST(Page, IsTheTableOfTheRules) {
@@ -28,4 +28,4 @@ TEST(Page, NamesEveryBodyOnce) {
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

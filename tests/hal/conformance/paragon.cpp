@@ -8,7 +8,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 using Info = std::array<long, 8>;
@@ -145,4 +145,4 @@ RULE(wrong_arguments_of_forms_with_x, "the forms with x check as those without, 
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

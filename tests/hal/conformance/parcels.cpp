@@ -12,12 +12,12 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
-constexpr Route kRoutes[] = {Route::automatic, Route::crystal, Route::direct, Route::network};
+constexpr collectives::Route kRoutes[] = {collectives::Route::automatic, collectives::Route::crystal, collectives::Route::direct, collectives::Route::network};
 
-std::string text_of(const Parcel& parcel) {
+std::string text_of(const collectives::Parcel& parcel) {
   return std::string(reinterpret_cast<const char*>(parcel.bytes.data()), parcel.bytes.size());
 }
 
@@ -30,8 +30,8 @@ std::string parcel_of(long from, long to, long number) {
 }
 
 // The last one first.
-std::vector<Parcel> parcels_of(const std::vector<std::string>& texts) {
-  std::vector<Parcel> parcels;
+std::vector<collectives::Parcel> parcels_of(const std::vector<std::string>& texts) {
+  std::vector<collectives::Parcel> parcels;
   for (long to = 0; to < numnodes(); ++to)
     for (long number = 0; number < parcels_between(mynode(), to); ++number)
       parcels.push_back({static_cast<int>(to), std::as_bytes(std::span(texts[parcels.size()]))});
@@ -39,7 +39,7 @@ std::vector<Parcel> parcels_of(const std::vector<std::string>& texts) {
   return parcels;
 }
 
-void expect_parcels(std::span<const Parcel> got) {
+void expect_parcels(std::span<const collectives::Parcel> got) {
   std::size_t next = 0;
   for (long from = 0; from < numnodes(); ++from)
     for (long number = parcels_between(from, mynode()); number-- > 0; ++next) {
@@ -57,12 +57,12 @@ RULE(parcels_by_every_route, "parcels come by sender, and of each sender in its 
   for (long to = 0; to < numnodes(); ++to)
     for (long number = 0; number < parcels_between(mynode(), to); ++number)
       texts.push_back(parcel_of(mynode(), to, number));
-  const std::vector<Parcel> parcels = parcels_of(texts);
-  const Group all = {0, static_cast<int>(numnodes())};
-  CrystalRouter router;
-  for (const Route route : kRoutes) expect_parcels(router.exchange(all, parcels, route));
-  for (const CollectiveMethod means : {CollectiveMethod::network, CollectiveMethod::cube, CollectiveMethod::automatic}) {
-    process().set_collectives(means);
+  const std::vector<collectives::Parcel> parcels = parcels_of(texts);
+  const collectives::Group all = {0, static_cast<int>(numnodes())};
+  collectives::CrystalRouter router;
+  for (const collectives::Route route : kRoutes) expect_parcels(router.exchange(all, parcels, route));
+  for (const messages::CollectiveMethod means : {messages::CollectiveMethod::network, messages::CollectiveMethod::cube, messages::CollectiveMethod::automatic}) {
+    messages::process().set_collectives(means);
     expect_parcels(router.exchange(all, parcels));
   }
 }
@@ -71,13 +71,13 @@ RULE(parcels_within_a_group, "each half of the nodes exchanges parcels among the
      "the other half gets none of them") {
   if (is_host() || numnodes() == 1) return;
   const auto nodes = static_cast<int>(numnodes()), me = static_cast<int>(mynode());
-  const Group half = group_of(nodes, 2, me < nodes / 2 ? 0 : 1);
+  const collectives::Group half = collectives::group_of(nodes, 2, me < nodes / 2 ? 0 : 1);
   const auto beside = [&](int step) { return half.first + (me - half.first + half.count + step) % half.count; };
   const std::string text = std::to_string(mynode());
-  const std::vector<Parcel> parcels = {{beside(1), std::as_bytes(std::span(text))}};
-  CrystalRouter router;
-  for (const Route route : kRoutes) {
-    const std::span<const Parcel> got = router.exchange(half, parcels, route);
+  const std::vector<collectives::Parcel> parcels = {{beside(1), std::as_bytes(std::span(text))}};
+  collectives::CrystalRouter router;
+  for (const collectives::Route route : kRoutes) {
+    const std::span<const collectives::Parcel> got = router.exchange(half, parcels, route);
     expect_equal(got.size(), 1);
     expect_equal(got[0].node, beside(-1));
     expect_equal(text_of(got[0]), std::to_string(beside(-1)));
@@ -85,4 +85,4 @@ RULE(parcels_within_a_group, "each half of the nodes exchanges parcels among the
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -4,7 +4,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 RULE(probes_describe, "a probe sets info* to the first pending message that it selects", "and does not take it") {
@@ -92,4 +92,4 @@ RULE(the_probed_is_received, "the receive after a probe gets the message that th
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

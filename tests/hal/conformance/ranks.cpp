@@ -7,7 +7,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 RULE(numbers_of_ranks, "nodes are 0 to numnodes() - 1; myhost() is none of them; 2^nodedim() is enough for all",
@@ -72,4 +72,4 @@ RULE(the_host_takes_no_part, "global operations are the nodes'", "the host's cal
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

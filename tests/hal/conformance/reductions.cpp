@@ -9,7 +9,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 template <class T>
@@ -139,13 +139,13 @@ RULE(truths, "gland, glor and glxor take what is not 0 for true and give 0 or 1"
 
 RULE(reductions_by_the_network, "all of them give the same where MARS_NX_COLLECTIVES=mpi has the network reduce by itself",
      "not one is another operation of the network's") {
-  process().set_collectives(CollectiveMethod::network);
+  messages::process().set_collectives(messages::CollectiveMethod::network);
   reduce_doubles();
   reduce_floats();
   reduce_longs();
   reduce_bits();
   reduce_truths();
-  process().set_collectives(CollectiveMethod::automatic);
+  messages::process().set_collectives(messages::CollectiveMethod::automatic);
 }
 
 struct Peak {
@@ -217,4 +217,4 @@ RULE(wrong_arguments_of_gsendx, "gsendx checks all its list before it sends",
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -11,7 +11,7 @@
 #include "hal/messages/process.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 std::vector<Rule>& known() {
@@ -32,9 +32,9 @@ void run_rule(const Rule& rule) try {
   rule.run();
   meet(expect_nothing_left);
 } catch (const std::exception& broken) {
-  const Backend& backend = process().backend();
+  const messages::Backend& backend = messages::process().backend();
   throw Failure(full_name(rule) + ": " + broken.what(),
-                rank_name(backend.rank(), backend.host()) + " of " + std::to_string(backend.nodes()) + " nodes", "");
+                messages::rank_name(backend.rank(), backend.host()) + " of " + std::to_string(backend.nodes()) + " nodes", "");
 }
 
 }  // namespace
@@ -85,4 +85,4 @@ std::string table_of_rules() {
   return text;
 }
 
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 
 struct Rule {
   const char* file;
@@ -43,4 +43,4 @@ bool know(const Rule& rule);
   [[maybe_unused]] const bool body##_is_known = know({__FILE__, __LINE__, #body, rule, failing, body}); \
   void body()
 
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

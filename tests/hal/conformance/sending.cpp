@@ -6,7 +6,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 RULE(round_a_ring, "csend and crecv carry a message; info* tell its sender, type, length and pid 0",
@@ -144,4 +144,4 @@ RULE(all_to_all, "every rank sends to every rank, long and short", "none is lost
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

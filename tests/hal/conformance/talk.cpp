@@ -7,7 +7,7 @@
 
 #include "hal/nx/nx_messages.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 constexpr long kHere = 999'000'001;
@@ -69,4 +69,4 @@ void meet(const std::function<void()>& between) {
   receive_empty(kGo);
 }
 
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

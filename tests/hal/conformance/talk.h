@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 
 using Bytes = std::vector<unsigned char>;
 
@@ -31,4 +31,4 @@ void let_pass(double seconds);
 // Returns when all ranks have called it; in it, when each rank has come, it calls `between`.
 void meet(const std::function<void()>& between);
 
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

@@ -6,7 +6,7 @@
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
 
-namespace mars::hal::conformance {
+namespace mars::conformance {
 namespace {
 
 constexpr long kForce = 1'073'741'824;
@@ -131,4 +131,4 @@ RULE(force_is_awaited, "crecv of a force type is a posted receive: what comes wh
 }
 
 }  // namespace
-}  // namespace mars::hal::conformance
+}  // namespace mars::conformance

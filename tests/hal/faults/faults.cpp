@@ -13,7 +13,7 @@
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 
-namespace mars::hal::faults {
+namespace mars::faults {
 namespace {
 
 constexpr long kNever = 9;
@@ -90,4 +90,4 @@ void run_rank(const Fault& fault) {
   moments.at(fault.moment)(fault.way);
 }
 
-}  // namespace mars::hal::faults
+}  // namespace mars::faults

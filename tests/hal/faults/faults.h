@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::hal::faults {
+namespace mars::faults {
 
 struct Fault {
   std::string way;     // throws, exits, crashes, killed
@@ -18,4 +18,4 @@ inline const std::vector<std::string> kMoments = {"start", "waiting", "collectiv
 // The body of every rank, of which node 1 falls. What it throws is "a fault on purpose".
 void run_rank(const Fault& fault);
 
-}  // namespace mars::hal::faults
+}  // namespace mars::faults

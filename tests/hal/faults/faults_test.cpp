@@ -12,7 +12,7 @@
 #include "hal/threads/run_threads.h"
 #include "tests/hal/faults/faults.h"
 
-namespace mars::hal::faults {
+namespace mars::faults {
 namespace {
 
 constexpr int kNodes = 4;
@@ -25,7 +25,7 @@ TEST_P(OverThreads, AllEnd) {
   const double begin = dclock();
   std::string reason = "none";
   try {
-    run_threads(kNodes, rank, rank);
+    threads::run_threads(kNodes, rank, rank);
   } catch (const std::exception& failure) {
     reason = failure.what();
   }
@@ -43,7 +43,7 @@ TEST_P(OverProcesses, AllEnd) {
     return 0;
   };
   const double begin = dclock();
-  EXPECT_NE(run_processes(kNodes, rank, rank), 0);
+  EXPECT_NE(processes::run_processes(kNodes, rank, rank), 0);
   EXPECT_LT(dclock() - begin, kSoon);
   EXPECT_TRUE(waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD) << "a process is left";
 }
@@ -52,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Faults, OverProcesses, testing::Combine(testing::Values
                          [](const auto& info) { return std::get<0>(info.param) + "_" + std::get<1>(info.param); });
 
 }  // namespace
-}  // namespace mars::hal::faults
+}  // namespace mars::faults

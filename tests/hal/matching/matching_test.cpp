@@ -14,7 +14,7 @@
 #include "tests/hal/matching/model.h"
 #include "tests/hal/matching/scripted_backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 using model::Message;
@@ -247,4 +247,4 @@ TEST(Matching, HandlersRunInTheOrderOfTheirMessages) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace mars::hal::model {
+namespace mars::messages::model {
 
 // By the words of NX: typesel cut to 32 bits; 0 or more: that type; else bit k of it for type k, bit 30 from 30 on,
 // of ordinary types.
@@ -94,4 +94,4 @@ class Model {
   }
 };
 
-}  // namespace mars::hal::model
+}  // namespace mars::messages::model

@@ -10,7 +10,7 @@
 
 #include "hal/messages/backend.h"
 
-namespace mars::hal {
+namespace mars::messages {
 
 class ScriptedBackend : public Backend {
  public:
@@ -47,4 +47,4 @@ class ScriptedBackend : public Backend {
   std::deque<std::pair<Envelope, Bytes>> coming_;
 };
 
-}  // namespace mars::hal
+}  // namespace mars::messages

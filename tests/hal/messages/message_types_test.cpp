@@ -6,7 +6,7 @@
 
 #include "hal/messages/message_types.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 bool twin_selects(std::int64_t typesel, std::int64_t type) {
@@ -68,4 +68,4 @@ TEST(TypeClasses, HaveTheirEdges) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -6,7 +6,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 // Nothing is there at the first look; right after it three messages of one type are.
@@ -47,4 +47,4 @@ TEST(Probe, TellsOfTheMessageThatIsReceivedNext) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

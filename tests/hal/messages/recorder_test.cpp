@@ -6,7 +6,7 @@
 #include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 using Kind = Event::Kind;
@@ -25,7 +25,7 @@ void receive_all() {
 }
 
 void run(const std::function<void()>& node) {
-  run_threads(1, host_body, [&] {
+  threads::run_threads(1, host_body, [&] {
     node();
     csend(kType, nullptr, 0, myhost(), 0);
   });
@@ -97,4 +97,4 @@ TEST(Recorder, NothingIsRecordedWithoutOne) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -8,7 +8,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 // One variable of this process's environment, for a while.
@@ -101,4 +101,4 @@ TEST_F(SettingsTest, TextNamesEach) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

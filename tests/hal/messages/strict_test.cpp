@@ -15,7 +15,7 @@
 #include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 
-namespace mars::hal {
+namespace mars::messages {
 namespace {
 
 using std::chrono::milliseconds;
@@ -28,7 +28,7 @@ void run_strictly(int nodes, const std::function<void()>& host, const std::funct
       body();
     };
   };
-  run_threads(nodes, strictly(host), strictly(node));
+  threads::run_threads(nodes, strictly(host), strictly(node));
 }
 
 void idle_host() {}
@@ -147,4 +147,4 @@ TEST(Strict, TellsWhoWaitsForWhom) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::messages

@@ -8,7 +8,7 @@
 
 #include "hal/nx/nx_messages.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 // Whoever has waited long sleeps up to ten milliseconds at a time: a bell that was not heard would cost five of them.
@@ -33,4 +33,4 @@ TEST(Bells, ASleeperWakesAtOnce) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::mpi

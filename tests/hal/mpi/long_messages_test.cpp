@@ -17,7 +17,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/nx_paragon.h"
 
-namespace mars::hal {
+namespace mars::mpi {
 namespace {
 
 constexpr long kBound = 100;
@@ -43,7 +43,7 @@ Bytes lookalike() {
 // Node 0 is the sender, node 1 the receiver.
 class LongMessages : public testing::Test {
  protected:
-  void SetUp() override { dynamic_cast<MpiBackend&>(process().backend()).announce_beyond(kBound); }
+  void SetUp() override { dynamic_cast<MpiBackend&>(messages::process().backend()).announce_beyond(kBound); }
   void TearDown() override {
     if (mynode() != myhost()) gsync();
   }
@@ -196,4 +196,4 @@ TEST(VeryLongMessages, MoreThan2GiBAtOnce) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::mpi

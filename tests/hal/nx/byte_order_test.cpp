@@ -9,7 +9,7 @@
 
 #include "hal/nx/nx_byte_order.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 constexpr std::endian kOther =
@@ -53,4 +53,4 @@ TEST(ByteOrder, HostAndNodesAreOfOneKind) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx

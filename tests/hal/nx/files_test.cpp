@@ -23,7 +23,7 @@
 #include "hal/threads/run_threads.h"
 #include "tests/hal/machines_backend.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 // A folder of the test's own, and in it the file that nodes share.
@@ -38,16 +38,16 @@ class FilesTest : public testing::TestWithParam<int> {
 
   // `body` gets the node's own descriptor.
   void run(const std::function<void(int)>& body, int flags = O_RDWR | O_CREAT) {
-    run_threads(
+    threads::run_threads(
         GetParam(), [] {}, [&] { with_file(body, flags); });
   }
   void run_on_machines(const std::function<void(int)>& body) {
-    Counts counts;
-    Machines machines(1);
-    const WrapBackend wrap = [&](Backend& backend) {
-      return std::make_unique<MachinesBackend>(backend, counts, machines);
+    messages::Counts counts;
+    messages::Machines machines(1);
+    const threads::WrapBackend wrap = [&](messages::Backend& backend) {
+      return std::make_unique<messages::MachinesBackend>(backend, counts, machines);
     };
-    run_threads(
+    threads::run_threads(
         GetParam(), [] {}, [&] { with_file(body, O_RDWR | O_CREAT); }, wrap);
   }
 
@@ -96,7 +96,7 @@ std::string letters(long node, long length) {
 std::string failure_of(const std::function<void()>& call, int code) {
   try {
     call();
-  } catch (const CallFailure& failure) {
+  } catch (const messages::CallFailure& failure) {
     EXPECT_EQ(failure.code, code) << failure.what();
     return failure.what();
   }
@@ -193,9 +193,9 @@ TEST_P(FilesTest, InMode3EqualStretchesLieInOrderOfNodesWithoutMessages) {
   run([](int fd) {
     setiomode(fd, 3);
     write_text(fd, letters(mynode(), 4));
-    const std::uint64_t sent = traffic().to_nodes.messages;
+    const std::uint64_t sent = messages::traffic().to_nodes.messages;
     for (int i = 0; i < 9; ++i) write_text(fd, letters(mynode(), 4));
-    EXPECT_EQ(traffic().to_nodes.messages, sent);
+    EXPECT_EQ(messages::traffic().to_nodes.messages, sent);
     gsync();
     eseek(fd, esize(numnodes() * 4), SEEK_SET);
     EXPECT_EQ(read_text(fd, 4), letters(mynode(), 4));
@@ -394,4 +394,4 @@ INSTANTIATE_TEST_SUITE_P(Nodes, FilesTest, testing::Values(1, 2, 3, 5, 8));
 INSTANTIATE_TEST_SUITE_P(Nodes, FilesOfSeveralTest, testing::Values(2, 3, 5, 8));
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx

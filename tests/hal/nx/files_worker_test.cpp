@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 struct Pipe {
@@ -72,4 +72,4 @@ TEST(FilesWorker, AnErrorIsWhatCameOfIt) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -10,7 +10,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 void end_here(const std::string& reason) {
@@ -20,7 +20,7 @@ void end_here(const std::string& reason) {
 
 void as_a_c_program(const std::function<void()>& body) {
   end_program_on_failure(end_here);
-  run_threads(2, [] {}, [&body] {
+  threads::run_threads(2, [] {}, [&body] {
     if (mynode() == 1) body();
   });
   std::_Exit(0);
@@ -47,10 +47,10 @@ TEST(Guard, AnotherRanksEndIsNoErrno) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const auto stopped = [] {
     end_program_on_failure(end_here);
-    run_threads(1, [] { throw Failure("the host is gone", "", ""); }, [] { _crecv(1, nullptr, 0); });
+    threads::run_threads(1, [] { throw Failure("the host is gone", "", ""); }, [] { _crecv(1, nullptr, 0); });
   };
   EXPECT_EXIT(stopped(), testing::ExitedWithCode(3), "the host is gone");
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx

@@ -13,7 +13,7 @@
 #include "hal/nx/progress_thread.h"
 #include "hal/threads/run_threads.h"
 
-namespace mars::hal {
+namespace mars::nx {
 namespace {
 
 // Node 0's, whichever thread runs its handlers.
@@ -50,7 +50,7 @@ TEST(ProgressThread, HandlersRunWhileTheProgramComputes) {
       for (int i = 0; i < 20; ++i) send_one();
       return;
     }
-    const ProgressThread progress(process());
+    const ProgressThread progress(messages::process());
     hrecv(1, &in, sizeof in, count);
     compute_until([] { return handled == 20; });
     masktrap(1);
@@ -58,7 +58,7 @@ TEST(ProgressThread, HandlersRunWhileTheProgramComputes) {
     masktrap(0);
     csend(9, nullptr, 0, myhost(), 0);
   };
-  run_threads(2, host, node);
+  threads::run_threads(2, host, node);
 }
 
 TEST(ProgressThread, MasksAndCallsExcludeHandlers) {
@@ -71,7 +71,7 @@ TEST(ProgressThread, MasksAndCallsExcludeHandlers) {
       gsync();
       return;
     }
-    std::optional<ProgressThread> progress(process());
+    std::optional<ProgressThread> progress(messages::process());
     hrecv(1, &in, sizeof in, count);
     for (int i = 0; i < kEach; ++i) {
       masktrap(1);
@@ -96,19 +96,19 @@ TEST(ProgressThread, MasksAndCallsExcludeHandlers) {
     node();
     if (mynode() != 0) gsync();
   };
-  run_threads(4, host, all);
+  threads::run_threads(4, host, all);
 }
 
 TEST(ProgressThread, AHandlerThatFailsEndsAllRanks) {
   const auto host = [] { crecv(9, nullptr, 0); };
   const auto node = [] {
-    const ProgressThread progress(process());
+    const ProgressThread progress(messages::process());
     hrecv(1, nullptr, 0, [](long, long, long, long) { csend(1, nullptr, 0, 99, 0); });
     csend(1, nullptr, 0, mynode(), 0);
     crecv(9, nullptr, 0);
   };
   try {
-    run_threads(2, host, node);
+    threads::run_threads(2, host, node);
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_NE(std::string(failure.what()).find("there is no node 99"), std::string::npos) << failure.what();
@@ -126,15 +126,15 @@ TEST(ProgressThread, StartsAndEndsAtAnyTime) {
     }
     hrecv(1, &in, sizeof in, count);
     for (int i = 0; handled < 100 * (numnodes() - 1); ++i) {
-      const ProgressThread progress(process());
+      const ProgressThread progress(messages::process());
       if (i % 2 == 0) flick();
       std::this_thread::sleep_for(std::chrono::microseconds(300 * (i % 4)));
     }
     gsync();
     EXPECT_EQ(shared, 100 * (numnodes() - 1));
   };
-  run_threads(3, [] {}, node);
+  threads::run_threads(3, [] {}, node);
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::nx

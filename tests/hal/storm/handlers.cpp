@@ -5,7 +5,7 @@
 
 #include "tests/hal/storm/rank.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 std::array<Rank*, 128> ranks;  // each rank, which may be a thread, its own
@@ -61,4 +61,4 @@ void meet() {
   }
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

@@ -3,7 +3,7 @@
 
 #include "hal/nx/nx_messages.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 class Rank;
 
@@ -17,4 +17,4 @@ nx_handler send_handler(int number);
 // Returns when all ranks have called it.
 void meet();
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

@@ -6,7 +6,7 @@
 
 #include "hal/messages/message_types.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 std::string text_of(int from, std::int32_t type, std::uint32_t number, std::size_t length) {
@@ -56,7 +56,7 @@ void Ledger::received(const Taker& taker, const Came& came, const unsigned char*
 void Ledger::lost(int from, std::int32_t type, const Due& due) const {
   if (kind_of(type).force()) return;
   const auto explains = [&](const Flush& flush) {
-    return selects(flush.typesel, type) && (flush.node == -1 || flush.node == from);
+    return messages::selects(flush.typesel, type) && (flush.node == -1 || flush.node == from);
   };
   if (kind_of(type).flushed && std::any_of(flushes_.begin(), flushes_.end(), explains)) return;
   throw std::runtime_error("lost: " + text_of(from, type, due.number, due.length));
@@ -65,7 +65,7 @@ void Ledger::lost(int from, std::int32_t type, const Due& due) const {
 void Ledger::check_order(int from, const std::vector<Taken>& taken) const {
   for (const Taken& early : taken)
     for (const Taken& late : taken) {
-      if (early.number >= late.number || !selects(late.taker.typesel, early.type)) continue;
+      if (early.number >= late.number || !messages::selects(late.taker.typesel, early.type)) continue;
       if (early.taker.order < late.taker.order) continue;
       throw std::runtime_error("a receive posted before another got " + text_of(from, late.type, late.number, 0) +
                                " and not the earlier " + text_of(from, early.type, early.number, 0));
@@ -78,4 +78,4 @@ void Ledger::close() {
   for (const auto& [from, taken] : taken_) check_order(from, taken);
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

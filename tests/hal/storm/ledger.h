@@ -9,7 +9,7 @@
 
 #include "tests/hal/storm/plan.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 // What a receive or a probe told.
 struct Came {
@@ -72,4 +72,4 @@ class Ledger {
   std::size_t owed_ = 0;
 };
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

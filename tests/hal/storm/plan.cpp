@@ -6,12 +6,13 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 constexpr std::size_t kSends = 60;
 constexpr std::size_t kHeader = 8;
 
+// clang-format off
 constexpr std::array kKinds = {
     Kind{0, 0, 300, 20, false},        Kind{1, kHeader, 300, 10, true},
     Kind{2, 0, 300, 20, false},        Kind{4, 0, 5000, 15, false},
@@ -19,6 +20,7 @@ constexpr std::array kKinds = {
     Kind{30, 0, 70'000, 8, false},     Kind{31, kHeader, 70'000, 5, true},
     Kind{1000, 0, 300, 10, false},     Kind{999'999'999, 0, 8'000'000, 1, false},
     Kind{1'073'741'824, kHeader, 300, 6, false}, Kind{1'999'999'999, kHeader, 5000, 4, false}};
+// clang-format on
 
 // Where backends change their ways; one more and one less are as interesting.
 constexpr std::array<std::size_t, 6> kThresholds = {0, 100, 256, 4096, 65'536, 1'048'576};
@@ -86,4 +88,4 @@ std::uint32_t number_in(const unsigned char* bytes) {
   return number;
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

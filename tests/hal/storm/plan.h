@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 using Random = std::mt19937_64;
 
@@ -49,4 +49,4 @@ std::vector<Send> sends_of(std::uint64_t seed, int round, int rank, int nodes);
 std::vector<unsigned char> contents(std::uint64_t seed, int from, std::uint32_t number, std::size_t length);
 std::uint32_t number_in(const unsigned char* bytes);
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

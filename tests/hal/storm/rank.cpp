@@ -9,7 +9,7 @@
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/storm/handlers.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 constexpr long kNever = 999'000'009;  // no such message is sent
@@ -161,7 +161,7 @@ void Rank::probe_and_receive() {
   const std::int32_t typesel = any_typesel(random_);
   if (iprobe(typesel) == 1) {
     const Came probed = info();
-    expect(selects(typesel, probed.type), "a probe told of " + text_of(probed));
+    expect(messages::selects(typesel, probed.type), "a probe told of " + text_of(probed));
     expect(!kind_of(probed.type).force(), "a probe told of a force message");
     expect(!maybe(4) || (iprobe(typesel) == 1 && info() == probed), "a second probe told of " + text_of(info()));
     if (maybe(4) && probed.length > 0) expect_untouched_by_short(typesel, probed);
@@ -204,7 +204,7 @@ bool Rank::ask(Receives::iterator at) {
 }
 
 void Rank::account(const Taker& taker, const Came& came, const unsigned char* bytes) {
-  expect(selects(taker.typesel, came.type), "a receive of typesel " + std::to_string(taker.typesel) + " got " + text_of(came));
+  expect(messages::selects(taker.typesel, came.type), "a receive of typesel " + std::to_string(taker.typesel) + " got " + text_of(came));
   settle_before(taker, came);
   ledger_.received(taker, came, bytes);
 }
@@ -212,7 +212,7 @@ void Rank::account(const Taker& taker, const Came& came, const unsigned char* by
 // Every receive that was posted earlier and selects what came later must have got its message by now.
 void Rank::settle_before(const Taker& taker, const Came& came) {
   const auto earlier = [&](const Receive& receive) {
-    return receive.taker.order < taker.order && selects(receive.taker.typesel, came.type);
+    return receive.taker.order < taker.order && messages::selects(receive.taker.typesel, came.type);
   };
   const std::string passed = text_of(came) + " passed by a receive that was posted earlier";
   for (;;) {
@@ -291,4 +291,4 @@ void Rank::check_time() const {
                            std::to_string(sent_all_.size()) + " ranks still to be done");
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

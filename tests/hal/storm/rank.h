@@ -11,7 +11,7 @@
 #include "tests/hal/storm/plan.h"
 #include "tests/hal/storm/receives.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 constexpr int kHandlers = 8;  // receives, and as many sends, whose handlers are out at once
 
@@ -104,4 +104,4 @@ class Rank {
   double deadline_ = 0;
 };
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

@@ -5,7 +5,7 @@
 #include "tests/hal/storm/handlers.h"
 #include "tests/hal/storm/rank.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 void Rank::finish() {
   tell_all(kSentAll);
@@ -96,4 +96,4 @@ void Rank::release_handlers() {
   }
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

@@ -4,7 +4,7 @@
 
 #include "hal/messages/message_types.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 const Kind& any_kind(Random& random, bool force) {
@@ -37,7 +37,7 @@ Buffers::Buffer Buffers::get(std::size_t room) {
 std::size_t room_for(std::int32_t typesel) {
   std::size_t room = 0;
   for (const Kind& kind : kinds())
-    if (selects(typesel, kind.type)) room = std::max(room, kind.longest);
+    if (messages::selects(typesel, kind.type)) room = std::max(room, kind.longest);
   return room;
 }
 
@@ -51,8 +51,8 @@ std::int32_t any_typesel(Random& random) {
 
 std::int32_t type_for(std::int32_t typesel) {
   return std::find_if(kinds().begin(), kinds().end(),
-                      [typesel](const Kind& kind) { return selects(typesel, kind.type); })
+                      [typesel](const Kind& kind) { return messages::selects(typesel, kind.type); })
       ->type;
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

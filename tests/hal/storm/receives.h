@@ -9,7 +9,7 @@
 
 #include "tests/hal/storm/ledger.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 // The most bytes of a message that `typesel` can select.
 std::size_t room_for(std::int32_t typesel);
@@ -43,4 +43,4 @@ std::int32_t any_typesel(Random& random);
 // An ordinary or force type that `typesel` selects.
 std::int32_t type_for(std::int32_t typesel);
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

@@ -9,7 +9,7 @@
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/storm/rank.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 constexpr int kRounds = 4;
@@ -47,4 +47,4 @@ void run_fresh_storm(std::uint32_t wanted) {
   run_storm(seed);
 }
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

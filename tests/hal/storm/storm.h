@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace mars::hal::storm {
+namespace mars::storm {
 
 // Every rank of a world calls it with the same seed. Throws a Failure that names seed and round.
 void run_storm(std::uint32_t seed);
@@ -17,4 +17,4 @@ void run_fixed_storms();
 // One of the seed `wanted` of the host, or of one that it draws if that is 0; the host prints which.
 void run_fresh_storm(std::uint32_t wanted);
 
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

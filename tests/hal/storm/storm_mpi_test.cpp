@@ -3,7 +3,7 @@
 
 #include "tests/hal/storm/storm.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 TEST(Storms, KeepTheRules) { run_fixed_storms(); }
@@ -11,4 +11,4 @@ TEST(Storms, KeepTheRules) { run_fixed_storms(); }
 TEST(Storms, KeepTheRulesFresh) { run_fresh_storm(static_cast<std::uint32_t>(GTEST_FLAG_GET(random_seed))); }
 
 }  // namespace
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

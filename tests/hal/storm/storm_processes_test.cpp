@@ -4,7 +4,7 @@
 #include "hal/processes/run_processes.h"
 #include "tests/hal/storm/storm.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 class Processes : public testing::TestWithParam<int> {};
@@ -14,7 +14,7 @@ TEST_P(Processes, KeepTheRules) {
     run_fixed_storms();
     return 0;
   };
-  EXPECT_EQ(run_processes(GetParam(), rank, rank), 0);
+  EXPECT_EQ(processes::run_processes(GetParam(), rank, rank), 0);
 }
 
 TEST_P(Processes, KeepTheRulesFresh) {
@@ -22,10 +22,10 @@ TEST_P(Processes, KeepTheRulesFresh) {
     run_fresh_storm(static_cast<std::uint32_t>(GTEST_FLAG_GET(random_seed)));
     return 0;
   };
-  EXPECT_EQ(run_processes(GetParam(), rank, rank), 0);
+  EXPECT_EQ(processes::run_processes(GetParam(), rank, rank), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Storms, Processes, testing::Values(1, 2, 3, 7, 16));
 
 }  // namespace
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

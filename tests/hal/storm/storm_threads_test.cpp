@@ -4,21 +4,21 @@
 #include "hal/threads/run_threads.h"
 #include "tests/hal/storm/storm.h"
 
-namespace mars::hal::storm {
+namespace mars::storm {
 namespace {
 
 class Threads : public testing::TestWithParam<int> {};
 
 TEST_P(Threads, KeepTheRules) {
-  run_threads(GetParam(), run_fixed_storms, run_fixed_storms);
+  threads::run_threads(GetParam(), run_fixed_storms, run_fixed_storms);
 }
 
 TEST_P(Threads, KeepTheRulesFresh) {
   const auto rank = [] { run_fresh_storm(static_cast<std::uint32_t>(GTEST_FLAG_GET(random_seed))); };
-  run_threads(GetParam(), rank, rank);
+  threads::run_threads(GetParam(), rank, rank);
 }
 
 INSTANTIATE_TEST_SUITE_P(Storms, Threads, testing::Values(1, 2, 3, 7, 16));
 
 }  // namespace
-}  // namespace mars::hal::storm
+}  // namespace mars::storm

@@ -10,13 +10,13 @@
 #include "hal/messages/shared_memory.h"
 #include "hal/template/template_backend.h"
 
-namespace mars::hal {
+namespace mars::transport_template {
 namespace {
 
 class Template : public testing::Test {
  protected:
   TemplateBackend backend;
-  Process process{backend};
+  messages::Process process{backend};
 };
 
 TEST_F(Template, IsOneNode) {
@@ -57,7 +57,7 @@ TEST_F(Template, TakesPartInGlobalOperations) {
 }
 
 TEST_F(Template, SharesMemoryWithItself) {
-  SharedMemory memory(1000);
+  messages::SharedMemory memory(1000);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.bytes().data()) % 64, 0u);
   std::memset(memory.bytes().data(), 1, memory.bytes().size());
 }
@@ -74,4 +74,4 @@ TEST(TemplateDeathTest, AbortTellsTheReason) {
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::transport_template

@@ -17,7 +17,7 @@
 #include "hal/threads/run_threads.h"
 #include "tests/hal/counting_backend.h"
 
-namespace mars::hal {
+namespace mars::threads {
 namespace {
 
 void wait_for_ever() { crecv(1, nullptr, 0); }
@@ -91,7 +91,7 @@ TEST(Threads, AMessageOnItsWayFromARankThatEnds) {
 
 TEST(Threads, AbortTellsItsReason) {
   const auto node = [] {
-    if (mynode() == 2) process().backend().abort("enough");
+    if (mynode() == 2) messages::process().backend().abort("enough");
     wait_for_ever();
   };
   EXPECT_EQ(failure_of(wait_for_ever, node), "enough");
@@ -121,7 +121,7 @@ TEST(Threads, CallsNeedARank) {
 
 TEST(Threads, SharedMemoryOfDifferentSizesIsFoundOut) {
   const auto node = [] {
-    const SharedMemory memory(100 + static_cast<std::size_t>(mynode()));
+    const messages::SharedMemory memory(100 + static_cast<std::size_t>(mynode()));
     gsync();
   };
   EXPECT_THROW(run_threads(
@@ -130,7 +130,7 @@ TEST(Threads, SharedMemoryOfDifferentSizesIsFoundOut) {
 }
 
 TEST(Counting, TellsWhoSentWhatToWhom) {
-  Counts counts;
+  messages::Counts counts;
   const auto host = [] {
     char bytes[20];
     for (int i = 0; i < 3; ++i) crecv(-1, bytes, 20);
@@ -139,15 +139,15 @@ TEST(Counting, TellsWhoSentWhatToWhom) {
     csend(10 + mynode(), "0123456789", 2 + mynode(), myhost(), 0);
     gsync();
   };
-  run_threads(3, host, node, counting(counts));
+  run_threads(3, host, node, messages::counting(counts));
   EXPECT_EQ(counts.sent({.to = 3}).messages, 3u);
   EXPECT_EQ(counts.sent({.to = 3}).bytes, 2u + 3u + 4u);
   EXPECT_EQ(counts.sent({.from = 1, .to = 3, .type = 11}).bytes, 3u);
   EXPECT_EQ(counts.sent({.from = 1, .type = 10}).messages, 0u);
-  EXPECT_EQ(counts.sent({.from = 0, .type = kFirstInternalType}).messages, 2u);  // of gsync
+  EXPECT_EQ(counts.sent({.from = 0, .type = messages::kFirstInternalType}).messages, 2u);  // of gsync
   counts.clear();
   EXPECT_EQ(counts.sent({}).messages, 0u);
 }
 
 }  // namespace
-}  // namespace mars::hal
+}  // namespace mars::threads

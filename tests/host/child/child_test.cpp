@@ -12,7 +12,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::child {
 namespace {
 
 using namespace std::chrono_literals;
@@ -68,7 +68,7 @@ TEST(Child, MayWriteMuch) {
 TEST(Child, KilledIsToldBySignal) { EXPECT_EQ(run("kill -9 $$").ending.signal, SIGKILL); }
 
 TEST(Child, AMissingProgramIsAFailure) {
-  EXPECT_EQ(failure_of([] {
+  EXPECT_EQ(document::failure_of([] {
               Child({{}, {"/no/such/program"}});
             }),
             "/no/such/program: cannot be started: No such file or directory");
@@ -200,4 +200,4 @@ TEST(Child, EndsWithItsOwner) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::child

@@ -11,7 +11,7 @@
 #include "host/child/descriptor.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::child {
 namespace {
 
 Command shell(const std::string& script) { return {{{"GREETING", "good day"}}, {"/bin/sh", "-c", script}}; }
@@ -39,7 +39,7 @@ TEST(Process, EndsWithACodeOrASignal) {
 }
 
 TEST(Process, SaysWhyItCannotStart) {
-  EXPECT_EQ(failure_of([] { Process({{}, {"/no/such/program"}}, {}); }),
+  EXPECT_EQ(document::failure_of([] { Process({{}, {"/no/such/program"}}, {}); }),
             "/no/such/program: cannot be started: No such file or directory");
 }
 
@@ -72,4 +72,4 @@ TEST(Process, DetachedOnesAreNotOurs) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::child

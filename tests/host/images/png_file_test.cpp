@@ -8,7 +8,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::images {
 namespace {
 
 std::vector<std::uint32_t> random_pixels(std::size_t count) {
@@ -19,10 +19,10 @@ std::vector<std::uint32_t> random_pixels(std::size_t count) {
 }
 
 TEST(PngFile, GivesBackWhatWasWritten) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}}) {
     const std::vector<std::uint32_t> pixels = random_pixels(std::size_t{width} * height);
-    write_whole_file(folder / "x.png", encode_png(width, height, pixels));
+    document::write_whole_file(folder / "x.png", encode_png(width, height, pixels));
     const Image image = read_png(folder / "x.png");
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
@@ -36,15 +36,15 @@ TEST(PngFile, IsEightBitRgbMarkedSrgb) {
   EXPECT_EQ(text.substr(12, 4), "IHDR");
   EXPECT_EQ(text[24], 8);  // bits
   EXPECT_EQ(text[25], 2);  // RGB
-  EXPECT_TRUE(holds(text, "sRGB"));
+  EXPECT_TRUE(document::holds(text, "sRGB"));
 }
 
 TEST(PngFile, EveryCutOfAFileIsTold) {
   const std::vector<std::byte> bytes = encode_png(20, 20, random_pixels(400));
   // All but the closing chunk's own check number, which libpng does not ask for.
   for (std::size_t size = 0; size + 4 < bytes.size(); size += 7) {
-    const std::string failure = failure_of([&] { decode_png(std::span(bytes).first(size), "cut.png"); });
-    EXPECT_TRUE(holds(failure, "cut.png: not a whole PNG picture")) << size << " bytes of " << bytes.size();
+    const std::string failure = document::failure_of([&] { decode_png(std::span(bytes).first(size), "cut.png"); });
+    EXPECT_TRUE(document::holds(failure, "cut.png: not a whole PNG picture")) << size << " bytes of " << bytes.size();
   }
 }
 
@@ -54,15 +54,15 @@ TEST(PngFile, NoDamageDoesHarm) {
   for (int i = 0; i < 300; ++i) {
     std::vector<std::byte> damaged = bytes;
     for (int j = 0; j < 3; ++j) damaged[random() % damaged.size()] = static_cast<std::byte>(random());
-    failure_of([&] { decode_png(damaged, "damaged.png"); });
+    document::failure_of([&] { decode_png(damaged, "damaged.png"); });
   }
 }
 
 TEST(PngFile, OtherFilesAreTold) {
-  const TemporaryFolder folder;
-  write_whole_file(folder / "x.png", std::string_view("no picture at all"));
-  EXPECT_TRUE(holds(failure_of([&] { read_png(folder / "x.png"); }), "not a whole PNG picture"));
+  const sinks::TemporaryFolder folder;
+  document::write_whole_file(folder / "x.png", std::string_view("no picture at all"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_png(folder / "x.png"); }), "not a whole PNG picture"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::images

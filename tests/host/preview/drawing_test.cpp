@@ -10,14 +10,14 @@
 
 #include "host/preview/film_drawing.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 constexpr Color kBlack{0, 0, 0}, kWhite{1, 1, 1}, kRed{1, 0, 0}, kGreen{0, 1, 0};
 constexpr Placing kHere{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-node::Camera eye() {
-  node::Camera camera{};
+wire::Camera eye() {
+  wire::Camera camera{};
   for (std::size_t i = 0; i < 3; ++i) camera.world_to_eye.m[i][i] = 1;
   camera.focal = 1;
   camera.near = 0.5;
@@ -33,7 +33,7 @@ using Pixels = std::set<std::pair<int, int>>;  // column, row
 
 Pixels drawn(const Drawing& drawing, std::uint32_t background = 0) {
   Pixels pixels;
-  const Image& image = drawing.image();
+  const images::Image& image = drawing.image();
   for (std::uint32_t y = 0; y < image.height; ++y)
     for (std::uint32_t x = 0; x < image.width; ++x)
       if (image.pixels[std::size_t{y} * image.width + x] != background) pixels.insert({int(x), int(y)});
@@ -161,10 +161,10 @@ TEST(FilmDrawing, DarkMaterialsAreLiftedAboveThePaper) {
 }
 
 TEST(FilmDrawing, HalvingTakesTheMean) {
-  const Image half = halved({2, 2, {0x000000, 0x0000ff, 0x00ff00, 0x00ffff}});
+  const images::Image half = halved({2, 2, {0x000000, 0x0000ff, 0x00ff00, 0x00ffff}});
   EXPECT_EQ(half.width, 1u);
   EXPECT_EQ(half.pixels, (std::vector<std::uint32_t>{0x008080}));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::preview

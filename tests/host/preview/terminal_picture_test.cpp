@@ -9,11 +9,11 @@
 
 #include "host/preview/key_press.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
-Image colourful(std::uint32_t width, std::uint32_t height) {
-  Image image{width, height, {}};
+images::Image colourful(std::uint32_t width, std::uint32_t height) {
+  images::Image image{width, height, {}};
   for (std::uint32_t i = 0; i < width * height; ++i) image.pixels.push_back((i * 7919u) % 97 * 0x020304u & 0xffffffu);
   return image;
 }
@@ -58,7 +58,7 @@ TEST(Blocks, ShowEveryPixel) {
   const auto blocks = make_blocks(true);
   Screen screen;
   for (const std::uint32_t height : {8u, 7u}) {
-    const Image image = colourful(9, height);
+    const images::Image image = colourful(9, height);
     blocks->forget();
     screen.take(blocks->shown(image));
     for (std::uint32_t y = 0; y < height; ++y)
@@ -68,7 +68,7 @@ TEST(Blocks, ShowEveryPixel) {
 
 TEST(Blocks, SendOnlyWhatChanged) {
   const auto blocks = make_blocks(true);
-  Image image = colourful(40, 20);
+  images::Image image = colourful(40, 20);
   Screen screen;
   screen.take(blocks->shown(image));
   EXPECT_LT(blocks->shown(image).size(), 25u);  // nothing but begin and end
@@ -110,7 +110,7 @@ std::string from_base64(const std::string& text) {
 TEST(Kitty, SendsThePictureInPieces) {
   const auto kitty = make_kitty();
   for (const std::uint32_t width : {1u, 2u, 3u, 120u}) {
-    const Image image = colourful(width, 90);
+    const images::Image image = colourful(width, 90);
     const std::string text = kitty->shown(image);
     std::string whole;
     const std::regex piece("\x1b_G([^;]*)m=([01]);([^\x1b]*)\x1b");
@@ -123,19 +123,19 @@ TEST(Kitty, SendsThePictureInPieces) {
     EXPECT_EQ(last, 1);
     EXPECT_EQ(pieces > 1, width == 120u);
     const std::string bytes = from_base64(whole);
-    EXPECT_EQ(decode_png(std::as_bytes(std::span(bytes)), "sent").pixels, image.pixels);
+    EXPECT_EQ(images::decode_png(std::as_bytes(std::span(bytes)), "sent").pixels, image.pixels);
   }
 }
 
 // Sixel's picture, as colours of a palette in hundredths.
-Image read_sixel(const std::string& text) {
+images::Image read_sixel(const std::string& text) {
   std::size_t at = text.find("\"1;1;") + 5;
   const auto number = [&] {
     std::uint32_t value = 0;
     while (text[at] >= '0' && text[at] <= '9') value = 10 * value + static_cast<std::uint32_t>(text[at++] - '0');
     return value;
   };
-  Image image;
+  images::Image image;
   image.width = number();
   ++at;
   image.height = number();
@@ -173,8 +173,8 @@ Image read_sixel(const std::string& text) {
 }
 
 TEST(Sixel, ShowsEveryPixelInNearlyItsColour) {
-  const Image image = colourful(50, 20);
-  const Image read = read_sixel(make_sixel()->shown(image));
+  const images::Image image = colourful(50, 20);
+  const images::Image read = read_sixel(make_sixel()->shown(image));
   ASSERT_EQ(read.width, 50u);
   ASSERT_EQ(read.height, 20u);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -183,10 +183,10 @@ TEST(Sixel, ShowsEveryPixelInNearlyItsColour) {
 }
 
 TEST(Sixel, TakesTheNearestWhereThereAreTooManyColours) {
-  Image image{64, 64, {}};
+  images::Image image{64, 64, {}};
   for (std::uint32_t y = 0; y < 64; ++y)
     for (std::uint32_t x = 0; x < 64; ++x) image.pixels.push_back(4 * x | 4 * y << 8 | (2 * (x + y)) << 16);
-  const Image read = read_sixel(make_sixel()->shown(image));
+  const images::Image read = read_sixel(make_sixel()->shown(image));
   double error = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     for (int shift = 0; shift < 24; shift += 8)
@@ -212,4 +212,4 @@ TEST(KeyPress, WaitsForTheRestOfASequence) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::preview

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -35,4 +35,4 @@ TEST(TextLines, NothingMovesTheCursor) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::preview

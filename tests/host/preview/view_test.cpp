@@ -12,7 +12,7 @@
 #include "host/preview/load.h"
 #include "host/preview/shape_lines.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 // An arm on a post: the post, a shoulder without a segment, a sheared forearm, and a tip without one.
@@ -30,7 +30,7 @@ constexpr const char* kArm = R"({
     {"name": "b", "model": "arm", "place": [-5, 0, 0]}]
 })";
 
-Film arm_film() { return read_film(Document(kArm, "arm").root(), {}); }
+animator::Film arm_film() { return animator::read_film(document::Document(kArm, "arm").root(), {}); }
 
 glm::dvec3 placed(const View& view, const Part& part, std::uint32_t frame, std::size_t point) {
   const Placing& m = view.matrices[view.value_at(part.motion, frame)];
@@ -51,24 +51,24 @@ void expect_near(const glm::dvec3& is, const glm::dvec3& should) {
 }
 
 TEST(View, MatricesAreTheCompiledFilms) {
-  const Film film = arm_film();
-  const CompiledFilm compiled = compile(film);
+  const animator::Film film = arm_film();
+  const film::CompiledFilm compiled = film::compile(film);
   const View view = view_of(compiled, &film);
-  const node::FilmView nodes = compiled.view();
+  const wire::FilmView nodes = compiled.view();
   ASSERT_EQ(parts(view, As::prisms).size(), nodes.segments().size());
   for (std::size_t i = 0; i < nodes.segments().size(); ++i)
     for (std::uint32_t frame = 0; frame < film.frames; ++frame)
       for (const As as : {As::vertices, As::prisms}) {
         const Placing& is = view.matrices[view.value_at(parts(view, as)[i].motion, frame)];
-        const node::Matrix& should = nodes.matrix_at(nodes.segments()[i], frame);
+        const wire::Matrix& should = nodes.matrix_at(nodes.segments()[i], frame);
         for (std::size_t k = 0; k < 12; ++k) EXPECT_EQ(is[k], static_cast<float>(should.m[k / 4][k % 4]));
       }
   EXPECT_EQ(view.camera_at(4), nodes.camera_at(4));
 }
 
 TEST(View, OnlyWhatChangesHasMoreThanOneMatrix) {
-  const Film film = arm_film();
-  const View view = view_of(compile(film), &film);
+  const animator::Film film = arm_film();
+  const View view = view_of(film::compile(film), &film);
   for (const As as : {As::stick, As::prisms}) {
     std::size_t still = 0, moving = 0;
     for (const Part& part : parts(view, as)) (part.motion.count == 1 ? still : moving) += 1;
@@ -79,11 +79,11 @@ TEST(View, OnlyWhatChangesHasMoreThanOneMatrix) {
 }
 
 TEST(View, SticksGoFromJointToJoint) {
-  const Film film = arm_film();
-  const View view = view_of(compile(film), &film);
-  const Model& model = film.models[0];
+  const animator::Film film = arm_film();
+  const View view = view_of(film::compile(film), &film);
+  const modeler::Model& model = film.models[0];
   for (std::size_t actor = 0; actor < 2; ++actor) {
-    Figure figure(model, film.actors[actor].motion);
+    animator::Figure figure(model, film.actors[actor].motion);
     for (std::uint32_t frame = 0; frame < film.frames; ++frame) {
       figure.move_to(frame);
       // Segments' joints first, then bare ones, as parts come.
@@ -101,8 +101,8 @@ TEST(View, SticksGoFromJointToJoint) {
 }
 
 TEST(View, ALimbsLastStickEndsAtItsSegmentsFarEnd) {
-  const Film film = arm_film();
-  Model model = film.models[0];
+  const animator::Film film = arm_film();
+  modeler::Model model = film.models[0];
   model.joints.pop_back();
   const std::vector<Lines> sticks = sticks_of(model);
   const std::vector<float> should{0, 0.5f, 0.5f, 1, 0.5f, 0.5f};  // in the unit cube: the joint, the face at x = 3
@@ -111,8 +111,8 @@ TEST(View, ALimbsLastStickEndsAtItsSegmentsFarEnd) {
 
 // The sheared forearm of frame 0, by hand: its frame is at (6, 0, 4), its axes (1, 0, 0), (0.6, 0.8, 0), (0, 0, 0.8).
 TEST(View, PrismsAreTheBoxesOfSegments) {
-  const Film film = arm_film();
-  const View view = view_of(compile(film), &film);
+  const animator::Film film = arm_film();
+  const View view = view_of(film::compile(film), &film);
   const Part& part = parts(view, As::prisms)[1];
   const Lines& cube = view.lines[part.lines];
   EXPECT_EQ(cube.points.size(), 3u * 8);
@@ -127,21 +127,21 @@ TEST(View, PrismsAreTheBoxesOfSegments) {
   }
 }
 
-node::Patch flat_patch(float x) {
-  node::Patch patch;
+wire::Patch flat_patch(float x) {
+  wire::Patch patch;
   for (std::size_t i = 0; i < 16; ++i)
     patch.points[i] = {x + static_cast<float>(i % 4) / 8, static_cast<float>(i / 4) / 4, 0};
   return patch;
 }
 
-CompiledFilm film_of(const std::vector<node::Patch>& patches) {
-  Film film = arm_film();
+film::CompiledFilm film_of(const std::vector<wire::Patch>& patches) {
+  animator::Film film = arm_film();
   film.models[0].shapes.assign(2, {"own", patches});
-  return compile(film);
+  return film::compile(film);
 }
 
 TEST(ControlNet, JoinsAllPointsOfAPatch) {
-  const CompiledFilm film = film_of({flat_patch(0)});
+  const film::CompiledFilm film = film_of({flat_patch(0)});
   const Lines net = control_net(film.view(), film.view().shapes()[0]);
   EXPECT_EQ(net.points.size(), 3u * 16);
   EXPECT_EQ(net.ends.size(), 2u * 24);
@@ -149,16 +149,16 @@ TEST(ControlNet, JoinsAllPointsOfAPatch) {
 }
 
 TEST(ControlNet, NeighboursShareTheirEdge) {
-  const CompiledFilm film = film_of({flat_patch(0), flat_patch(3.0f / 8)});
+  const film::CompiledFilm film = film_of({flat_patch(0), flat_patch(3.0f / 8)});
   const Lines net = control_net(film.view(), film.view().shapes()[0]);
   EXPECT_EQ(net.points.size(), 3u * 28);
   EXPECT_EQ(net.ends.size(), 2u * (2 * 24 - 3));
 }
 
 TEST(ControlNet, LeavesOutLinesOfNoLength) {
-  node::Patch patch = flat_patch(0);
+  wire::Patch patch = flat_patch(0);
   for (std::size_t i = 1; i < 4; ++i) patch.points[i] = patch.points[0];
-  const CompiledFilm film = film_of({patch});
+  const film::CompiledFilm film = film_of({patch});
   const Lines net = control_net(film.view(), film.view().shapes()[0]);
   EXPECT_EQ(net.points.size(), 3u * 13);
   EXPECT_EQ(net.ends.size(), 2u * 21);
@@ -175,8 +175,8 @@ TEST(View, MeshesAndSplinesHaveAllRepresentations) {
     "joints": [{"name": "a", "segment": {"shape": "solid", "sbb": [[0, 0, 0], [2, 2, 2]]}},
                {"name": "b", "parent": "a", "segment": {"shape": "sheet"}}]}},
     "actors": [{"name": "a", "model": "m"}]})";
-  const Film film = read_film(Document(json, "film").root(), {});
-  const CompiledFilm compiled = compile(film);
+  const animator::Film film = animator::read_film(document::Document(json, "film").root(), {});
+  const film::CompiledFilm compiled = film::compile(film);
   const View view = view_of(compiled, &film);
   for (const As as : {As::stick, As::vertices, As::prisms}) ASSERT_EQ(parts(view, as).size(), 2u);
   const Lines& solid = view.lines[parts(view, As::vertices)[0].lines];
@@ -189,8 +189,8 @@ TEST(View, MeshesAndSplinesHaveAllRepresentations) {
 }
 
 TEST(View, ShapesAreStoredOnce) {
-  const Film film = arm_film();
-  const View view = view_of(compile(film), &film);
+  const animator::Film film = arm_film();
+  const View view = view_of(film::compile(film), &film);
   std::set<std::uint32_t> nets;
   for (const Part& part : parts(view, As::vertices)) nets.insert(part.lines);
   EXPECT_EQ(nets.size(), 2u);
@@ -199,8 +199,8 @@ TEST(View, ShapesAreStoredOnce) {
 }
 
 TEST(View, ACompiledFilmAloneHasItsPrismsAxesAsSticks) {
-  const Film film = arm_film();
-  const View view = view_of(compile(film), nullptr);
+  const animator::Film film = arm_film();
+  const View view = view_of(film::compile(film), nullptr);
   EXPECT_TRUE(view.sticks_of_prisms);
   ASSERT_EQ(parts(view, As::stick).size(), 4u);
   expect_near(placed(view, parts(view, As::stick)[2], 0, 0), {-5, 0, 0});  // b's post, upright
@@ -208,8 +208,8 @@ TEST(View, ACompiledFilmAloneHasItsPrismsAxesAsSticks) {
 }
 
 TEST(View, BallsHoldEverySegmentAtEveryFrame) {
-  const Film film = arm_film();
-  const View view = view_of(compile(film), &film);
+  const animator::Film film = arm_film();
+  const View view = view_of(film::compile(film), &film);
   for (const Part& part : parts(view, As::prisms))
     for (std::uint32_t frame = 0; frame < film.frames; ++frame)
       for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -224,10 +224,10 @@ TEST(Load, AModelAloneIsSeenFromAllAround) {
   const Previewed human = load_previewed(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/human.json");
   EXPECT_EQ(human.view.frames, 96u);
   EXPECT_EQ(human.view.cameras.size(), 96u);
-  const node::Camera &first = human.view.camera_at(0), &half = human.view.camera_at(48);
+  const wire::Camera &first = human.view.camera_at(0), &half = human.view.camera_at(48);
   for (std::size_t i = 0; i < 3; ++i)  // looks the other way
     EXPECT_NEAR(first.world_to_eye.m[0][i], -half.world_to_eye.m[0][i], 1e-6);
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::preview

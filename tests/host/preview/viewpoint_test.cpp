@@ -9,11 +9,11 @@
 #include "host/content/animator/read_film.h"
 #include "host/preview/film_pictures.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 // In the eye's frame: x to the right, y up, -z ahead.
-glm::dvec3 seen(const node::Camera& camera, const glm::dvec3& place) {
+glm::dvec3 seen(const wire::Camera& camera, const glm::dvec3& place) {
   glm::dvec3 at;
   for (int r = 0; r < 3; ++r) {
     const auto& row = camera.world_to_eye.m[static_cast<std::size_t>(r)];
@@ -43,7 +43,7 @@ TEST(Viewpoint, FrontSideAndTop) {
 TEST(Viewpoint, TheSubjectFillsThePictureAndNoMore) {
   for (const double aspect : {0.5, 1.0, 2.0}) {
     const Orbit orbit = orbit_from(From::front, kBall, aspect);
-    const node::Camera camera = camera_of(orbit);
+    const wire::Camera camera = camera_of(orbit);
     // The ball's outline, of half the angle asin(r / d), in units of half the picture's shorter side.
     const double angle = std::asin(kBall.radius / orbit.distance);
     const double part = camera.focal * std::tan(angle) / std::min(1.0, aspect);
@@ -68,14 +68,14 @@ constexpr const char* kFilm = R"({
 })";
 
 TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
-  const Film source = read_film(Document(kFilm, "film").root(), {});
-  const CompiledFilm film = compile(source);
-  const node::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
-  const CompiledFilm other = as_seen(film, {64, 36}, &camera);
-  node::FilmView(other.block(), "seen");  // throws unless all is sound
+  const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
+  const film::CompiledFilm film = film::compile(source);
+  const wire::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
+  const film::CompiledFilm other = as_seen(film, {64, 36}, &camera);
+  wire::FilmView(other.block(), "seen");  // throws unless all is sound
   EXPECT_EQ(other.view().settings().width, 64u);
   for (std::uint32_t frame = 0; frame < 3; ++frame) EXPECT_EQ(other.view().camera_at(frame), camera);
-  const CompiledFilm same = as_seen(film, {64, 36}, nullptr);
+  const film::CompiledFilm same = as_seen(film, {64, 36}, nullptr);
   for (std::uint32_t frame = 0; frame < 3; ++frame)
     EXPECT_EQ(same.view().camera_at(frame), film.view().camera_at(frame));
   EXPECT_EQ(std::memcmp(film.view().matrices().data(), other.view().matrices().data(),
@@ -84,7 +84,7 @@ TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
 
 // Keeps what it is asked.
 struct Asked : SurfaceSource {
-  void aim(PictureSize, const std::optional<node::Camera>& by, std::vector<std::uint32_t> wanted) override {
+  void aim(images::PictureSize, const std::optional<wire::Camera>& by, std::vector<std::uint32_t> wanted) override {
     ++aims;
     camera = by;
     frames = std::move(wanted);
@@ -93,13 +93,13 @@ struct Asked : SurfaceSource {
   SharedImage wait_for(std::uint32_t) override { return nullptr; }
 
   int aims = 0;
-  std::optional<node::Camera> camera;
+  std::optional<wire::Camera> camera;
   std::vector<std::uint32_t> frames;
 };
 
 TEST(FilmPictures, KeysChangeWhatIsSeen) {
-  const Film source = read_film(Document(kFilm, "film").root(), {});
-  const View view = view_of(compile(source), &source);
+  const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
+  const View view = view_of(film::compile(source), &source);
   Asked asked;
   FilmPictures pictures(view, asked, {});
   const auto key = [&](char character) { return pictures.obey({character, Special::none}); };
@@ -118,8 +118,8 @@ TEST(FilmPictures, KeysChangeWhatIsSeen) {
 }
 
 TEST(FilmPictures, RendererIsAimedOnceAView) {
-  const Film source = read_film(Document(kFilm, "film").root(), {});
-  const View view = view_of(compile(source), &source);
+  const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
+  const View view = view_of(film::compile(source), &source);
   Asked asked;
   FilmPictures pictures(view, asked, {});
   pictures.obey({'4', Special::none});
@@ -141,4 +141,4 @@ TEST(FilmPictures, RendererIsAimedOnceAView) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::preview

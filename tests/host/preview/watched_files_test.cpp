@@ -13,14 +13,14 @@
 #include "host/preview/load.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::preview {
 namespace {
 
 namespace fs = std::filesystem;
 
-FileStamps stamps_of(const std::vector<fs::path>& paths) {
-  FileStamps stamps;
-  for (const fs::path& path : paths) stamps.emplace(path, stamp_of(path));
+document::FileStamps stamps_of(const std::vector<fs::path>& paths) {
+  document::FileStamps stamps;
+  for (const fs::path& path : paths) stamps.emplace(path, document::stamp_of(path));
   return stamps;
 }
 
@@ -33,7 +33,7 @@ void write_in_place(const fs::path& path, const std::string& text) {
 }
 
 TEST(WatchedFiles, AreChangedOnceTheyAreTheSameAtTwoLooks) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   const fs::path file = folder / "file";
   write_in_place(file, "read");
   WatchedFiles files(stamps_of({file}));
@@ -51,14 +51,14 @@ TEST(WatchedFiles, AreChangedOnceTheyAreTheSameAtTwoLooks) {
 }
 
 TEST(WatchedFiles, AreChangedByEveryKindOfSave) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   const fs::path file = folder / "file", link = folder / "link", other = folder / "other", none = folder / "none";
   for (const fs::path& path : {file, other}) write_in_place(path, "read");
   fs::create_symlink(file, link);
   WatchedFiles files(stamps_of({file, link, none}));
   const std::vector<std::function<void()>> saves{
       [&] { write_in_place(file, "writ"); },
-      [&] { write_whole_file(file, "writ"); },
+      [&] { document::write_whole_file(file, "writ"); },
       [&] { fs::remove(file); },
       [&] { write_in_place(file, "made"); },
       [&] { chmod(file.c_str(), 0600); },
@@ -78,9 +78,9 @@ TEST(WatchedFiles, AreChangedByEveryKindOfSave) {
 
 // Of a film: the film, its models, and what these are derived from.
 TEST(WatchedFiles, OfAFilmAreThoseItIsReadFrom) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   const auto written = [&](const char* name, const char* json) {
-    write_whole_file(folder / name, json);
+    document::write_whole_file(folder / name, json);
     return folder / name;
   };
   const fs::path film = written("film.json", R"({"frames": 2, "camera": {"eye": [0, -3, 1]},
@@ -88,7 +88,7 @@ TEST(WatchedFiles, OfAFilmAreThoseItIsReadFrom) {
   const fs::path a = written("a.json", R"({"from": "c.json", "proportions": {"scale": [1, 1, 2]}})");
   const fs::path c = written("c.json", R"({"joints": [{"name": "a", "segment": {"shape": "box"}}]})");
   const auto files_of = [](const fs::path& path) {
-    RecordedReads reads;
+    document::RecordedReads reads;
     try {
       load_previewed(path);
     } catch (const Failure&) {
@@ -101,4 +101,4 @@ TEST(WatchedFiles, OfAFilmAreThoseItIsReadFrom) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::preview

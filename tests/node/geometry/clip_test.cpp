@@ -11,14 +11,12 @@
 
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::geometry {
 namespace {
 
-using node::ClipPolygon;
-using node::ClipVertex;
-using node::Projection;
+using shape::Projection;
 
-ClipVertex vertex(Random& random, double size) {
+ClipVertex vertex(shape::Random& random, double size) {
   ClipVertex out{};
   for (float& p : out.place) p = static_cast<float>(random.real(-size, size));
   for (float& n : out.normal) n = static_cast<float>(random.real(-1, 1));
@@ -36,7 +34,7 @@ ClipPolygon triangle(const ClipVertex& a, const ClipVertex& b, const ClipVertex&
 
 // A guard band narrow enough for random triangles to cross it.
 Projection narrow(double near, double far) {
-  Projection view = projection(640, 480, 2, near, far);
+  Projection view = shape::projection(640, 480, 2, near, far);
   view.guard = 1000;
   return view;
 }
@@ -81,17 +79,17 @@ std::vector<Exact> points_of(const ClipPolygon& polygon) {
 
 // Of a flat polygon in space.
 double area(const std::vector<Exact>& points) {
-  Vec3 sum{};
+  shape::Vec3 sum{};
   for (std::size_t k = 2; k < points.size(); ++k) {
-    Vec3 a, b;
+    shape::Vec3 a, b;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       a[axis] = static_cast<double>(points[k - 1][axis] - points[0][axis]);
       b[axis] = static_cast<double>(points[k][axis] - points[0][axis]);
     }
-    const Vec3 one = cross(a, b);
+    const shape::Vec3 one = shape::cross(a, b);
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += one[axis] / 2;
   }
-  return length(sum);
+  return shape::length(sum);
 }
 
 // Near and far lie as far apart as they do in films; slack is relative to the planes' own distances.
@@ -107,14 +105,14 @@ void expect_inside(const Projection& view, const ClipPolygon& polygon) {
 }
 
 TEST(Clip, KeepsExactlyWhatIsInside) {
-  Random random(30);
+  shape::Random random(30);
   int cut = 0, gone = 0;
   for (int trial = 0; trial < 50000; ++trial) {
     const Projection view = narrow(0.5, 6);
     const double size = trial % 2 ? 3 : 10;
     ClipPolygon polygon = triangle(vertex(random, size), vertex(random, size), vertex(random, size));
     const double expected = area(clip_exactly(view, polygon));
-    node::clip(view, polygon);
+    clip(view, polygon);
     ASSERT_NEAR(area(points_of(polygon)), expected, 1e-5 * size * size);
     expect_inside(view, polygon);
     gone += polygon.count == 0;
@@ -126,20 +124,20 @@ TEST(Clip, KeepsExactlyWhatIsInside) {
 
 // Triangles that reach from far behind the eye to the horizon, as a plane one walks on does.
 TEST(Clip, LargeTrianglesNearTheEye) {
-  Random random(31);
-  const Projection view = projection(640, 480, 2, 0.05, 1e6);
+  shape::Random random(31);
+  const Projection view = shape::projection(640, 480, 2, 0.05, 1e6);
   for (int trial = 0; trial < 5000; ++trial) {
     const double size = std::pow(10, random.real(1, 6));
     ClipPolygon polygon = triangle(vertex(random, size), vertex(random, size), vertex(random, size));
     for (int k = 0; k < 3; ++k) polygon.vertex[static_cast<std::size_t>(k)].place[1] = -1;
-    node::clip(view, polygon);
+    clip(view, polygon);
     expect_inside(view, polygon);
     ASSERT_FALSE(HasFailure()) << "size " << size;
   }
 }
 
 TEST(Clip, LeavesWhatIsInsideAlone) {
-  Random random(32);
+  shape::Random random(32);
   const Projection view = narrow(0.5, 100);
   for (int trial = 0; trial < 1000; ++trial) {
     ClipVertex v[3];
@@ -148,7 +146,7 @@ TEST(Clip, LeavesWhatIsInsideAlone) {
       one.place[2] -= 5;
     }
     ClipPolygon polygon = triangle(v[0], v[1], v[2]);
-    node::clip(view, polygon);
+    clip(view, polygon);
     ASSERT_EQ(polygon.count, 3);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(std::memcmp(&polygon.vertex[k], &v[k], sizeof v[k]), 0);
   }
@@ -156,7 +154,7 @@ TEST(Clip, LeavesWhatIsInsideAlone) {
 
 // Normals and places are cut in the same proportion.
 TEST(Clip, CutsNormalsWithPlaces) {
-  Random random(33);
+  shape::Random random(33);
   const Projection view = narrow(0.5, 6);
   for (int trial = 0; trial < 2000; ++trial) {
     ClipVertex v[3];
@@ -165,7 +163,7 @@ TEST(Clip, CutsNormalsWithPlaces) {
       for (int axis = 0; axis < 3; ++axis) one.normal[axis] = one.place[axis] / 5 + 1;
     }
     ClipPolygon polygon = triangle(v[0], v[1], v[2]);
-    node::clip(view, polygon);
+    clip(view, polygon);
     for (int k = 0; k < polygon.count; ++k) {
       const ClipVertex& one = polygon.vertex[static_cast<std::size_t>(k)];
       for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(one.normal[axis], one.place[axis] / 5 + 1, 1e-5);
@@ -174,7 +172,7 @@ TEST(Clip, CutsNormalsWithPlaces) {
 }
 
 // A corner that says by its normal how much it has of the triangle's first, second and third.
-ClipVertex marked(Random& random, float deep, std::size_t number) {
+ClipVertex marked(shape::Random& random, float deep, std::size_t number) {
   ClipVertex out = vertex(random, 8);
   out.place[2] *= deep;
   for (std::size_t axis = 0; axis < 3; ++axis) out.normal[axis] = axis == number ? 1 : 0;
@@ -194,7 +192,7 @@ std::vector<std::array<float, 6>> cuts(const ClipPolygon& polygon) {
 }
 
 TEST(Clip, NeighboursAreCutAtTheSamePlaces) {
-  Random random(34);
+  shape::Random random(34);
   const Projection view = narrow(0.5, 6);
   std::size_t seen = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -203,8 +201,8 @@ TEST(Clip, NeighboursAreCutAtTheSamePlaces) {
     ClipPolygon one = triangle(a, b, marked(random, deep, 2)),
                 other = triangle(b, a, marked(random, deep, 2));
     if (trial % 2) std::rotate(other.vertex.begin(), other.vertex.begin() + 1, other.vertex.begin() + 3);
-    node::clip(view, one);
-    node::clip(view, other);
+    clip(view, one);
+    clip(view, other);
     ASSERT_EQ(cuts(one), cuts(other)) << "trial " << trial;
     seen += cuts(one).size();
   }
@@ -212,17 +210,17 @@ TEST(Clip, NeighboursAreCutAtTheSamePlaces) {
 }
 
 TEST(Clip, NothingIsLeftOfWhatIsOutside) {
-  Random random(35);
+  shape::Random random(35);
   const Projection view = narrow(0.5, 20);
   for (int trial = 0; trial < 1000; ++trial) {
-    for (const Vec3& middle :
-         {Vec3{0, 0, 2}, Vec3{0, 0, -23}, Vec3{-15, 0, -5}, Vec3{15, 0, -5}, Vec3{0, 15, -5}}) {
+    for (const shape::Vec3& middle :
+         {shape::Vec3{0, 0, 2}, shape::Vec3{0, 0, -23}, shape::Vec3{-15, 0, -5}, shape::Vec3{15, 0, -5}, shape::Vec3{0, 15, -5}}) {
       ClipPolygon polygon = triangle(vertex(random, 1), vertex(random, 1), vertex(random, 1));
       for (int k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis)
           polygon.vertex[static_cast<std::size_t>(k)].place[axis] +=
               static_cast<float>(middle[static_cast<std::size_t>(axis)]);
-      node::clip(view, polygon);
+      clip(view, polygon);
       EXPECT_EQ(polygon.count, 0);
     }
   }
@@ -230,7 +228,7 @@ TEST(Clip, NothingIsLeftOfWhatIsOutside) {
 
 // Places on the planes themselves, infinite and not a number, in any mixture.
 TEST(Clip, BadNumbersDoNoHarm) {
-  Random random(36);
+  shape::Random random(36);
   const Projection view = narrow(0.5, 6);
   const float ratio = view.guard / view.scale;
   const float odd[] = {0,
@@ -253,11 +251,11 @@ TEST(Clip, BadNumbersDoNoHarm) {
     for (std::size_t k = 0; k < 3; ++k)
       for (float& p : polygon.vertex[k].place)
         if (random.whole(0, 3)) p = pick();
-    node::clip(view, polygon);
+    clip(view, polygon);
     ASSERT_GE(polygon.count, 0);
     ASSERT_LE(polygon.count, 9);
   }
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::geometry

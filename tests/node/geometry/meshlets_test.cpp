@@ -13,23 +13,26 @@
 #include "tests/node/raster/set_ups.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::test {
+namespace mars::geometry {
+
+using shape::operator-;
+
 namespace {
 
-using node::EyeMatrix;
+using shape::EyeMatrix;
 using Float3 = std::array<float, 3>;
 
-constexpr node::Projection kView{500, {160, 90}, 0.1f, 100, 32768, 0.9f};
+constexpr shape::Projection kView{500, {160, 90}, 0.1f, 100, 32768, 0.9f};
 
 // A film with one meshlet of random triangles, the normals of each corner its triangle's.
 class OneMeshlet {
  public:
-  OneMeshlet(Random& random, std::uint32_t triangles) {
-    node::FilmData film = small_film();
+  OneMeshlet(shape::Random& random, std::uint32_t triangles) {
+    wire::FilmData film = wire::small_film();
     film.mesh_places.clear();
     film.mesh_normals.clear();
     film.mesh_triangles.clear();
-    node::Meshlet meshlet{0, 3 * triangles, 0, triangles, {1, 1, 1}, {0, 0, 0}};
+    wire::Meshlet meshlet{0, 3 * triangles, 0, triangles, {1, 1, 1}, {0, 0, 0}};
     for (std::uint32_t t = 0; t < triangles; ++t) {
       for (std::uint8_t k = 0; k < 3; ++k) {
         Float3 place;
@@ -47,10 +50,10 @@ class OneMeshlet {
     }
     film.meshlets = {meshlet};
     film.shapes[1].meshlet_count = 1;
-    block_ = node::pack(film);
+    block_ = wire::pack(film);
   }
 
-  node::FilmView view() const { return {block_, "film"}; }
+  wire::FilmView view() const { return {block_, "film"}; }
 
   // (b - a) x (c - a)
   template <typename Place>
@@ -67,7 +70,7 @@ class OneMeshlet {
   std::vector<std::byte> block_;
 };
 
-EyeMatrix random_matrix(Random& random, double scale) {
+EyeMatrix random_matrix(shape::Random& random, double scale) {
   EyeMatrix matrix;
   for (auto& row : matrix.m)
     for (float& number : row) number = static_cast<float>(random.real(-1, 1) * scale);
@@ -76,56 +79,56 @@ EyeMatrix random_matrix(Random& random, double scale) {
 }
 
 TEST(Meshlets, PlacesAreThoseOfAPatchsPointsBitForBit) {
-  Random random(1);
-  for (const node::InstructionSet set : all_sets()) {
-    node::MeshletPlacer placer(set);
+  shape::Random random(1);
+  for (const simd::InstructionSet set : simd::all_sets()) {
+    MeshletPlacer placer(set);
     for (const std::uint32_t triangles : {1u, 5u, 6u, 64u}) {
       const OneMeshlet mesh(random, triangles);
-      const node::FilmView film = mesh.view();
+      const wire::FilmView film = mesh.view();
       const EyeMatrix matrix = random_matrix(random, 1);
-      placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
+      placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
       ASSERT_EQ(placer.vertex_count(), static_cast<int>(3 * triangles));
       ASSERT_EQ(placer.triangles().count, triangles);
       for (std::size_t k = 0; k < 3 * triangles; ++k) {
         float expected[3];
-        node::to_eye(matrix, film.mesh_places()[k], expected);
+        shape::to_eye(matrix, film.mesh_places()[k], expected);
         for (int axis = 0; axis < 3; ++axis)
-          ASSERT_EQ(std::memcmp(&placer.vertices().place[axis][k], &expected[axis], sizeof(float)), 0) << node::name_of(set);
+          ASSERT_EQ(std::memcmp(&placer.vertices().place[axis][k], &expected[axis], sizeof(float)), 0) << simd::name_of(set);
       }
     }
   }
 }
 
 TEST(Meshlets, EveryInstructionSetGivesTheSameNormals) {
-  Random random(2);
+  shape::Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const OneMeshlet mesh(random, 21);
-    const node::FilmView film = mesh.view();
-    const node::EyeMap map = node::eye_map(random_matrix(random, std::pow(10, random.real(-6, 6))));
-    node::MeshletPlacer plain(all_sets().front());
+    const wire::FilmView film = mesh.view();
+    const shape::EyeMap map = eye_map(random_matrix(random, std::pow(10, random.real(-6, 6))));
+    MeshletPlacer plain(simd::all_sets().front());
     plain.place(map, film, film.meshlets()[0], kView);
-    for (const node::InstructionSet set : all_sets()) {
-      node::MeshletPlacer placer(set);
+    for (const simd::InstructionSet set : simd::all_sets()) {
+      MeshletPlacer placer(set);
       placer.place(map, film, film.meshlets()[0], kView);
       for (int axis = 0; axis < 3; ++axis)
         EXPECT_EQ(std::memcmp(placer.vertices().normal[axis], plain.vertices().normal[axis], 63 * sizeof(float)), 0)
-            << node::name_of(set);
+            << simd::name_of(set);
     }
   }
 }
 
 // A flat triangle's normal stays at right angles to it, on the side from which its corners run counter-clockwise.
 TEST(Meshlets, NormalsFollowTheirSurfaceThroughStretchShearAndMirror) {
-  Random random(3);
+  shape::Random random(3);
   int mirrored = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const OneMeshlet mesh(random, 8);
-    const node::FilmView film = mesh.view();
+    const wire::FilmView film = mesh.view();
     const EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-5, 5)));
-    mirrored += node::mirrors(matrix);
-    node::MeshletPlacer placer(node::best_instruction_set(""));
-    placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
-    const node::Vertices& v = placer.vertices();
+    mirrored += shape::mirrors(matrix);
+    MeshletPlacer placer(simd::best_instruction_set(""));
+    placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
+    const shape::Vertices& v = placer.vertices();
     const auto place = [&](std::size_t k) { return Float3{v.place[0][k], v.place[1][k], v.place[2][k]}; };
     for (std::size_t k = 0; k < 24; k += 3) {
       const auto right = OneMeshlet::cross(place(k), place(k + 1), place(k + 2));
@@ -143,34 +146,34 @@ TEST(Meshlets, NormalsFollowTheirSurfaceThroughStretchShearAndMirror) {
 }
 
 TEST(Meshlets, WithoutANormalThereIsNone) {
-  node::FilmData data = small_film();
+  wire::FilmData data = wire::small_film();
   data.mesh_normals.assign(7, {0, 0, 0});
-  const auto block = node::pack(data);
-  const node::FilmView film(block, "film");
-  node::MeshletPlacer placer(node::best_instruction_set(""));
+  const auto block = wire::pack(data);
+  const wire::FilmView film(block, "film");
+  MeshletPlacer placer(simd::best_instruction_set(""));
   for (const float scale : {1.0f, 0.0f}) {
     const EyeMatrix matrix{{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, -5}}};
-    placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
+    placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
     for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(placer.vertices().normal[axis][0], 0);
   }
 }
 
 // Whoever is dropped would have left no mark, by the plain twin; and most of those without a mark are dropped.
 TEST(Meshlets, OnlyTheUnseenAreDropped) {
-  Random random(4);
-  const node::PatchIdentity identity{0, 0, false, false, false};
+  shape::Random random(4);
+  const raster::PatchIdentity identity{0, 0, false, false, false};
   int dropped = 0, seen = 0, idle = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const OneMeshlet mesh(random, 2);
-    const node::FilmView film = mesh.view();
+    const wire::FilmView film = mesh.view();
     EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-1, 1)));
     matrix.m[0][3] += static_cast<float>(random.real(-3, 3));
     matrix.m[2][3] += static_cast<float>(random.real(-3, 3));
-    node::MeshletPlacer placer(node::best_instruction_set(""));
-    placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
+    MeshletPlacer placer(simd::best_instruction_set(""));
+    placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
     std::size_t boxes = 0;
-    for (const PlainTriangle& t : plain_set_up(placer, kView, identity)) boxes += plain_edge_boxes(t.corners, 320, 180).size();
-    const bool unseen = node::unseen(matrix, film.meshlets()[0], kView, 320, 180);
+    for (const raster::PlainTriangle& t : raster::plain_set_up(placer, kView, identity)) boxes += raster::plain_edge_boxes(t.corners, 320, 180).size();
+    const bool unseen = geometry::unseen(matrix, film.meshlets()[0], kView, 320, 180);
     EXPECT_TRUE(!unseen || boxes == 0) << "trial " << trial;
     dropped += unseen;
     seen += boxes > 0;
@@ -183,18 +186,18 @@ TEST(Meshlets, OnlyTheUnseenAreDropped) {
 
 // Set-up sixteen at a time and one by one make the same of meshlets, near, far and across the guard band.
 TEST(Meshlets, AreSetUpAlikeEitherWay) {
-  Random random(5);
+  shape::Random random(5);
   std::uint64_t boxes = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const OneMeshlet mesh(random, 40);
-    const node::FilmView film = mesh.view();
+    const wire::FilmView film = mesh.view();
     const EyeMatrix matrix = random_matrix(random, std::pow(10, random.real(-1.5, 1.5)));
-    const node::PatchIdentity identity{7, 1, node::mirrors(matrix), trial % 2 == 1, false};
-    for (const node::InstructionSet set : all_sets()) {
-      node::MeshletPlacer placer(set);
-      placer.place(node::eye_map(matrix), film, film.meshlets()[0], kView);
-      const Picture picture{kView, 320, 180};
-      const Made one = set_up(set, picture, placer, identity), other = set_up(set, picture, placer, identity, Way::plainly);
+    const raster::PatchIdentity identity{7, 1, shape::mirrors(matrix), trial % 2 == 1, false};
+    for (const simd::InstructionSet set : simd::all_sets()) {
+      MeshletPlacer placer(set);
+      placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
+      const raster::Picture picture{kView, 320, 180};
+      const raster::Made one = raster::set_up(set, picture, placer, identity), other = raster::set_up(set, picture, placer, identity, raster::Way::plainly);
       ASSERT_EQ(one.triangles.size(), other.triangles.size());
       ASSERT_EQ(one.boxes.size(), other.boxes.size());
       EXPECT_EQ(std::memcmp(one.triangles.data(), other.triangles.data(), one.triangles.size() * sizeof one.triangles[0]), 0);
@@ -206,4 +209,4 @@ TEST(Meshlets, AreSetUpAlikeEitherWay) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::geometry

@@ -8,10 +8,10 @@
 
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::group {
 namespace {
 
-using node::LineRange;
+using geometry::LineRange;
 using Totals = std::vector<std::uint64_t>;
 
 Totals prefix_sum(const std::vector<std::uint64_t>& weights) {
@@ -21,7 +21,7 @@ Totals prefix_sum(const std::vector<std::uint64_t>& weights) {
 }
 
 // Loads as pictures have them: empty lines, about equal ones, and now and then one that outweighs all.
-Totals random_totals(Random& random, int lines) {
+Totals random_totals(shape::Random& random, int lines) {
   std::vector<std::uint64_t> weights;
   const int zeros = random.whole(0, 3), most = random.whole(1, 30);
   for (int i = 0; i < lines; ++i)
@@ -68,9 +68,9 @@ std::uint64_t greatest(const Totals& ebc, const std::vector<LineRange>& ranges) 
   return most;
 }
 
-std::vector<LineRange> mapped(node::Mapping mapping, const Totals& ebc, std::size_t nodes) {
+std::vector<LineRange> mapped(wire::Mapping mapping, const Totals& ebc, std::size_t nodes) {
   std::vector<LineRange> ranges(nodes, LineRange{77, 7});
-  node::map_lines(mapping, ebc, ranges);
+  map_lines(mapping, ebc, ranges);
   return ranges;
 }
 
@@ -85,35 +85,35 @@ void expect_tiled(const std::vector<LineRange>& ranges, std::size_t lines) {
 }
 
 TEST(Mapping, GreedyIsFigure4_7) {
-  Random random(1);
+  shape::Random random(1);
   for (int trial = 0; trial < 20000; ++trial) {
     const Totals ebc = random_totals(random, random.whole(1, 40));
     const auto nodes = static_cast<std::size_t>(random.whole(1, 48));
-    const auto ranges = mapped(node::Mapping::greedy, ebc, nodes);
+    const auto ranges = mapped(wire::Mapping::greedy, ebc, nodes);
     ASSERT_EQ(ranges, figure_4_7(ebc, nodes)) << "trial " << trial;
     expect_tiled(ranges, ebc.size() - 1);
   }
 }
 
 TEST(Mapping, OptimalIsTheBestOfAllPartitions) {
-  Random random(2);
+  shape::Random random(2);
   for (int trial = 0; trial < 3000; ++trial) {
     const Totals ebc = random_totals(random, random.whole(1, 9));
     const auto nodes = static_cast<std::size_t>(random.whole(1, 5));
-    const auto ranges = mapped(node::Mapping::optimal, ebc, nodes);
+    const auto ranges = mapped(wire::Mapping::optimal, ebc, nodes);
     expect_tiled(ranges, ebc.size() - 1);
     ASSERT_EQ(greatest(ebc, ranges), best_of_all(ebc, 0, nodes)) << "trial " << trial;
   }
 }
 
 TEST(Mapping, OptimalIsNeverWorseThanGreedy) {
-  Random random(3);
+  shape::Random random(3);
   for (int trial = 0; trial < 500; ++trial) {
     const Totals ebc = random_totals(random, random.whole(1, 2000));
     const auto nodes = static_cast<std::size_t>(random.whole(1, 64));
-    const auto optimal = mapped(node::Mapping::optimal, ebc, nodes);
+    const auto optimal = mapped(wire::Mapping::optimal, ebc, nodes);
     expect_tiled(optimal, ebc.size() - 1);
-    EXPECT_LE(greatest(ebc, optimal), greatest(ebc, mapped(node::Mapping::greedy, ebc, nodes)));
+    EXPECT_LE(greatest(ebc, optimal), greatest(ebc, mapped(wire::Mapping::greedy, ebc, nodes)));
   }
 }
 
@@ -121,12 +121,12 @@ TEST(Mapping, GreedyKeepsTheRemainder) {
   // Step = 11 / 4 = 2.75; cut to 2 the last node would get 5 of 11. The tie at 5.5 goes to the later line.
   const Totals ebc = prefix_sum(std::vector<std::uint64_t>(11, 1));
   const std::vector<LineRange> expected{{0, 3}, {3, 6}, {6, 8}, {8, 11}};
-  EXPECT_EQ(mapped(node::Mapping::greedy, ebc, 4), expected);
+  EXPECT_EQ(mapped(wire::Mapping::greedy, ebc, 4), expected);
 }
 
 TEST(Mapping, OneHeavyLineLeavesNodesWithoutAny) {
   const Totals ebc = prefix_sum({0, 0, 100, 0});
-  for (const node::Mapping mapping : {node::Mapping::greedy, node::Mapping::optimal}) {
+  for (const wire::Mapping mapping : {wire::Mapping::greedy, wire::Mapping::optimal}) {
     const auto ranges = mapped(mapping, ebc, 6);
     expect_tiled(ranges, 4);
     EXPECT_EQ(greatest(ebc, ranges), 100u);
@@ -135,9 +135,9 @@ TEST(Mapping, OneHeavyLineLeavesNodesWithoutAny) {
 
 TEST(Mapping, NothingToDraw) {
   const Totals ebc = prefix_sum({0, 0, 0});
-  for (const node::Mapping mapping : {node::Mapping::greedy, node::Mapping::optimal})
+  for (const wire::Mapping mapping : {wire::Mapping::greedy, wire::Mapping::optimal})
     expect_tiled(mapped(mapping, ebc, 4), 3);
-  EXPECT_EQ(node::load_ratio(ebc, mapped(node::Mapping::greedy, ebc, 4)), 1.0);
+  EXPECT_EQ(load_ratio(ebc, mapped(wire::Mapping::greedy, ebc, 4)), 1.0);
 }
 
 // Totals of the largest film: 2^32 patches of 2^17 triangles on 1024 nodes stay within 64 bits.
@@ -145,19 +145,19 @@ TEST(Mapping, LargeTotals) {
   const std::uint64_t most = std::uint64_t{1} << 49;
   const Totals ebc = prefix_sum({most, most, most, most});
   const std::vector<LineRange> expected{{0, 1}, {1, 2}, {2, 3}, {3, 4}};
-  EXPECT_EQ(mapped(node::Mapping::greedy, ebc, 4), expected);
-  EXPECT_EQ(mapped(node::Mapping::optimal, ebc, 4), expected);
-  const auto many = mapped(node::Mapping::greedy, ebc, 1024);
+  EXPECT_EQ(mapped(wire::Mapping::greedy, ebc, 4), expected);
+  EXPECT_EQ(mapped(wire::Mapping::optimal, ebc, 4), expected);
+  const auto many = mapped(wire::Mapping::greedy, ebc, 1024);
   EXPECT_EQ(many, figure_4_7(ebc, 1024));
 }
 
 TEST(Mapping, LoadRatio) {
   const Totals ebc = prefix_sum({1, 2, 3, 4, 0});
   const std::vector<LineRange> ranges{{0, 3}, {3, 3}, {3, 4}, {4, 5}};
-  EXPECT_DOUBLE_EQ(node::load_ratio(ebc, ranges), 6 / 2.5);
+  EXPECT_DOUBLE_EQ(load_ratio(ebc, ranges), 6 / 2.5);
   const std::vector<LineRange> all{{0, 5}};
-  EXPECT_DOUBLE_EQ(node::load_ratio(ebc, all), 1.0);
+  EXPECT_DOUBLE_EQ(load_ratio(ebc, all), 1.0);
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::group

@@ -14,30 +14,30 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/template/template_backend.h"
 
-namespace mars::test {
+namespace mars::group {
 namespace {
 
 constexpr std::size_t kWidth = 16;
 
 // A node alone with its host. What happens meanwhile stands in a script: each time that the node can do nothing but wait,
 // its next event comes.
-class ScriptedHost : public hal::TemplateBackend {
+class ScriptedHost : public transport_template::TemplateBackend {
  public:
   struct Sent {
     int to, type;
-    node::Strip strip;
+    wire::Strip strip;
     bool gone = false;
   };
 
   bool has_host() const override { return true; }
-  hal::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
+  messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
     Sent message{to, type, {}, transport_is_quick};
     EXPECT_EQ(length, sizeof message.strip) << "these strips are empty";
     std::memcpy(&message.strip, data, sizeof message.strip);
     messages.push_back(message);
-    return static_cast<hal::Ticket>(messages.size() - 1);
+    return static_cast<messages::Ticket>(messages.size() - 1);
   }
-  bool sent(hal::Ticket ticket) override { return messages.at(static_cast<std::size_t>(ticket)).gone; }
+  bool sent(messages::Ticket ticket) override { return messages.at(static_cast<std::size_t>(ticket)).gone; }
   void idle(int, std::chrono::microseconds longest) override {
     if (longest < std::chrono::milliseconds(5)) return;  // in a call that does not wait
     if (script.empty()) throw Failure("the node waits for ever", "", "");
@@ -48,8 +48,8 @@ class ScriptedHost : public hal::TemplateBackend {
 
   // Arrives as if from the host.
   void give_credit(int count) {
-    const node::Credit credit{count};
-    send(rank(), node::kCredit, &credit, sizeof credit);
+    const wire::Credit credit{count};
+    send(rank(), wire::kCredit, &credit, sizeof credit);
   }
 
   std::vector<Sent> messages;
@@ -61,8 +61,8 @@ class ScriptedHost : public hal::TemplateBackend {
 class OutboxTest : public testing::Test {
  protected:
   // The header as the outbox leaves it.
-  node::Strip send(node::Outbox& outbox) {
-    node::Strip header{};
+  wire::Strip send(Outbox& outbox) {
+    wire::Strip header{};
     header.number = static_cast<std::uint32_t>(host.messages.size());
     outbox.begin(false);
     outbox.send(header);
@@ -70,26 +70,26 @@ class OutboxTest : public testing::Test {
   }
 
   ScriptedHost host;
-  hal::Process process{host};
+  messages::Process process{host};
 };
 
 TEST_F(OutboxTest, SendsAsManyStripsAsThereAreCredits) {
-  node::Outbox outbox(kWidth, 3);
+  Outbox outbox(kWidth, 3);
   for (std::uint32_t number = 0; number < 3; ++number) {
     EXPECT_EQ(send(outbox).work.credits_waited, 0u);
     const ScriptedHost::Sent& message = host.messages.at(number);
     EXPECT_EQ(message.to, host.host());
-    EXPECT_EQ(message.type, node::kStrip);
+    EXPECT_EQ(message.type, wire::kStrip);
     EXPECT_EQ(message.strip.number, number);
   }
   EXPECT_EQ(host.waits, 0);
 }
 
 TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
-  node::Outbox outbox(kWidth, 1);
+  Outbox outbox(kWidth, 1);
   send(outbox);
   host.script = {[] {}, [&] { host.give_credit(1); }};
-  const node::Strip header = send(outbox);
+  const wire::Strip header = send(outbox);
   EXPECT_EQ(host.waits, 2);
   EXPECT_EQ(header.work.credits_waited, 1u);
   EXPECT_GT(header.times.credit, 0);
@@ -98,7 +98,7 @@ TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
 }
 
 TEST_F(OutboxTest, TakesWhatCreditHasCome) {
-  node::Outbox outbox(kWidth, 1);
+  Outbox outbox(kWidth, 1);
   send(outbox);
   host.give_credit(1);
   host.give_credit(2);
@@ -108,7 +108,7 @@ TEST_F(OutboxTest, TakesWhatCreditHasCome) {
 }
 
 TEST_F(OutboxTest, ReceivesCreditWhileNothingIsSent) {
-  node::Outbox outbox(kWidth, 1);
+  Outbox outbox(kWidth, 1);
   send(outbox);
   host.script = {[&] { host.give_credit(1); }};
   outbox.receive_credit();
@@ -118,7 +118,7 @@ TEST_F(OutboxTest, ReceivesCreditWhileNothingIsSent) {
 
 // Though there is credit: a buffer is not touched before its message has left it.
 TEST_F(OutboxTest, ReusesABufferWhenItsMessageIsGone) {
-  node::Outbox outbox(kWidth, 2);
+  Outbox outbox(kWidth, 2);
   host.transport_is_quick = false;
   send(outbox);
   send(outbox);
@@ -131,7 +131,7 @@ TEST_F(OutboxTest, ReusesABufferWhenItsMessageIsGone) {
 }
 
 TEST_F(OutboxTest, FlushWaitsUntilAllIsGone) {
-  node::Outbox outbox(kWidth, 3);
+  Outbox outbox(kWidth, 3);
   host.transport_is_quick = false;
   send(outbox);
   send(outbox);
@@ -143,18 +143,18 @@ TEST_F(OutboxTest, FlushWaitsUntilAllIsGone) {
 }
 
 TEST_F(OutboxTest, AFailureOfTheTransportComesThrough) {
-  node::Outbox outbox(kWidth, 1);
+  Outbox outbox(kWidth, 1);
   send(outbox);
   host.script = {[] { throw Failure("the host is gone", "", ""); }};
-  node::Strip header{};
+  wire::Strip header{};
   outbox.begin(false);
   EXPECT_THROW(outbox.send(header), Failure);
   EXPECT_EQ(host.messages.size(), 1u);
 }
 
 TEST_F(OutboxTest, FailsWhereTheMachineLacksTheMemory) {
-  EXPECT_THROW(node::Outbox(std::size_t{1} << 42, 1), Failure);
+  EXPECT_THROW(Outbox(std::size_t{1} << 42, 1), Failure);
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::group

@@ -20,12 +20,10 @@
 #include "tests/hal/counting_backend.h"
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::group {
 namespace {
 
-using node::LineRange;
-using node::MadeCounts;
-using node::Pass;
+using geometry::LineRange;
 
 // A frame of a group, as each of its nodes knows it.
 class Frame {
@@ -41,8 +39,8 @@ class Frame {
       ebc_[line + 1] = ebc_[line];
       for (const auto& own : counts_) ebc_[line + 1] += own[line];
     }
-    node::map_greedy(ebc_, homes_);
-    for (std::size_t n = 0; n < counts_.size(); ++n) own_bytes_.push_back(node::own_bytes(made(n), group_));
+    map_greedy(ebc_, homes_);
+    for (std::size_t n = 0; n < counts_.size(); ++n) own_bytes_.push_back(group::own_bytes(made(n), group_));
   }
 
   std::size_t nodes() const { return counts_.size(); }
@@ -50,7 +48,7 @@ class Frame {
   MadeCounts made(std::size_t n) const {
     return {triangles_[n], std::accumulate(counts_[n].begin(), counts_[n].end(), std::uint64_t{0})};
   }
-  node::FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, own_bytes_, counts_[n], triangles_[n]}; }
+  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, own_bytes_, counts_[n], triangles_[n]}; }
   const std::vector<LineRange>& homes() const { return homes_; }
   std::uint64_t boxes(std::size_t n, const LineRange& lines) const {
     const auto& own = counts_[n];
@@ -58,7 +56,7 @@ class Frame {
   }
 
  private:
-  hal::Group group_;
+  collectives::Group group_;
   std::vector<std::vector<std::uint32_t>> counts_;
   std::vector<std::uint64_t> triangles_;
   std::vector<LineRange> homes_;
@@ -66,7 +64,7 @@ class Frame {
   std::vector<std::uint64_t> own_bytes_;
 };
 
-Frame random_frame(Random& random, int nodes, int lines) {
+Frame random_frame(shape::Random& random, int nodes, int lines) {
   std::vector<std::vector<std::uint32_t>> counts(static_cast<std::size_t>(nodes));
   std::vector<std::uint64_t> triangles;
   for (auto& own : counts) {
@@ -79,39 +77,39 @@ Frame random_frame(Random& random, int nodes, int lines) {
 }
 
 // Takes what a pass takes of a node's arena at most; check()s that it fits.
-void use(node::Arena& arena, const Frame& frame, std::size_t n, const Pass& pass) {
+void use(raster::Arena& arena, const Frame& frame, std::size_t n, const Pass& pass) {
   arena.clear();
   std::vector<LineRange> parts;
-  for (const LineRange& home : frame.homes()) parts.push_back(node::part_of(home, pass));
+  for (const LineRange& home : frame.homes()) parts.push_back(part_of(home, pass));
   std::uint64_t own = 0, drawn = 0;
   for (const LineRange& part : parts) own += frame.boxes(n, part);
   for (std::size_t other = 0; other < frame.nodes(); ++other) drawn += frame.boxes(other, parts[n]);
-  arena.take_ends(std::min(own, frame.made(n).triangles) * sizeof(node::Triangle), own * sizeof(node::UnsortedEdgeBox));
+  arena.take_ends(std::min(own, frame.made(n).triangles) * sizeof(geometry::Triangle), own * sizeof(raster::UnsortedEdgeBox));
   const auto take_parcel = [&](std::uint64_t boxes) {
-    arena.take<node::Triangle>(boxes);
-    arena.take<node::UnsortedEdgeBox>(boxes);
+    arena.take<geometry::Triangle>(boxes);
+    arena.take<raster::UnsortedEdgeBox>(boxes);
   };
   for (std::size_t other = 0; other < frame.nodes(); ++other)
     if (other != n) take_parcel(frame.boxes(n, parts[other]));
-  arena.take<node::EdgeBox>(drawn);
+  arena.take<raster::EdgeBox>(drawn);
   for (int array = 0; array < 3; ++array) arena.take<std::uint64_t>(parts[n].count());
   for (std::size_t other = 0; other < frame.nodes(); ++other)
     if (other != n) take_parcel(frame.boxes(other, parts[n]));
 }
 
 TEST(Passes, PartsTileAHomeAndLieWithinCoarserParts) {
-  Random random(120);
+  shape::Random random(120);
   for (int trial = 0; trial < 300; ++trial) {
     const auto first = static_cast<std::uint32_t>(random.whole(0, 1000));
     const LineRange home{first, first + static_cast<std::uint32_t>(random.whole(0, 1000))};
     const std::uint32_t count = 1u << random.whole(0, 8);
     std::uint32_t next = home.first;
     for (std::uint32_t number = 0; number < count; ++number) {
-      const LineRange part = node::part_of(home, {number, count});
+      const LineRange part = part_of(home, {number, count});
       EXPECT_EQ(part.first, next);
       next = part.last;
-      EXPECT_EQ(node::part_of(home, {2 * number, 2 * count}).first, part.first);
-      EXPECT_EQ(node::part_of(home, {2 * number + 1, 2 * count}).last, part.last);
+      EXPECT_EQ(part_of(home, {2 * number, 2 * count}).first, part.first);
+      EXPECT_EQ(part_of(home, {2 * number + 1, 2 * count}).last, part.last);
     }
     EXPECT_EQ(next, home.last);
   }
@@ -122,35 +120,35 @@ TEST(Passes, EveryLineIsWantedInOnePass) {
   std::vector<int> times(20);
   for (std::uint32_t number = 0; number < 4; ++number) {
     std::vector<std::uint8_t> wanted(20, 7);
-    node::mark_lines(homes, {number, 4}, wanted);
+    mark_lines(homes, {number, 4}, wanted);
     for (std::size_t line = 0; line < wanted.size(); ++line) times[line] += wanted[line];
   }
   EXPECT_EQ(times, std::vector<int>(20, 1));
 }
 
 TEST(Passes, FramesFitTheMemoryPlanned) {
-  Random random(121);
+  shape::Random random(121);
   for (int trial = 0; trial < 200; ++trial) {
     const Frame frame = random_frame(random, random.whole(1, 6), random.whole(1, 60));
     for (std::size_t n = 0; n < frame.nodes(); ++n)
       for (const std::uint32_t count : {1u, 2u, 8u}) {
-        node::Arena arena(node::memory_for(frame.load(n), static_cast<int>(n), count));
+        raster::Arena arena(memory_for(frame.load(n), static_cast<int>(n), count));
         for (std::uint32_t number = 0; number < count; ++number) ASSERT_NO_THROW(use(arena, frame, n, {number, count}));
       }
   }
 }
 
 TEST(Passes, AreTheLeastPowerOfTwoThatFits) {
-  Random random(122);
+  shape::Random random(122);
   int several = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Frame frame = random_frame(random, random.whole(1, 4), 64);
-    const node::FrameLoad load = frame.load(0);
-    const std::uint64_t least = node::memory_for(load, 0, 128), most = node::memory_for(load, 0, 1);
+    const FrameLoad load = frame.load(0);
+    const std::uint64_t least = memory_for(load, 0, 128), most = memory_for(load, 0, 1);
     const std::uint64_t memory = least + (most - least) * static_cast<std::uint64_t>(random.whole(0, 100)) / 100;
-    const std::uint32_t passes = node::passes_for(load, 0, memory);
+    const std::uint32_t passes = passes_for(load, 0, memory);
     std::uint32_t expected = 1;
-    while (node::memory_for(load, 0, expected) > memory) expected *= 2;
+    while (memory_for(load, 0, expected) > memory) expected *= 2;
     EXPECT_EQ(passes, expected);
     several += passes > 1;
   }
@@ -160,7 +158,7 @@ TEST(Passes, AreTheLeastPowerOfTwoThatFits) {
 TEST(Passes, SayWhatOneLineNeeds) {
   const Frame frame({{100'000, 0, 5}}, {50'000});
   try {
-    node::passes_for(frame.load(0), 0, 3 << 20);
+    passes_for(frame.load(0), 0, 3 << 20);
     FAIL() << "100,000 boxes of one line do not fit";
   } catch (const Failure& failure) {
     const std::string text = failure.what();
@@ -178,22 +176,22 @@ struct Agreement {
 // As nodes of a group on the threads backend, each with its own counts.
 Agreement agree(const Frame& frame, std::uint64_t memory) {
   Agreement out{std::vector<std::uint32_t>(frame.nodes()), {}, 0};
-  hal::Counts counts;
+  messages::Counts counts;
   std::mutex mutex;
   const auto node = [&] {
     const auto self = static_cast<std::size_t>(mynode());
     const auto nodes = static_cast<int>(frame.nodes());
-    node::GroupSums sums(frame.lines(), frame.nodes());
-    node::FrameLoad load = frame.load(self);
-    sums.add_up({0, nodes}, load.line_counts, node::own_bytes(frame.made(self), {0, nodes}));
+    GroupSums sums(frame.lines(), frame.nodes());
+    FrameLoad load = frame.load(self);
+    sums.add_up({0, nodes}, load.line_counts, group::own_bytes(frame.made(self), {0, nodes}));
     EXPECT_TRUE(std::ranges::equal(sums.ebc(), load.ebc));
     EXPECT_TRUE(std::ranges::equal(sums.own_bytes(), load.own_bytes));
     const std::uint64_t before = counts.sent({.from = mynode()}).messages;
-    out.passes[self] = node::agree_on_passes(load, memory);
+    out.passes[self] = agree_on_passes(load, memory);
     const std::lock_guard lock(mutex);
     out.messages += counts.sent({.from = mynode()}).messages - before;
   };
-  hal::run_threads(static_cast<int>(frame.nodes()), [] {}, node, hal::counting(counts));
+  threads::run_threads(static_cast<int>(frame.nodes()), [] {}, node, messages::counting(counts));
   return out;
 }
 
@@ -201,9 +199,9 @@ Agreement agree(const Frame& frame, std::uint64_t memory) {
 TEST(Passes, AllNodesTakeThoseOfTheShortest) {
   const std::vector<std::uint32_t> few(32, 1), many(32, 1000);
   const Frame frame({few, many, few}, {20, 32'000, 20});
-  const std::uint64_t memory = node::memory_for(frame.load(1), 1, 4);
-  ASSERT_GT(node::memory_for(frame.load(1), 1, 2), memory);
-  ASSERT_LE(node::memory_for(frame.load(0), 0, 2), memory);
+  const std::uint64_t memory = memory_for(frame.load(1), 1, 4);
+  ASSERT_GT(memory_for(frame.load(1), 1, 2), memory);
+  ASSERT_LE(memory_for(frame.load(0), 0, 2), memory);
   const Agreement agreement = agree(frame, memory);
   EXPECT_EQ(agreement.passes, (std::vector<std::uint32_t>{4, 4, 4}));
   EXPECT_GT(agreement.messages, 0u);
@@ -217,4 +215,4 @@ TEST(Passes, NobodyAsksWhereOnePassFitsAll) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::group

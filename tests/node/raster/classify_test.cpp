@@ -12,18 +12,15 @@
 #include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::Corners;
-using node::ClassifyTask;
-using node::Classified;
-using node::kBatchTriangles;
+using shape::kBatchTriangles;
 
 // A batch of triangles and what lies around it in the arrays, which must not matter.
 class Batch16 {
  public:
-  Batch16(const std::vector<Corners>& triangles, bool consecutive, Random& random) : consecutive_(consecutive) {
+  Batch16(const std::vector<Corners>& triangles, bool consecutive, shape::Random& random) : consecutive_(consecutive) {
     std::vector<std::uint32_t> numbers(kVertices);
     std::iota(numbers.begin(), numbers.end(), 0u);
     if (!consecutive)
@@ -31,7 +28,7 @@ class Batch16 {
         std::swap(numbers[k], numbers[static_cast<std::size_t>(random.whole(0, static_cast<std::int32_t>(k)))]);
     first_ = static_cast<std::uint32_t>(random.whole(0, 20));
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      corners_[corner].assign(first_ + kBatchTriangles + node::kVectorSlack, 0);
+      corners_[corner].assign(first_ + kBatchTriangles + simd::kVectorSlack, 0);
       for (std::size_t k = 0; k < kBatchTriangles; ++k) {
         const std::uint32_t number = numbers[corner * kBatchTriangles + k];
         corners_[corner][first_ + k] = number;
@@ -42,15 +39,15 @@ class Batch16 {
   }
 
   // The first `count` of the sixteen.
-  Classified classify(node::InstructionSet set, const ClassifyTask& task, std::uint32_t count) {
-    node::Vertices vertices{};
+  Classified classify(simd::InstructionSet set, const ClassifyTask& task, std::uint32_t count) {
+    shape::Vertices vertices{};
     vertices.x = x_;
     vertices.y = y_;
-    const node::Batch batch{first_, first_ + count, consecutive_};
-    const node::Triangles triangles{
+    const shape::Batch batch{first_, first_ + count, consecutive_};
+    const shape::Triangles triangles{
         corners_[0].data(), corners_[1].data(), corners_[2].data(), first_ + count, &batch, 1};
     Classified out;
-    node::raster_kernels(set).classify(task, vertices, triangles, batch, out);
+    raster_kernels(set).classify(task, vertices, triangles, batch, out);
     return out;
   }
 
@@ -59,7 +56,7 @@ class Batch16 {
   bool consecutive_;
   std::uint32_t first_;
   std::vector<std::uint32_t> corners_[3];
-  std::int32_t x_[kVertices + node::kVectorSlack] = {}, y_[kVertices + node::kVectorSlack] = {};
+  std::int32_t x_[kVertices + simd::kVectorSlack] = {}, y_[kVertices + simd::kVectorSlack] = {};
 };
 
 enum State { kDropped, kDecided, kUndecided, kStates };
@@ -70,7 +67,7 @@ State state_of(const Classified& e, std::uint32_t lane) {
 }
 
 // Of two sides' extents.
-constexpr std::int32_t kSmall = node::kMostExtent * 256 / 2;
+constexpr std::int32_t kSmall = kMostExtent * 256 / 2;
 bool small(const Corners& t) {
   return std::max({std::abs(t.x[1] - t.x[0]), std::abs(t.y[1] - t.y[0]), std::abs(t.x[2] - t.x[0]),
                    std::abs(t.y[2] - t.y[0])}) < kSmall;
@@ -93,7 +90,7 @@ bool right_state(State state, const Corners& t, const ClassifyTask& task, bool c
 
 // Whether a decided triangle's columns are these edge boxes and nothing else, and its numbers those of its corners.
 bool right_columns(const Classified& e, std::uint32_t lane, const Corners& t,
-                   const std::vector<node::UnsortedEdgeBox>& boxes) {
+                   const std::vector<UnsortedEdgeBox>& boxes) {
   auto next = boxes.begin();
   for (std::int32_t row = e.first_row[lane]; row < e.last_row[lane]; ++row) {
     const std::uint32_t columns = e.columns[row - e.first_row[lane]][lane];
@@ -116,12 +113,12 @@ struct Tally {
 };
 
 // All kernels, on batches that are consecutive or not.
-void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& task, std::uint32_t count, Random& random,
+void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& task, std::uint32_t count, shape::Random& random,
                   Tally& tally) {
-  std::vector<std::vector<node::UnsortedEdgeBox>> boxes;
+  std::vector<std::vector<UnsortedEdgeBox>> boxes;
   for (const Corners& t : triangles) boxes.push_back(plain_edge_boxes(t, task.width, task.height));
   Batch16 batch(triangles, random.whole(0, 1) == 1, random);
-  for (const node::InstructionSet set : all_sets()) {
+  for (const simd::InstructionSet set : simd::all_sets()) {
     const Classified e = batch.classify(set, task, count);
     for (std::uint32_t lane = 0; lane < kBatchTriangles; ++lane) {
       const Corners& t = triangles[lane];
@@ -129,16 +126,16 @@ void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& tas
       const bool right = lane >= count ? state == kDropped
                                        : right_state(state, t, task, !boxes[lane].empty()) &&
                                              (state != kDecided || right_columns(e, lane, t, boxes[lane]));
-      ASSERT_TRUE(right) << node::name_of(set) << ", lane " << lane << " of " << count << ", state " << state << ": "
+      ASSERT_TRUE(right) << simd::name_of(set) << ", lane " << lane << " of " << count << ", state " << state << ": "
                          << t.x[0] << ',' << t.y[0] << ' ' << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2]
                          << " in " << task.width << " x " << task.height;
-      tally.states[state] += set == node::InstructionSet::sse2 && lane < count;
+      tally.states[state] += set == simd::InstructionSet::sse2 && lane < count;
     }
   }
 }
 
 // Where and how large: mostly in the picture or over its borders, corners often on samples or pixels' borders.
-Corners random_triangle(Random& random, const ClassifyTask& task) {
+Corners random_triangle(shape::Random& random, const ClassifyTask& task) {
   const std::int32_t size = static_cast<std::int32_t>(std::exp2(random.real(2, 14.2)));
   const auto middle = [&](std::int32_t samples) {
     if (random.whole(0, 50) == 0) return random.whole(-8400000, 8400000);
@@ -176,7 +173,7 @@ Corners random_triangle(Random& random, const ClassifyTask& task) {
 }
 
 TEST(Classify, AMillionTrianglesAsIn64Bits) {
-  Random random(70);
+  shape::Random random(70);
   Tally tally;
   constexpr std::int32_t kPictures[][2] = {{100, 80}, {100, 80}, {3, 2}, {7, 300}, {16384, 16384}};
   for (int trial = 0; trial < 100000; ++trial) {
@@ -196,7 +193,7 @@ TEST(Classify, AMillionTrianglesAsIn64Bits) {
 
 // One 1/256 pixel about what is still small, and about what is thin.
 TEST(Classify, TheBordersOfWhatIsDecided) {
-  Random random(71);
+  shape::Random random(71);
   Tally tally;
   int just_small = 0, just_large = 0, just_thin = 0, just_sure = 0;
   for (int trial = 0; trial < 4000; ++trial) {
@@ -225,4 +222,4 @@ TEST(Classify, TheBordersOfWhatIsDecided) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::raster

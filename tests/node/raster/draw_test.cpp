@@ -10,12 +10,11 @@
 #include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::EdgeBox;
-using node::Extent;
-using node::Triangle;
+using shading::Extent;
+using geometry::Triangle;
 
 constexpr std::uint32_t kLine = 7;
 
@@ -25,7 +24,7 @@ struct Boxes {
   std::vector<EdgeBox> boxes;
 };
 
-Boxes random_boxes(Random& random, std::int32_t width, int count) {
+Boxes random_boxes(shape::Random& random, std::int32_t width, int count) {
   Boxes out;
   for (int b = 0; b < count; ++b) {
     const std::int32_t first = random.whole(0, width - 1);
@@ -35,13 +34,13 @@ Boxes random_boxes(Random& random, std::int32_t width, int count) {
     Triangle t{};
     t.first_x = 128;
     if (random.whole(0, 2)) {
-      t.at_first[node::kDepth] = static_cast<float>(random.whole(1, 3));
+      t.at_first[shape::kDepth] = static_cast<float>(random.whole(1, 3));
     } else {
       t.first_x = random.whole(-5000, 256 * width);
       t.first_y = random.whole(-5000, 5000);
-      t.at_first[node::kDepth] = static_cast<float>(random.real(0, 4));
-      t.per_x[node::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
-      t.per_y[node::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
+      t.at_first[shape::kDepth] = static_cast<float>(random.real(0, 4));
+      t.per_x[shape::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
+      t.per_y[shape::kDepth] = static_cast<float>(random.real(-1e-4, 1e-4));
     }
     t.patch = static_cast<std::uint32_t>(random.whole(0, 3));
     out.triangles.push_back(t);
@@ -59,9 +58,9 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 // A line with the slack behind it that kernels may use and leave as it was.
 struct Line {
   explicit Line(std::int32_t width)
-      : depth(static_cast<std::size_t>(width + node::kVectorSlack), -9), ids(depth.size(), 99) {
+      : depth(static_cast<std::size_t>(width + simd::kVectorSlack), -9), ids(depth.size(), 99) {
     std::fill_n(depth.begin(), width, 0.0f);
-    std::fill_n(ids.begin(), width, node::kNoTriangle);
+    std::fill_n(ids.begin(), width, shading::kNoTriangle);
   }
   std::vector<float> depth;
   std::vector<std::uint32_t> ids;
@@ -73,11 +72,11 @@ void draw_plainly(const Boxes& boxes, Line& line) {
     for (std::int32_t column = box.first; column < box.last; ++column) {
       const auto at = static_cast<std::size_t>(column);
       const Triangle& t = boxes.triangles[box.triangle];
-      const float row = t.at_first[node::kDepth] +
-                        static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[node::kDepth];
-      const float depth = row + static_cast<float>(256 * column + 128 - t.first_x) * t.per_x[node::kDepth];
+      const float row = t.at_first[shape::kDepth] +
+                        static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[shape::kDepth];
+      const float depth = row + static_cast<float>(256 * column + 128 - t.first_x) * t.per_x[shape::kDepth];
       const std::uint32_t shown = line.ids[at];
-      const bool first = shown != node::kNoTriangle &&
+      const bool first = shown != shading::kNoTriangle &&
                          std::pair(t.patch, box.triangle) < std::pair(boxes.triangles[shown].patch, shown);
       if (!(depth > line.depth[at] || (depth == line.depth[at] && first))) continue;
       line.depth[at] = depth;
@@ -86,7 +85,7 @@ void draw_plainly(const Boxes& boxes, Line& line) {
 }
 
 TEST(Draw, IsAPlainZBuffer) {
-  Random random(54);
+  shape::Random random(54);
   for (int trial = 0; trial < 2000; ++trial) {
     const std::int32_t width = random.whole(1, 150);
     const auto boxes = random_boxes(random, width, random.whole(0, 100));
@@ -100,13 +99,13 @@ TEST(Draw, IsAPlainZBuffer) {
       first = std::min<std::uint32_t>(first, box.first);
       last = std::max<std::uint32_t>(last, box.last);
     }
-    for (const node::InstructionSet set : all_sets()) {
+    for (const simd::InstructionSet set : simd::all_sets()) {
       Line line = before;
       const auto count = static_cast<std::uint32_t>(boxes.boxes.size());
-      const Extent extent = node::raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, line.depth.data(),
+      const Extent extent = raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, line.depth.data(),
                                           line.ids.data());
       EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids)
-          << node::name_of(set) << ' ' << trial;
+          << simd::name_of(set) << ' ' << trial;
       EXPECT_EQ(extent.last, last);
       EXPECT_EQ(extent.first, first);
     }
@@ -114,4 +113,4 @@ TEST(Draw, IsAPlainZBuffer) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::raster

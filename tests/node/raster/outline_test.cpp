@@ -10,10 +10,9 @@
 #include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::Corners;
 
 struct Point {
   std::int32_t x, y;  // 1/256 pixel
@@ -26,7 +25,7 @@ class Coverage {
   Coverage(std::int32_t width, std::int32_t height) : width(width), height(height), count(size()) {}
 
   void add(const Corners& t) {
-    const node::Outline outline(t, width, height);
+    const Outline outline(t, width, height);
     EXPECT_GE(outline.first_row, 0);
     EXPECT_LE(outline.last_row, std::max(height, outline.first_row));
     for (std::int32_t row = outline.first_row; row < outline.last_row; ++row) {
@@ -46,7 +45,7 @@ class Coverage {
 };
 
 // Each kind's corners fall where coverage is hard to decide.
-Point random_point(Random& random, int kind) {
+Point random_point(shape::Random& random, int kind) {
   const auto beside = [&](std::int32_t most) { return random.whole(-most, 24 * 256 + most); };
   switch (kind) {
     case 0:
@@ -64,7 +63,7 @@ Point random_point(Random& random, int kind) {
   }
 }
 
-Corners random_triangle(Random& random) {
+Corners random_triangle(shape::Random& random) {
   const int kind = random.whole(0, 5);
   Point p[3];
   for (Point& corner : p) corner = random_point(random, kind);
@@ -88,7 +87,7 @@ Corners random_triangle(Random& random) {
 }
 
 TEST(Outline, ColumnsAreThoseOfAPlainTest) {
-  Random random(5);
+  shape::Random random(5);
   int covered = 0;
   for (int trial = 0; trial < 40000; ++trial) {
     const Corners t = random_triangle(random);
@@ -104,7 +103,7 @@ TEST(Outline, ColumnsAreThoseOfAPlainTest) {
 
 // Where numbers are largest: pictures as long as they may be, corners beyond the guard band.
 TEST(Outline, LongPictures) {
-  Random random(6);
+  shape::Random random(6);
   for (int trial = 0; trial < 400; ++trial) {
     Corners t{};
     for (int k = 0; k < 3; ++k) {
@@ -123,7 +122,7 @@ TEST(Outline, LongPictures) {
 }
 
 TEST(Outline, FansCoverEverySampleOnce) {
-  Random random(7);
+  shape::Random random(7);
   for (int trial = 0; trial < 500; ++trial) {
     const Point middle = random_point(random, trial % 2 ? 2 : 3);
     const std::int32_t far = trial % 3 ? 10000 : 8400000;
@@ -142,7 +141,7 @@ TEST(Outline, FansCoverEverySampleOnce) {
 // Rows of strips with corners moved at random, often onto samples (but by less than a quarter of a cell, or
 // quads would fold), drawn with either diagonal.
 TEST(Outline, StripsCoverEverySampleOnce) {
-  Random random(8);
+  shape::Random random(8);
   constexpr int kCells = 10;
   for (int trial = 0; trial < 500; ++trial) {
     Point grid[kCells + 1][kCells + 1];
@@ -166,4 +165,4 @@ TEST(Outline, StripsCoverEverySampleOnce) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::raster

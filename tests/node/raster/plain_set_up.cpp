@@ -6,20 +6,20 @@
 
 #include "node/geometry/clip.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::kValues;
-using node::Projection;
+using shape::kValues;
+using shape::Projection;
 
 struct PlainVertex {
-  node::ClipVertex eye;
+  geometry::ClipVertex eye;
   bool outside = true;
   std::int32_t x = 0, y = 0;
   float values[kValues] = {};
 };
 
-PlainVertex project(const Projection& p, const node::ClipVertex& eye) {
+PlainVertex project(const Projection& p, const geometry::ClipVertex& eye) {
   PlainVertex out{eye};
   const float w = -eye.place[2], inverse = 1.0f / w;
   const float dx = p.scale * (eye.place[0] * inverse), dy = -p.scale * (eye.place[1] * inverse);
@@ -27,14 +27,14 @@ PlainVertex project(const Projection& p, const node::ClipVertex& eye) {
   if (out.outside) return out;
   out.x = static_cast<std::int32_t>(std::floor((p.center[0] + dx) * 256.0f + 0.5f));
   out.y = static_cast<std::int32_t>(std::floor((p.center[1] + dy) * 256.0f + 0.5f));
-  out.values[node::kDepth] = inverse;
-  for (int axis = 0; axis < 3; ++axis) out.values[node::kNormalX + axis] = eye.normal[axis] * inverse;
+  out.values[shape::kDepth] = inverse;
+  for (int axis = 0; axis < 3; ++axis) out.values[shape::kNormalX + axis] = eye.normal[axis] * inverse;
   return out;
 }
 
-PlainVertex vertex(const node::Surface& surface, const Projection& projection, std::uint32_t number) {
-  const node::Vertices& v = surface.vertices();
-  node::ClipVertex eye;
+PlainVertex vertex(const shape::Surface& surface, const Projection& projection, std::uint32_t number) {
+  const shape::Vertices& v = surface.vertices();
+  geometry::ClipVertex eye;
   for (int axis = 0; axis < 3; ++axis) {
     eye.place[axis] = v.place[axis][number];
     eye.normal[axis] = v.normal[axis][number];
@@ -63,19 +63,19 @@ bool faces_eye(const PlainVertex (&t)[3]) {
 }
 
 // As large as four 1/256 pixel times the lengths of two sides.
-bool larger_than_snapping(const node::Corners& t) {
+bool larger_than_snapping(const Corners& t) {
   std::int64_t lengths = 0;
   for (int k = 1; k < 3; ++k) lengths += std::abs(t.x[k] - t.x[0]) + std::abs(t.y[k] - t.y[0]);
   return std::abs(area(t)) > 4 * lengths;
 }
 
 void set_planes(const PlainVertex (&t)[3], PlainTriangle& out) {
-  const node::Corners& at = out.corners;
+  const Corners& at = out.corners;
   const auto x1 = static_cast<float>(at.x[1] - at.x[0]), y1 = static_cast<float>(at.y[1] - at.y[0]);
   const auto x2 = static_cast<float>(at.x[2] - at.x[0]), y2 = static_cast<float>(at.y[2] - at.y[0]);
   const float inverse = 1.0f / static_cast<float>(area(at));
   for (int value = 0; value < kValues; ++value) {
-    const float sign = value == node::kDepth || out.faces ? 1.0f : -1.0f;
+    const float sign = value == shape::kDepth || out.faces ? 1.0f : -1.0f;
     const float f0 = sign * t[0].values[value];
     const float d1 = sign * t[1].values[value] - f0, d2 = sign * t[2].values[value] - f0;
     out.record.at_first[value] = f0;
@@ -84,7 +84,7 @@ void set_planes(const PlainVertex (&t)[3], PlainTriangle& out) {
   }
 }
 
-void add(const PlainVertex (&t)[3], std::optional<bool> known, const node::PatchIdentity& identity,
+void add(const PlainVertex (&t)[3], std::optional<bool> known, const PatchIdentity& identity,
          std::uint32_t index, std::vector<PlainTriangle>& out) {
   PlainTriangle made{};
   made.corners = {{t[0].x, t[1].x, t[2].x}, {t[0].y, t[1].y, t[2].y}};
@@ -101,11 +101,11 @@ void add(const PlainVertex (&t)[3], std::optional<bool> known, const node::Patch
 }
 
 // A fan of what is left; what clipping cut lies on its planes but for rounding.
-void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const node::PatchIdentity& identity,
+void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const PatchIdentity& identity,
                  std::uint32_t index, std::vector<PlainTriangle>& out) {
-  node::ClipPolygon polygon;
+  geometry::ClipPolygon polygon;
   for (const PlainVertex& corner : t) polygon.vertex[static_cast<std::size_t>(polygon.count++)] = corner.eye;
-  node::clip(projection, polygon);
+  geometry::clip(projection, polygon);
   Projection wider = projection;
   wider.near /= 1.001f;
   wider.far *= 1.001f;
@@ -119,11 +119,11 @@ void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const 
 
 }  // namespace
 
-std::vector<PlainTriangle> plain_set_up(const node::Surface& surface, const Projection& projection,
-                                        const node::PatchIdentity& identity) {
+std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const Projection& projection,
+                                        const PatchIdentity& identity) {
   std::vector<PlainTriangle> out;
   for (std::uint32_t k = 0; k < surface.triangles().count; ++k) {
-    const node::Corner3 corners = surface.triangles()[k];
+    const shape::Corner3 corners = surface.triangles()[k];
     const PlainVertex t[3] = {vertex(surface, projection, corners.a), vertex(surface, projection, corners.b),
                               vertex(surface, projection, corners.c)};
     if (t[0].outside || t[1].outside || t[2].outside)
@@ -134,12 +134,12 @@ std::vector<PlainTriangle> plain_set_up(const node::Surface& surface, const Proj
   return out;
 }
 
-std::int64_t area(const node::Corners& t) {
+std::int64_t area(const Corners& t) {
   return std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - std::int64_t{t.x[2] - t.x[0]} * (t.y[1] - t.y[0]);
 }
 
 // With positive area and y downwards left sides go up, top ones to the right.
-bool covers(const node::Corners& t, std::int32_t column, std::int32_t row) {
+bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
   const std::int64_t twice = area(t);
   if (twice == 0) return false;
   const std::int64_t x = 256 * std::int64_t{column} + 128, y = 256 * std::int64_t{row} + 128;
@@ -153,11 +153,11 @@ bool covers(const node::Corners& t, std::int32_t column, std::int32_t row) {
   return true;
 }
 
-std::vector<node::UnsortedEdgeBox> plain_edge_boxes(const node::Corners& t, std::int32_t width, std::int32_t height) {
+std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t width, std::int32_t height) {
   const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const std::int32_t first = std::max(left / 256 - 1, 0), last = std::min(right / 256 + 1, width);
-  std::vector<node::UnsortedEdgeBox> out;
+  std::vector<UnsortedEdgeBox> out;
   for (std::int32_t row = std::max(top / 256 - 1, 0); row < std::min(bottom / 256 + 1, height); ++row) {
     std::int32_t begin = first;
     while (begin < last && !covers(t, begin, row)) ++begin;
@@ -171,4 +171,4 @@ std::vector<node::UnsortedEdgeBox> plain_edge_boxes(const node::Corners& t, std:
   return out;
 }
 
-}  // namespace mars::test
+}  // namespace mars::raster

@@ -10,26 +10,26 @@
 #include "node/raster/setup.h"
 #include "node/shape/surface.h"
 
-namespace mars::test {
+namespace mars::raster {
 
 struct PlainTriangle {
-  node::Corners corners;
-  node::Triangle record;  // what a node makes of it
+  Corners corners;
+  geometry::Triangle record;  // what a node makes of it
   std::uint32_t index;    // in the patch's dicing; pieces of a clipped triangle share it
   bool faces;             // the side from which its corners run counter-clockwise in space is turned to the eye
 };
 
 // All that are not turned away or flat, in order, whether they cover a sample or not.
-std::vector<PlainTriangle> plain_set_up(const node::Surface& surface, const node::Projection& projection,
-                                        const node::PatchIdentity& identity);
+std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const shape::Projection& projection,
+                                        const PatchIdentity& identity);
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
-std::int64_t area(const node::Corners& corners);
+std::int64_t area(const Corners& corners);
 
 // Whether the sample is inside, or on a left or top side: by the three sides' functions in 64-bit integers.
-bool covers(const node::Corners& corners, std::int32_t column, std::int32_t row);
+bool covers(const Corners& corners, std::int32_t column, std::int32_t row);
 
 // The boxes of the samples of a picture that the triangle covers, from the top.
-std::vector<node::UnsortedEdgeBox> plain_edge_boxes(const node::Corners& corners, std::int32_t width, std::int32_t height);
+std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& corners, std::int32_t width, std::int32_t height);
 
-}  // namespace mars::test
+}  // namespace mars::raster

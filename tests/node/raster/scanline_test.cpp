@@ -10,13 +10,11 @@
 
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::UnsortedEdgeBox;
-using node::EdgeBox;
-using node::LineRange;
-using node::Triangle;
+using geometry::LineRange;
+using geometry::Triangle;
 
 constexpr std::uint32_t kLines = 40;
 constexpr std::size_t kMostTriangles = 200;  // 30 patches of at most six
@@ -25,12 +23,12 @@ constexpr std::size_t kMostTriangles = 200;  // 30 patches of at most six
 struct Sent {
   std::vector<Triangle> triangles;
   std::vector<std::vector<UnsortedEdgeBox>> boxes;  // of each sender: moving ones, then stationary ones
-  std::vector<node::Polygons> senders;
+  std::vector<Polygons> senders;
   std::vector<std::uint64_t> ebc = std::vector<std::uint64_t>(kLines + 1);
 };
 
 // Patches are scattered over the senders; those below `moving_from` stand still.
-Sent random_frame(Random& random, std::uint32_t senders, std::uint32_t patches, std::uint32_t moving_from) {
+Sent random_frame(shape::Random& random, std::uint32_t senders, std::uint32_t patches, std::uint32_t moving_from) {
   Sent sent;
   sent.boxes.resize(senders);
   sent.triangles.resize(kMostTriangles);
@@ -66,7 +64,7 @@ using Box = std::tuple<std::uint32_t, std::uint16_t, std::uint16_t>;
 
 std::multiset<Box> expected_on(const Sent& sent, std::uint32_t line, bool moving) {
   std::multiset<Box> boxes;
-  for (const node::Polygons& sender : sent.senders)
+  for (const Polygons& sender : sent.senders)
     for (const auto& part : {sender.stationary, sender.moving})
       for (const UnsortedEdgeBox& c : part)
         if (c.line == line && (c.moving != 0) == moving)
@@ -83,8 +81,8 @@ std::multiset<Box> boxes_of(std::span<const EdgeBox> boxes) {
 
 // Of all lines and of some, from one sender and from many, some of whom have nothing.
 TEST(LineFiller, PutsEachBoxIntoItsLine) {
-  Random random(90);
-  node::Arena arena(1 << 20);
+  shape::Random random(90);
+  Arena arena(1 << 20);
   std::size_t boxes = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const auto patches = static_cast<std::uint32_t>(random.whole(0, 30));
@@ -95,9 +93,9 @@ TEST(LineFiller, PutsEachBoxIntoItsLine) {
     if (trial % 3 == 1)
       lines.last = static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(lines.first), kLines));
     arena.clear();
-    node::LineFiller filler(lines, sent.ebc, sent.triangles.data(), arena);
-    for (const node::Polygons& sender : sent.senders) filler.add(sender);
-    const node::LineBoxes filled = filler.finish();
+    LineFiller filler(lines, sent.ebc, sent.triangles.data(), arena);
+    for (const Polygons& sender : sent.senders) filler.add(sender);
+    const LineBoxes filled = filler.finish();
     bool any_stationary = false;
     for (std::uint32_t line = lines.first; line < lines.last; ++line) {
       ASSERT_EQ(boxes_of(filled.stationary(line)), expected_on(sent, line, false)) << "trial " << trial << ", line " << line;
@@ -111,4 +109,4 @@ TEST(LineFiller, PutsEachBoxIntoItsLine) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::raster

@@ -7,7 +7,7 @@
 
 #include "node/simd/instruction_set.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
 // Memory that begins and ends between bytes of a known value.
@@ -39,20 +39,20 @@ class GuardedMemory {
 
 }  // namespace
 
-Made set_up(node::InstructionSet set, const Picture& picture, const node::Surface& surface,
-            const node::PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines,
+Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surface& surface,
+            const PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines,
             std::size_t bytes) {
   GuardedMemory memory(bytes);
   Made made;
   made.line_counts.resize(static_cast<std::size_t>(picture.height));
   const std::vector<std::uint8_t> all(made.line_counts.size(), 1);
-  node::SetUps out(memory.inside(), made.line_counts, wanted_lines.empty() ? all : wanted_lines);
-  node::SetUp set_up(set, picture.projection, picture.width, picture.height);
+  SetUps out(memory.inside(), made.line_counts, wanted_lines.empty() ? all : wanted_lines);
+  SetUp set_up(set, picture.projection, picture.width, picture.height);
   if (way == Way::at_a_time)
     set_up.add(surface, identity, out);
   else
     set_up.add_plainly(surface, identity, out);
-  EXPECT_TRUE(memory.intact()) << node::name_of(set);
+  EXPECT_TRUE(memory.intact()) << simd::name_of(set);
   made.triangles.assign(out.triangles().begin(), out.triangles().end());
   made.boxes.assign(out.boxes().rbegin(), out.boxes().rend());
   made.touching = out.touching;
@@ -61,4 +61,4 @@ Made set_up(node::InstructionSet set, const Picture& picture, const node::Surfac
   return made;
 }
 
-}  // namespace mars::test
+}  // namespace mars::raster

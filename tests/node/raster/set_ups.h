@@ -6,11 +6,11 @@
 
 #include "node/raster/setup.h"
 
-namespace mars::test {
+namespace mars::raster {
 
 struct Made {
-  std::vector<node::Triangle> triangles;
-  std::vector<node::UnsortedEdgeBox> boxes;  // the first first
+  std::vector<geometry::Triangle> triangles;
+  std::vector<UnsortedEdgeBox> boxes;  // the first first
   std::vector<std::uint32_t> line_counts;
   std::uint64_t touching = 0;
   std::uint64_t edge_boxes = 0;
@@ -20,14 +20,14 @@ struct Made {
 enum class Way { at_a_time, plainly };  // SetUp::add, SetUp::add_plainly
 
 struct Picture {
-  node::Projection projection;
+  shape::Projection projection;
   std::int32_t width;
   std::int32_t height;
 };
 
 // `bytes` of memory. Fails the test where anything outside it is written.
-Made set_up(node::InstructionSet set, const Picture& picture, const node::Surface& surface,
-            const node::PatchIdentity& identity, Way way = Way::at_a_time,
+Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surface& surface,
+            const PatchIdentity& identity, Way way = Way::at_a_time,
             const std::vector<std::uint8_t>& wanted_lines = {}, std::size_t bytes = 1 << 24);
 
-}  // namespace mars::test
+}  // namespace mars::raster

@@ -15,19 +15,17 @@
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::Corners;
-using node::Dicer;
-using node::EyePatch;
-using node::PatchIdentity;
-using node::Side;
-using node::Triangle;
-using node::Value;
+using shape::Dicer;
+using shape::EyePatch;
+using shape::Side;
+using geometry::Triangle;
+using shape::Value;
 
 constexpr std::int32_t kWidth = 640, kHeight = 480;
-const node::Projection kView = projection(kWidth, kHeight, 2);
+const shape::Projection kView = shape::projection(kWidth, kHeight, 2);
 
 // What set-up makes, with what a triangle does not tell of itself any more.
 struct Emitted : Made {
@@ -38,9 +36,9 @@ struct Emitted : Made {
 class SetUpTest : public testing::Test {
  protected:
   Emitted set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
-              const node::Projection& view = kView) {
+              const shape::Projection& view = kView) {
     dicer.dice(patch, view, rate);
-    Emitted emitted{test::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
+    Emitted emitted{raster::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
     EXPECT_TRUE(emitted.all_stored);
     for (const PlainTriangle& plain : plain_set_up(dicer, view, identity)) {
       if (plain_edge_boxes(plain.corners, kWidth, kHeight).empty()) continue;
@@ -51,13 +49,13 @@ class SetUpTest : public testing::Test {
     return emitted;
   }
 
-  const node::InstructionSet set = node::best_instruction_set("");
+  const simd::InstructionSet set = simd::best_instruction_set("");
   Dicer dicer{set};
 };
 
 // A square before the eye, outside turned to it.
 EyePatch square(double size, double away) {
-  return make_patch([&](int i, int j) { return Vec3{size * (i / 1.5 - 1), size * (j / 1.5 - 1), -away}; });
+  return shape::make_patch([&](int i, int j) { return shape::Vec3{size * (i / 1.5 - 1), size * (j / 1.5 - 1), -away}; });
 }
 
 double at(const Triangle& t, Value value, double dx, double dy) {
@@ -76,7 +74,7 @@ double covered(const Emitted& emitted) {
 // How often samples of a line are covered, all together.
 int samples_on(const Made& made, std::int32_t line) {
   int samples = 0;
-  for (const node::UnsortedEdgeBox& unsorted : made.boxes)
+  for (const UnsortedEdgeBox& unsorted : made.boxes)
     if (unsorted.line == line) samples += unsorted.box.last - unsorted.box.first;
   return samples;
 }
@@ -94,7 +92,7 @@ TEST_F(SetUpTest, CarriesWhatThePatchIs) {
 
 // Seen from outside and inside, as it is and through a mirror, with one side and with two.
 TEST_F(SetUpTest, OneSidedAreSeenFromOutsideOnly) {
-  const EyePatch front = square(1, 4), back = swapped(front);
+  const EyePatch front = square(1, 4), back = shape::swapped(front);
   for (const bool mirrored : {false, true}) {
     EXPECT_EQ(set_up(front, 2, {0, 0, mirrored, true, false}).touching, mirrored ? 0u : 8u);
     EXPECT_EQ(set_up(back, 2, {0, 0, mirrored, true, false}).touching, mirrored ? 8u : 0u);
@@ -105,22 +103,22 @@ TEST_F(SetUpTest, OneSidedAreSeenFromOutsideOnly) {
 
 // As nodes do it: the matrix is applied, and whether it mirrors is asked of the matrix.
 TEST_F(SetUpTest, MirroredBodiesShowTheirOutside) {
-  node::Patch patch;
+  wire::Patch patch;
   for (std::size_t k = 0; k < 16; ++k)
     patch.points[k] = {static_cast<float>(k % 4) / 3, static_cast<float>(k / 4) / 3, 0};
   for (const int flip : {0, 1, 2, 3, 4, 5, 6, 7}) {
-    node::EyeMatrix matrix{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -4}}};
+    shape::EyeMatrix matrix{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -4}}};
     for (int axis = 0; axis < 3; ++axis)
       if (flip >> axis & 1) matrix.m[axis][axis] = -1;
-    const PatchIdentity identity{0, 0, node::mirrors(matrix), true, false};
+    const PatchIdentity identity{0, 0, shape::mirrors(matrix), true, false};
     const bool outside = (flip & 4) == 0;  // the outside is +z
-    EXPECT_EQ(set_up(node::to_eye(matrix, patch), 2, identity).touching, outside ? 8u : 0u) << flip;
+    EXPECT_EQ(set_up(shape::to_eye(matrix, patch), 2, identity).touching, outside ? 8u : 0u) << flip;
   }
 }
 
 TEST_F(SetUpTest, NormalsAreTurnedToTheEye) {
-  const EyePatch octant = sphere_octant({0, 0, -4}, 1);
-  for (const EyePatch& patch : {octant, swapped(octant), turned(octant)})
+  const EyePatch octant = shape::sphere_octant({0, 0, -4}, 1);
+  for (const EyePatch& patch : {octant, shape::swapped(octant), shape::turned(octant)})
     for (const bool mirrored : {false, true}) {
       const Emitted emitted = set_up(patch, 12, {0, 0, mirrored, false, false});
       ASSERT_GT(emitted.triangles.size(), 100u);
@@ -128,38 +126,38 @@ TEST_F(SetUpTest, NormalsAreTurnedToTheEye) {
         const Triangle& t = emitted.triangles[k];
         const auto& [cx, cy] = emitted.corners[k];
         const double dx = (cx[1] + cx[2] - 2 * cx[0]) / 3.0, dy = (cy[1] + cy[2] - 2 * cy[0]) / 3.0;
-        const double w = 1 / at(t, node::kDepth, dx, dy);
+        const double w = 1 / at(t, shape::kDepth, dx, dy);
         const double x = (cx[0] + dx) / 256 - kView.center[0], y = (cy[0] + dy) / 256 - kView.center[1];
-        const Vec3 to_eye{-x / kView.scale, y / kView.scale, 1};
-        const Vec3 normal{at(t, node::kNormalX, dx, dy) * w, at(t, node::kNormalY, dx, dy) * w,
-                          at(t, node::kNormalZ, dx, dy) * w};
-        EXPECT_NEAR(length(normal), 1, 0.02);
-        EXPECT_GT(dot(normal, to_eye), -0.07) << "but for the sphere's rim, where facets and normals differ";
+        const shape::Vec3 to_eye{-x / kView.scale, y / kView.scale, 1};
+        const shape::Vec3 normal{at(t, shape::kNormalX, dx, dy) * w, at(t, shape::kNormalY, dx, dy) * w,
+                          at(t, shape::kNormalZ, dx, dy) * w};
+        EXPECT_NEAR(shape::length(normal), 1, 0.02);
+        EXPECT_GT(shape::dot(normal, to_eye), -0.07) << "but for the sphere's rim, where facets and normals differ";
       }
     }
 }
 
 // Each value at a vertex is what the vertex had.
 TEST_F(SetUpTest, PlanesGoThroughTheVertices) {
-  Random random(40);
+  shape::Random random(40);
   int checked = 0;
   for (int trial = 0; trial < 50; ++trial) {
-    const EyePatch patch = random_patch(random, {0, 0, -6}, 1);
+    const EyePatch patch = shape::random_patch(random, {0, 0, -6}, 1);
     const Emitted emitted = set_up(patch, 6);
-    const node::Vertices& v = dicer.vertices();
+    const shape::Vertices& v = dicer.vertices();
     for (std::size_t n = 0; n < emitted.triangles.size(); ++n) {
       const Triangle& t = emitted.triangles[n];
-      const node::Corner3 corners = dicer.triangles()[emitted.indices[n]];
+      const shape::Corner3 corners = dicer.triangles()[emitted.indices[n]];
       const std::uint32_t number[] = {corners.a, corners.b, corners.c};
       ASSERT_EQ(t.first_x, v.x[corners.a]);
       ASSERT_EQ(t.first_y, v.y[corners.a]);
       if (square_pixels(emitted.corners[n]) < 0.5) continue;  // rounding decides the planes of slivers
       const double sign = area(emitted.corners[n]) < 0 ? 1 : -1;
       for (const std::uint32_t k : number) {
-        const double dx = v.x[k] - t.first_x, dy = v.y[k] - t.first_y, w = 1 / v.values[k][node::kDepth];
-        EXPECT_NEAR(at(t, node::kDepth, dx, dy) * w, 1, 1e-4);
+        const double dx = v.x[k] - t.first_x, dy = v.y[k] - t.first_y, w = 1 / v.values[k][shape::kDepth];
+        EXPECT_NEAR(at(t, shape::kDepth, dx, dy) * w, 1, 1e-4);
         for (int axis = 0; axis < 3; ++axis)
-          EXPECT_NEAR(at(t, static_cast<Value>(node::kNormalX + axis), dx, dy) * w, sign * v.normal[axis][k], 1e-3);
+          EXPECT_NEAR(at(t, static_cast<Value>(shape::kNormalX + axis), dx, dy) * w, sign * v.normal[axis][k], 1e-3);
         ++checked;
       }
     }
@@ -168,26 +166,26 @@ TEST_F(SetUpTest, PlanesGoThroughTheVertices) {
 }
 
 TEST_F(SetUpTest, DropsWhatTouchesNoSample) {
-  EXPECT_EQ(set_up(make_patch([](int, int) { return Vec3{0, 0, -4}; }), 4).touching, 0u);  // a point
-  EXPECT_EQ(set_up(make_patch([](int i, int j) {
-                     return Vec3{i * 0.1, j * 0.0, -4};
+  EXPECT_EQ(set_up(shape::make_patch([](int, int) { return shape::Vec3{0, 0, -4}; }), 4).touching, 0u);  // a point
+  EXPECT_EQ(set_up(shape::make_patch([](int i, int j) {
+                     return shape::Vec3{i * 0.1, j * 0.0, -4};
                    }),
                    4)
                 .touching,
             0u);                                       // a line
   EXPECT_EQ(set_up(square(1e-4, 4), 1).touching, 0u);  // between samples
   EXPECT_EQ(set_up(square(1, -4), 1).touching, 0u);    // behind
-  const EyePatch beside = make_patch([](int i, int j) { return Vec3{5 + i / 3.0, j / 3.0, -4}; });
+  const EyePatch beside = shape::make_patch([](int i, int j) { return shape::Vec3{5 + i / 3.0, j / 3.0, -4}; });
   EXPECT_EQ(set_up(beside, 3).touching, 0u);
 }
 
 // A plane one walks on, from far behind the eye to the horizon, fills the picture below that without a hole.
 TEST_F(SetUpTest, GroundReachesPastTheEye) {
-  const node::Projection view = projection(kWidth, kHeight, 2, 0.05, 1e7);
+  const shape::Projection view = shape::projection(kWidth, kHeight, 2, 0.05, 1e7);
   for (const double size : {10.0, 1e3, 1e4, 1e5, 1e6})
     for (const int rate : {0, 1, 4, 7}) {
-      const EyePatch ground = make_patch([&](int i, int j) {
-        return Vec3{size * (i - 1.4), -1, size * (1.6 - j)};
+      const EyePatch ground = shape::make_patch([&](int i, int j) {
+        return shape::Vec3{size * (i - 1.4), -1, size * (1.6 - j)};
       });
       const Emitted emitted = set_up(ground, rate, {0, 0, false, true, false}, view);
       int holes = 0;
@@ -208,22 +206,22 @@ TEST_F(SetUpTest, CountsEdgeBoxes) {
 }
 
 std::size_t bytes_of(const Made& made) {
-  return made.triangles.size() * sizeof(Triangle) + made.boxes.size() * sizeof(node::UnsortedEdgeBox);
+  return made.triangles.size() * sizeof(Triangle) + made.boxes.size() * sizeof(UnsortedEdgeBox);
 }
 
 // A triangle with its edge boxes.
 struct Whole {
   Triangle triangle;
-  std::vector<node::UnsortedEdgeBox> boxes;
+  std::vector<UnsortedEdgeBox> boxes;
 };
 std::vector<Whole> by_triangle(const Made& made) {
   std::vector<Whole> out;
   for (const Triangle& t : made.triangles) out.push_back({t, {}});
-  for (const node::UnsortedEdgeBox& unsorted : made.boxes) out.at(unsorted.box.triangle).boxes.push_back(unsorted);
+  for (const UnsortedEdgeBox& unsorted : made.boxes) out.at(unsorted.box.triangle).boxes.push_back(unsorted);
   return out;
 }
 
-bool same_but_for_number(const node::UnsortedEdgeBox& a, const node::UnsortedEdgeBox& b) {
+bool same_but_for_number(const UnsortedEdgeBox& a, const UnsortedEdgeBox& b) {
   return a.box.first == b.box.first && a.box.last == b.box.last && a.line == b.line && a.moving == b.moving;
 }
 
@@ -234,16 +232,16 @@ struct Shortage {
 };
 
 // Counts go on, what is stored is stored whole, and nothing is written elsewhere.
-void expect_counted(node::InstructionSet set, const Dicer& dicer, const Made& all, std::size_t bytes, Way way, Shortage& out) {
+void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& all, std::size_t bytes, Way way, Shortage& out) {
   SCOPED_TRACE(std::to_string(bytes) + (way == Way::plainly ? " bytes, plainly" : " bytes, at a time"));
-  const Made some = test::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
+  const Made some = raster::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
   ASSERT_EQ(some.touching, all.touching);
   ASSERT_EQ(some.edge_boxes, all.edge_boxes);
   ASSERT_EQ(some.line_counts, all.line_counts);
   ASSERT_EQ(some.all_stored, some.boxes.size() == all.boxes.size());
   ASSERT_LE(bytes_of(some), bytes);
   ASSERT_TRUE(bytes >= bytes_of(all) || !some.all_stored);
-  ASSERT_TRUE(bytes < bytes_of(all) + kHeight * sizeof(node::UnsortedEdgeBox) + sizeof(Triangle) || some.all_stored);
+  ASSERT_TRUE(bytes < bytes_of(all) + kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle) || some.all_stored);
   const auto whole = by_triangle(all);
   auto next = whole.begin();  // what is stored is some of all triangles, in order
   for (const Whole& one : by_triangle(some)) {
@@ -258,11 +256,11 @@ void expect_counted(node::InstructionSet set, const Dicer& dicer, const Made& al
 }
 
 // Batches in which decided triangles follow undecided ones.
-int mixed_batches(node::InstructionSet set, const Dicer& dicer) {
+int mixed_batches(simd::InstructionSet set, const Dicer& dicer) {
   int mixed = 0;
-  node::Classified e;
+  Classified e;
   for (std::uint32_t b = 0; b < dicer.triangles().batch_count; ++b) {
-    node::raster_kernels(set).classify({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(), dicer.triangles().batches[b], e);
+    raster_kernels(set).classify({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(), dicer.triangles().batches[b], e);
     mixed += e.undecided != 0 && e.decided > (e.undecided & -e.undecided);
   }
   return mixed;
@@ -270,18 +268,18 @@ int mixed_batches(node::InstructionSet set, const Dicer& dicer) {
 
 TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
   // A ground: large triangles near by, small ones far away, next to each other in their order too.
-  const EyePatch ground = make_patch([&](int i, int j) { return Vec3{0.7 * (i - 1.5), -0.1 - 0.05 * j, -0.3 - 1.2 * j}; });
+  const EyePatch ground = shape::make_patch([&](int i, int j) { return shape::Vec3{0.7 * (i - 1.5), -0.1 - 0.05 * j, -0.3 - 1.2 * j}; });
   // A strip that grows narrow: triangles as high as the picture and low ones in one batch.
-  const EyePatch wedge = make_patch([](int i, int j) {
-    return Vec3{0.3 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.2 * (i == 1 || i == 2)};
+  const EyePatch wedge = shape::make_patch([](int i, int j) {
+    return shape::Vec3{0.3 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.2 * (i == 1 || i == 2)};
   });
   dicer.dice(wedge, kView, 0);
   EXPECT_GT(mixed_batches(set, dicer), 0);
-  for (const EyePatch& patch : {sphere_octant({0, 0, -4}, 1), ground, swapped(ground), wedge, turned(wedge)})
+  for (const EyePatch& patch : {shape::sphere_octant({0, 0, -4}, 1), ground, shape::swapped(ground), wedge, shape::turned(wedge)})
     for (const int rate : {0, 2, 9}) {
       const Emitted all = set_up(patch, rate);
       Shortage shortage;
-      const std::size_t most = bytes_of(all) + kHeight * sizeof(node::UnsortedEdgeBox) + sizeof(Triangle);
+      const std::size_t most = bytes_of(all) + kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle);
       for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 1600))
         for (const Way way : {Way::at_a_time, Way::plainly}) {
           expect_counted(set, dicer, all, bytes, way, shortage);
@@ -300,15 +298,15 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
   std::vector<std::uint32_t> counts(kHeight);
   for (const Whole& one : by_triangle(all)) {
     Whole on_wanted{one.triangle, {}};
-    for (const node::UnsortedEdgeBox& unsorted : one.boxes)
+    for (const UnsortedEdgeBox& unsorted : one.boxes)
       if (wanted[unsorted.line]) on_wanted.boxes.push_back(unsorted);
-    for (const node::UnsortedEdgeBox& unsorted : on_wanted.boxes) ++counts[unsorted.line];
+    for (const UnsortedEdgeBox& unsorted : on_wanted.boxes) ++counts[unsorted.line];
     if (!on_wanted.boxes.empty()) expected.push_back(on_wanted);
   }
   EXPECT_LT(expected.size(), all.triangles.size());
   EXPECT_GT(expected.size(), 0u);
   for (const Way way : {Way::at_a_time, Way::plainly}) {
-    const Made some = test::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, wanted);
+    const Made some = raster::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, wanted);
     EXPECT_TRUE(some.all_stored);
     EXPECT_EQ(some.touching, expected.size());
     EXPECT_EQ(some.edge_boxes, some.boxes.size());
@@ -329,11 +327,11 @@ TEST_F(SetUpTest, EdgeBoxesFollowTheirTriangles) {
     const Emitted emitted = set_up(square(1, 4), 5, {5, 3, false, false, moving});
     ASSERT_EQ(emitted.boxes.size(), emitted.edge_boxes);
     for (std::size_t k = 0; k < emitted.boxes.size(); ++k) {
-      const node::UnsortedEdgeBox& here = emitted.boxes[k];
+      const UnsortedEdgeBox& here = emitted.boxes[k];
       EXPECT_EQ(here.moving, moving);
       ASSERT_LT(here.box.triangle, emitted.triangles.size());
       if (k == 0) continue;
-      const node::UnsortedEdgeBox& before = emitted.boxes[k - 1];
+      const UnsortedEdgeBox& before = emitted.boxes[k - 1];
       if (here.box.triangle == before.box.triangle)
         EXPECT_GT(here.line, before.line);
       else
@@ -343,4 +341,4 @@ TEST_F(SetUpTest, EdgeBoxesFollowTheirTriangles) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::raster

@@ -17,15 +17,14 @@
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
 
-namespace mars::test {
+namespace mars::raster {
 namespace {
 
-using node::Dicer;
-using node::EyePatch;
-using node::PatchIdentity;
+using shape::Dicer;
+using shape::EyePatch;
 
 constexpr std::int32_t kWidth = 200, kHeight = 150;
-const Picture kPicture{projection(kWidth, kHeight, 2, 0.1, 1000), kWidth, kHeight};
+const Picture kPicture{shape::projection(kWidth, kHeight, 2, 0.1, 1000), kWidth, kHeight};
 const double kScale = kPicture.projection.scale;
 
 // `turned_over`, if any, counts those that snapping turned over.
@@ -36,7 +35,7 @@ Made expected_of(const std::vector<PlainTriangle>& plain, bool moving, int* turn
     auto boxes = plain_edge_boxes(t.corners, kWidth, kHeight);
     if (boxes.empty()) continue;
     if (turned_over) *turned_over += t.faces != (area(t.corners) < 0);
-    for (node::UnsortedEdgeBox& unsorted : boxes) {
+    for (UnsortedEdgeBox& unsorted : boxes) {
       unsorted.box.triangle = static_cast<std::uint32_t>(out.triangles.size());
       unsorted.moving = moving;
       ++out.line_counts[unsorted.line];
@@ -63,15 +62,15 @@ struct Paths {
   int edge_boxes = 0;
   int turned_over = 0;  // by snapping, of those that cover samples
 
-  void count(node::InstructionSet set, const Dicer& diced, const PatchIdentity& identity) {
+  void count(simd::InstructionSet set, const Dicer& diced, const PatchIdentity& identity) {
     if (diced.reaches_outside()) {
       clipped += static_cast<int>(diced.triangles().count);
       return;
     }
-    node::Classified e;
+    Classified e;
     for (std::uint32_t b = 0; b < diced.triangles().batch_count; ++b) {
-      const node::Batch& batch = diced.triangles().batches[b];
-      node::raster_kernels(set).classify({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(), diced.triangles(),
+      const shape::Batch& batch = diced.triangles().batches[b];
+      raster_kernels(set).classify({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(), diced.triangles(),
                       batch, e);
       decided += std::popcount(e.decided);
       undecided += std::popcount(e.undecided);
@@ -83,9 +82,9 @@ struct Paths {
 class SetUpTwins : public testing::Test {
  protected:
   SetUpTwins() {
-    for (const node::InstructionSet set : sets_here()) dicers.push_back({set, Dicer(set)});
+    for (const simd::InstructionSet set : simd::sets_here()) dicers.push_back({set, Dicer(set)});
   }
-  void TearDown() override { skip_sets_not_here(); }
+  void TearDown() override { simd::skip_sets_not_here(); }
 
   void expect_same(const EyePatch& patch, int rate, const PatchIdentity& identity) {
     Made expected;
@@ -97,7 +96,7 @@ class SetUpTwins : public testing::Test {
         paths.edge_boxes += static_cast<int>(expected.edge_boxes);
       }
       for (const Way way : {Way::at_a_time, Way::plainly}) {
-        SCOPED_TRACE(std::string(node::name_of(set)) + (way == Way::plainly ? ", plainly" : ", at a time"));
+        SCOPED_TRACE(std::string(simd::name_of(set)) + (way == Way::plainly ? ", plainly" : ", at a time"));
         const Made made = set_up(set, kPicture, dicer, identity, way);
         ASSERT_TRUE(same_bits(made.triangles, expected.triangles));
         ASSERT_TRUE(same_bits(made.boxes, expected.boxes));
@@ -109,23 +108,23 @@ class SetUpTwins : public testing::Test {
     }
   }
 
-  std::vector<std::pair<node::InstructionSet, Dicer>> dicers;
+  std::vector<std::pair<simd::InstructionSet, Dicer>> dicers;
   Paths paths;
 };
 
-PatchIdentity random_identity(Random& random) {
+PatchIdentity random_identity(shape::Random& random) {
   return {random.bits(), random.bits() % 9, random.whole(0, 1) == 1, random.whole(0, 2) == 0, random.whole(0, 1) == 1};
 }
 
 // The place seen at (x, y) pixels from the picture's left and top.
-Vec3 seen_at(double x, double y, double away) {
+shape::Vec3 seen_at(double x, double y, double away) {
   return {(x - kPicture.projection.center[0]) / kScale * away, -(y - kPicture.projection.center[1]) / kScale * away,
           -away};
 }
 
-EyePatch bilinear(const Vec3 (&corner)[4]) {
-  return make_patch([&](int i, int j) {
-    Vec3 out{};
+EyePatch bilinear(const shape::Vec3 (&corner)[4]) {
+  return shape::make_patch([&](int i, int j) {
+    shape::Vec3 out{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double below = corner[0][axis] + (corner[1][axis] - corner[0][axis]) * i / 3;
       const double above = corner[3][axis] + (corner[2][axis] - corner[3][axis]) * i / 3;
@@ -135,14 +134,14 @@ EyePatch bilinear(const Vec3 (&corner)[4]) {
   });
 }
 
-using MakePatch = std::function<EyePatch(Random&)>;
+using MakePatch = std::function<EyePatch(shape::Random&)>;
 
-EyePatch crumpled(Random& random) {
-  return random_patch(random, seen_at(random.real(0, kWidth), random.real(0, kHeight), random.real(3, 8)),
+EyePatch crumpled(shape::Random& random) {
+  return shape::random_patch(random, seen_at(random.real(0, kWidth), random.real(0, kHeight), random.real(3, 8)),
                       std::pow(10, random.real(-3, 0.5)));
 }
 
-EyePatch needle(Random& random) {
+EyePatch needle(shape::Random& random) {
   EyePatch patch = crumpled(random);
   const int axis = random.whole(0, 2);
   const auto thin = static_cast<float>(std::pow(10, random.real(-6, -1)));
@@ -151,46 +150,46 @@ EyePatch needle(Random& random) {
 }
 
 // A sheet whose plane runs through the eye, or nearly, by turns as thin as a line and as a ground one walks on.
-EyePatch edge_on(Random& random) {
+EyePatch edge_on(shape::Random& random) {
   const double tilt = random.whole(0, 3) ? std::pow(10, random.real(-4, -0.5)) : 0, bend = random.whole(0, 1) * 1e-3;
   const double near = random.real(0.3, 2), deep = random.real(0.1, 9), wide = random.real(0.1, 2),
                y = random.real(-0.2, 0.2);
-  return make_patch([&](int i, int j) {
+  return shape::make_patch([&](int i, int j) {
     const double away = near + deep * j / 3;
-    return Vec3{wide * (i - 1.5), y * away - tilt + bend * ((i ^ j) & 1) * away, -away};
+    return shape::Vec3{wide * (i - 1.5), y * away - tilt + bend * ((i ^ j) & 1) * away, -away};
   });
 }
 
-EyePatch beyond_the_picture(Random& random) {
+EyePatch beyond_the_picture(shape::Random& random) {
   const double away = random.real(1, 5), size = away * random.real(0.5, 20);
-  return make_patch([&](int i, int j) {
-    return Vec3{size * (i - 1.5) + random.real(-0.1, 0.1), size * (j - 1.4), -away - 0.1 * random.real(0, 1)};
+  return shape::make_patch([&](int i, int j) {
+    return shape::Vec3{size * (i - 1.5) + random.real(-0.1, 0.1), size * (j - 1.4), -away - 0.1 * random.real(0, 1)};
   });
 }
 
-EyePatch over_the_border(Random& random) {
+EyePatch over_the_border(shape::Random& random) {
   const double x = random.whole(0, 1) * kWidth, y = random.whole(0, 1) * kHeight;
-  return random_patch(
+  return shape::random_patch(
       random, random.whole(0, 1) ? seen_at(x, random.real(0, kHeight), 4) : seen_at(random.real(0, kWidth), y, 4),
       std::pow(10, random.real(-2, 0)));
 }
 
 // Cut by near, where they are large by the guard band too, and where they are largest by far.
-EyePatch through_the_eye(Random& random) {
-  return random_patch(random, {0, 0, random.real(-2, 1)}, std::pow(10, random.real(-0.5, 3.5)));
+EyePatch through_the_eye(shape::Random& random) {
+  return shape::random_patch(random, {0, 0, random.real(-2, 1)}, std::pow(10, random.real(-0.5, 3.5)));
 }
 
-EyePatch ball(Random& random) {
-  return sphere_octant(seen_at(random.real(0, kWidth), random.real(0, kHeight), 5), std::pow(10, random.real(-2, 0.2)));
+EyePatch ball(shape::Random& random) {
+  return shape::sphere_octant(seen_at(random.real(0, kWidth), random.real(0, kHeight), 5), std::pow(10, random.real(-2, 0.2)));
 }
 
 // Vertices on samples, or on pixels' borders, for the rates that divide 60.
-EyePatch lattice(Random& random) {
+EyePatch lattice(shape::Random& random) {
   const int cell = random.whole(1, 3), shift = random.whole(-70, 170);
   const double half = random.whole(0, 2) ? 0.5 : 0;
   const double left = shift + half, top = random.whole(-70, 120) + half, size = 60.0 * cell;
   const bool turned = random.whole(0, 1) == 1;
-  const Vec3 a = seen_at(left, top + size, kScale), b = seen_at(left + size, top + size, kScale),
+  const shape::Vec3 a = seen_at(left, top + size, kScale), b = seen_at(left + size, top + size, kScale),
              c = seen_at(left + size, top, kScale), d = seen_at(left, top, kScale);
   return turned ? bilinear({a, d, c, b}) : bilinear({a, b, c, d});
 }
@@ -202,7 +201,7 @@ struct Kind {
 };
 
 TEST_F(SetUpTwins, MakeTheSameOfAllKindsOfPatches) {
-  Random random(80);
+  shape::Random random(80);
   const Kind kinds[] = {{"crumpled", crumpled, 15000, 1000, 0},
                         {"needle", needle, 5000, 500, 0},
                         {"edge-on", edge_on, 5000, 500, 0},
@@ -229,7 +228,7 @@ TEST_F(SetUpTwins, MakeTheSameOfAllKindsOfPatches) {
 
 // Strips as long as the picture and about 1/256 pixel thin: snapping turns some of their triangles over.
 TEST_F(SetUpTwins, MakeTheSameOfWhatSnappingTurnsOver) {
-  Random random(82);
+  shape::Random random(82);
   for (int trial = 0; trial < 3000; ++trial) {
     const double x = random.real(0, kWidth), y = random.real(0, kHeight), to_x = random.real(0, kWidth),
                  to_y = random.real(0, kHeight);
@@ -244,22 +243,22 @@ TEST_F(SetUpTwins, MakeTheSameOfWhatSnappingTurnsOver) {
 }
 
 // A quad with corners at these 1/256 pixels, each as far away as it likes.
-EyePatch planted(Random& random, const std::int32_t (&x)[4], const std::int32_t (&y)[4]) {
-  Vec3 corner[4];
+EyePatch planted(shape::Random& random, const std::int32_t (&x)[4], const std::int32_t (&y)[4]) {
+  shape::Vec3 corner[4];
   for (std::size_t k = 0; k < 4; ++k) corner[k] = seen_at(x[k] / 256.0, y[k] / 256.0, kScale * random.whole(1, 4));
   return bilinear({corner[0], corner[1], corner[2], corner[3]});
 }
 
 // Triangles as wide or high as those that are decided, and as thin as what snapping may turn over, but for 1/256 pixel.
 TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
-  Random random(81);
+  shape::Random random(81);
   for (int trial = 0; trial < 3000; ++trial) {
     const std::int32_t left = random.whole(-6000, 200 * 256), top = random.whole(-6000, 150 * 256);
     const bool large = random.whole(0, 1) == 1;
     const std::int32_t far = random.whole(0, 1500);
     const std::int32_t width =
-        large ? node::kMostExtent * 128 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
-    const std::int32_t height = large ? node::kMostExtent * 128 + random.whole(-1, 1) : 5;
+        large ? kMostExtent * 128 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
+    const std::int32_t height = large ? kMostExtent * 128 + random.whole(-1, 1) : 5;
     const std::int32_t a = large ? 0 : random.whole(0, far), b = large ? random.whole(0, 300) : 0;
     const std::int32_t x[4] = {left, left + width, left + width - a, left + a},
                        y[4] = {top + height, top + height - b, top, top + b};
@@ -277,4 +276,4 @@ TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::raster

@@ -7,12 +7,12 @@
 
 #include "node/wire/film_parts.h"
 
-namespace mars::node {
+namespace mars::raster {
 namespace {
 
 // Shows a line in runs of `length` pixels with one between them.
 void draw_line(std::uint32_t line, std::uint32_t width, std::uint32_t length, StripBuffer::Layer& layer) {
-  Shaded shaded{0, 0};
+  shading::Shaded shaded{0, 0};
   for (std::uint32_t first = 0; first < width; first += length + 1) {
     const std::uint32_t count = std::min(length, width - first);
     layer.next_run()[shaded.runs++] = {line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(count)};
@@ -34,25 +34,25 @@ Full fill(std::uint32_t width, std::uint32_t length) {
     for (std::uint32_t i = 0; i < lines; ++i, ++full.lines)
       for (auto* layer : {&buffer.constant(), &buffer.moving()}) draw_line(full.lines, width, length, *layer);
   }
-  Strip header{};
+  wire::Strip header{};
   full.bytes = buffer.finish(header).size();
-  EXPECT_EQ(full.bytes, sizeof header + header.pixels * 4 + (header.constant_runs + header.moving_runs) * sizeof(Run));
+  EXPECT_EQ(full.bytes, sizeof header + header.pixels * 4 + (header.constant_runs + header.moving_runs) * sizeof(wire::Run));
   EXPECT_EQ(header.work.bytes_to_host, full.bytes);
   return full;
 }
 
 TEST(StripBuffer, NeverHasMoreThanItMay) {
-  for (const std::uint32_t width : {1u, 2u, 3u, 640u, 1921u, kMaxSide})
+  for (const std::uint32_t width : {1u, 2u, 3u, 640u, 1921u, wire::kMaxSide})
     for (const std::uint32_t length : {1u, 2u, 5u, width}) {
       const Full full = fill(width, length);
-      EXPECT_LE(full.bytes, kMaxStripBytes) << width << " pixels in runs of " << length;
+      EXPECT_LE(full.bytes, wire::kMaxStripBytes) << width << " pixels in runs of " << length;
       EXPECT_GE(full.lines, 1u);
     }
 }
 
 TEST(StripBuffer, IsUsedWell) {
-  EXPECT_GT(fill(1920, 1920).bytes, kMaxStripBytes * 9 / 10);
-  EXPECT_GT(fill(kMaxSide, 1).bytes, kMaxStripBytes * 2 / 3);
+  EXPECT_GT(fill(1920, 1920).bytes, wire::kMaxStripBytes * 9 / 10);
+  EXPECT_GT(fill(wire::kMaxSide, 1).bytes, wire::kMaxStripBytes * 2 / 3);
 }
 
 TEST(StripBuffer, IsEmptyAgainWhenCleared) {
@@ -67,4 +67,4 @@ TEST(StripBuffer, IsEmptyAgainWhenCleared) {
 }
 
 }  // namespace
-}  // namespace mars::node
+}  // namespace mars::raster

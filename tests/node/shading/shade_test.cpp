@@ -10,47 +10,49 @@
 #include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::shading {
+
+using shape::operator-;
+
 namespace {
 
-using node::Extent;
-using node::Triangle;
+using geometry::Triangle;
 
-constexpr std::uint32_t kGap = node::kNoTriangle;
+constexpr std::uint32_t kGap = kNoTriangle;
 
 // One line of a picture with all that shading it needs.
 struct Scenery {
   std::vector<Triangle> triangles;
-  std::vector<node::Material> materials;
-  std::vector<node::EyeLight> lights;
+  std::vector<wire::Material> materials;
+  std::vector<geometry::EyeLight> lights;
   std::vector<std::uint32_t> ids;  // one a column
   std::uint32_t line = 100;
-  node::Projection view = projection(640, 480, 2);
+  shape::Projection view = shape::projection(640, 480, 2);
 
-  node::Shading shading() const {
+  Shading shading() const {
     return {triangles.data(), materials.data(), lights.data(), static_cast<std::uint32_t>(lights.size()),
             view};
   }
 };
 
 struct Result {
-  std::vector<node::Run> runs;
+  std::vector<wire::Run> runs;
   std::vector<std::uint32_t> pixels;
 };
 
 // Behind the line and behind the pixels there is the slack that kernels may use, and no more.
-Result shade(const Scenery& scenery, node::InstructionSet set, Extent extent) {
+Result shade(const Scenery& scenery, simd::InstructionSet set, Extent extent) {
   constexpr std::uint32_t kUntouched = 0xabcdef01;
   std::vector<std::uint32_t> ids = scenery.ids;
-  ids.resize(ids.size() + node::kVectorSlack, 0);
+  ids.resize(ids.size() + simd::kVectorSlack, 0);
   const auto shown = static_cast<std::size_t>(
       extent.first < extent.last
           ? std::count_if(ids.begin() + extent.first, ids.begin() + extent.last, [](auto id) { return id != kGap; })
           : 0);
-  Result result{std::vector<node::Run>(ids.size()),
-                std::vector<std::uint32_t>(shown + node::kVectorSlack + 1, kUntouched)};
-  const node::Shaded done =
-      node::shading_kernels(set).shade(scenery.shading(), ids.data(), scenery.line, extent, result.runs.data(), result.pixels.data());
+  Result result{std::vector<wire::Run>(ids.size()),
+                std::vector<std::uint32_t>(shown + simd::kVectorSlack + 1, kUntouched)};
+  const Shaded done =
+      shading_kernels(set).shade(scenery.shading(), ids.data(), scenery.line, extent, result.runs.data(), result.pixels.data());
   EXPECT_EQ(done.pixels, shown);
   EXPECT_EQ(result.pixels.back(), kUntouched);
   result.runs.resize(done.runs);
@@ -59,34 +61,34 @@ Result shade(const Scenery& scenery, node::InstructionSet set, Extent extent) {
 }
 
 Result shade_all(const Scenery& scenery, const char* limit = "") {
-  return shade(scenery, node::best_instruction_set(limit), {0, static_cast<std::uint32_t>(scenery.ids.size())});
+  return shade(scenery, simd::best_instruction_set(limit), {0, static_cast<std::uint32_t>(scenery.ids.size())});
 }
 
-void set_plane(Triangle& t, node::Value value, float at_first, float per_x, float per_y) {
+void set_plane(Triangle& t, shape::Value value, float at_first, float per_x, float per_y) {
   t.at_first[value] = at_first;
   t.per_x[value] = per_x;
   t.per_y[value] = per_y;
 }
 
 // A triangle's planes about depth 1 / w, normals that vary along the line.
-Triangle random_triangle(Random& random, std::size_t materials) {
+Triangle random_triangle(shape::Random& random, std::size_t materials) {
   Triangle t{};
   t.first_x = random.whole(0, 640 * 256);
   t.first_y = random.whole(80 * 256, 120 * 256);
-  set_plane(t, node::kDepth, static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)), 1e-7f);
-  for (const node::Value value : {node::kNormalX, node::kNormalY, node::kNormalZ})
+  set_plane(t, shape::kDepth, static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)), 1e-7f);
+  for (const shape::Value value : {shape::kNormalX, shape::kNormalY, shape::kNormalZ})
     set_plane(t, value, static_cast<float>(random.real(-1, 1)), static_cast<float>(random.real(-4e-6, 4e-6)),
               static_cast<float>(random.real(-4e-6, 4e-6)));
   if (random.whole(0, 9) == 0)
-    for (const node::Value value : {node::kNormalX, node::kNormalY, node::kNormalZ}) set_plane(t, value, 0, 0, 0);
+    for (const shape::Value value : {shape::kNormalX, shape::kNormalY, shape::kNormalZ}) set_plane(t, value, 0, 0, 0);
   t.material = static_cast<std::uint32_t>(random.whole(0, static_cast<std::int32_t>(materials) - 1));
   return t;
 }
 
-node::EyeLight random_light(Random& random) {
-  node::EyeLight light{random.whole(0, 1) == 1, {}, {}};
-  Vec3 to{random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 1)};
-  const double scale = light.point ? 5 : 1 / length(to);
+geometry::EyeLight random_light(shape::Random& random) {
+  geometry::EyeLight light{random.whole(0, 1) == 1, {}, {}};
+  shape::Vec3 to{random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 1)};
+  const double scale = light.point ? 5 : 1 / shape::length(to);
   for (std::size_t k = 0; k < 3; ++k) {
     light.vector[k] = static_cast<float>(to[k] * scale);
     light.color[k] = static_cast<float>(random.real(0, 0.8));
@@ -96,14 +98,14 @@ node::EyeLight random_light(Random& random) {
 
 // Pieces of a triangle or of a gap have up to 400 samples, in some sceneries only one or two; materials change within
 // vectors, and with them exponents or not.
-Scenery random_scenery(Random& random, int width) {
+Scenery random_scenery(shape::Random& random, int width) {
   Scenery scenery;
   for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 0.0f}) {
     const auto part = [&] { return static_cast<float>(random.real(0, 1)); };
     scenery.materials.push_back({{part(), part(), part()}, 0.2f * part(), part(), part(), exponent, 2});
   }
   if (random.whole(0, 2) == 0)
-    for (node::Material& material : scenery.materials) material.exponent = 32;
+    for (wire::Material& material : scenery.materials) material.exponent = 32;
   constexpr int kLongest[] = {2, 20, 400};
   const int longest = kLongest[random.whole(0, 2)];
   for (int k = 0; k < 20; ++k) scenery.triangles.push_back(random_triangle(random, scenery.materials.size()));
@@ -117,33 +119,33 @@ Scenery random_scenery(Random& random, int width) {
   return scenery;
 }
 
-double at(const Triangle& t, node::Value value, double dx, double dy) {
+double at(const Triangle& t, shape::Value value, double dx, double dy) {
   return t.at_first[value] + dy * t.per_y[value] + dx * t.per_x[value];
 }
 
-Vec3 unit(const Vec3& a) {
-  const double size = length(a);
-  return size > 0 ? Vec3{a[0] / size, a[1] / size, a[2] / size} : Vec3{};
+shape::Vec3 unit(const shape::Vec3& a) {
+  const double size = shape::length(a);
+  return size > 0 ? shape::Vec3{a[0] / size, a[1] / size, a[2] / size} : shape::Vec3{};
 }
 
 // Phong's sum over the lights, 0..255.
-Vec3 phong(const Scenery& scenery, std::uint32_t column) {
+shape::Vec3 phong(const Scenery& scenery, std::uint32_t column) {
   const Triangle& t = scenery.triangles[scenery.ids[column]];
-  const node::Material& m = scenery.materials[t.material];
+  const wire::Material& m = scenery.materials[t.material];
   const double dx = 256.0 * column + 128 - t.first_x, dy = 256.0 * scenery.line + 128 - t.first_y;
-  const Vec3 normal = unit({at(t, node::kNormalX, dx, dy), at(t, node::kNormalY, dx, dy), at(t, node::kNormalZ, dx, dy)});
-  const double w = 1 / at(t, node::kDepth, dx, dy);
-  const Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
+  const shape::Vec3 normal = unit({at(t, shape::kNormalX, dx, dy), at(t, shape::kNormalY, dx, dy), at(t, shape::kNormalZ, dx, dy)});
+  const double w = 1 / at(t, shape::kDepth, dx, dy);
+  const shape::Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
                    -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
-  const Vec3 eye = unit(Vec3{} - place);
-  Vec3 color;
+  const shape::Vec3 eye = unit(shape::Vec3{} - place);
+  shape::Vec3 color;
   for (std::size_t c = 0; c < 3; ++c) color[c] = m.ambient * m.color[c];
-  for (const node::EyeLight& light : scenery.lights) {
-    const Vec3 vector{light.vector[0], light.vector[1], light.vector[2]};
-    const Vec3 to = light.point ? unit(vector - place) : vector;
-    const double facing = dot(normal, to);
+  for (const geometry::EyeLight& light : scenery.lights) {
+    const shape::Vec3 vector{light.vector[0], light.vector[1], light.vector[2]};
+    const shape::Vec3 to = light.point ? unit(vector - place) : vector;
+    const double facing = shape::dot(normal, to);
     if (facing <= 0) continue;
-    const double mirrored = 2 * facing * dot(normal, eye) - dot(to, eye);
+    const double mirrored = 2 * facing * shape::dot(normal, eye) - shape::dot(to, eye);
     const double highlight = mirrored > 0 ? std::pow(std::min(mirrored, 1.0), m.exponent) : 0;
     for (std::size_t c = 0; c < 3; ++c)
       color[c] += (m.diffuse * m.color[c] * facing + m.specular * highlight) * light.color[c];
@@ -153,7 +155,7 @@ Vec3 phong(const Scenery& scenery, std::uint32_t column) {
 }
 
 TEST(Shade, IsPhongsFormula) {
-  Random random(60);
+  shape::Random random(60);
   double worst = 0;
   for (int trial = 0; trial < 150; ++trial) {
     const Scenery scenery = random_scenery(random, random.whole(1, 640));
@@ -163,7 +165,7 @@ TEST(Shade, IsPhongsFormula) {
       if (scenery.ids[column] == kGap) continue;
       const std::uint32_t value = result.pixels.at(pixel++);
       EXPECT_EQ(value >> 24, 0u);
-      const Vec3 right = phong(scenery, column);
+      const shape::Vec3 right = phong(scenery, column);
       for (std::size_t c = 0; c < 3; ++c)
         worst = std::max(worst, std::abs(right[c] - static_cast<double>(value >> (8 * c) & 255)));
     }
@@ -173,20 +175,20 @@ TEST(Shade, IsPhongsFormula) {
 }
 
 TEST(Shade, GivesTheSameBitsEverywhere) {
-  Random random(61);
+  shape::Random random(61);
   for (int trial = 0; trial < 150; ++trial) {
     const Scenery scenery = random_scenery(random, random.whole(1, 900));
     const Result narrow = shade_all(scenery, "sse2");
-    for (const node::InstructionSet set : all_sets()) {
-      const Result wide = shade_all(scenery, node::name_of(set));
-      EXPECT_EQ(wide.pixels, narrow.pixels) << node::name_of(set) << ", trial " << trial;
+    for (const simd::InstructionSet set : simd::all_sets()) {
+      const Result wide = shade_all(scenery, simd::name_of(set));
+      EXPECT_EQ(wide.pixels, narrow.pixels) << simd::name_of(set) << ", trial " << trial;
     }
   }
 }
 
 // Whole batches, materials that change within them, and exact multiples of a batch.
 TEST(Shade, RunsAreWhatIsWithoutGaps) {
-  Random random(62);
+  shape::Random random(62);
   for (int trial = 0; trial < 300; ++trial) {
     Scenery scenery = random_scenery(random, random.whole(1, 1100));
     if (trial % 4 == 0) std::fill_n(scenery.ids.begin(), scenery.ids.size() / 2, 0u);
@@ -194,7 +196,7 @@ TEST(Shade, RunsAreWhatIsWithoutGaps) {
     const auto first = static_cast<std::uint32_t>(random.whole(0, width));
     const Extent extent{first,
                         static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), width))};
-    std::vector<node::Run> expected;
+    std::vector<wire::Run> expected;
     std::size_t pixels = 0;
     for (std::uint32_t column = extent.first; column < extent.last; ++column) {
       if (scenery.ids[column] == kGap) continue;
@@ -203,7 +205,7 @@ TEST(Shade, RunsAreWhatIsWithoutGaps) {
       ++expected.back().count;
       ++pixels;
     }
-    const Result result = shade(scenery, node::best_instruction_set(""), extent);
+    const Result result = shade(scenery, simd::best_instruction_set(""), extent);
     EXPECT_EQ(result.pixels.size(), pixels);
     ASSERT_EQ(result.runs.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
@@ -216,7 +218,7 @@ TEST(Shade, RunsAreWhatIsWithoutGaps) {
 
 // A pixel depends on its sample alone, not on what is shaded with it or where shading begins.
 TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
-  Random random(63);
+  shape::Random random(63);
   for (int trial = 0; trial < 50; ++trial) {
     const Scenery scenery = random_scenery(random, 700);
     const Result whole = shade_all(scenery);
@@ -224,7 +226,7 @@ TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
     for (std::uint32_t first = 0; first < 700;) {
       const std::uint32_t last =
           std::min<std::uint32_t>(700, first + static_cast<std::uint32_t>(random.whole(1, 300)));
-      const Result part = shade(scenery, node::best_instruction_set(""), {first, last});
+      const Result part = shade(scenery, simd::best_instruction_set(""), {first, last});
       pieces.insert(pieces.end(), part.pixels.begin(), part.pixels.end());
       first = last;
     }
@@ -233,9 +235,9 @@ TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
 }
 
 TEST(Shade, NothingToShade) {
-  Random random(64);
+  shape::Random random(64);
   Scenery scenery = random_scenery(random, 20);
-  EXPECT_TRUE(shade(scenery, node::best_instruction_set(""), {0xffffffff, 0}).pixels.empty());
+  EXPECT_TRUE(shade(scenery, simd::best_instruction_set(""), {0xffffffff, 0}).pixels.empty());
   std::fill(scenery.ids.begin(), scenery.ids.end(), kGap);
   EXPECT_TRUE(shade_all(scenery).runs.empty());
 }
@@ -245,7 +247,7 @@ TEST(Shade, AmbientAndWhite) {
   Scenery scenery;
   scenery.materials = {{{1, 0.5f, 0}, 0.2f, 1, 1, 10, 2}, {{1, 1, 1}, 3, 1, 1, 10, 2}};
   scenery.triangles.resize(2);
-  for (Triangle& t : scenery.triangles) set_plane(t, node::kDepth, 1, 0, 0);
+  for (Triangle& t : scenery.triangles) set_plane(t, shape::kDepth, 1, 0, 0);
   scenery.triangles[1].material = 1;
   scenery.lights = {{false, {0, 0, 1}, {1, 1, 1}}};
   scenery.ids = {0, 1};
@@ -253,4 +255,4 @@ TEST(Shade, AmbientAndWhite) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::shading

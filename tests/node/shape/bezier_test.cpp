@@ -11,22 +11,17 @@
 #include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::shape {
 namespace {
 
-using node::Curve;
-using node::Edge;
-using node::EyePatch;
-using node::Projection;
-using node::Side;
 
-const node::ShapeKernels& kernels = node::shape_kernels(node::best_instruction_set(""));
+const ShapeKernels& kernels = shape_kernels(simd::best_instruction_set(""));
 
 bool same_bits(const Curve& a, const Curve& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 TEST(Bezier, BasisSumsToOne) {
-  for (int rate = 1; rate <= node::kMaxRate; ++rate) {
-    const node::Basis& basis = node::basis(rate);
+  for (int rate = 1; rate <= kMaxRate; ++rate) {
+    const Basis& basis = shape::basis(rate);
     EXPECT_EQ(basis.rate, rate);
     for (int i = 0; i <= rate; ++i) {
       double cubic = 0, quadratic = 0, mean = 0;
@@ -41,8 +36,8 @@ TEST(Bezier, BasisSumsToOne) {
 
 // So that a curve's ends are its control points bit for bit.
 TEST(Bezier, BasisIsExactAtBothEnds) {
-  for (int rate = 1; rate <= node::kMaxRate; ++rate) {
-    const node::Basis& basis = node::basis(rate);
+  for (int rate = 1; rate <= kMaxRate; ++rate) {
+    const Basis& basis = shape::basis(rate);
     for (int k = 0; k < 4; ++k) {
       EXPECT_EQ(basis.cubic[k][0], k == 0 ? 1.0f : 0.0f);
       EXPECT_EQ(basis.cubic[k][rate], k == 3 ? 1.0f : 0.0f);
@@ -68,12 +63,12 @@ TEST(Bezier, SharedEdgesAreOneCurveFromBothSides) {
     const bool against = random.whole(0, 1) == 1;
     if (against) std::reverse(points.begin(), points.end());
     set_side_points(b, of_b, points);
-    const Edge one = node::edge(first, of_a), other = node::edge(b, of_b);
+    const Edge one = edge(first, of_a), other = edge(b, of_b);
     EXPECT_TRUE(same_bits(one.curve, other.curve));
     EXPECT_EQ(one.reversed != other.reversed, against);
-    EXPECT_EQ(node::rates(kernels, first, view, 0).side[static_cast<int>(of_a)],
-              node::rates(kernels, b, view, 0).side[static_cast<int>(of_b)]);
-    EXPECT_EQ(node::rates(kernels, b, view, 0).side[static_cast<int>(of_b)], node::edge_rate(one.curve, view));
+    EXPECT_EQ(shape::rates(kernels, first, view, 0).side[static_cast<int>(of_a)],
+              shape::rates(kernels, b, view, 0).side[static_cast<int>(of_b)]);
+    EXPECT_EQ(shape::rates(kernels, b, view, 0).side[static_cast<int>(of_b)], edge_rate(one.curve, view));
   }
 }
 
@@ -119,32 +114,32 @@ TEST(Bezier, EdgeRatesKeepTheirTolerance) {
     const EyePatch patch =
         random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -3)},
                      std::pow(10, random.real(-2, 0.7)));
-    const Curve curve = node::edge(patch, Side::top).curve;
-    const int rate = node::edge_rate(curve, view);
+    const Curve curve = edge(patch, Side::top).curve;
+    const int rate = edge_rate(curve, view);
     ASSERT_GE(rate, 1);
-    ASSERT_LE(rate, node::kMaxRate);
-    if (rate == node::kMaxRate) continue;  // as fine as it gets
+    ASSERT_LE(rate, kMaxRate);
+    if (rate == kMaxRate) continue;  // as fine as it gets
     worst = std::max(worst, chord_error(curve, rate, view));
   }
-  EXPECT_LE(worst, node::kTolerance * slack);
-  EXPECT_GT(worst, node::kTolerance / 3) << "rates are much finer than they need be";
+  EXPECT_LE(worst, kTolerance * slack);
+  EXPECT_GT(worst, kTolerance / 3) << "rates are much finer than they need be";
 }
 
 // Second differences of d pixels, times six, bound the second derivative. Before the eye a bend across the view shows
 // whole (or 1 / cosine longer, if nobody knows yet where), one along it not at all.
 TEST(Bezier, EdgeRatesOfAParabola) {
   const Projection view = projection(200, 200, 1);  // 100 pixels a unit at distance 1
-  const auto steps = [](double pixels) { return std::sqrt(6 * pixels / (8 * double{node::kTolerance})); };
+  const auto steps = [](double pixels) { return std::sqrt(6 * pixels / (8 * double{kTolerance})); };
   for (const double d : {0.0, 0.02, 0.1, 0.17, 1.0, 5.0, 40.0, 1000.0})
     for (const bool across : {true, false}) {
       const EyePatch patch = make_patch([&](int i, int j) {
         const double off = d / 100 * (i == 1 || i == 2);
         return Vec3{i * 1e-4, j * 1e-4 + (across ? off : 0), -1 - (across ? 0 : off)};
       });
-      const int rate = node::edge_rate(node::edge(patch, Side::bottom).curve, view);
+      const int rate = edge_rate(edge(patch, Side::bottom).curve, view);
       if (across) {
-        EXPECT_GE(rate, std::min(std::ceil(steps(0.999 * d)), 1.0 * node::kMaxRate)) << d;
-        EXPECT_LE(rate, std::clamp(std::ceil(steps(1.001 * d / view.corner)), 1.0, 1.0 * node::kMaxRate)) << d;
+        EXPECT_GE(rate, std::min(std::ceil(steps(0.999 * d)), 1.0 * kMaxRate)) << d;
+        EXPECT_LE(rate, std::clamp(std::ceil(steps(1.001 * d / view.corner)), 1.0, 1.0 * kMaxRate)) << d;
       } else {
         EXPECT_LE(rate, std::max(1.0, std::ceil(steps(1e-3 * d)))) << d;
       }
@@ -153,7 +148,7 @@ TEST(Bezier, EdgeRatesOfAParabola) {
 
 TEST(Bezier, FixedRatesAreThoseGiven) {
   Random random(13);
-  const node::Rates rates = node::rates(kernels, random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), 7);
+  const Rates rates = shape::rates(kernels, random_patch(random, {0, 0, -2}, 1), projection(64, 48, 2), 7);
   EXPECT_EQ(rates.u, 7);
   EXPECT_EQ(rates.v, 7);
   for (const int side : rates.side) EXPECT_EQ(side, 7);
@@ -206,7 +201,7 @@ struct GridError {
   double turn = 0;
 };
 
-GridError grid_error(const EyePatch& patch, const node::Rates& rates, const Projection& view) {
+GridError grid_error(const EyePatch& patch, const Rates& rates, const Projection& view) {
   GridError worst;
   for (int j = 0; j < rates.v; ++j)
     for (int i = 0; i < rates.u; ++i) {
@@ -218,8 +213,8 @@ GridError grid_error(const EyePatch& patch, const node::Rates& rates, const Proj
       const double off = std::abs(dot(p - flat, n)) * std::sqrt(std::max(0.0, 1 - toward * toward)) * pixels;
       worst.outline = std::max(worst.outline, off);
       const Vec3 at_b = normal_at(patch, u + du, v);
-      if (length(b - a) * pixels > node::kLeastStep) worst.turn = std::max(worst.turn, angle(normal_at(patch, u, v), at_b));
-      if (length(c - b) * pixels > node::kLeastStep)
+      if (length(b - a) * pixels > kLeastStep) worst.turn = std::max(worst.turn, angle(normal_at(patch, u, v), at_b));
+      if (length(c - b) * pixels > kLeastStep)
         worst.turn = std::max(worst.turn, angle(at_b, normal_at(patch, u + du, v + dv)));
     }
   return worst;
@@ -234,15 +229,15 @@ TEST(Bezier, InsideRatesKeepOutlinesAndTurns) {
     const EyePatch patch = sphere_part({random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)},
                                        std::pow(10, random.real(-2, 0.3)), random.real(0, 6.28), random.real(-1.2, 0.3),
                                        random.real(0.1, 0.9));
-    const node::Rates rates = node::rates(kernels, patch, view, 0);
+    const Rates rates = shape::rates(kernels, patch, view, 0);
     cells += static_cast<std::uint64_t>(rates.u * rates.v);
     const GridError error = grid_error(patch, rates, view);
     worst = {std::max(worst.outline, error.outline), std::max(worst.turn, error.turn)};
   }
-  EXPECT_LE(worst.outline, 2 * node::kTolerance);
-  EXPECT_GT(worst.outline, node::kTolerance / 3) << "rates are much finer than they need be";
-  EXPECT_LE(worst.turn, 1.1 * node::kTurn);
-  EXPECT_GT(worst.turn, node::kTurn / 2) << "rates are much finer than they need be";
+  EXPECT_LE(worst.outline, 2 * kTolerance);
+  EXPECT_GT(worst.outline, kTolerance / 3) << "rates are much finer than they need be";
+  EXPECT_LE(worst.turn, 1.1 * kTurn);
+  EXPECT_GT(worst.turn, kTurn / 2) << "rates are much finer than they need be";
   EXPECT_GT(cells, 400u * 4);
 }
 
@@ -252,14 +247,14 @@ TEST(Bezier, RatesAreTheSameEverywhere) {
   const Projection view = projection(640, 480, 2);
   for (int trial = 0; trial < 3000; ++trial) {
     const EyePatch patch = random_patch(random, {0, 0, random.real(-20, 1)}, std::pow(10, random.real(-3, 1)));
-    const node::Rates expected = node::rates(node::shape_kernels(node::InstructionSet::sse2), patch, view, 0);
-    for (const node::InstructionSet set : all_sets())
-      ASSERT_EQ(node::rates(node::shape_kernels(set), patch, view, 0), expected) << node::name_of(set) << ' ' << trial;
+    const Rates expected = shape::rates(shape_kernels(simd::InstructionSet::sse2), patch, view, 0);
+    for (const simd::InstructionSet set : simd::all_sets())
+      ASSERT_EQ(shape::rates(shape_kernels(set), patch, view, 0), expected) << simd::name_of(set) << ' ' << trial;
   }
 }
 
-node::Matrix random_matrix(Random& random, double size) {
-  node::Matrix matrix;
+wire::Matrix random_matrix(Random& random, double size) {
+  wire::Matrix matrix;
   for (auto& row : matrix.m)
     for (double& m : row) m = random.real(-size, size);
   return matrix;
@@ -268,8 +263,8 @@ node::Matrix random_matrix(Random& random, double size) {
 TEST(Bezier, EyeMatrixIsTheProductRoundedOnce) {
   Random random(15);
   for (int trial = 0; trial < 500; ++trial) {
-    const node::Matrix a = random_matrix(random, 100), b = random_matrix(random, 100);
-    const node::EyeMatrix product = node::eye_matrix(a, b);
+    const wire::Matrix a = random_matrix(random, 100), b = random_matrix(random, 100);
+    const EyeMatrix product = eye_matrix(a, b);
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 4; ++c) {
         long double exact = c == 3 ? a.m[r][3] : 0;
@@ -280,17 +275,17 @@ TEST(Bezier, EyeMatrixIsTheProductRoundedOnce) {
     const auto column = [&](std::size_t c) {
       return Vec3{product.m[0][c], product.m[1][c], product.m[2][c]};
     };
-    EXPECT_EQ(node::mirrors(product), dot(cross(column(0), column(1)), column(2)) < 0);
+    EXPECT_EQ(mirrors(product), dot(cross(column(0), column(1)), column(2)) < 0);
   }
 }
 
 TEST(Bezier, ToEyeMapsControlPoints) {
   Random random(16);
-  const node::EyeMatrix matrix = node::eye_matrix(random_matrix(random, 3), random_matrix(random, 3));
-  node::Patch patch;
+  const EyeMatrix matrix = eye_matrix(random_matrix(random, 3), random_matrix(random, 3));
+  wire::Patch patch;
   for (auto& p : patch.points)
     for (float& c : p) c = static_cast<float>(random.real(0, 1));
-  const EyePatch out = node::to_eye(matrix, patch);
+  const EyePatch out = to_eye(matrix, patch);
   for (std::size_t k = 0; k < 16; ++k)
     for (std::size_t r = 0; r < 3; ++r) {
       double exact = matrix.m[r][3];
@@ -306,7 +301,7 @@ TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
   for (int trial = 0; trial < 20000; ++trial) {
     const Vec3 middle{random.real(-30, 30), random.real(-30, 30), random.real(-60, 10)};
     const EyePatch patch = random_patch(random, middle, std::pow(10, random.real(-2, 1.5)));
-    if (!node::unseen(patch, view, 640, 480)) continue;
+    if (!shape::unseen(patch, view, 640, 480)) continue;
     ++unseen;
     for (int j = 0; j <= 12; ++j)
       for (int i = 0; i <= 12; ++i)
@@ -322,9 +317,9 @@ TEST(Bezier, PatchesBesideThePictureAreUnseen) {
   const Projection view = projection(640, 480, 2, 0.5, 50);
   for (const Vec3& middle : {Vec3{0, 0, 5}, Vec3{0, 0, -0.1}, Vec3{0, 0, -60}, Vec3{-9, 0, -10},
                              Vec3{9, 0, -10}, Vec3{0, 7, -10}, Vec3{0, -7, -10}})
-    EXPECT_TRUE(node::unseen(random_patch(random, middle, 0.3), view, 640, 480));
-  EXPECT_FALSE(node::unseen(random_patch(random, {0, 0, -10}, 0.3), view, 640, 480));
+    EXPECT_TRUE(shape::unseen(random_patch(random, middle, 0.3), view, 640, 480));
+  EXPECT_FALSE(shape::unseen(random_patch(random, {0, 0, -10}, 0.3), view, 640, 480));
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::shape

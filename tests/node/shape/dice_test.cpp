@@ -10,14 +10,9 @@
 #include "node/simd/instruction_set.h"
 #include "tests/node/shape/diced.h"
 
-namespace mars::test {
+namespace mars::shape {
 namespace {
 
-using node::Dicer;
-using node::EyePatch;
-using node::Projection;
-using node::Rates;
-using node::Side;
 
 const Projection kView = projection(640, 480, 2);
 
@@ -61,11 +56,11 @@ void expect_tiled(const Mesh& mesh) {
 // sides.
 TEST(Dice, AnyRatesMakeADiscWithoutTJoints) {
   Random random(20);
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   std::set<std::array<int, 6>> reached;
   for (int trial = 0; trial < 60000; ++trial) {
     const EyePatch patch = random_hills(random);
-    const Rates rates = node::rates(node::shape_kernels(node::best_instruction_set("")), patch, kView, 0);
+    const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0);
     if (*std::max_element(rates.side, rates.side + 4) > 5 || rates.u > 6 || rates.v > 6) continue;
     const std::array<int, 6> key{rates.u,       rates.v,       rates.side[0],
                                  rates.side[1], rates.side[2], rates.side[3]};
@@ -82,7 +77,7 @@ TEST(Dice, AnyRatesMakeADiscWithoutTJoints) {
 // Rates far apart, up to the largest.
 TEST(Dice, HighAndUnequalRates) {
   Random random(21);
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   for (const double size : {1.0, 30.0, 1e4})
     for (const Side side : kSides) {
       EyePatch patch = make_patch([](int i, int j) { return Vec3{i / 3.0, j / 3.0, -3}; });
@@ -93,12 +88,12 @@ TEST(Dice, HighAndUnequalRates) {
       dicer.dice(patch, kView, 0);
       const Mesh mesh = mesh_of(dicer);
       expect_tiled(mesh);
-      ASSERT_TRUE(sound_disc(mesh, patch, node::rates(node::shape_kernels(node::best_instruction_set("")), patch, kView, 0)));
+      ASSERT_TRUE(sound_disc(mesh, patch, shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0)));
     }
 }
 
 TEST(Dice, FixedRateGivesTwoTrianglesAQuad) {
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   const EyePatch patch = make_patch([](int i, int j) { return Vec3{i / 3.0, j / 3.0, -3 + 0.1 * i * j}; });
   for (const int rate : {1, 2, 3, 4, 5, 8, 17, 64, 256}) {
     dicer.dice(patch, kView, rate);
@@ -113,7 +108,7 @@ TEST(Dice, FixedRateGivesTwoTrianglesAQuad) {
 // Every side of one with every side of the other, in the same and in opposite directions.
 TEST(Dice, NeighboursShareTheirEdgesVertices) {
   Random random(22);
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   for (int trial = 0; trial < 128; ++trial) {
     const Side of_a = kSides[trial % 4], of_b = kSides[trial / 4 % 4];
     const EyePatch a = random_patch(random, {0, 0, -8}, 0.5);
@@ -121,7 +116,7 @@ TEST(Dice, NeighboursShareTheirEdgesVertices) {
     if (trial / 16 % 2) std::reverse(points.begin(), points.end());
     EyePatch b = random_patch(random, {0, 0, -8}, random.whole(0, 1) ? 0.01 : 3);
     set_side_points(b, of_b, points);
-    const int rate = node::edge_rate(node::edge(a, of_a).curve, kView);
+    const int rate = edge_rate(edge(a, of_a).curve, kView);
     dicer.dice(a, kView, 0);
     const auto vertices = boundary_vertices(dicer);
     dicer.dice(b, kView, 0);
@@ -132,12 +127,12 @@ TEST(Dice, NeighboursShareTheirEdgesVertices) {
 }
 
 Vec3 normal_of(const Dicer& diced, int k) {
-  const node::Vertices& v = diced.vertices();
+  const Vertices& v = diced.vertices();
   return {v.normal[0][k], v.normal[1][k], v.normal[2][k]};
 }
 
 Vec3 place_of(const Dicer& diced, int k) {
-  const node::Vertices& v = diced.vertices();
+  const Vertices& v = diced.vertices();
   return {v.place[0][k], v.place[1][k], v.place[2][k]};
 }
 
@@ -152,7 +147,7 @@ double turned_from(const Dicer& diced, int k, const Vec3& right) {
 
 TEST(Dice, NormalsOfASphereAndItsPole) {
   const Vec3 middle{0.3, -0.4, -5};
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   const EyePatch octant = sphere_octant(middle, 1);
   const EyePatch sideways = turned(swapped(octant));  // the pole on the left, the inside outside
   for (const auto& [patch, out] :
@@ -173,7 +168,7 @@ TEST(Dice, NormalsOfASphereAndItsPole) {
 TEST(Dice, NormalsOfAConeAndItsApex) {
   const Vec3 middle{0.3, -0.4, -5};
   const double height = 2;
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   for (const int rate : {0, 2, 9}) {
     dicer.dice(cone_quarter(middle, 0, height), kView, rate);
     double least = 10, most = -10;
@@ -194,7 +189,7 @@ TEST(Dice, NormalsOfAConeAndItsApex) {
 
 // A point, a needle, a patch folded on itself: no normal is worse than none.
 TEST(Dice, DegeneratePatchesHaveFiniteNormals) {
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   const auto patches = {make_patch([](int, int) {
                           return Vec3{1, 1, -4};
                         }),
@@ -219,10 +214,10 @@ TEST(Dice, DegeneratePatchesHaveFiniteNormals) {
 
 TEST(Dice, ACylindersSideIsAStrip) {
   const Vec3 middle{0, -1, -4};
-  Dicer dicer(node::best_instruction_set(""));
+  Dicer dicer(simd::best_instruction_set(""));
   const EyePatch cylinder = cone_quarter(middle, 1, 2);
   for (const EyePatch& patch : {cylinder, swapped(cylinder)}) {
-    const Rates rates = node::rates(node::shape_kernels(node::best_instruction_set("")), patch, kView, 0);
+    const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0);
     const bool upright = rates.v == 1;
     EXPECT_EQ(upright ? rates.v : rates.u, 1);
     const int along = rates.side[upright ? 0 : 1];
@@ -239,4 +234,4 @@ TEST(Dice, ACylindersSideIsAStrip) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::shape

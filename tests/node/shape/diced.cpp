@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::test {
+namespace mars::shape {
 namespace {
 
-Vec3 place_of(const node::Vertices& v, std::uint32_t k) {
+Vec3 place_of(const Vertices& v, std::uint32_t k) {
   return {v.place[0][k], v.place[1][k], v.place[2][k]};
 }
 
 }  // namespace
 
-Mesh mesh_of(const node::Dicer& diced) {
+Mesh mesh_of(const Dicer& diced) {
   Mesh mesh;
   const auto number = [&](std::uint32_t vertex) {
     const Vec3 place = place_of(diced.vertices(), vertex);
@@ -20,7 +20,7 @@ Mesh mesh_of(const node::Dicer& diced) {
     return at->second;
   };
   for (std::uint32_t k = 0; k < diced.triangles().count; ++k) {
-    const node::Corner3 corner = diced.triangles()[k];
+    const Corner3 corner = diced.triangles()[k];
     mesh.faces.push_back({number(corner.a), number(corner.b), number(corner.c)});
   }
   return mesh;
@@ -37,7 +37,7 @@ std::map<int, int> boundary(const Mesh& mesh) {
   return next;
 }
 
-bool sound_disc(const Mesh& mesh, const node::EyePatch& patch, const node::Rates& rates) {
+bool sound_disc(const Mesh& mesh, const EyePatch& patch, const Rates& rates) {
   const auto next = boundary(mesh);
   const auto corner = [&](int k) {
     return mesh.numbers.at({patch.point[k][0], patch.point[k][1], patch.point[k][2]});
@@ -59,18 +59,18 @@ bool sound_disc(const Mesh& mesh, const node::EyePatch& patch, const node::Rates
   return !testing::Test::HasFailure();
 }
 
-std::set<ScreenVertex> boundary_vertices(const node::Dicer& diced) {
+std::set<ScreenVertex> boundary_vertices(const Dicer& diced) {
   const Mesh mesh = mesh_of(diced);
   const auto next = boundary(mesh);
-  const node::Vertices& v = diced.vertices();
+  const Vertices& v = diced.vertices();
   std::set<ScreenVertex> vertices;
   for (std::uint32_t t = 0; t < diced.triangles().count; ++t) {
-    const node::Corner3 corners = diced.triangles()[t];
+    const Corner3 corners = diced.triangles()[t];
     for (const std::uint32_t k : {corners.a, corners.b, corners.c})
       if (next.contains(mesh.numbers.at(place_of(v, k))))
-        vertices.insert({{v.place[0][k], v.place[1][k], v.place[2][k]}, v.x[k], v.y[k], v.values[k][node::kDepth]});
+        vertices.insert({{v.place[0][k], v.place[1][k], v.place[2][k]}, v.x[k], v.y[k], v.values[k][kDepth]});
   }
   return vertices;
 }
 
-}  // namespace mars::test
+}  // namespace mars::shape

@@ -10,7 +10,7 @@
 #include "node/shape/dice.h"
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::shape {
 
 struct Mesh {
   std::vector<Vec3> places;               // of its vertices, all different
@@ -18,7 +18,7 @@ struct Mesh {
   std::vector<std::array<int, 3>> faces;  // counter-clockwise seen from outside
 };
 
-Mesh mesh_of(const node::Dicer& diced);
+Mesh mesh_of(const Dicer& diced);
 
 // Directed edges that no other triangle has the other way round: from -> to. Counter-clockwise round the
 // mesh. Fails the test where an edge occurs twice in one direction.
@@ -26,7 +26,7 @@ std::map<int, int> boundary(const Mesh& mesh);
 
 // Checks that the mesh is a disc without T-joints whose boundary runs through the patch's corners in order,
 // each side in as many steps as its rate says; false where the test has failed.
-bool sound_disc(const Mesh& mesh, const node::EyePatch& patch, const node::Rates& rates);
+bool sound_disc(const Mesh& mesh, const EyePatch& patch, const Rates& rates);
 
 // What a side's vertices are in full: place, screen place and 1 / w, in no order.
 struct ScreenVertex {
@@ -35,6 +35,6 @@ struct ScreenVertex {
   float inverse_w;
   auto operator<=>(const ScreenVertex&) const = default;
 };
-std::set<ScreenVertex> boundary_vertices(const node::Dicer& diced);
+std::set<ScreenVertex> boundary_vertices(const Dicer& diced);
 
-}  // namespace mars::test
+}  // namespace mars::shape

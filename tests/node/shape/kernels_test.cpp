@@ -14,7 +14,7 @@
 #include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
 
-namespace mars::test {
+namespace mars::shape {
 namespace {
 
 
@@ -25,22 +25,22 @@ float garbage(Random& random) { return std::bit_cast<float>(random.bits()); }
 struct VertexMemory {
   explicit VertexMemory(int count)
       : count(count),
-        stride(static_cast<std::size_t>(count + node::kVectorSlack + kGuard)),
+        stride(static_cast<std::size_t>(count + simd::kVectorSlack + kGuard)),
         numbers(10 * stride, kUntouched),
         places(2 * stride, 77),
         flags(stride, 77) {}
 
-  node::Vertices view() {
+  Vertices view() {
     float* n = numbers.data();
     return {{n, n + stride, n + 2 * stride},
             {n + 3 * stride, n + 4 * stride, n + 5 * stride},
-            reinterpret_cast<float (*)[node::kValues]>(n + 6 * stride),
+            reinterpret_cast<float (*)[kValues]>(n + 6 * stride),
             places.data(),
             places.data() + stride,
             flags.data()};
   }
   void litter(Random& random) {
-    for (int k = count; k < count + node::kVectorSlack; ++k) {
+    for (int k = count; k < count + simd::kVectorSlack; ++k) {
       const auto at = static_cast<std::size_t>(k);
       for (std::size_t array = 0; array < 6; ++array) numbers[array * stride + at] = garbage(random);
       for (std::size_t value = 0; value < 4; ++value) numbers[6 * stride + 4 * at + value] = garbage(random);
@@ -83,14 +83,14 @@ struct VertexMemory {
 
 // Whether any of vertices [first, last) has the normal 0.
 bool lacks_normals(VertexMemory& memory, int first, int last) {
-  const node::Vertices v = memory.view();
+  const Vertices v = memory.view();
   for (int k = first; k < last; ++k)
     if (v.normal[0][k] == 0 && v.normal[1][k] == 0 && v.normal[2][k] == 0) return true;
   return false;
 }
 
-node::Row random_row(Random& random) {
-  node::Row row{};
+Row random_row(Random& random) {
+  Row row{};
   for (auto& p : row.point)
     for (float& c : p) c = static_cast<float>(random.real(-5, 5));
   for (int k = 0; k < 3; ++k)
@@ -107,14 +107,14 @@ struct LitteredBasis {
     basis.rate = rate;
     const auto copy = [&](const float* table, std::vector<float>& own) {
       own.assign(table, table + rate + 1);
-      while (own.size() < static_cast<std::size_t>(rate + 1 + node::kVectorSlack)) own.push_back(garbage(random));
+      while (own.size() < static_cast<std::size_t>(rate + 1 + simd::kVectorSlack)) own.push_back(garbage(random));
       return own.data();
     };
-    for (int k = 0; k < 4; ++k) basis.cubic[k] = copy(node::basis(rate).cubic[k], numbers[k]);
-    for (int k = 0; k < 3; ++k) basis.quadratic[k] = copy(node::basis(rate).quadratic[k], numbers[4 + k]);
+    for (int k = 0; k < 4; ++k) basis.cubic[k] = copy(shape::basis(rate).cubic[k], numbers[k]);
+    for (int k = 0; k < 3; ++k) basis.quadratic[k] = copy(shape::basis(rate).quadratic[k], numbers[4 + k]);
   }
   std::vector<float> numbers[7];
-  node::Basis basis;
+  Basis basis;
 };
 
 // With normals, without any, and without those at the ends only.
@@ -124,20 +124,20 @@ TEST(ShapeKernels, EvaluateGivesTheSameBitsEverywhere) {
   for (int trial = 0; trial < 600; ++trial) {
     const int rate = random.whole(1, 70), first = random.whole(0, rate), last = random.whole(first, rate + 1);
     const int offset = random.whole(0, 5);
-    node::Row row = random_row(random);
+    Row row = random_row(random);
     if (trial % 7 == 0) std::memset(row.slope, 0, sizeof row.slope);
     if (trial % 7 == 1) std::memset(row.slope[2 * random.whole(0, 1)], 0, sizeof row.slope[0]);
     const LitteredBasis littered(rate, random);
     std::vector<VertexMemory> results;
-    for (const node::InstructionSet set : all_sets())
-      for (const node::Basis& basis : {node::basis(rate), littered.basis}) {
+    for (const simd::InstructionSet set : simd::all_sets())
+      for (const Basis& basis : {shape::basis(rate), littered.basis}) {
         VertexMemory memory(offset + last - first);
-        const bool all = node::shape_kernels(set).evaluate(row, basis, first, last, memory.view(), offset);
+        const bool all = shape_kernels(set).evaluate(row, basis, first, last, memory.view(), offset);
         results.push_back(memory);
-        EXPECT_TRUE(memory.guards_intact()) << node::name_of(set) << ", trial " << trial;
-        EXPECT_TRUE(memory.same(results[0])) << node::name_of(set) << ", trial " << trial;
+        EXPECT_TRUE(memory.guards_intact()) << simd::name_of(set) << ", trial " << trial;
+        EXPECT_TRUE(memory.same(results[0])) << simd::name_of(set) << ", trial " << trial;
         for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
-        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << node::name_of(set) << ", trial " << trial;
+        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << simd::name_of(set) << ", trial " << trial;
         if (results.size() == 1) (all ? complete : incomplete) += last > first;
       }
   }
@@ -148,11 +148,11 @@ TEST(ShapeKernels, EvaluateGivesTheSameBitsEverywhere) {
 TEST(ShapeKernels, EvaluateGivesPointsAndUnitNormals) {
   Random random(51);
   for (int trial = 0; trial < 200; ++trial) {
-    const node::Row row = random_row(random);
+    const Row row = random_row(random);
     const int rate = random.whole(1, 40);
     VertexMemory memory(rate + 1);
-    node::shape_kernels(node::best_instruction_set("")).evaluate(row, node::basis(rate), 0, rate + 1, memory.view(), 0);
-    node::Curve curve{}, cross_curve{};
+    shape_kernels(simd::best_instruction_set("")).evaluate(row, shape::basis(rate), 0, rate + 1, memory.view(), 0);
+    Curve curve{}, cross_curve{};
     std::memcpy(curve.point, row.point, sizeof curve.point);
     std::memcpy(cross_curve.point, row.cross, sizeof cross_curve.point);
     for (int k = 0; k <= rate; ++k) {
@@ -174,7 +174,7 @@ TEST(ShapeKernels, EvaluateGivesPointsAndUnitNormals) {
 // Places before and behind the eye, near and far, inside and outside the guard band, and no places at all.
 VertexMemory random_places(Random& random, int count) {
   VertexMemory memory(count);
-  const node::Vertices v = memory.view();
+  const Vertices v = memory.view();
   for (int k = 0; k < count; ++k) {
     const double size = std::pow(10, random.real(-3, 4));
     for (float* component : v.place) component[k] = static_cast<float>(random.real(-size, size));
@@ -186,7 +186,7 @@ VertexMemory random_places(Random& random, int count) {
 
 TEST(ShapeKernels, ProjectGivesTheSameBitsEverywhere) {
   Random random(52);
-  const node::Projection view = projection(639, 481, 2, 0.1, 500);
+  const Projection view = projection(639, 481, 2, 0.1, 500);
   int any = 0, none = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const int count = random.whole(0, 90);
@@ -198,14 +198,14 @@ TEST(ShapeKernels, ProjectGivesTheSameBitsEverywhere) {
       }
     std::vector<VertexMemory> results;
     std::vector<bool> reaches;
-    for (const node::InstructionSet set : all_sets())
+    for (const simd::InstructionSet set : simd::all_sets())
       for (const bool littered : {false, true}) {
         VertexMemory memory = places;
         if (littered) memory.litter(random);
-        reaches.push_back(node::shape_kernels(set).project(view, memory.view(), count));
+        reaches.push_back(shape_kernels(set).project(view, memory.view(), count));
         results.push_back(memory);
-        EXPECT_TRUE(memory.guards_intact()) << node::name_of(set) << ", trial " << trial;
-        EXPECT_TRUE(memory.same(results[0])) << node::name_of(set) << ", trial " << trial;
+        EXPECT_TRUE(memory.guards_intact()) << simd::name_of(set) << ", trial " << trial;
+        EXPECT_TRUE(memory.same(results[0])) << simd::name_of(set) << ", trial " << trial;
         EXPECT_EQ(reaches.back(), std::count(memory.flags.begin(), memory.flags.begin() + count, 1) > 0);
       }
     any += reaches[0];
@@ -217,10 +217,10 @@ TEST(ShapeKernels, ProjectGivesTheSameBitsEverywhere) {
 
 TEST(ShapeKernels, ProjectSnapsToTheNearestSubpixel) {
   Random random(53);
-  const node::Projection view = projection(639, 481, 2, 0.1, 500);
+  const Projection view = projection(639, 481, 2, 0.1, 500);
   VertexMemory memory = random_places(random, 5000);
-  node::shape_kernels(node::best_instruction_set("")).project(view, memory.view(), 5000);
-  const node::Vertices v = memory.view();
+  shape_kernels(simd::best_instruction_set("")).project(view, memory.view(), 5000);
+  const Vertices v = memory.view();
   int inside = 0;
   for (int k = 0; k < 5000; ++k) {
     const Vec3 place{v.place[0][k], v.place[1][k], v.place[2][k]};
@@ -235,12 +235,12 @@ TEST(ShapeKernels, ProjectSnapsToTheNearestSubpixel) {
     ++inside;
     EXPECT_NEAR(v.x[k] / 256.0, x, 0.5 / 256 + std::abs(x) * 4e-7 + 1e-4);
     EXPECT_NEAR(v.y[k] / 256.0, y, 0.5 / 256 + std::abs(y) * 4e-7 + 1e-4);
-    EXPECT_NEAR(v.values[k][node::kDepth] * w, 1, 2e-7);
+    EXPECT_NEAR(v.values[k][kDepth] * w, 1, 2e-7);
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_EQ(v.values[k][node::kNormalX + axis], v.normal[axis][k] * v.values[k][node::kDepth]);
+      EXPECT_EQ(v.values[k][kNormalX + axis], v.normal[axis][k] * v.values[k][kDepth]);
   }
   EXPECT_GT(inside, 1000);
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::shape

@@ -5,7 +5,7 @@
 
 #include "node/geometry/scene.h"
 
-namespace mars::test {
+namespace mars::shape {
 namespace {
 
 constexpr std::size_t kFirst[] = {0, 3, 12, 0}, kStride[] = {1, 4, 1, 4};
@@ -27,11 +27,11 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
-node::Projection projection(std::int32_t width, std::int32_t height, double focal, double near, double far) {
-  return node::projection_of({{}, focal, near, far}, width, height);
+Projection projection(std::int32_t width, std::int32_t height, double focal, double near, double far) {
+  return geometry::projection_of({{}, focal, near, far}, width, height);
 }
 
-node::EyePatch random_patch(Random& random, const Vec3& middle, double size) {
+EyePatch random_patch(Random& random, const Vec3& middle, double size) {
   return make_patch([&](int, int) {
     Vec3 place = middle;
     for (double& p : place) p += random.real(-size, size);
@@ -39,7 +39,7 @@ node::EyePatch random_patch(Random& random, const Vec3& middle, double size) {
   });
 }
 
-node::EyePatch sphere_octant(const Vec3& middle, double radius) {
+EyePatch sphere_octant(const Vec3& middle, double radius) {
   return make_patch([&](int i, int j) {
     const double around = radius * kQuarter[j][0];
     return Vec3{middle[0] + around * kQuarter[i][1], middle[1] + radius * kQuarter[j][1],
@@ -47,7 +47,7 @@ node::EyePatch sphere_octant(const Vec3& middle, double radius) {
   });
 }
 
-node::EyePatch cone_quarter(const Vec3& middle, double top, double height) {
+EyePatch cone_quarter(const Vec3& middle, double top, double height) {
   return make_patch([&](int i, int j) {
     const double radius = 1 + (top - 1) * j / 3;
     return Vec3{middle[0] + radius * kQuarter[i][1], middle[1] + height * j / 3,
@@ -55,19 +55,19 @@ node::EyePatch cone_quarter(const Vec3& middle, double top, double height) {
   });
 }
 
-node::EyePatch swapped(const node::EyePatch& patch) {
-  node::EyePatch out;
+EyePatch swapped(const EyePatch& patch) {
+  EyePatch out;
   for (std::size_t k = 0; k < 16; ++k) std::copy_n(patch.point[k], 3, out.point[4 * (k % 4) + k / 4]);
   return out;
 }
 
-node::EyePatch turned(const node::EyePatch& patch) {
-  node::EyePatch out;
+EyePatch turned(const EyePatch& patch) {
+  EyePatch out;
   for (std::size_t k = 0; k < 16; ++k) std::copy_n(patch.point[k], 3, out.point[15 - k]);
   return out;
 }
 
-Vec3 point_at(const node::Curve& curve, double t) {
+Vec3 point_at(const Curve& curve, double t) {
   const auto b = bernstein(t);
   Vec3 out{};
   for (std::size_t k = 0; k < 4; ++k)
@@ -75,7 +75,7 @@ Vec3 point_at(const node::Curve& curve, double t) {
   return out;
 }
 
-Vec3 point_at(const node::EyePatch& patch, double u, double v) {
+Vec3 point_at(const EyePatch& patch, double u, double v) {
   const auto across = bernstein(u), up = bernstein(v);
   Vec3 out{};
   for (std::size_t k = 0; k < 16; ++k)
@@ -84,12 +84,12 @@ Vec3 point_at(const node::EyePatch& patch, double u, double v) {
   return out;
 }
 
-std::array<double, 2> on_screen(const node::Projection& p, const Vec3& place) {
+std::array<double, 2> on_screen(const Projection& p, const Vec3& place) {
   const double w = -place[2];
   return {p.center[0] + p.scale * place[0] / w, p.center[1] - p.scale * place[1] / w};
 }
 
-std::array<std::array<float, 3>, 4> side_points(const node::EyePatch& patch, node::Side side) {
+std::array<std::array<float, 3>, 4> side_points(const EyePatch& patch, Side side) {
   const auto s = static_cast<std::size_t>(side);
   std::array<std::array<float, 3>, 4> points;
   for (std::size_t i = 0; i < 4; ++i)
@@ -97,11 +97,11 @@ std::array<std::array<float, 3>, 4> side_points(const node::EyePatch& patch, nod
   return points;
 }
 
-void set_side_points(node::EyePatch& patch, node::Side side,
+void set_side_points(EyePatch& patch, Side side,
                      const std::array<std::array<float, 3>, 4>& points) {
   const auto s = static_cast<std::size_t>(side);
   for (std::size_t i = 0; i < 4; ++i)
     std::copy_n(points[i].begin(), 3, patch.point[kFirst[s] + i * kStride[s]]);
 }
 
-}  // namespace mars::test
+}  // namespace mars::shape

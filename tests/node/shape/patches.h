@@ -8,7 +8,7 @@
 #include "node/shape/bezier.h"
 
 
-namespace mars::test {
+namespace mars::shape {
 
 // The same numbers on every machine.
 class Random {
@@ -34,13 +34,13 @@ Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
 // The eye's view on a picture: `focal` = 1 / tan(half the vertical field of view).
-node::Projection projection(std::int32_t width, std::int32_t height, double focal, double near = 0.1,
+Projection projection(std::int32_t width, std::int32_t height, double focal, double near = 0.1,
                             double far = 1000);
 
 // Control points place(i, j), i along u.
 template <typename Place>
-node::EyePatch make_patch(const Place& place) {
-  node::EyePatch patch;
+EyePatch make_patch(const Place& place) {
+  EyePatch patch;
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
       const Vec3 p = place(i, j);
@@ -50,33 +50,33 @@ node::EyePatch make_patch(const Place& place) {
 }
 
 // All control points within `size` of `middle` along each axis.
-node::EyePatch random_patch(Random& random, const Vec3& middle, double size);
+EyePatch random_patch(Random& random, const Vec3& middle, double size);
 
 // An eighth of a sphere round `middle`: u runs east, v runs north to the pole, where the patch collapses.
-node::EyePatch sphere_octant(const Vec3& middle, double radius);
+EyePatch sphere_octant(const Vec3& middle, double radius);
 // A quarter of a cone's or cylinder's side: radius 1 below, `top` above, `height` along y.
-node::EyePatch cone_quarter(const Vec3& middle, double top, double height);
+EyePatch cone_quarter(const Vec3& middle, double top, double height);
 // Quarter circle's control points, radius 1.
 inline constexpr double kArc = 0.5522847498307936;
 inline constexpr double kQuarter[4][2] = {{1, 0}, {1, kArc}, {kArc, 1}, {0, 1}};
 
 // u becomes v: the outside becomes the inside.
-node::EyePatch swapped(const node::EyePatch& patch);
+EyePatch swapped(const EyePatch& patch);
 // Turned half round in parameters: u and v both run the other way.
-node::EyePatch turned(const node::EyePatch& patch);
+EyePatch turned(const EyePatch& patch);
 
-Vec3 point_at(const node::Curve& curve, double t);
-Vec3 point_at(const node::EyePatch& patch, double u, double v);
+Vec3 point_at(const Curve& curve, double t);
+Vec3 point_at(const EyePatch& patch, double u, double v);
 
 // Screen place in pixels.
-std::array<double, 2> on_screen(const node::Projection& projection, const Vec3& place);
+std::array<double, 2> on_screen(const Projection& projection, const Vec3& place);
 
 // The four control points of a side, along u or v.
-std::array<std::array<float, 3>, 4> side_points(const node::EyePatch& patch, node::Side side);
-void set_side_points(node::EyePatch& patch, node::Side side,
+std::array<std::array<float, 3>, 4> side_points(const EyePatch& patch, Side side);
+void set_side_points(EyePatch& patch, Side side,
                      const std::array<std::array<float, 3>, 4>& points);
 
-inline constexpr node::Side kSides[] = {node::Side::bottom, node::Side::right, node::Side::top,
-                                        node::Side::left};
+inline constexpr Side kSides[] = {Side::bottom, Side::right, Side::top,
+                                        Side::left};
 
-}  // namespace mars::test
+}  // namespace mars::shape

@@ -10,7 +10,7 @@
 #include "hal/failure/failure.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::node {
+namespace mars::wire {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -101,7 +101,7 @@ TEST_F(LoadCommands, WithValuesThatMakeNoSense) {
 // Of a film of intervals 0-1 and 2; node 1 of five, which form two groups: 0-1 and 2-4.
 class RenderCommands : public testing::Test {
  protected:
-  RenderCommands() : block_(pack(test::small_film())) {
+  RenderCommands() : block_(pack(small_film())) {
     words_.resize((block_.size() + 7) / 8);
     std::memcpy(words_.data(), block_.data(), block_.size());
   }
@@ -159,4 +159,4 @@ TEST(CreditCommands, GiveBackWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace mars::node
+}  // namespace mars::wire

@@ -9,11 +9,9 @@
 #include "node/wire/film.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::test {
+namespace mars::wire {
 namespace {
 
-using node::FilmData;
-using node::FilmView;
 using Block = std::vector<std::byte>;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -27,7 +25,7 @@ void expect_same(const Items& items, const View& view) {
 
 TEST(FilmBlock, IsReadAsItWasPacked) {
   const FilmData film = small_film();
-  const Block block = node::pack(film);
+  const Block block = pack(film);
   for (const bool trusted : {false, true}) {
     const FilmView view(block, "film", trusted);
     EXPECT_EQ(std::memcmp(&film.settings, &view.settings(), sizeof film.settings), 0);
@@ -49,7 +47,7 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
 }
 
 TEST(FilmBlock, AnswersWhatHoldsAtAFrame) {
-  const Block block = node::pack(small_film());
+  const Block block = pack(small_film());
   const FilmView film(block, "film");
   EXPECT_EQ(film.name(film.segments()[0]), "base");
   EXPECT_EQ(film.name(film.segments()[1]), "arm");
@@ -74,7 +72,7 @@ void expect_refused(const std::vector<Defect>& defects) {
   for (const Defect& defect : defects) {
     FilmData film = small_film();
     defect.make(film);
-    const Block block = node::pack(film);
+    const Block block = pack(film);
     try {
       const FilmView view(block, "some.mars");
       ADD_FAILURE() << "taken though " << defect.name;
@@ -89,7 +87,7 @@ void expect_refused(const std::vector<Defect>& defects) {
 TEST(FilmBlock, RefusesNumbersOutOfRange) {
   std::vector<Defect> defects{
       {"width 0", [](FilmData& f) { f.settings.width = 0; }},
-      {"width too large", [](FilmData& f) { f.settings.width = node::kMaxSide + 1; }},
+      {"width too large", [](FilmData& f) { f.settings.width = kMaxSide + 1; }},
       {"height 0", [](FilmData& f) { f.settings.height = 0; }},
       {"height too large", [](FilmData& f) { f.settings.height = 0xffffffff; }},
       {"no frame", [](FilmData& f) { f.settings.frames = 0, f.intervals.clear(); }},
@@ -147,12 +145,12 @@ TEST(FilmBlock, RefusesBrokenIndices) {
        [](FilmData& f) {
          f.mesh_places.resize(300);
          f.mesh_normals.resize(300);
-         f.meshlets[0] = {7, node::kMeshletVertices + 1, 0, 1, {0, 0, 0}, {0, 0, 0}};
+         f.meshlets[0] = {7, kMeshletVertices + 1, 0, 1, {0, 0, 0}, {0, 0, 0}};
        }},
       {"a meshlet has too many triangles",
        [](FilmData& f) {
          f.mesh_triangles.resize(300);
-         f.meshlets[0].triangle_count = node::kMeshletTriangles + 1;
+         f.meshlets[0].triangle_count = kMeshletTriangles + 1;
        }},
       {"a triangle has no such vertex", [](FilmData& f) { f.mesh_triangles[1][2] = 4; }},
       {"a vertex leaves its meshlet's box", [](FilmData& f) { f.mesh_places[3][2] = 0.6f; }},
@@ -203,4 +201,4 @@ TEST(FilmBlock, RefusesBrokenIndices) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::wire

@@ -11,18 +11,17 @@
 #include "tests/node/shape/patches.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::test {
+namespace mars::wire {
 namespace {
 
-using node::FilmView;
 using Block = std::vector<std::byte>;
 
 // Reads all there is, as nodes do.
 std::uint64_t walk(const FilmView& film) {
   std::uint64_t sum = film.patch_instances();
   const std::uint32_t last = film.settings().frames - 1;
-  node::Scene scene(film);
-  static node::MeshletPlacer placer(node::best_instruction_set(""));
+  geometry::Scene scene(film);
+  static geometry::MeshletPlacer placer(simd::best_instruction_set(""));
   for (std::uint32_t i = 0; i < film.intervals().size(); ++i) {
     scene.set_interval(i);
     for (const std::uint32_t frame : {film.intervals()[i].first_frame, last}) {
@@ -31,13 +30,13 @@ std::uint64_t walk(const FilmView& film) {
       for (std::size_t s = 0; s < film.segments().size(); ++s) sum += scene.material(s) + scene.first_patch(s);
     }
   }
-  for (const node::Segment& segment : film.segments()) {
+  for (const Segment& segment : film.segments()) {
     sum += film.name(segment).size() + static_cast<std::uint64_t>(film.material_at(segment, last).sides);
-    const node::Shape& shape = film.shapes()[segment.shape];
-    for (const node::Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
+    const Shape& shape = film.shapes()[segment.shape];
+    for (const Patch& patch : film.patches().subspan(shape.first_patch, shape.patch_count))
       sum += patch.points[15][2] > 0;
-    for (const node::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
-      placer.place(node::eye_map(node::EyeMatrix{}), film, meshlet, scene.projection());
+    for (const Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
+      placer.place(geometry::eye_map(shape::EyeMatrix{}), film, meshlet, scene.projection());
       sum += static_cast<std::uint64_t>(placer.vertex_count());
     }
   }
@@ -56,7 +55,7 @@ bool taken(const Block& block) {
 }
 
 TEST(FilmDamage, TruncatedAnywhereIsRefused) {
-  const Block whole = node::pack(small_film());
+  const Block whole = pack(small_film());
   ASSERT_TRUE(taken(whole));
   const std::size_t padding = 63;  // the last section's end may be less than a section's alignment away
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -67,8 +66,8 @@ TEST(FilmDamage, TruncatedAnywhereIsRefused) {
 }
 
 TEST(FilmDamage, DamagedBytesDoNoHarm) {
-  const Block whole = node::pack(small_film());
-  Random random(4);
+  const Block whole = pack(small_film());
+  shape::Random random(4);
   int refused = 0;
   for (int trial = 0; trial < 30000; ++trial) {
     Block block = whole;
@@ -82,7 +81,7 @@ TEST(FilmDamage, DamagedBytesDoNoHarm) {
 }
 
 TEST(FilmDamage, DamagedHeaderIsRefused) {
-  const Block whole = node::pack(small_film());
+  const Block whole = pack(small_film());
   for (std::size_t at = 0; at < 16; ++at) {  // magic, version, number of sections
     Block block = whole;
     block[at] ^= std::byte{1};
@@ -100,4 +99,4 @@ TEST(FilmDamage, DamagedHeaderIsRefused) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::wire

@@ -5,13 +5,13 @@
 
 #include <vector>
 
-namespace mars::test {
+namespace mars::wire {
 namespace {
 
-std::vector<std::int32_t> contributors(const node::Render& render) {
+std::vector<std::int32_t> contributors(const Render& render) {
   std::vector<std::int32_t> nodes;
   for (std::uint32_t k = 0; k + 1 < render.frame_count; ++k) 
-    nodes.push_back(render.group_first + node::contributor_of_inbetween(render.first_inbetween + k, render.group_count));
+    nodes.push_back(render.group_first + contributor_of_inbetween(render.first_inbetween + k, render.group_count));
   return nodes;
 }
 
@@ -27,4 +27,4 @@ TEST(Contributors, GoOnWhereTheIntervalBeforeEnded) {
 }
 
 }  // namespace
-}  // namespace mars::test
+}  // namespace mars::wire

@@ -5,20 +5,20 @@
 
 #include "node/wire/film.h"
 
-namespace mars::test {
+namespace mars::wire {
 
-inline node::Patch flat_patch() {
-  node::Patch patch;
+inline Patch flat_patch() {
+  Patch patch;
   for (std::size_t k = 0; k < 16; ++k)
     patch.points[k] = {static_cast<float>(k % 4) / 3, static_cast<float>(k / 4) / 3, 0.5f};
   return patch;
 }
 
-inline node::Matrix moved(double x) { return {{{{1, 0, 0, x}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}; }
+inline Matrix moved(double x) { return {{{{1, 0, 0, x}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}; }
 
 // Three frames, two segments of which the second, partly a mesh, moves, one light that changes.
-inline node::FilmData small_film() {
-  node::FilmData film;
+inline FilmData small_film() {
+  FilmData film;
   film.settings = {64, 48, 3, 0, {0.1f, 0.2f, 0.3f}, 24, {0, 1}};
   film.patches.assign(3, flat_patch());
   film.mesh_places = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
@@ -40,4 +40,4 @@ inline node::FilmData small_film() {
   return film;
 }
 
-}  // namespace mars::test
+}  // namespace mars::wire

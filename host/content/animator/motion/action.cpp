@@ -9,7 +9,7 @@
 #include "host/content/animator/motion/steps.h"
 #include "host/content/animator/read_film.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
@@ -81,9 +81,9 @@ constexpr Action kActions[] = {
 };
 
 // Everything that the keys hold, as one key.
-ActorKey all_of(std::span<const ActorKey> keys) {
-  ActorKey all;
-  for (const ActorKey& key : keys) {
+animator::ActorKey all_of(std::span<const animator::ActorKey> keys) {
+  animator::ActorKey all;
+  for (const animator::ActorKey& key : keys) {
     if (key.place) all.place = key.place;
     if (key.turn) all.turn = key.turn;
     all.pose.insert(key.pose.begin(), key.pose.end());
@@ -105,23 +105,23 @@ const Action* find_action(std::string_view name) {
   return found == std::end(kActions) ? nullptr : found;
 }
 
-Performed perform(Json& json, const std::filesystem::path& path, const std::string& name,
+Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes) {
-  actor_of(json, name);  // refuses what is no actor
-  const Document document(laid_out(json), path.string());
-  const Film film = read_film(document.root(), path.parent_path());
-  const Actor& actor =
-      *std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == name; });
+  animator::actor_of(json, name);  // refuses what is no actor
+  const document::Document document(document::laid_out(json), path.string());
+  const animator::Film film = animator::read_film(document.root(), path.parent_path());
+  const animator::Actor& actor =
+      *std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
   if (!actor.matrices.empty())
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
-  const Scene scene{film, actor, at ? *at : last_key(actor.motion), wishes, action.name};
+  const Scene scene{film, actor, at ? *at : animator::last_key(actor.motion), wishes, action.name};
   const Motion motion = action.perform(scene);
   // Where it is elsewhere afterwards, what followed was meant for another place.
-  const ActorKey driven = all_of(motion.keys);
-  clear_keys(json, name, scene.at + 1, driven.place ? node::kMostFrames : motion.last, driven);
-  put_keys(json, name, motion.keys);
+  const animator::ActorKey driven = all_of(motion.keys);
+  animator::clear_keys(json, name, scene.at + 1, driven.place ? wire::kMostFrames : motion.last, driven);
+  animator::put_keys(json, name, motion.keys);
   return {scene.at, motion.last, motion.report};
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -13,7 +13,7 @@
 #include "host/content/animator/motion/scene.h"
 #include "host/content/animator/motion/wishes.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 struct Parameter {
   std::string_view name;     // "step-length"; an option --step-length, in scripts a word before its values
@@ -41,7 +41,7 @@ struct Performed {
 
 // Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
 // models are. Without `at` the action begins at the actor's last key.
-Performed perform(Json& film, const std::filesystem::path& path, const std::string& actor,
+Performed perform(document::Json& film, const std::filesystem::path& path, const std::string& actor,
                   const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes);
 
-}  // namespace mars::host
+}  // namespace mars::motion

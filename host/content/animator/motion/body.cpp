@@ -9,14 +9,14 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr int kGrid = 4;          // points along each side of a patch, of which a sole's shape is known
 constexpr double kStrikes = -15;  // degrees of pitch at which the heel is what touches
 constexpr double kLeaves = 25;    // and the tip of a foot without toes
 
-glm::dvec3 patch_point(const node::Patch& patch, double u, double v) {
+glm::dvec3 patch_point(const wire::Patch& patch, double u, double v) {
   const auto weights = [](double t) {
     const double r = 1 - t;
     return std::array{r * r * r, 3 * r * r * t, 3 * r * t * t, t * t * t};
@@ -29,27 +29,27 @@ glm::dvec3 patch_point(const node::Patch& patch, double u, double v) {
 }
 
 // Points of a joint's segment, in the world.
-void add_points(const Model& model, const Posture& posture, std::size_t number,
+void add_points(const modeler::Model& model, const Posture& posture, std::size_t number,
                 std::vector<glm::dvec3>& points) {
-  const Joint& joint = model.joints[number];
+  const modeler::Joint& joint = model.joints[number];
   if (!joint.segment) return;
-  const Axes frame = segment_frame(frame_in(model, posture, number), joint);
-  const Box& box = joint.segment->sbb;
+  const modeler::Axes frame = modeler::segment_frame(frame_in(model, posture, number), joint);
+  const modeler::Box& box = joint.segment->sbb;
   const auto add = [&](const glm::dvec3& p) {
     points.push_back(frame.turn * (box.min + p * (box.max - box.min)) + frame.place);
   };
-  const Shape& shape = model.shapes[joint.segment->shape];
-  for (const node::Patch& patch : shape.patches)
+  const modeler::Shape& shape = model.shapes[joint.segment->shape];
+  for (const wire::Patch& patch : shape.patches)
     for (int i = 0; i < kGrid; ++i)
       for (int j = 0; j < kGrid; ++j)
         add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
   if (shape.mesh)
-    for (const Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
+    for (const modeler::Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }
 
-bool is_below(const Model& model, std::size_t joint, std::size_t ancestor) {
-  while (joint != kNone && joint != ancestor) joint = model.joints[joint].parent;
-  return ancestor != kNone && joint == ancestor;
+bool is_below(const modeler::Model& model, std::size_t joint, std::size_t ancestor) {
+  while (joint != modeler::kNone && joint != ancestor) joint = model.joints[joint].parent;
+  return ancestor != modeler::kNone && joint == ancestor;
 }
 
 double lowest(std::span<const glm::dvec3> points, const glm::dmat3& turn, const glm::dvec3& from) {
@@ -66,7 +66,7 @@ glm::dvec3 lowest_point(const Sole& sole, double pitch) {
   return {least.x, 0, least.z};
 }
 
-Sole sole_of(const Model& model, const Posture& drawn, const glm::dmat3& axes, std::size_t ankle,
+Sole sole_of(const modeler::Model& model, const Posture& drawn, const glm::dmat3& axes, std::size_t ankle,
              std::size_t toes) {
   std::vector<glm::dvec3> foot, front;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
@@ -76,10 +76,10 @@ Sole sole_of(const Model& model, const Posture& drawn, const glm::dmat3& axes, s
   const glm::dvec3 origin = frame_in(model, drawn, ankle).place;
   Sole sole;
   for (const glm::dvec3& point : foot) sole.foot.push_back(back * (point - origin));
-  sole.bend = toes == kNone ? glm::dvec3(0) : back * (frame_in(model, drawn, toes).place - origin);
+  sole.bend = toes == modeler::kNone ? glm::dvec3(0) : back * (frame_in(model, drawn, toes).place - origin);
   for (const glm::dvec3& point : front) sole.toes.push_back(back * (point - origin) - sole.bend);
   sole.heel = lowest_point(sole, kStrikes);
-  sole.ball = toes == kNone ? lowest_point(sole, kLeaves) : glm::dvec3(sole.bend.x, 0, sole.bend.z);
+  sole.ball = toes == modeler::kNone ? lowest_point(sole, kLeaves) : glm::dvec3(sole.bend.x, 0, sole.bend.z);
   return sole;
 }
 
@@ -104,10 +104,10 @@ void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips,
                   "in its model, place the hips beside each other and the ankles below them");
   };
   constexpr double kLeast = 1e-3;  // of the leg
-  for (const Side side : kSides) {
+  for (const modeler::Side side : kSides) {
     const glm::dvec3 leg = ankles[index_of(side)] - hips[index_of(side)], across = hips[0] - hips[1];
     const double length = glm::length(leg);
-    const std::string name = side == Side::left ? "left" : "right";
+    const std::string name = side == modeler::Side::left ? "left" : "right";
     if (!(length > 0) || !std::isfinite(length)) fail("its " + name + " leg has no length from hip to ankle");
     if (!(glm::length(across) > kLeast * length)) fail("its hips are at one place");
     if (!(glm::length(glm::cross(across, leg)) > kLeast * glm::length(across) * length))
@@ -118,8 +118,8 @@ void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips,
 }  // namespace
 
 glm::dmat3 canonical_turn(double a, double b, double c) {
-  return rotation_by_degrees({1, 0, 0}, a) * rotation_by_degrees({0, 1, 0}, b) *
-         rotation_by_degrees({0, 0, 1}, c);
+  return modeler::rotation_by_degrees({1, 0, 0}, a) * modeler::rotation_by_degrees({0, 1, 0}, b) *
+         modeler::rotation_by_degrees({0, 0, 1}, c);
 }
 
 glm::dmat3 canonical_turn(const glm::dvec3& degrees) {
@@ -145,7 +145,7 @@ bool Body::planar() const {
 std::vector<std::size_t> Body::joints() const {
   std::vector<std::size_t> all(model->limbs.trunk.begin(), model->limbs.trunk.end());
   for (const auto& side : model->limbs.sides) all.insert(all.end(), side.begin(), side.end());
-  std::erase(all, kNone);
+  std::erase(all, modeler::kNone);
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -162,17 +162,17 @@ glm::dmat3 Body::turn_of(const Posture& posture, std::size_t joint) const {
 double Body::floor_under(const Posture& posture) const {
   double least = 1e300;
   for (const Leg& leg : legs) {
-    const Axes foot = frame_in(*model, posture, leg.ankle);
+    const modeler::Axes foot = frame_in(*model, posture, leg.ankle);
     least = std::min(least, foot.place.z + lowest(leg.sole.foot, foot.turn * axes, {0, 0, 0}));
-    if (leg.toes == kNone) continue;
-    const Axes toes = frame_in(*model, posture, leg.toes);
+    if (leg.toes == modeler::kNone) continue;
+    const modeler::Axes toes = frame_in(*model, posture, leg.toes);
     for (const glm::dvec3& point : leg.sole.toes)
       least = std::min(least, (toes.turn * axes * point + toes.place).z);
   }
   return least;
 }
 
-double lowest_of(const Model& model, const Posture& posture) {
+double lowest_of(const modeler::Model& model, const Posture& posture) {
   std::vector<glm::dvec3> points;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) add_points(model, posture, joint, points);
   double least = points.empty() ? posture.place.z : points[0].z;
@@ -180,35 +180,35 @@ double lowest_of(const Model& model, const Posture& posture) {
   return least;
 }
 
-Body body_of(const Model& model, const std::string& actor, const std::string& command) {
-  Body body{&model, actor, glm::dmat3(1), model.limbs.of(Trunk::pelvis), {}, 0};
+Body body_of(const modeler::Model& model, const std::string& actor, const std::string& command) {
+  Body body{&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}, 0};
   const Posture drawn = drawn_posture(model);
   std::array<glm::dvec3, 2> hips, ankles;
-  for (const Side side : kSides) {
-    hips[index_of(side)] = frame_in(model, drawn, needed(body, Limb::hip, side, command)).place;
-    ankles[index_of(side)] = frame_in(model, drawn, needed(body, Limb::ankle, side, command)).place;
+  for (const modeler::Side side : kSides) {
+    hips[index_of(side)] = frame_in(model, drawn, needed(body, modeler::Limb::hip, side, command)).place;
+    ankles[index_of(side)] = frame_in(model, drawn, needed(body, modeler::Limb::ankle, side, command)).place;
   }
   check_legs(actor, hips, ankles);
-  if (body.pelvis == kNone) body.pelvis = model.joints[model.limbs.of(Limb::hip, Side::left)].parent;
-  if (body.pelvis == kNone) fail_limb(actor, command, "pelvis");
+  if (body.pelvis == modeler::kNone) body.pelvis = model.joints[model.limbs.of(modeler::Limb::hip, modeler::Side::left)].parent;
+  if (body.pelvis == modeler::kNone) fail_limb(actor, command, "pelvis");
   const glm::dvec3 pelvis = frame_in(model, drawn, body.pelvis).place;
   const glm::dvec3 left = glm::normalize(hips[0] - hips[1]);
   const glm::dvec3 legs = ankles[0] - hips[0];
   const glm::dvec3 up = glm::normalize(glm::dot(legs, left) * left - legs);
   body.axes = nearly_square({glm::cross(left, up), left, up});
   const glm::dmat3 back = glm::transpose(body.axes);
-  for (const Side side : kSides) {
+  for (const modeler::Side side : kSides) {
     Leg& leg = body.legs[index_of(side)];
-    leg = {model.limbs.of(Limb::hip, side),
-           model.limbs.of(Limb::knee, side),
-           model.limbs.of(Limb::ankle, side),
-           model.limbs.of(Limb::toes, side),
+    leg = {model.limbs.of(modeler::Limb::hip, side),
+           model.limbs.of(modeler::Limb::knee, side),
+           model.limbs.of(modeler::Limb::ankle, side),
+           model.limbs.of(modeler::Limb::toes, side),
            0,
            0,
            0,
            {}};
     const glm::dvec3 hip = hips[index_of(side)], ankle = ankles[index_of(side)];
-    const glm::dvec3 knee = leg.knee == kNone ? ankle : frame_in(model, drawn, leg.knee).place;
+    const glm::dvec3 knee = leg.knee == modeler::kNone ? ankle : frame_in(model, drawn, leg.knee).place;
     leg.thigh = glm::distance(hip, knee);
     leg.shin = glm::distance(knee, ankle);
     leg.aside = (back * (hip - pelvis)).y;
@@ -219,27 +219,27 @@ Body body_of(const Model& model, const std::string& actor, const std::string& co
   return body;
 }
 
-Body body_without_legs(const Model& model, const std::string& actor) {
-  for (const Side side : kSides)
-    if (model.limbs.of(Limb::hip, side) == kNone || model.limbs.of(Limb::ankle, side) == kNone ||
-        model.joints[model.limbs.of(Limb::hip, side)].parent == kNone)
-      return {&model, actor, glm::dmat3(1), model.limbs.of(Trunk::pelvis), {}, 0};
+Body body_without_legs(const modeler::Model& model, const std::string& actor) {
+  for (const modeler::Side side : kSides)
+    if (model.limbs.of(modeler::Limb::hip, side) == modeler::kNone || model.limbs.of(modeler::Limb::ankle, side) == modeler::kNone ||
+        model.joints[model.limbs.of(modeler::Limb::hip, side)].parent == modeler::kNone)
+      return {&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}, 0};
   return body_of(model, actor, "");
 }
 
-std::size_t needed(const Body& body, Trunk part, const std::string& command) {
+std::size_t needed(const Body& body, modeler::Trunk part, const std::string& command) {
   const std::size_t joint = body.find(part);
-  if (joint == kNone) fail_limb(body.name, command, std::string(kTrunkNames[static_cast<std::size_t>(part)]));
+  if (joint == modeler::kNone) fail_limb(body.name, command, std::string(modeler::kTrunkNames[static_cast<std::size_t>(part)]));
   return joint;
 }
 
-std::size_t needed(const Body& body, Limb limb, Side side, const std::string& command) {
+std::size_t needed(const Body& body, modeler::Limb limb, modeler::Side side, const std::string& command) {
   const std::size_t joint = body.find(limb, side);
-  if (joint == kNone)
+  if (joint == modeler::kNone)
     fail_limb(body.name, command,
-              std::string(side == Side::left ? "left " : "right ") +
-                  std::string(kLimbNames[static_cast<std::size_t>(limb)]));
+              std::string(side == modeler::Side::left ? "left " : "right ") +
+                  std::string(modeler::kLimbNames[static_cast<std::size_t>(limb)]));
   return joint;
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -10,12 +10,12 @@
 
 #include "host/content/animator/motion/posture.h"
 
-namespace mars::host {
+namespace mars::motion {
 
-inline constexpr Side kSides[] = {Side::left, Side::right};
-constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
-constexpr Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
-constexpr double sign_of(Side side) { return side == Side::left ? 1 : -1; }
+inline constexpr modeler::Side kSides[] = {modeler::Side::left, modeler::Side::right};
+constexpr std::size_t index_of(modeler::Side side) { return static_cast<std::size_t>(side); }
+constexpr modeler::Side other(modeler::Side side) { return side == modeler::Side::left ? modeler::Side::right : modeler::Side::left; }
+constexpr double sign_of(modeler::Side side) { return side == modeler::Side::left ? 1 : -1; }
 
 // Rot(x, a) Rot(y, b) Rot(z, c), degrees: about forward, left and up. Positive y nods, positive z turns left.
 glm::dmat3 canonical_turn(double a, double b, double c);
@@ -44,20 +44,20 @@ struct Leg {
 };
 
 struct Body {
-  const Model* model;
+  const modeler::Model* model;
   std::string name;    // of the actor, for messages
   glm::dmat3 axes;     // forward, left, up in the model's own frame
   std::size_t pelvis;  // named, or the joint that carries the hips
   std::array<Leg, 2> legs;
   double height;  // of the pelvis over the floor as drawn, where it stands
 
-  const Leg& leg(Side side) const { return legs[index_of(side)]; }
+  const Leg& leg(modeler::Side side) const { return legs[index_of(side)]; }
   double leg_length() const { return legs[0].length(); }
   bool planar() const;  // legs swing forward and back alone
-  bool stiff() const { return legs[0].knee == kNone; }
+  bool stiff() const { return legs[0].knee == modeler::kNone; }
 
-  std::size_t find(Trunk part) const { return model->limbs.of(part); }
-  std::size_t find(Limb limb, Side side) const { return model->limbs.of(limb, side); }
+  std::size_t find(modeler::Trunk part) const { return model->limbs.of(part); }
+  std::size_t find(modeler::Limb limb, modeler::Side side) const { return model->limbs.of(limb, side); }
   // All joints that are limbs, in the model's order.
   std::vector<std::size_t> joints() const;
   const std::string& joint_name(std::size_t joint) const { return model->joints[joint].name; }
@@ -70,17 +70,17 @@ struct Body {
 };
 
 // The least z of all segments in the world.
-double lowest_of(const Model& model, const Posture& posture);
+double lowest_of(const modeler::Model& model, const Posture& posture);
 
 // Throws Failure where limbs that every command needs are not named.
-Body body_of(const Model& model, const std::string& actor, const std::string& command);
+Body body_of(const modeler::Model& model, const std::string& actor, const std::string& command);
 
 // What a command needs that moves no legs: axes as those of the legs, or where these are not named forward
 // along x and up along z. `legs` is not to be asked.
-Body body_without_legs(const Model& model, const std::string& actor);
+Body body_without_legs(const modeler::Model& model, const std::string& actor);
 
 // The joint, or a Failure that names the limb as in "limbs.left.shoulder".
-std::size_t needed(const Body& body, Trunk part, const std::string& command);
-std::size_t needed(const Body& body, Limb limb, Side side, const std::string& command);
+std::size_t needed(const Body& body, modeler::Trunk part, const std::string& command);
+std::size_t needed(const Body& body, modeler::Limb limb, modeler::Side side, const std::string& command);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-namespace mars::host {
+namespace mars::motion {
 
 using CurvePoint = std::array<double, 2>;  // x, y
 
@@ -36,4 +36,4 @@ inline double smooth(double from, double to, double x) {
   return (3 - 2 * t) * t * t;
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

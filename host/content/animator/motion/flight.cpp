@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 glm::dvec3 after(const Launch& launch, double time) {
@@ -80,4 +80,4 @@ double Flight::turned_at(double time) const {
   return arc.turned + arc.spin * past - arc.brake * past * past / 2;
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

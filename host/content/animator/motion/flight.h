@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace mars::host {
+namespace mars::motion {
 
 // Units of the film, seconds, degrees.
 struct Launch {
@@ -52,4 +52,4 @@ class Flight {
   std::vector<Arc> arcs_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::motion

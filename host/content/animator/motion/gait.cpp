@@ -12,7 +12,7 @@
 #include "host/content/animator/motion/curve.h"
 #include "host/content/animator/motion/stiff_legs.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 // An ordinary man's walk. Times are shares of the time from landing to landing, lengths of a leg's length.
@@ -47,7 +47,7 @@ class Walker {
         rolls_(rolls),
         start_(stance_of(body, start)),
         floor_(body.floor_under(start)) {
-    for (const Side side : kSides) {
+    for (const modeler::Side side : kSides) {
       const Foot& foot = start_.feet[index_of(side)];
       prints_[index_of(side)] = {{foot.ankle.x, foot.ankle.y}, foot.heading};
     }
@@ -57,14 +57,14 @@ class Walker {
 
   Stance at(double time) const {
     Stance stance = body_at(time);
-    for (const Side side : kSides) stance.feet[index_of(side)] = foot_at(side, time);
+    for (const modeler::Side side : kSides) stance.feet[index_of(side)] = foot_at(side, time);
     return stance;
   }
 
   // How far the pelvis is too high for the feet that stand or swing there.
   double too_high(const Stance& stance) const {
     double most = 0;
-    for (const Side side : kSides) {
+    for (const modeler::Side side : kSides) {
       const Foot& foot = stance.feet[index_of(side)];
       const glm::dvec3 hip = hip_of(stance, side), way = hip - foot.ankle;
       const double reach = (foot.stands ? kReach : kSwingReach) * body_.leg(side).length();
@@ -75,7 +75,7 @@ class Walker {
   }
 
  private:
-  glm::dvec3 hip_of(const Stance& stance, Side side) const {
+  glm::dvec3 hip_of(const Stance& stance, modeler::Side side) const {
     const Leg& leg = body_.leg(side);
     const glm::dmat3 turn = canonical_turn(0, 0, stance.heading) * canonical_turn(stance.tilt);
     const Posture drawn = drawn_posture(*body_.model);
@@ -92,9 +92,9 @@ class Walker {
     return 0.35 + 0.65 * std::min(far, 1.2);
   }
 
-  double off_pitch(const Step& step, const Footprint& from, Side side) const {
+  double off_pitch(const Step& step, const Footprint& from, modeler::Side side) const {
     if (body_.stiff()) return 0;
-    return (body_.leg(side).toes == kNone ? kTipOff : kOff) * std::min(zeal(step, from), 1.0);
+    return (body_.leg(side).toes == modeler::kNone ? kTipOff : kOff) * std::min(zeal(step, from), 1.0);
   }
 
   double strike_pitch(const Step& step, const Footprint& from) const {
@@ -105,14 +105,14 @@ class Walker {
   }
 
   // A foot on its print, rolled about a point of its sole that stays where it is.
-  Foot rolled(Side side, const Footprint& print, const glm::dvec3& pivot, double pitch, double bent) const {
+  Foot rolled(modeler::Side side, const Footprint& print, const glm::dvec3& pivot, double pitch, double bent) const {
     const Sole& sole = body_.leg(side).sole;
     const glm::dvec3 shift = pivot - canonical_turn(0, pitch, 0) * pivot;
     const glm::dvec2 place = print.place + shift.x * ahead(print.heading);
     return {{place.x, place.y, floor_ + sole.height(pitch, bent)}, print.heading, pitch, bent, true};
   }
 
-  Foot standing(Side side, const Footprint& print, const Step* before, const Footprint& from,
+  Foot standing(modeler::Side side, const Footprint& print, const Step* before, const Footprint& from,
                 const Step* next, double time) const {
     const Sole& sole = body_.leg(side).sole;
     const double flat = kFlat * gait_.period, rise = kRise * gait_.period;
@@ -122,10 +122,10 @@ class Walker {
     }
     if (!next || time < next->off - rise) return rolled(side, print, sole.heel, 0, 0);
     const double part = (time - next->off + rise) / rise, pitch = off_pitch(*next, print, side) * part * part;
-    return rolled(side, print, sole.ball, pitch, body_.leg(side).toes == kNone ? 0 : -pitch);
+    return rolled(side, print, sole.ball, pitch, body_.leg(side).toes == modeler::kNone ? 0 : -pitch);
   }
 
-  Foot swinging(Side side, const Footprint& from, const Step& step, double time) const {
+  Foot swinging(modeler::Side side, const Footprint& from, const Step& step, double time) const {
     constexpr double kMoment = 1e-4;
     const auto before = [&](double t) { return standing(side, from, nullptr, from, &step, t); };
     const auto after = [&](double t) { return standing(side, step.to, &step, from, nullptr, t); };
@@ -173,7 +173,7 @@ class Walker {
     return curve_through(points, 0.6 * lift, -0.1 * lift, u);
   }
 
-  Foot foot_at(Side side, double time) const {
+  Foot foot_at(modeler::Side side, double time) const {
     const auto& steps = steps_[index_of(side)];
     const auto down = [](double at, const Step* step) { return at < step->land; };
     const auto next = std::upper_bound(steps.begin(), steps.end(), time, down);
@@ -190,7 +190,7 @@ class Walker {
   // By the left foot's cycle, from its landing to its next; two steps.
   double phase(double time) const {
     const Step& first = gait_.steps.front();
-    return ((time - first.land) / gait_.period + (first.side == Side::left ? 0 : 1)) / 2;
+    return ((time - first.land) / gait_.period + (first.side == modeler::Side::left ? 0 : 1)) / 2;
   }
 
   // Of the swings of a walk: they grow with the first step and end with the last.
@@ -220,7 +220,7 @@ class Walker {
                                                           swing * (3 + wave(0.05, 2)) + 0.4 * lean,
                                                           -5 * loose * swing * wave(0));
     add_trunk(stance, p, swing, lean);
-    for (const Side side : kSides) add_arm(stance, side, p, swing);
+    for (const modeler::Side side : kSides) add_arm(stance, side, p, swing);
     return stance;
   }
 
@@ -234,12 +234,12 @@ class Walker {
     return sign_of(step->side) * glm::degrees(std::asin(roll(step->side))) * std::sin(std::numbers::pi * u);
   }
 
-  double roll(Side side) const {  // its sine
+  double roll(modeler::Side side) const {  // its sine
     return std::min(kStiffRise * body_.leg_length() / (2 * std::abs(body_.leg(side).aside)), kStiffRoll);
   }
 
   // How far aside a leg of one piece is carried, that it may rise as far as the roll does not lift it.
-  double round_about(Side side) const {
+  double round_about(modeler::Side side) const {
     if (!body_.stiff() || body_.planar()) return 0;
     const double leg = body_.leg_length(),
                  lifted = rolls_ ? 2 * std::abs(body_.leg(side).aside) * roll(side) : 0;
@@ -258,27 +258,27 @@ class Walker {
 
   void add_trunk(Stance& stance, double p, double swing, double lean) const {
     const auto wave = [&](double at, double times = 1) { return std::cos(2 * std::numbers::pi * times * (p - at)); };
-    const auto add = [&](Trunk part, const glm::dvec3& swung, double share) {
-      if (const std::size_t joint = body_.find(part); joint != kNone)
+    const auto add = [&](modeler::Trunk part, const glm::dvec3& swung, double share) {
+      if (const std::size_t joint = body_.find(part); joint != modeler::kNone)
         stance.turns[joint] = canonical_turn(swing * swung + glm::dvec3(0, share * lean, 0));
     };
-    add(Trunk::spine, {-2.2 * wave(0.18), 0.5, 4.5 * wave(0.02)}, 0.3);
-    add(Trunk::chest, {-1.4 * wave(0.18), 1.5 - 0.8 * wave(0.1, 2), 5.5 * wave(0.04)}, 0.3);
-    add(Trunk::neck, {0.6 * wave(0.18), 1, -2.6 * wave(0.05)}, -0.4);
-    add(Trunk::head, {0.5 * wave(0.18), -4, -2.4 * wave(0.05)}, -0.5);
+    add(modeler::Trunk::spine, {-2.2 * wave(0.18), 0.5, 4.5 * wave(0.02)}, 0.3);
+    add(modeler::Trunk::chest, {-1.4 * wave(0.18), 1.5 - 0.8 * wave(0.1, 2), 5.5 * wave(0.04)}, 0.3);
+    add(modeler::Trunk::neck, {0.6 * wave(0.18), 1, -2.6 * wave(0.05)}, -0.4);
+    add(modeler::Trunk::head, {0.5 * wave(0.18), -4, -2.4 * wave(0.05)}, -0.5);
   }
 
-  void add_arm(Stance& stance, Side side, double p, double swing) const {
-    const double own = side == Side::left ? p : p + 0.5, s = sign_of(side),
+  void add_arm(Stance& stance, modeler::Side side, double p, double swing) const {
+    const double own = side == modeler::Side::left ? p : p + 0.5, s = sign_of(side),
                  much = swing * gait_.style.arm_swing;
     const auto wave = [&](double late) { return std::cos(2 * std::numbers::pi * (own - late)); };
-    if (const std::size_t joint = body_.find(Limb::shoulder, side); joint != kNone)
+    if (const std::size_t joint = body_.find(modeler::Limb::shoulder, side); joint != modeler::kNone)
       stance.turns[joint] = hanging_shoulder(
           body_, side, {s * (8 + 1.5 * much * wave(0.5)), -3 * swing + 21 * much * wave(0.02), s * -12});
-    if (const std::size_t joint = body_.find(Limb::elbow, side); joint != kNone)
+    if (const std::size_t joint = body_.find(modeler::Limb::elbow, side); joint != modeler::kNone)
       stance.turns[joint] =
           hanging_elbow(body_, side, {0, -14 - 14 * swing + 15 * much * wave(0.09), s * -14});
-    if (const std::size_t joint = body_.find(Limb::wrist, side); joint != kNone)
+    if (const std::size_t joint = body_.find(modeler::Limb::wrist, side); joint != modeler::kNone)
       stance.turns[joint] =
           hanging_elbow(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
   }
@@ -326,16 +326,16 @@ double swing_share(const Body& body) { return body.stiff() ? 1.0 : 5.0 / 6; }
 
 std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
   std::map<std::size_t, glm::dmat3> turns;
-  for (const Trunk part : {Trunk::spine, Trunk::chest, Trunk::neck, Trunk::head})
-    if (const std::size_t joint = body.find(part); joint != kNone) turns[joint] = glm::dmat3(1);
-  for (const Side side : kSides) {
+  for (const modeler::Trunk part : {modeler::Trunk::spine, modeler::Trunk::chest, modeler::Trunk::neck, modeler::Trunk::head})
+    if (const std::size_t joint = body.find(part); joint != modeler::kNone) turns[joint] = glm::dmat3(1);
+  for (const modeler::Side side : kSides) {
     const double s = sign_of(side);
-    const auto add = [&](Limb limb, const glm::dmat3& turn) {
-      if (const std::size_t joint = body.find(limb, side); joint != kNone) turns[joint] = turn;
+    const auto add = [&](modeler::Limb limb, const glm::dmat3& turn) {
+      if (const std::size_t joint = body.find(limb, side); joint != modeler::kNone) turns[joint] = turn;
     };
-    add(Limb::shoulder, hanging_shoulder(body, side, {s * 8, 0, s * -12}));
-    add(Limb::elbow, hanging_elbow(body, side, {0, -14, s * -14}));
-    add(Limb::wrist, hanging_elbow(body, side, {s * -6, 4, 0}));
+    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * 8, 0, s * -12}));
+    add(modeler::Limb::elbow, hanging_elbow(body, side, {0, -14, s * -14}));
+    add(modeler::Limb::wrist, hanging_elbow(body, side, {s * -6, 4, 0}));
   }
   return turns;
 }
@@ -386,4 +386,4 @@ std::vector<Posture> postures_of(const Body& body, const Posture& start, const G
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

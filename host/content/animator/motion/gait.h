@@ -7,7 +7,7 @@
 
 #include "host/content/animator/motion/stance.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 // Where an ankle is when its foot stands flat.
 struct Footprint {
@@ -16,7 +16,7 @@ struct Footprint {
 };
 
 struct Step {
-  Side side;
+  modeler::Side side;
   Footprint to;
   double off;   // frames from the start: the foot leaves the floor
   double land;  // and is down again
@@ -61,4 +61,4 @@ double swing_share(const Body& body);
 // How a body stands at ease: arms hanging, trunk upright.
 std::map<std::size_t, glm::dmat3> at_ease(const Body& body);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -14,7 +14,7 @@
 #include "host/content/animator/motion/reach.h"
 #include "host/content/animator/motion/stance.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kEnough = 1;       // degrees that a nod may fall short
@@ -36,13 +36,13 @@ class Gesture {
 
   Motion motion() const {
     const std::uint32_t last = moments_.back().frame, end = scene_.last_after(last);
-    std::vector<ActorKey> keys(last + 1);
+    std::vector<animator::ActorKey> keys(last + 1);
     for (std::uint32_t frame = 0; frame <= last; ++frame) {
       keys[frame].frame = scene_.at + frame;
-      keys[frame].ease = kLinear;
+      keys[frame].ease = animator::kLinear;
     }
     for (const std::size_t joint : joints_) add(scene_.model().joints[joint], numbers_of(joint, last), keys);
-    std::erase_if(keys, [](const ActorKey& key) { return key.pose.empty(); });
+    std::erase_if(keys, [](const animator::ActorKey& key) { return key.pose.empty(); });
     return {keys, end, ""};
   }
 
@@ -65,7 +65,7 @@ class Gesture {
     return numbers;
   }
 
-  static void add(const Joint& joint, const std::vector<glm::dvec3>& numbers, std::vector<ActorKey>& keys) {
+  static void add(const modeler::Joint& joint, const std::vector<glm::dvec3>& numbers, std::vector<animator::ActorKey>& keys) {
     choose_keys(
         numbers.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
@@ -84,30 +84,30 @@ class Gesture {
 
 // Bends a joint forward by as many degrees as it can of those wanted; returns how many.
 double bend(const Body& body, std::size_t joint, double degrees, Posture& posture) {
-  if (joint == kNone) return 0;
-  const glm::dmat3 from = orientation(body.model->joints[joint], posture.pose[joint]);
+  if (joint == modeler::kNone) return 0;
+  const glm::dmat3 from = modeler::orientation(body.model->joints[joint], posture.pose[joint]);
   const glm::dmat3 now = glm::transpose(body.axes) * from * body.axes;
   posture.pose[joint] = numbers_for(body, joint, now * canonical_turn(0, degrees, 0), posture.pose[joint]);
-  return glm::degrees(turn_between(from, orientation(body.model->joints[joint], posture.pose[joint])).angle);
+  return glm::degrees(animator::turn_between(from, modeler::orientation(body.model->joints[joint], posture.pose[joint])).angle);
 }
 
 Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::size_t head, double depth,
                const Wishes& wishes) {
   Posture down = start;
-  double by_neck = bend(body, neck, head == kNone ? depth : depth / 2, down);
+  double by_neck = bend(body, neck, head == modeler::kNone ? depth : depth / 2, down);
   const double by_head = bend(body, head, depth - by_neck, down);
-  if (neck != kNone) {
+  if (neck != modeler::kNone) {
     down.pose[neck] = start.pose[neck];
     by_neck = bend(body, neck, depth - by_head, down);
   }
   const double left = depth - by_neck - by_head;
   if (left > kEnough)
     wishes.refuse("depth",
-                  "is " + shown(depth) + " degrees, but " +
-                      (neck == kNone ? "" : "'" + body.joint_name(neck) + "'") +
-                      (neck == kNone || head == kNone ? "" : " and ") +
-                      (head == kNone ? "" : "'" + body.joint_name(head) + "'") + " can bend " +
-                      shown(std::floor(depth - left)) + " from where they are",
+                  "is " + document::shown(depth) + " degrees, but " +
+                      (neck == modeler::kNone ? "" : "'" + body.joint_name(neck) + "'") +
+                      (neck == modeler::kNone || head == modeler::kNone ? "" : " and ") +
+                      (head == modeler::kNone ? "" : "'" + body.joint_name(head) + "'") + " can bend " +
+                      document::shown(std::floor(depth - left)) + " from where they are",
                   "nod less, or widen the joint's limits in its model");
   return down;
 }
@@ -119,7 +119,7 @@ struct Arm {
   double upper, fore;
 };
 
-Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm, double outward,
+Posture waving(const Body& body, const Posture& start, modeler::Side side, const Arm& arm, double outward,
                const std::string& where) {
   Posture posture = start;
   const double s = sign_of(side), tilt = glm::radians(outward);
@@ -134,7 +134,7 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
       numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);
   const std::size_t joints[] = {arm.shoulder, arm.elbow};
   std::vector<Goal> goals{{.joint = arm.elbow, .place = elbow}};
-  if (arm.wrist == kNone) {
+  if (arm.wrist == modeler::kNone) {
     // The forearm, drawn as the upper arm goes on, lies across all that is across its way.
     const Posture drawn = drawn_posture(*body.model);
     const glm::dvec3 along = glm::normalize(frame_in(*body.model, drawn, arm.elbow).place -
@@ -150,10 +150,10 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
     goals.push_back({.joint = arm.wrist, .place = wrist});
   }
   reach(*body.model, posture, joints, goals);
-  const Goal& end = arm.wrist == kNone ? goals.front() : goals.back();
+  const Goal& end = arm.wrist == modeler::kNone ? goals.front() : goals.back();
   if (glm::distance(frame_in(*body.model, posture, end.joint).place, *end.place) >
       kOff * (arm.upper + arm.fore))
-    throw Failure("cannot raise its " + std::string(side == Side::left ? "left" : "right") + " hand to wave",
+    throw Failure("cannot raise its " + std::string(side == modeler::Side::left ? "left" : "right") + " hand to wave",
                   "actor '" + body.name + "', " + where,
                   "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" +
                       body.joint_name(arm.elbow) + "' in its model, or take the other hand");
@@ -165,12 +165,12 @@ Posture waving(const Body& body, const Posture& start, Side side, const Arm& arm
 Motion nod(const Scene& scene) {
   const Wishes& wishes = scene.wishes;
   const Body body = body_without_legs(scene.model(), scene.actor.name);
-  const std::size_t neck = body.find(Trunk::neck);
-  const std::size_t head = neck == kNone ? needed(body, Trunk::head, "nod") : body.find(Trunk::head);
+  const std::size_t neck = body.find(modeler::Trunk::neck);
+  const std::size_t head = neck == modeler::kNone ? needed(body, modeler::Trunk::head, "nod") : body.find(modeler::Trunk::head);
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
   const Posture down = nodded(body, start, neck, head, wishes.number("depth", 24, {0.1, 120}), wishes);
   std::vector<std::size_t> joints{neck, head};
-  std::erase(joints, kNone);
+  std::erase(joints, modeler::kNone);
   const std::uint32_t times = wishes.count("times", 2, 1000);
   const double seconds = wishes.number("seconds", 0.6, {0.1, 60});
   Gesture gesture(scene, joints);
@@ -186,19 +186,19 @@ Motion wave(const Scene& scene) {
   const Wishes& wishes = scene.wishes;
   const Body body = body_without_legs(scene.model(), scene.actor.name);
   constexpr std::string_view hands[] = {"left", "right"};
-  const Side side = kSides[wishes.choice("hand", 1, hands)];
-  Arm arm{needed(body, Limb::shoulder, side, "wave"), needed(body, Limb::elbow, side, "wave"),
-          body.find(Limb::wrist, side), 0, 0};
+  const modeler::Side side = kSides[wishes.choice("hand", 1, hands)];
+  Arm arm{needed(body, modeler::Limb::shoulder, side, "wave"), needed(body, modeler::Limb::elbow, side, "wave"),
+          body.find(modeler::Limb::wrist, side), 0, 0};
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
   const auto place = [&](std::size_t joint) { return frame_in(scene.model(), start, joint).place; };
   arm.upper = glm::distance(place(arm.shoulder), place(arm.elbow));
-  arm.fore = arm.wrist == kNone ? arm.upper : glm::distance(place(arm.elbow), place(arm.wrist));
+  arm.fore = arm.wrist == modeler::kNone ? arm.upper : glm::distance(place(arm.elbow), place(arm.wrist));
   const Posture in = waving(body, start, side, arm, kInward, wishes.where());
   const Posture out = waving(body, start, side, arm, kOutward, wishes.where());
   const std::uint32_t times = wishes.count("times", 3, 1000);
   const double seconds = wishes.number("seconds", 0.5, {0.1, 60});
   std::vector<std::size_t> joints{arm.shoulder, arm.elbow, arm.wrist};
-  std::erase(joints, kNone);
+  std::erase(joints, modeler::kNone);
   Gesture gesture(scene, joints);
   gesture.at(0, start);
   for (std::uint32_t time = 0; time < times; ++time) {
@@ -210,4 +210,4 @@ Motion wave(const Scene& scene) {
   return gesture.motion();
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -10,14 +10,14 @@
 #include "host/content/animator/motion/curve.h"
 #include "host/content/animator/motion/gait.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kLegTolerance = 0.03, kTolerance = 0.3;  // degrees
 constexpr double kPlaceTolerance = 2e-4;                  // of the leg's length
 constexpr int kLongest = 48;                              // frames from key to key at most
 
-double rounded_to(double value, double digit) { return rounded(std::round(value / digit) * digit); }
+double rounded_to(double value, double digit) { return animator::rounded(std::round(value / digit) * digit); }
 
 glm::dvec3 rounded_to(const glm::dvec3& v, double digit) {
   return {rounded_to(v.x, digit), rounded_to(v.y, digit), rounded_to(v.z, digit)};
@@ -40,7 +40,7 @@ class Keying {
   }
 
   template <typename Value, typename Put>
-  void add_turns(const Joint& joint, double tolerance, Value value, Put put) {
+  void add_turns(const modeler::Joint& joint, double tolerance, Value value, Put put) {
     std::vector<glm::dvec3> values;
     for (const Posture& posture : postures_) values.push_back(two_digits(joint, value(posture)));
     choose_keys(
@@ -61,15 +61,15 @@ class Keying {
         [&](std::size_t at) { keys_[at].place = rounded_to(postures_[at].place, digit); });
   }
 
-  std::vector<ActorKey> take() {
-    std::erase_if(keys_, [](const ActorKey& key) { return !key.place && !key.turn && key.pose.empty(); });
-    for (ActorKey& key : keys_) key.ease = kLinear;
+  std::vector<animator::ActorKey> take() {
+    std::erase_if(keys_, [](const animator::ActorKey& key) { return !key.place && !key.turn && key.pose.empty(); });
+    for (animator::ActorKey& key : keys_) key.ease = animator::kLinear;
     return std::move(keys_);
   }
 
  private:
   std::span<const Posture> postures_;
-  std::vector<ActorKey> keys_;
+  std::vector<animator::ActorKey> keys_;
 };
 
 bool carries_legs(const Body& body, std::size_t joint) {
@@ -98,22 +98,22 @@ void choose_keys(std::size_t count, const std::function<bool(std::size_t, std::s
   }
 }
 
-bool strays(const Joint& joint, const glm::dvec3& a, const glm::dvec3& b, double part, const glm::dvec3& is,
+bool strays(const modeler::Joint& joint, const glm::dvec3& a, const glm::dvec3& b, double part, const glm::dvec3& is,
             double tolerance) {
   if (a == b) return glm::distance(a, is) > tolerance;
   if (joint.freedoms() == 1) return glm::distance(a + part * (b - a), is) > tolerance;
-  const glm::dmat3 start = orientation(joint, a);
-  const Turn turn = turn_between(start, orientation(joint, b));
-  const glm::dmat3 shown = rotation(turn.axis, part * turn.angle) * start;
-  return glm::degrees(turn_between(shown, orientation(joint, is)).angle) > tolerance ||
-         largest_excess(joint, pose_of(joint, shown, is)) > kAngleRounding;
+  const glm::dmat3 start = modeler::orientation(joint, a);
+  const animator::Turn turn = animator::turn_between(start, modeler::orientation(joint, b));
+  const glm::dmat3 shown = modeler::rotation(turn.axis, part * turn.angle) * start;
+  return glm::degrees(animator::turn_between(shown, modeler::orientation(joint, is)).angle) > tolerance ||
+         animator::largest_excess(joint, animator::pose_of(joint, shown, is)) > animator::kAngleRounding;
 }
 
-glm::dvec3 two_digits(const Joint& joint, const glm::dvec3& pose) {
-  return clamped(joint, rounded_to(pose, 0.01));
+glm::dvec3 two_digits(const modeler::Joint& joint, const glm::dvec3& pose) {
+  return animator::clamped(joint, rounded_to(pose, 0.01));
 }
 
-void begin_at(const Model& model, const Posture& start, double frames, std::vector<Posture>& postures) {
+void begin_at(const modeler::Model& model, const Posture& start, double frames, std::vector<Posture>& postures) {
   const Posture first = postures.front();
   const auto off = [](const glm::dvec3& a, const glm::dvec3& b) { return a - b; };
   for (std::size_t at = 0; at < postures.size() && double(at) < frames; ++at) {
@@ -121,27 +121,27 @@ void begin_at(const Model& model, const Posture& start, double frames, std::vect
     Posture& posture = postures[at];
     posture.place += left * off(start.place, first.place);
     for (std::size_t joint = 0; joint < posture.pose.size(); ++joint)
-      posture.pose[joint] = clamped(model.joints[joint],
+      posture.pose[joint] = animator::clamped(model.joints[joint],
                                     posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
   }
 }
 
-std::vector<ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
+std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
                               std::span<const Posture> postures, std::uint32_t first) {
   Keying keying(postures, first);
   keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
   keying.add_turns(
-      Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
-      [](ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
+      modeler::Joint{}, kLegTolerance, [](const Posture& p) { return p.turn; },
+      [](animator::ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
   for (const std::size_t number : joints) {
-    const Joint& joint = body.model->joints[number];
+    const modeler::Joint& joint = body.model->joints[number];
     if (joint.freedoms() == 0) continue;
     keying.add_turns(
         joint, carries_legs(body, number) ? kLegTolerance : kTolerance,
         [&](const Posture& p) { return p.pose[number]; },
-        [&](ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
+        [&](animator::ActorKey& key, const glm::dvec3& turns) { key.pose[joint.name] = turns; });
   }
   return keying.take();
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

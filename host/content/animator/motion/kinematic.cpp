@@ -11,7 +11,7 @@
 #include "host/content/animator/motion/flight.h"
 #include "host/content/animator/motion/glide.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kGravity = 9.81;         // a unit of the film being a metre
@@ -49,7 +49,7 @@ class Sampled {
           return glm::distance(glm::mix(places[a], places[b], double(at - a) / double(b - a)), places[at]) >
                  tolerance;
         },
-        [&](std::size_t at) { keys_[at].place = rounded(places[at]); });
+        [&](std::size_t at) { keys_[at].place = animator::rounded(places[at]); });
   }
 
   // About an axis of the world, at so many degrees a second.
@@ -59,13 +59,13 @@ class Sampled {
     const glm::dmat3 start = actor_turn(posture_at(scene_.model(), scene_.actor.motion, scene_.at));
     std::vector<glm::dvec3> turns;
     for (std::size_t i = 0; i < keys_.size(); ++i)
-      turns.push_back(rounded(
-          canonical_degrees(rotation_by_degrees(spin / speed, speed * turned_at(seconds(i))) * start)));
+      turns.push_back(animator::rounded(
+          canonical_degrees(modeler::rotation_by_degrees(spin / speed, speed * turned_at(seconds(i))) * start)));
     turns.front() = posture_at(scene_.model(), scene_.actor.motion, scene_.at).turn;
     choose_keys(
         turns.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
-          return strays(Joint{}, turns[a], turns[b], double(at - a) / double(b - a), turns[at],
+          return strays(modeler::Joint{}, turns[a], turns[b], double(at - a) / double(b - a), turns[at],
                         kTurnTolerance);
         },
         [&](std::size_t at) { keys_[at].turn = turns[at]; });
@@ -73,8 +73,8 @@ class Sampled {
 
   Motion motion() {
     const std::uint32_t last = keys_.back().frame;
-    std::erase_if(keys_, [](const ActorKey& key) { return !key.place && !key.turn; });
-    for (ActorKey& key : keys_) key.ease = kLinear;
+    std::erase_if(keys_, [](const animator::ActorKey& key) { return !key.place && !key.turn; });
+    for (animator::ActorKey& key : keys_) key.ease = animator::kLinear;
     return {std::move(keys_), last, ""};
   }
 
@@ -82,7 +82,7 @@ class Sampled {
   double seconds(std::size_t frame) const { return double(frame) / scene_.film.rate; }
 
   const Scene& scene_;
-  std::vector<ActorKey> keys_;
+  std::vector<animator::ActorKey> keys_;
 };
 
 Posture posture_of(const Scene& scene) { return posture_at(scene.model(), scene.actor.motion, scene.at); }
@@ -110,14 +110,14 @@ Motion bounce(const Scene& scene) {
   const double below = posture.place.z - lowest_of(scene.model(), posture);
   const Launch launch{posture.place,
                       wishes.vector("velocity").value_or(glm::dvec3(0)),
-                      {0, 0, -wishes.number("gravity", kGravity, {1e-6, kFarthest})}};
+                      {0, 0, -wishes.number("gravity", kGravity, {1e-6, document::kFarthest})}};
   const Floor floor{wishes.number("floor", 0, {}) + below, wishes.number("restitution", 0.7, {0, 0.99}),
                     wishes.number("friction", 0.1, {0, 1})};
   const double height = launch.place.z - floor.height;
   if (height < -1e-9 * (1 + std::abs(floor.height)))
     wishes.refuse(
         "floor",
-        "is " + shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name + "'",
+        "is " + document::shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name + "'",
         "start higher, or lower the floor");
   const double up = std::max(0.0, launch.velocity.z);
   const double top = std::max(1e-9, height + up * up / (2 * -launch.acceleration.z));
@@ -125,7 +125,7 @@ Motion bounce(const Scene& scene) {
   const bool slides = glm::length(flight.arcs().back().launch.velocity) > 0;
   const double rest = slides ? flight.rest() + 1 : flight.rest();
   Motion motion = flown(scene, flight, wishes.number("seconds", std::min(rest, kLongest), {0.001, kLongest}));
-  const auto hundredths = [](double value) { return shown(std::round(value * 100) / 100); };
+  const auto hundredths = [](double value) { return document::shown(std::round(value * 100) / 100); };
   motion.report = "first on the floor after " + hundredths(flight.arcs()[1].time) + " s, " +
                 (slides ? "bounces for " : "at rest after ") + hundredths(flight.rest()) + " s";
   return motion;
@@ -149,16 +149,16 @@ Motion go(const Scene& scene) {
   const auto to = scene.wishes.vector("to");
   if (!to) scene.wishes.refuse("to", "is missing", "say where: to 2 0 0");
   constexpr std::string_view names[] = {"linear", "in", "out", "both"};
-  constexpr Ease eases[] = {kLinear, kIn, kOut, kBoth};
+  constexpr animator::Ease eases[] = {animator::kLinear, animator::kIn, animator::kOut, animator::kBoth};
   const std::uint32_t last =
       scene.at + frames_of(scene, scene.wishes.number("seconds", 1, {0.001, kLongest}));
-  ActorKey from, there;
+  animator::ActorKey from, there;
   from.frame = scene.at;
   there.frame = last;
-  from.place = rounded(posture_of(scene).place);
+  from.place = animator::rounded(posture_of(scene).place);
   from.ease = eases[scene.wishes.choice("ease", 3, names)];
   there.place = *to;
   return {{from, there}, last, ""};
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

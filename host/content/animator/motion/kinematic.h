@@ -4,11 +4,11 @@
 
 #include "host/content/animator/motion/scene.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 Motion fling(const Scene& scene);   // a velocity and an acceleration
 Motion bounce(const Scene& scene);  // on a floor, until it lies
 Motion spin(const Scene& scene);
 Motion go(const Scene& scene);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -8,7 +8,7 @@
 
 #include "host/content/animator/figure.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 struct Posture {
   glm::dvec3 place{0, 0, 0};     // of the actor, in the world
@@ -17,16 +17,16 @@ struct Posture {
 };
 
 // All joints at zero, in the model's own frame, limits or not: the figure as its places draw it.
-Posture drawn_posture(const Model& model);
+Posture drawn_posture(const modeler::Model& model);
 
 // What the film shows at a frame.
-Posture posture_at(const Model& model, const FigureMotion& motion, std::uint32_t frame);
+Posture posture_at(const modeler::Model& model, const animator::FigureMotion& motion, std::uint32_t frame);
 
 glm::dmat3 actor_turn(const Posture& posture);
 
 // Where a joint stands in the world, turned as the posture says.
-Axes frame_in(const Model& model, const Posture& posture, std::size_t joint);
+modeler::Axes frame_in(const modeler::Model& model, const Posture& posture, std::size_t joint);
 // The same before its own turn: its parent's frame, moved to the joint's place.
-Axes socket_in(const Model& model, const Posture& posture, std::size_t joint);
+modeler::Axes socket_in(const modeler::Model& model, const Posture& posture, std::size_t joint);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <vector>
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr int kRounds = 80;
@@ -23,23 +23,23 @@ struct Freedom {
 
 double& number(Posture& posture, const Freedom& freedom) { return posture.pose[freedom.joint][freedom.axis]; }
 
-bool is_above(const Model& model, std::size_t ancestor, std::size_t joint) {
-  while (joint != kNone && joint != ancestor) joint = model.joints[joint].parent;
+bool is_above(const modeler::Model& model, std::size_t ancestor, std::size_t joint) {
+  while (joint != modeler::kNone && joint != ancestor) joint = model.joints[joint].parent;
   return joint == ancestor;
 }
 
-std::vector<Freedom> freedoms_of(const Model& model, const Posture& posture,
+std::vector<Freedom> freedoms_of(const modeler::Model& model, const Posture& posture,
                                  std::span<const std::size_t> joints) {
   std::vector<Freedom> freedoms;
   for (const std::size_t number : joints) {
-    const Joint& joint = model.joints[number];
-    const Axes socket = socket_in(model, posture, number);
+    const modeler::Joint& joint = model.joints[number];
+    const modeler::Axes socket = socket_in(model, posture, number);
     const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis,
                                glm::normalize(glm::cross(joint.x_axis, joint.y_axis))};
     glm::dmat3 turned = socket.turn;
     for (int axis = 0; axis < 3; ++axis) {
       if (joint.limits[axis].free()) freedoms.push_back({number, axis, turned * axes[axis], socket.place});
-      turned = turned * rotation_by_degrees(axes[axis], posture.pose[number][axis]);
+      turned = turned * modeler::rotation_by_degrees(axes[axis], posture.pose[number][axis]);
     }
   }
   return freedoms;
@@ -47,14 +47,14 @@ std::vector<Freedom> freedoms_of(const Model& model, const Posture& posture,
 
 // The turn that is still to do, as a vector along its axis, radians.
 glm::dvec3 turn_left(const glm::dmat3& wanted, const glm::dmat3& is) {
-  const Turn turn = turn_between(is, wanted);
+  const animator::Turn turn = animator::turn_between(is, wanted);
   return turn.angle * turn.axis;
 }
 
 // Rows of the equations: what is left to do, and what each freedom does about it.
 class Equations {
  public:
-  Equations(const Model& model, const Posture& posture, std::span<const std::size_t> joints,
+  Equations(const modeler::Model& model, const Posture& posture, std::span<const std::size_t> joints,
             std::span<const Goal> goals)
       : model_(model), freedoms(freedoms_of(model, posture, joints)) {
     for (const Goal& goal : goals) add(goal, frame_in(model, posture, goal.joint));
@@ -67,7 +67,7 @@ class Equations {
   }
 
  private:
-  void add(const Goal& goal, const Axes& frame) {
+  void add(const Goal& goal, const modeler::Axes& frame) {
     if (goal.place)
       add_vector(goal, *goal.place - frame.place,
                  [&](const Freedom& f) { return glm::cross(f.about, frame.place - f.through); });
@@ -93,7 +93,7 @@ class Equations {
 
   bool moves(const Freedom& f, const Goal& goal) const { return is_above(model_, f.joint, goal.joint); }
 
-  const Model& model_;
+  const modeler::Model& model_;
 
  public:
   std::vector<Freedom> freedoms;
@@ -133,19 +133,19 @@ std::vector<double> step_of(const Equations& equations, const std::vector<char>&
   return step;
 }
 
-const Limits& limits_of(const Model& model, const Freedom& freedom) {
+const modeler::Limits& limits_of(const modeler::Model& model, const Freedom& freedom) {
   return model.joints[freedom.joint].limits[freedom.axis];
 }
 
 // Freedoms that stand at a limit and would go beyond it are held there.
-std::vector<double> step_within(const Model& model, Posture& posture, const Equations& equations,
+std::vector<double> step_within(const modeler::Model& model, Posture& posture, const Equations& equations,
                                 double damping) {
   std::vector<char> held(equations.freedoms.size(), false);
   for (;;) {
     std::vector<double> step = step_of(equations, held, damping);
     bool more = false;
     for (std::size_t i = 0; i < held.size(); ++i) {
-      const Limits& limits = limits_of(model, equations.freedoms[i]);
+      const modeler::Limits& limits = limits_of(model, equations.freedoms[i]);
       const double now = number(posture, equations.freedoms[i]);
       if (held[i] || !((now <= limits.lower && step[i] < 0) || (now >= limits.upper && step[i] > 0)))
         continue;
@@ -157,7 +157,7 @@ std::vector<double> step_within(const Model& model, Posture& posture, const Equa
 
 }  // namespace
 
-void reach(const Model& model, Posture& posture, std::span<const std::size_t> joints,
+void reach(const modeler::Model& model, Posture& posture, std::span<const std::size_t> joints,
            std::span<const Goal> goals) {
   double damping = 1e-4;
   Equations now(model, posture, joints, goals);
@@ -166,7 +166,7 @@ void reach(const Model& model, Posture& posture, std::span<const std::size_t> jo
     Posture tried = posture;
     double longest = 0;
     for (std::size_t i = 0; i < step.size(); ++i) {
-      const Limits& limits = limits_of(model, now.freedoms[i]);
+      const modeler::Limits& limits = limits_of(model, now.freedoms[i]);
       longest = std::max(longest, std::abs(step[i]));
       double& value = number(tried, now.freedoms[i]);
       value = std::clamp(value + glm::degrees(std::clamp(step[i], -0.5, 0.5)), limits.lower, limits.upper);
@@ -185,10 +185,10 @@ void reach(const Model& model, Posture& posture, std::span<const std::size_t> jo
   }
 }
 
-glm::dvec3 nearest_turns(const Joint& joint, const glm::dmat3& turn, const glm::dvec3& near) {
-  Model alone;
+glm::dvec3 nearest_turns(const modeler::Joint& joint, const glm::dmat3& turn, const glm::dvec3& near) {
+  modeler::Model alone;
   alone.joints.push_back(joint);
-  alone.joints[0].parent = kNone;
+  alone.joints[0].parent = modeler::kNone;
   Posture posture = drawn_posture(alone);
   for (int axis = 0; axis < 3; ++axis)
     posture.pose[0][axis] = std::clamp(near[axis], joint.limits[axis].lower, joint.limits[axis].upper);
@@ -198,4 +198,4 @@ glm::dvec3 nearest_turns(const Joint& joint, const glm::dmat3& turn, const glm::
   return posture.pose[0];
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

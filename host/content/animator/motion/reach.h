@@ -8,7 +8,7 @@
 
 #include "host/content/animator/motion/posture.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 // What a joint's frame shall do, in the world. Weights say how long an error of one radian counts as.
 struct Goal {
@@ -23,10 +23,10 @@ struct Goal {
 
 // Turns `joints`, each an ancestor of a goal's or itself, from where they are to where the goals are met as
 // nearly as limits allow.
-void reach(const Model& model, Posture& posture, std::span<const std::size_t> joints,
+void reach(const modeler::Model& model, Posture& posture, std::span<const std::size_t> joints,
            std::span<const Goal> goals);
 
 // The numbers within the joint's limits whose turn is nearest to `turn`, found from `near`.
-glm::dvec3 nearest_turns(const Joint& joint, const glm::dmat3& turn, const glm::dvec3& near);
+glm::dvec3 nearest_turns(const modeler::Joint& joint, const glm::dmat3& turn, const glm::dvec3& near);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -6,14 +6,14 @@
 #include "host/content/document/fields.h"
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 std::uint32_t Scene::last_after(double frames) const {
   const double last = at + std::ceil(frames);
-  if (last < node::kMostFrames) return static_cast<std::uint32_t>(last);
-  throw Failure("would end at frame " + shown(last), who(),
-                "begin earlier, or make it shorter: a film has at most " + std::to_string(node::kMostFrames) +
+  if (last < wire::kMostFrames) return static_cast<std::uint32_t>(last);
+  throw Failure("would end at frame " + document::shown(last), who(),
+                "begin earlier, or make it shorter: a film has at most " + std::to_string(wire::kMostFrames) +
                     " frames");
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -10,18 +10,18 @@
 #include "host/content/animator/film.h"
 #include "host/content/animator/motion/wishes.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 // Who acts, and from which frame on.
 struct Scene {
-  const Film& film;
-  const Actor& actor;
+  const animator::Film& film;
+  const animator::Actor& actor;
   std::uint32_t at;
   const Wishes& wishes;
   std::string_view action;  // its name
 
   std::string who() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
-  const Model& model() const { return film.models[actor.model]; }
+  const modeler::Model& model() const { return film.models[actor.model]; }
   double frames(double seconds) const { return seconds * film.rate; }
   // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.
   std::uint32_t last_after(double frames) const;
@@ -30,9 +30,9 @@ struct Scene {
 // What comes of it. Keys of what it drives make way: up to the last frame, and all later ones if the figure's
 // place is driven.
 struct Motion {
-  std::vector<ActorKey> keys;
+  std::vector<animator::ActorKey> keys;
   std::uint32_t last = 0;  // frame, as Scene::last_after() allows
   std::string report;        // more for the person who asked: "the seat is ..."; "" if nothing
 };
 
-}  // namespace mars::host
+}  // namespace mars::motion

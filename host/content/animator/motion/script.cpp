@@ -9,15 +9,15 @@
 #include "host/content/animator/pose.h"
 #include "host/content/animator/read_film.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr std::string_view kCues[] = {"at", "then", "after"};
 constexpr const char* kCamera = "camera";
 
-Film meaning_of(const Json& json, const std::filesystem::path& path) {
-  const Document document(laid_out(json), path.string());
-  return read_film(document.root(), path.parent_path());
+animator::Film meaning_of(const document::Json& json, const std::filesystem::path& path) {
+  const document::Document document(document::laid_out(json), path.string());
+  return animator::read_film(document.root(), path.parent_path());
 }
 
 std::string list_of(const std::vector<std::string>& words, char between) {
@@ -28,9 +28,9 @@ std::string list_of(const std::vector<std::string>& words, char between) {
 
 class Player {
  public:
-  Player(Json& film, const std::filesystem::path& path, std::string name)
+  Player(document::Json& film, const std::filesystem::path& path, std::string name)
       : film_(film), path_(path), name_(std::move(name)), rate_(meaning_of(film, path).rate) {
-    for (const Json& actor : film.at("actors")) actors_.push_back(actor.at("name").get<std::string>());
+    for (const document::Json& actor : film.at("actors")) actors_.push_back(actor.at("name").get<std::string>());
   }
 
   void play(std::string_view text, int number) {
@@ -67,7 +67,7 @@ class Player {
     if (cue == "at" || cue == "after")
       return static_cast<std::uint32_t>(std::lround(line.take_time(times_, rate_)));
     line.refuse("begins with '" + cue + "', which is no cue",
-                did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
+                document::did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
   }
 
   void cut_film(ScriptLine& line, std::uint32_t at) {
@@ -82,7 +82,7 @@ class Player {
   std::uint32_t start(ScriptLine& line, const std::string& who, std::uint32_t at) {
     if (!is_actor(who))
       line.refuse("names '" + who + "', which is no actor of the film",
-                  did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()),
+                  document::did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()),
                                "name an actor, or camera"));
     const std::string verb = line.take("an action");
     const Action* action = find_action(verb);
@@ -90,7 +90,7 @@ class Player {
     for (const Action& each : actions()) verbs.push_back(each.name);
     if (!action)
       line.refuse("has '" + verb + "', which is no action",
-                  did_you_mean(verb, verbs, "see: mars animate --help"));
+                  document::did_you_mean(verb, verbs, "see: mars animate --help"));
     const Wishes wishes(take_values(line, *action, at), line.where() + ": " + verb);
     if (begun_.insert(who).second) clear_after(who, at);
     const Performed done = in_line(line, [&] { return perform(film_, path_, who, *action, at, wishes); });
@@ -114,7 +114,7 @@ class Player {
       if (found == names.end())
         line.refuse(
             "has '" + word + "', which '" + std::string(action.name) + "' does not know",
-            did_you_mean(word, names, "see: mars animate FILM " + std::string(action.name) + " --help"));
+            document::did_you_mean(word, names, "see: mars animate FILM " + std::string(action.name) + " --help"));
       const Parameter& parameter = action.parameters[std::size_t(found - names.begin())];
       std::vector<std::string>& taken = values[word];
       taken.clear();
@@ -136,7 +136,7 @@ class Player {
     const std::string verb = line.take("cut or move");
     if (verb != "cut" && verb != "move")
       line.refuse("has '" + verb + "' after camera",
-                  did_you_mean(verb, verbs, "write camera cut or camera move"));
+                  document::did_you_mean(verb, verbs, "write camera cut or camera move"));
     std::vector<std::string> wishes;
     double seconds = 1;
     while (!line.empty() && !line.next_is("as")) {
@@ -149,21 +149,21 @@ class Player {
         wishes.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
       else
         line.refuse("has '" + part + "', which the camera does not know",
-                    did_you_mean(part, parts, "write eye, at or fov"));
+                    document::did_you_mean(part, parts, "write eye, at or fov"));
     }
     if (wishes.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
     if (begun_.insert(kCamera).second) clear_camera_after(at);
     const double last = verb == "cut" ? at : at + std::max(1.0, std::round(seconds * rate_));
-    if (last >= node::kMostFrames)
-      line.refuse("moves the camera until frame " + shown(last),
-                  "a film has at most " + std::to_string(node::kMostFrames) + " frames: move it faster or earlier");
+    if (last >= wire::kMostFrames)
+      line.refuse("moves the camera until frame " + document::shown(last),
+                  "a film has at most " + std::to_string(wire::kMostFrames) + " frames: move it faster or earlier");
     const auto end = static_cast<std::uint32_t>(last);
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before,
-                  verb == "cut" ? kLinear : kBoth, Beyond::refused);
-      pose(film_, meaning_of(film_, path_), kCamera, wishes, end, kLinear, Beyond::refused);
+        animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before,
+                  verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
+      animator::pose(film_, meaning_of(film_, path_), kCamera, wishes, end, animator::kLinear, animator::Beyond::refused);
       return meaning_of(film_, path_).frames;
     });
     played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));
@@ -184,20 +184,20 @@ class Player {
 
   // What an earlier version of the script had left there.
   void clear_after(const std::string& who, std::uint32_t at) {
-    const Film film = meaning_of(film_, path_);
+    const animator::Film film = meaning_of(film_, path_);
     const auto actor =
-        std::find_if(film.actors.begin(), film.actors.end(), [&](const Actor& a) { return a.name == who; });
-    ActorKey all;
+        std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == who; });
+    animator::ActorKey all;
     all.place = all.turn = glm::dvec3(0);
-    for (const Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
-    clear_keys(film_, who, at + 1, node::kMostFrames, all);
+    for (const modeler::Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
+    animator::clear_keys(film_, who, at + 1, wire::kMostFrames, all);
   }
 
   void clear_camera_after(std::uint32_t at) {
-    Json& camera = film_["camera"];
+    document::Json& camera = film_["camera"];
     if (!camera.contains("keys")) return;
-    Json left = Json::array();
-    for (const Json& key : camera["keys"])
+    document::Json left = document::Json::array();
+    for (const document::Json& key : camera["keys"])
       if (key.at("frame").get<std::uint32_t>() < std::max(at, 1u)) left.push_back(key);
     camera["keys"] = left;
   }
@@ -213,7 +213,7 @@ class Player {
     }
   }
 
-  Json& film_;
+  document::Json& film_;
   std::filesystem::path path_;
   std::string name_;
   double rate_;
@@ -226,9 +226,9 @@ class Player {
 
 }  // namespace
 
-Played play_script(Json& film, const std::filesystem::path& path, const std::string& script,
+Played play_script(document::Json& film, const std::filesystem::path& path, const std::string& script,
                    const std::string& name) {
-  Json changed = film;
+  document::Json changed = film;
   Player player(changed, path, name);
   int number = 0;
   for (std::size_t start = 0; start <= script.size();) {
@@ -240,4 +240,4 @@ Played play_script(Json& film, const std::filesystem::path& path, const std::str
   return player.played();
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -8,7 +8,7 @@
 
 #include "host/content/animator/motion/action.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 struct Played {
   std::uint32_t last = 0;         // frame at which the last action ends
@@ -18,7 +18,7 @@ struct Played {
 
 // Changes the film, or throws with the script's file and line; the film is then as it was. `path` is the
 // film's, `name` the script's, for messages.
-Played play_script(Json& film, const std::filesystem::path& path, const std::string& script,
+Played play_script(document::Json& film, const std::filesystem::path& path, const std::string& script,
                    const std::string& name);
 
-}  // namespace mars::host
+}  // namespace mars::motion

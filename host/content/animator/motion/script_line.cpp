@@ -8,7 +8,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr std::string_view kOperators = "+-*/";
@@ -62,7 +62,7 @@ double ScriptLine::take_term(const Times& times, double rate) {
   std::vector<std::string_view> names;
   for (const auto& [name, time] : times) names.push_back(name);
   refuse("has '" + word + "', which is no time",
-         did_you_mean(word, names, "write a frame, seconds as in 1.5s, or a name from a line 'let'"));
+         document::did_you_mean(word, names, "write a frame, seconds as in 1.5s, or a name from a line 'let'"));
 }
 
 double ScriptLine::take_time(const Times& times, double rate) {
@@ -84,4 +84,4 @@ void ScriptLine::refuse(const std::string& what, const std::string& remedy) cons
   throw Failure("this line " + what, where_, remedy);
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

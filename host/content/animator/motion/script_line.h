@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mars::host {
+namespace mars::motion {
 
 // Times that have names, in frames.
 using Times = std::map<std::string, double>;
@@ -36,4 +36,4 @@ class ScriptLine {
   std::string where_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -14,7 +14,7 @@
 #include "host/content/animator/motion/glide.h"
 #include "host/content/animator/motion/reach.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kSeconds = 1.6;
@@ -30,15 +30,15 @@ glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.hea
 
 // How far a joint's own segment reaches from it, drawn, along a canonical direction.
 double extent(const Body& body, std::size_t number, const glm::dvec3& direction) {
-  const Joint& joint = body.model->joints[number];
+  const modeler::Joint& joint = body.model->joints[number];
   if (!joint.segment) return 0;
   double most = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Box& box = joint.segment->sbb;
+    const modeler::Box& box = joint.segment->sbb;
     const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                            corner & 4 ? box.max.z : box.min.z);
     most = std::max(most,
-                    glm::dot(glm::transpose(body.axes) * segment_frame({}, joint).turn * point, direction));
+                    glm::dot(glm::transpose(body.axes) * modeler::segment_frame({}, joint).turn * point, direction));
   }
   return most;
 }
@@ -61,7 +61,7 @@ class Chair {
         floor_(body_.floor_under(start_)),
         frames_(static_cast<int>(
             std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
-    if (body_.stiff()) needed(body_, Limb::knee, Side::left, command);
+    if (body_.stiff()) needed(body_, modeler::Limb::knee, modeler::Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
     for (Foot& foot : from_.feet) foot.askew = kAskew;
     scene.last_after(frames_);
@@ -110,10 +110,10 @@ class Chair {
     stance.pelvis = pelvis;
     stance.tilt = {0, 0, 0};
     take_stance(body_, stance, posture, std::string(command_), remedy_);
-    for (const Side side : kSides) {
-      const std::size_t shoulder = body_.find(Limb::shoulder, side), elbow = body_.find(Limb::elbow, side),
-                        wrist = body_.find(Limb::wrist, side);
-      if (shoulder == kNone || elbow == kNone || wrist == kNone) continue;
+    for (const modeler::Side side : kSides) {
+      const std::size_t shoulder = body_.find(modeler::Limb::shoulder, side), elbow = body_.find(modeler::Limb::elbow, side),
+                        wrist = body_.find(modeler::Limb::wrist, side);
+      if (shoulder == modeler::kNone || elbow == modeler::kNone || wrist == modeler::kNone) continue;
       lay_hand(side, shoulder, elbow, wrist, posture);
     }
     return posture;
@@ -121,7 +121,7 @@ class Chair {
 
  private:
   // The wrist over the thigh, a little to the outside, and the palm down.
-  void lay_hand(Side side, std::size_t shoulder, std::size_t elbow, std::size_t wrist,
+  void lay_hand(modeler::Side side, std::size_t shoulder, std::size_t elbow, std::size_t wrist,
                 Posture& posture) const {
     const double s = sign_of(side);
     const auto place = [&](std::size_t joint) { return frame_in(*body_.model, posture, joint).place; };
@@ -153,7 +153,7 @@ class Chair {
   // Of the pelvis, so that both legs reach their feet.
   double highest(const Stance& stance) const {
     double least = 1e300;
-    for (const Side side : kSides) {
+    for (const modeler::Side side : kSides) {
       const glm::dvec3 hip = stance.pelvis + facing(stance) * glm::dvec3(0, body_.leg(side).aside, -drop_);
       const glm::dvec3& ankle = stance.feet[index_of(side)].ankle;
       const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y),
@@ -164,20 +164,20 @@ class Chair {
   }
 
   void bend(Stance& stance, double lean) const {
-    const auto add = [&](Trunk part, double share) {
-      if (const std::size_t joint = body_.find(part); joint != kNone)
+    const auto add = [&](modeler::Trunk part, double share) {
+      if (const std::size_t joint = body_.find(part); joint != modeler::kNone)
         stance.turns[joint] = canonical_turn(0, share * lean, 0);
     };
-    add(Trunk::spine, 0.3);
-    add(Trunk::chest, 0.25);
-    add(Trunk::neck, -0.3);
-    add(Trunk::head, -0.3);
+    add(modeler::Trunk::spine, 0.3);
+    add(modeler::Trunk::chest, 0.25);
+    add(modeler::Trunk::neck, -0.3);
+    add(modeler::Trunk::head, -0.3);
   }
 
   void move_arms(const Posture& arms, double u, Posture& posture) const {
-    for (const Side side : kSides)
-      for (const Limb limb : {Limb::shoulder, Limb::elbow, Limb::wrist})
-        if (const std::size_t joint = body_.find(limb, side); joint != kNone)
+    for (const modeler::Side side : kSides)
+      for (const modeler::Limb limb : {modeler::Limb::shoulder, modeler::Limb::elbow, modeler::Limb::wrist})
+        if (const std::size_t joint = body_.find(limb, side); joint != modeler::kNone)
           posture.pose[joint] = glm::mix(start_.pose[joint], arms.pose[joint], smooth(0.1, 0.95, u));
   }
 
@@ -210,19 +210,19 @@ Motion sit(const Scene& scene) {
   const Leg& leg = chair.body().legs[0];
   const glm::dvec3 ankle = between_feet(chair.from());
   const double soft = cushion(chair.body(), chair.hip_drop()), level = ankle.z + leg.shin;
-  const auto wanted = scene.wishes.number("seat-height", {0, kFarthest});
+  const auto wanted = scene.wishes.number("seat-height", {0, document::kFarthest});
   const double hips = wanted ? chair.floor() + *wanted + soft : level;
   if (std::abs(hips - level) > leg.thigh)
-    scene.wishes.refuse("seat-height", "is " + shown(*wanted) + ", out of this figure's reach",
-                        "its thighs are level at " + shown(rounded(level - soft - chair.floor())));
+    scene.wishes.refuse("seat-height", "is " + document::shown(*wanted) + ", out of this figure's reach",
+                        "its thighs are level at " + document::shown(animator::rounded(level - soft - chair.floor())));
   const double back = std::sqrt(leg.thigh * leg.thigh - (hips - level) * (hips - level));
   const glm::dvec3 behind =
-      facing(chair.from()) * glm::dvec3(-scene.wishes.number("back", back, {0, kFarthest}), 0, 0);
+      facing(chair.from()) * glm::dvec3(-scene.wishes.number("back", back, {0, document::kFarthest}), 0, 0);
   const glm::dvec3 pelvis(ankle.x + behind.x, ankle.y + behind.y, hips + chair.hip_drop());
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
       chair.with_hands_on_thighs(pelvis));
-  const auto rounded_text = [](double value) { return shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
+  const auto rounded_text = [](double value) { return document::shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
   motion.report = "sits at " + rounded_text(pelvis.x) + " " + rounded_text(pelvis.y) + ", on a seat of height " +
                 rounded_text(hips - soft - chair.floor());
   return motion;
@@ -244,4 +244,4 @@ Motion stand(const Scene& scene) {
       [](double u) { return smooth(0.15, 1, u); }, chair.with_arms(at_ease(body)));
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -3,9 +3,9 @@
 
 #include "host/content/animator/motion/scene.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 Motion sit(const Scene& scene);
 Motion stand(const Scene& scene);
 
-}  // namespace mars::host
+}  // namespace mars::motion

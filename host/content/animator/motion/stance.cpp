@@ -10,7 +10,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/reach.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kNearEnough =
@@ -21,19 +21,19 @@ constexpr double kKneeWeight = 0.1;  // and of the knee's
 constexpr double kKneeShare = 0.7;   // of the foot's heading against the pelvis, to which the knee points
 constexpr double kAtLimit = 1e-3;    // degrees
 
-glm::dmat3 heading_turn(double degrees) { return rotation_by_degrees({0, 0, 1}, degrees); }
+glm::dmat3 heading_turn(double degrees) { return modeler::rotation_by_degrees({0, 0, 1}, degrees); }
 
 // The smallest turn that takes a direction to straight down.
-glm::dmat3 to_hang(const Body& body, Limb from, Limb to, Side side) {
+glm::dmat3 to_hang(const Body& body, modeler::Limb from, modeler::Limb to, modeler::Side side) {
   const Posture drawn = drawn_posture(*body.model);
   const std::size_t upper = body.find(from, side), lower = body.find(to, side);
-  if (lower == kNone) return glm::dmat3(1);
+  if (lower == modeler::kNone) return glm::dmat3(1);
   const glm::dvec3 along =
       glm::normalize(glm::transpose(body.axes) *
                      (frame_in(*body.model, drawn, lower).place - frame_in(*body.model, drawn, upper).place));
   const glm::dvec3 down(0, 0, -1), axis = glm::cross(along, down);
   const double sine = glm::length(axis);
-  return sine < 0.1 ? glm::dmat3(1) : rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
+  return sine < 0.1 ? glm::dmat3(1) : modeler::rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
 }
 
 void turn_actor(const Body& body, double heading, Posture& posture) {
@@ -52,7 +52,7 @@ struct Hinge {
 };
 
 Hinge hinge_of(const Body& body, const Leg& leg) {
-  const Joint& knee = body.model->joints[leg.knee];
+  const modeler::Joint& knee = body.model->joints[leg.knee];
   const glm::dvec3 axes[] = {knee.x_axis, knee.y_axis, glm::normalize(glm::cross(knee.x_axis, knee.y_axis))};
   Hinge best{1, 1, body.axes[1]};
   double most = -1;
@@ -70,17 +70,17 @@ void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double dist
   const double cosine =
       (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);
   const double bend = 180 - glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
-  const Limits& limits = body.model->joints[leg.knee].limits[hinge.axis];
+  const modeler::Limits& limits = body.model->joints[leg.knee].limits[hinge.axis];
   const double forward = hinge.sign * bend, now = std::clamp(forward, limits.lower, limits.upper);
   const double backward = std::clamp(-forward, limits.lower, limits.upper);
   // A knee that bends only the other way, as a bird's heel does, bends so.
   posture.pose[leg.knee][hinge.axis] = std::abs(now) >= std::abs(backward) ? now : backward;
 }
 
-std::string degrees_of(double value) { return shown(std::round(value * 100) / 100 + 0.0) + " degrees"; }
+std::string degrees_of(double value) { return document::shown(std::round(value * 100) / 100 + 0.0) + " degrees"; }
 
 // About which of the joint's axes it twists what hangs straight down from it.
-int twist_axis(const Body& body, const Joint& joint) {
+int twist_axis(const Body& body, const modeler::Joint& joint) {
   const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis)};
   int best = 2;
   for (int axis = 0; axis < 2; ++axis)
@@ -90,18 +90,18 @@ int twist_axis(const Body& body, const Joint& joint) {
 }
 
 // How far a joint twists to either side, degrees.
-double twist_limit(const Body& body, const Joint& joint) {
-  const Limits& limits = joint.limits[twist_axis(body, joint)];
+double twist_limit(const Body& body, const modeler::Joint& joint) {
+  const modeler::Limits& limits = joint.limits[twist_axis(body, joint)];
   return std::max(0.0, std::min(-limits.lower, limits.upper));
 }
 
 std::string limit_in_the_way(const Body& body, const Posture& posture, std::span<const std::size_t> joints) {
   std::string all;
   for (const std::size_t number : joints) {
-    const Joint& joint = body.model->joints[number];
+    const modeler::Joint& joint = body.model->joints[number];
     for (int axis = 0; axis < 3; ++axis) {
       const double value = posture.pose[number][axis];
-      const Limits& limits = joint.limits[axis];
+      const modeler::Limits& limits = joint.limits[axis];
       if (value > limits.lower + kAtLimit && value < limits.upper - kAtLimit) continue;
       if (!limits.free() && axis == 2 && joint.freedoms() > 0) continue;  // few joints twist: never the cause
       const std::string what = limits.free()
@@ -115,7 +115,7 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
 
 class LegReach {
  public:
-  LegReach(const Body& body, Side side, const Stance& stance, Posture& posture)
+  LegReach(const Body& body, modeler::Side side, const Stance& stance, Posture& posture)
       : body_(body),
         leg_(body.leg(side)),
         side_(side),
@@ -127,13 +127,13 @@ class LegReach {
   void solve() {
     const glm::dvec3 hip = frame_in(*body_.model, posture_, leg_.hip).place;
     glm::dvec3 to = foot_.ankle;
-    if (leg_.knee == kNone && !foot_.stands) to = hip + leg_.length() * glm::normalize(to - hip);
+    if (leg_.knee == modeler::kNone && !foot_.stands) to = hip + leg_.length() * glm::normalize(to - hip);
     const glm::dmat3 turn =
         heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0) * glm::transpose(body_.axes);
     std::vector<Goal> goals{
         {.joint = leg_.ankle, .place = to, .turn = turn, .turn_weight = kTurnWeight * leg_.length()}};
     std::vector<std::size_t> leg{leg_.hip};
-    if (leg_.knee != kNone) add_knee(hip, to, leg, goals);
+    if (leg_.knee != modeler::kNone) add_knee(hip, to, leg, goals);
     std::vector<std::size_t> all = leg;
     all.push_back(leg_.ankle);
     reach(*body_.model, posture_, all, goals);
@@ -144,17 +144,17 @@ class LegReach {
     const std::size_t ankle[] = {leg_.ankle};
     const Goal flat[] = {{.joint = leg_.ankle, .turn = turn}};
     reach(*body_.model, posture_, ankle, flat);
-    if (leg_.toes != kNone)
+    if (leg_.toes != modeler::kNone)
       posture_.pose[leg_.toes] =
           numbers_for(body_, leg_.toes, canonical_turn(0, foot_.bent, 0), posture_.pose[leg_.toes]);
   }
 
   void require_footing(const std::string& doing, const std::string& remedy) const {
     if (!foot_.stands) return;
-    const std::string whose = side_ == Side::left ? "left" : "right";
+    const std::string whose = side_ == modeler::Side::left ? "left" : "right";
     const double far = error_of(foot_.ankle);
     std::vector<std::size_t> joints{leg_.hip};
-    if (leg_.knee != kNone) joints.push_back(leg_.knee);
+    if (leg_.knee != modeler::kNone) joints.push_back(leg_.knee);
     if (far > kNearEnough * leg_.length()) {
       const std::string limit = limit_in_the_way(body_, posture_, joints);
       fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit,
@@ -164,7 +164,7 @@ class LegReach {
     const glm::dmat3 is = body_.turn_of(posture_, leg_.ankle);
     const bool twists = twist_limit(body_, body_.model->joints[leg_.ankle]) > 0;
     const double tilted = glm::degrees(std::acos(std::min(1.0, glm::dot(is[2], wanted[2]))));
-    const double off = glm::degrees(turn_between(is, wanted).angle);
+    const double off = glm::degrees(animator::turn_between(is, wanted).angle);
     if (tilted > kFlatEnough || off > std::max(kFlatEnough, twists ? 0 : foot_.askew)) {
       joints.assign(1, leg_.ankle);
       joints.push_back(leg_.hip);
@@ -192,9 +192,9 @@ class LegReach {
 
   // The ankle's turn that would be needed, about that of its axes where most is missing.
   std::string turn_missing(const glm::dmat3& wanted) const {
-    const Joint& ankle = body_.model->joints[leg_.ankle];
+    const modeler::Joint& ankle = body_.model->joints[leg_.ankle];
     const glm::dmat3 frame = frame_in(*body_.model, posture_, leg_.ankle).turn;
-    const Turn turn = turn_between(frame, wanted * glm::transpose(body_.axes));
+    const animator::Turn turn = animator::turn_between(frame, wanted * glm::transpose(body_.axes));
     const glm::dvec3 axes[] = {ankle.x_axis, ankle.y_axis,
                                glm::normalize(glm::cross(ankle.x_axis, ankle.y_axis))};
     int most = 0;
@@ -218,7 +218,7 @@ class LegReach {
 
   const Body& body_;
   const Leg& leg_;
-  Side side_;
+  modeler::Side side_;
   const Foot& foot_;
   const Stance& stance_;
   Posture& posture_;
@@ -232,7 +232,7 @@ Stance stance_of(const Body& body, const Posture& posture) {
   stance.pelvis = frame_in(*body.model, posture, body.pelvis).place;
   const glm::dmat3 facing = heading_turn(-stance.heading);
   stance.tilt = canonical_degrees(facing * body.turn_of(posture, body.pelvis));
-  for (const Side side : kSides) {
+  for (const modeler::Side side : kSides) {
     const Leg& leg = body.leg(side);
     const glm::dmat3 turn = body.turn_of(posture, leg.ankle);
     Foot& foot = stance.feet[index_of(side)];
@@ -243,12 +243,12 @@ Stance stance_of(const Body& body, const Posture& posture) {
   return stance;
 }
 
-glm::dmat3 hanging_shoulder(const Body& body, Side side, const glm::dvec3& degrees) {
-  return canonical_turn(degrees) * to_hang(body, Limb::shoulder, Limb::elbow, side);
+glm::dmat3 hanging_shoulder(const Body& body, modeler::Side side, const glm::dvec3& degrees) {
+  return canonical_turn(degrees) * to_hang(body, modeler::Limb::shoulder, modeler::Limb::elbow, side);
 }
 
-glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees) {
-  const glm::dmat3 hang = to_hang(body, Limb::shoulder, Limb::elbow, side);
+glm::dmat3 hanging_elbow(const Body& body, modeler::Side side, const glm::dvec3& degrees) {
+  const glm::dmat3 hang = to_hang(body, modeler::Limb::shoulder, modeler::Limb::elbow, side);
   return glm::transpose(hang) * canonical_turn(degrees) * hang;
 }
 
@@ -271,11 +271,11 @@ void take_stance(const Body& body, const Stance& stance, Posture& posture, const
   place_pelvis(body, stance, posture);
   for (const auto& [joint, turn] : stance.turns)
     posture.pose[joint] = numbers_for(body, joint, turn, posture.pose[joint]);
-  for (const Side side : kSides) {
+  for (const modeler::Side side : kSides) {
     LegReach leg(body, side, stance, posture);
     leg.solve();
     leg.require_footing(doing, remedy);
   }
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

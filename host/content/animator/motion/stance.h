@@ -8,7 +8,7 @@
 
 #include "host/content/animator/motion/body.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 struct Foot {
   glm::dvec3 ankle;    // in the world
@@ -32,8 +32,8 @@ Stance stance_of(const Body& body, const Posture& posture);
 
 // A turn of an upper arm or forearm against its parent for an arm that hangs straight down, whichever way the
 // model's arms are drawn.
-glm::dmat3 hanging_shoulder(const Body& body, Side side, const glm::dvec3& degrees);
-glm::dmat3 hanging_elbow(const Body& body, Side side, const glm::dvec3& degrees);
+glm::dmat3 hanging_shoulder(const Body& body, modeler::Side side, const glm::dvec3& degrees);
+glm::dmat3 hanging_elbow(const Body& body, modeler::Side side, const glm::dvec3& degrees);
 
 // Turns and places the posture's pelvis as the stance has it, as nearly as limits allow.
 void place_pelvis(const Body& body, const Stance& stance, Posture& posture);
@@ -47,4 +47,4 @@ glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& tu
 void take_stance(const Body& body, const Stance& stance, Posture& posture, const std::string& doing,
                  const std::string& remedy);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -10,7 +10,7 @@
 #include "host/content/animator/motion/gait.h"
 #include "host/content/animator/motion/glide.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kStride = 0.616;      // of a leg: an ordinary step
@@ -80,7 +80,7 @@ class Planner {
     toe_out_ = body.model->joints[body.legs[0].hip].freedoms() == 3 ? kToeOut : 0;
   }
 
-  Footprint print(const glm::dvec2& place, double heading, Side side) const {
+  Footprint print(const glm::dvec2& place, double heading, modeler::Side side) const {
     return {place + sign_of(side) * apart_ * left_of(ahead(heading)), heading + sign_of(side) * toe_out_};
   }
 
@@ -89,7 +89,7 @@ class Planner {
   }
 
   // The k-th landing, from 1; its swing before it.
-  Step step(int k, Side side, const Footprint& to) const {
+  Step step(int k, modeler::Side side, const Footprint& to) const {
     const double land = landing(k);
     return {side, to, land - std::round(swing_share(body_) * period_), land};
   }
@@ -105,14 +105,14 @@ class Planner {
   double toe_out_;
 };
 
-Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps, double period, Side first,
+Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps, double period, modeler::Side first,
                const Style& style) {
   const Planner planner(body, period);
   const double length = path.length / steps, speed = length / period;
   const double behind = body.stiff() ? 0.5 : kBehind;
   Gait gait{{}, {}, period, length / body.leg_length(), style};
   gait.way.push_back({0, {from.pelvis.x, from.pelvis.y}, from.heading, {0, 0}});
-  Side side = first;
+  modeler::Side side = first;
   for (int k = 1; k <= steps; ++k, side = other(side)) {
     gait.steps.push_back(
         planner.step(k, side, planner.print(path.at(k * length), path.heading(k * length), side)));
@@ -137,7 +137,7 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double at_once, 
   gait.way.push_back({0, {from.pelvis.x, from.pelvis.y}, from.heading, {0, 0}});
   for (int k = 1; k <= 2 * pairs; ++k) {
     const bool leads = k % 2 == 1;
-    const Side side = (by > 0) == leads ? Side::left : Side::right;
+    const modeler::Side side = (by > 0) == leads ? modeler::Side::left : modeler::Side::right;
     const double heading = start.heading + by * ((k + 1) / 2) / pairs;
     gait.steps.push_back(planner.step(k, side, planner.print(start.middle, heading, side)));
     gait.way.push_back(
@@ -176,8 +176,8 @@ class Going {
     const double reach = 2 * body_.leg_length();
     for (std::size_t i = 1; i < gait.steps.size(); ++i)
       if (const double step = glm::distance(gait.steps[i].to.place, gait.steps[i - 1].to.place); step > reach)
-        throw Failure("would take a step of " + shown(step) + ", where two legs of " + shown(body_.leg_length()) +
-                          " reach " + shown(reach) + " at most",
+        throw Failure("would take a step of " + document::shown(step) + ", where two legs of " + document::shown(body_.leg_length()) +
+                          " reach " + document::shown(reach) + " at most",
                       scene_.who(), remedy);
   }
 
@@ -228,7 +228,7 @@ std::uint32_t steps_for(const Wishes& wishes, double way, double step) {
   const double steps = std::max(1.0, std::round(way / step));
   if (steps > kMostSteps)
     wishes.refuse(wishes.has("to") ? "to" : "distance",
-                  "is " + shown(way) + " away, which takes " + shown(steps) + " steps of " + shown(step),
+                  "is " + document::shown(way) + " away, which takes " + document::shown(steps) + " steps of " + document::shown(step),
                   "a walk has at most " + std::to_string(kMostSteps) + ": go to a nearer place");
   return static_cast<std::uint32_t>(steps);
 }
@@ -249,7 +249,7 @@ Motion walk(const Scene& scene) {
     refuse_both(wishes, "steps", "to");
   }
   const std::uint32_t asked = wishes.count("steps", 4, kMostSteps);
-  std::optional<double> far = wishes.number("distance", {1e-6, kFarthest});
+  std::optional<double> far = wishes.number("distance", {1e-6, document::kFarthest});
   Going going(scene, "walk");
   if (const auto to = wishes.vector("to")) {
     const double by = bearing(stand_of(going.now()), *to);
@@ -258,11 +258,11 @@ Motion walk(const Scene& scene) {
     if (*far < 0.05 * going.body().leg_length()) return going.motion();
   }
   const double ordinary =
-      wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, kFarthest});
+      wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, document::kFarthest});
   std::uint32_t steps =
       far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : asked;
   constexpr std::string_view sides[] = {"left", "right"};
-  const Side first =
+  const modeler::Side first =
       kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
   Path path{stand_of(going.now()), far ? *far : steps * ordinary, wishes.number("turn", 0, {-3600, 3600})};
   if (const auto to = wishes.vector("to")) path.start.heading = path.start.heading + bearing(path.start, *to);
@@ -289,4 +289,4 @@ Motion turn(const Scene& scene) {
   return going.motion();
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -3,9 +3,9 @@
 
 #include "host/content/animator/motion/scene.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 Motion walk(const Scene& scene);
 Motion turn(const Scene& scene);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -7,7 +7,7 @@
 
 #include "host/content/animator/motion/curve.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr int kRounds = 30;
@@ -17,7 +17,7 @@ constexpr double kDamping = 1e-6;  // of the leg squared: no way to where it hel
 std::array<glm::dvec3, 2> legs_of(const Body& body, const Stance& stance, Posture posture) {
   place_pelvis(body, stance, posture);
   std::array<glm::dvec3, 2> legs;
-  for (const Side side : kSides)
+  for (const modeler::Side side : kSides)
     legs[index_of(side)] =
         frame_in(*body.model, posture, body.leg(side).hip).place - stance.feet[index_of(side)].ankle;
   return legs;
@@ -28,7 +28,7 @@ glm::dvec3 to_both(const Body& body, const std::array<glm::dvec3, 2>& legs, cons
   double along = 0, up = 0;
   for (int round = 0; round < kRounds; ++round) {
     double aa = 0, au = 0, uu = 0, a = 0, u = 0;
-    for (const Side side : kSides) {
+    for (const modeler::Side side : kSides) {
       const glm::dvec3 leg = legs[index_of(side)] + along * line + glm::dvec3(0, 0, up);
       const double length = body.leg(side).length(), left = (length * length - glm::dot(leg, leg)) / 2;
       const double by_along = glm::dot(leg, line), by_up = leg.z;
@@ -63,7 +63,7 @@ glm::dvec3 shift_of(const Body& body, const Posture& start, const Stance& stance
 double rise_of(const Body& body, const Posture& start, const Stance& stance) {
   const auto legs = legs_of(body, stance, start);
   double least = 1e300;
-  for (const Side side : kSides) {
+  for (const modeler::Side side : kSides) {
     if (!stance.feet[index_of(side)].stands) continue;
     const glm::dvec3& leg = legs[index_of(side)];
     const double length = body.leg(side).length(), level = std::min(std::hypot(leg.x, leg.y), length);
@@ -89,4 +89,4 @@ void stand_stiffly(const Body& body, const Posture& start, std::vector<Stance>& 
   for (Stance& stance : stances) stance.pelvis.z += rise_of(body, start, stance);
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -5,10 +5,10 @@
 
 #include "host/content/animator/motion/stance.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 // Moves the pelvis of a walk's stances, one a frame: where both feet stand, to where both legs reach them;
 // between, smoothly on; always as high as the legs that stand hold it.
 void stand_stiffly(const Body& body, const Posture& start, std::vector<Stance>& stances);
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -5,34 +5,34 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 void Wishes::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
   throw Failure("'" + std::string(name) + "' " + what, where_, remedy);
 }
 
-double Wishes::parsed(std::string_view name, const std::string& text, Range range) const {
-  const double value = number_in<double>(text).value_or(NAN);
+double Wishes::parsed(std::string_view name, const std::string& text, document::Range range) const {
+  const double value = document::number_in<double>(text).value_or(NAN);
   if (!std::isfinite(value))
     refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
   if (value < range.lowest || value > range.highest)
-    refuse(name, "is " + text, "give a number from " + shown(range.lowest) + " to " + shown(range.highest));
+    refuse(name, "is " + text, "give a number from " + document::shown(range.lowest) + " to " + document::shown(range.highest));
   return value;
 }
 
-std::optional<double> Wishes::number(std::string_view name, Range range) const {
+std::optional<double> Wishes::number(std::string_view name, document::Range range) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return std::nullopt;
   return parsed(name, found->second.at(0), range);
 }
 
-double Wishes::number(std::string_view name, double otherwise, Range range) const {
+double Wishes::number(std::string_view name, double otherwise, document::Range range) const {
   return number(name, range).value_or(otherwise);
 }
 
 std::uint32_t Wishes::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
   const double value = number(name, otherwise, {1, double(highest)});
-  if (value != std::floor(value)) refuse(name, "is " + shown(value), "give a whole number");
+  if (value != std::floor(value)) refuse(name, "is " + document::shown(value), "give a whole number");
   return static_cast<std::uint32_t>(value);
 }
 
@@ -52,7 +52,7 @@ std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
   const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));
   if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
   refuse(name, "is '" + found->second.at(0) + "'",
-         did_you_mean(found->second.at(0), choices, "one of " + joined(choices)));
+         document::did_you_mean(found->second.at(0), choices, "one of " + document::joined(choices)));
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

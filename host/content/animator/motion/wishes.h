@@ -12,7 +12,7 @@
 
 #include "host/content/document/fields.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 // Parameter to its values, as they were typed.
 class Wishes {
@@ -23,8 +23,8 @@ class Wishes {
   Wishes(Values values, std::string where) : values_(std::move(values)), where_(std::move(where)) {}
 
   bool has(std::string_view name) const { return values_.contains(std::string(name)); }
-  std::optional<double> number(std::string_view name, Range range) const;
-  double number(std::string_view name, double otherwise, Range range) const;
+  std::optional<double> number(std::string_view name, document::Range range) const;
+  double number(std::string_view name, double otherwise, document::Range range) const;
   std::uint32_t count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const;
   std::optional<glm::dvec3> vector(std::string_view name) const;  // of two or three numbers, z then 0
   std::size_t choice(std::string_view name, std::size_t otherwise,
@@ -34,10 +34,10 @@ class Wishes {
   [[noreturn]] void refuse(std::string_view name, const std::string& what, const std::string& remedy) const;
 
  private:
-  double parsed(std::string_view name, const std::string& text, Range range) const;
+  double parsed(std::string_view name, const std::string& text, document::Range range) const;
 
   Values values_;
   std::string where_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::motion

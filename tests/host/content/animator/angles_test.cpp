@@ -8,11 +8,11 @@
 
 #include "host/content/animator/figure.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
-Joint joint_of(Limits x, Limits y, Limits z, const glm::dvec3& y_axis = {0, 1, 0}) {
-  Joint joint;
+modeler::Joint joint_of(modeler::Limits x, modeler::Limits y, modeler::Limits z, const glm::dvec3& y_axis = {0, 1, 0}) {
+  modeler::Joint joint;
   joint.y_axis = glm::normalize(y_axis);
   joint.limits = {x, y, z};
   return joint;
@@ -32,15 +32,15 @@ double distance(const glm::dmat3& a, const glm::dmat3& b) {
 class RoundTrip : public testing::TestWithParam<glm::dvec3> {};
 
 TEST_P(RoundTrip, EveryPoseComesBack) {
-  const Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180}, GetParam());
+  const modeler::Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180}, GetParam());
   std::mt19937 dice(7);
   std::uniform_real_distribution<double> angle(-180, 180);
   for (int i = 0; i < 20'000; ++i) {
     const glm::dvec3 pose(angle(dice), angle(dice), angle(dice));
-    const glm::dmat3 turn = orientation(joint, pose);
+    const glm::dmat3 turn = modeler::orientation(joint, pose);
     expect_near(pose_of(joint, turn, pose), pose, 1e-6);
     const glm::dvec3 far = pose_of(joint, turn, {angle(dice), angle(dice), angle(dice)});
-    EXPECT_LT(distance(orientation(joint, far), turn), 1e-7) << "whatever it is near to, it is a way there";
+    EXPECT_LT(distance(modeler::orientation(joint, far), turn), 1e-7) << "whatever it is near to, it is a way there";
     EXPECT_EQ(largest_excess(joint, far), 0) << far.x << " " << far.y << " " << far.z;
   }
 }
@@ -49,49 +49,49 @@ INSTANTIATE_TEST_SUITE_P(Axes, RoundTrip,
                          testing::Values(glm::dvec3(0, 1, 0), glm::dvec3(0.3, 1, 0), glm::dvec3(-0.9, 0.4, 0.3)));
 
 TEST(PoseOf, PosesAtAQuarterTurnComeBackToo) {
-  const Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180});
+  const modeler::Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180});
   for (const glm::dvec3& pose : {glm::dvec3(20, 90, 30), glm::dvec3(-50, -90, 10), glm::dvec3(0, 90, 0),
                                  glm::dvec3(20, 89.9999999, 30), glm::dvec3(20, 90.001, 30)})
-    expect_near(pose_of(joint, orientation(joint, pose), pose), pose, 1e-6);
+    expect_near(pose_of(joint, modeler::orientation(joint, pose), pose), pose, 1e-6);
 }
 
 TEST(PoseOf, TakesTheWayThatLimitsAllow) {
-  const Joint wide = joint_of({-180, 180}, {-180, 180}, {-180, 180});
-  const glm::dmat3 turn = orientation(wide, {10, 100, 20});
+  const modeler::Joint wide = joint_of({-180, 180}, {-180, 180}, {-180, 180});
+  const glm::dmat3 turn = modeler::orientation(wide, {10, 100, 20});
   expect_near(pose_of(wide, turn, {0, 90, 0}), {10, 100, 20});
   expect_near(pose_of(joint_of({-180, 180}, {-90, 90}, {-180, 180}), turn, {0, 90, 0}), {-170, 80, -160});
   expect_near(pose_of(joint_of({-30, 30}, {-90, 90}, {-30, 30}), turn, {0, 90, 0}), {10, 100, 20});
 }
 
 TEST(PoseOf, AddsWholeTurnsWhereLimitsAskForThem) {
-  const Joint joint = joint_of({0, 0}, {0, 0}, {350, 800});
-  const glm::dmat3 turn = orientation(joint, {0, 0, 20});
+  const modeler::Joint joint = joint_of({0, 0}, {0, 0}, {350, 800});
+  const glm::dmat3 turn = modeler::orientation(joint, {0, 0, 20});
   expect_near(pose_of(joint, turn, {0, 0, 400}), {0, 0, 380});
   expect_near(pose_of(joint, turn, {0, 0, 2000}), {0, 0, 740});
 }
 
 TEST(PoseOf, WhereTwoTurnsAreOneTheySplitAsLimitsAllow) {
-  const Joint joint = joint_of({-30, 30}, {-90, 90}, {-30, 30});
-  const glm::dmat3 turn = orientation(joint, {25, 90, 25});
+  const modeler::Joint joint = joint_of({-30, 30}, {-90, 90}, {-30, 30});
+  const glm::dmat3 turn = modeler::orientation(joint, {25, 90, 25});
   const glm::dvec3 pose = pose_of(joint, turn, {0, 90, 0});
   EXPECT_NEAR(pose.x + pose.z, 50, 1e-9);
   EXPECT_EQ(largest_excess(joint, pose), 0);
 }
 
 TEST(PoseOf, SkewedAxesThatDoNotReachComeNear) {
-  const Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180}, {0.5, 1, 0});
-  const glm::dmat3 turn = orientation(joint_of({}, {}, {}), {0, 90, 0});  // takes z to x, nearer than y's turns do
+  const modeler::Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180}, {0.5, 1, 0});
+  const glm::dmat3 turn = modeler::orientation(joint_of({}, {}, {}), {0, 90, 0});  // takes z to x, nearer than y's turns do
   const glm::dvec3 pose = pose_of(joint, turn, {0, 0, 0});
   EXPECT_NEAR(pose.y, 90, 1e-9);
-  EXPECT_LT(distance(orientation(joint, pose), turn), 0.6);
+  EXPECT_LT(distance(modeler::orientation(joint, pose), turn), 0.6);
 }
 
 TEST(Excess, IsDegreesOutsideTheLimits) {
-  const Joint joint = joint_of({0, 10}, {-5, 5}, {0, 0});
+  const modeler::Joint joint = joint_of({0, 10}, {-5, 5}, {0, 0});
   EXPECT_EQ(excess_of(joint, {12, -9, 0}), glm::dvec3(2, 4, 0));
   EXPECT_EQ(largest_excess(joint, {12, -9, 0}), 4);
   EXPECT_EQ(clamped(joint, {12, -9, 3}), glm::dvec3(10, -5, 0));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -13,14 +13,14 @@
 #include "host/content/animator/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 Film film_of(const std::string& joint, const std::string& actor) {
   const std::string json =
       R"({"frames": 41, "camera": {"eye": [0, -9, 2]}, "models": {"m": {"joints": [{"name": "j", )" + joint +
       R"(, "segment": {"shape": "box"}}]}}, "actors": [{"name": "a b", "model": "m", )" + actor + "}]}";
-  const Document document(json, "f.json");
+  const document::Document document(json, "f.json");
   return read_film(document.root(), {});
 }
 
@@ -34,20 +34,20 @@ TEST(LimitsLeft, TheWorstIsWhereGeometrySaysItIs) {
   ASSERT_EQ(left.size(), 1u);
   EXPECT_EQ(left[0].worst.axis, 1);
   EXPECT_EQ(left[0].worst.frame, 20u);
-  const Joint& joint = film.models[0].joints[0];
-  const Turn turn = turn_between(orientation(joint, {0, 80, 0}), orientation(joint, {90, 80, -90}));
-  const glm::dmat3 half = rotation(turn.axis, turn.angle / 2) * orientation(joint, {0, 80, 0});
+  const modeler::Joint& joint = film.models[0].joints[0];
+  const Turn turn = turn_between(modeler::orientation(joint, {0, 80, 0}), modeler::orientation(joint, {90, 80, -90}));
+  const glm::dmat3 half = modeler::rotation(turn.axis, turn.angle / 2) * modeler::orientation(joint, {0, 80, 0});
   EXPECT_NEAR(left[0].worst.angle, std::asin(half[2][0]) * 180 / std::acos(-1.0), 1e-9) << "z's part along x is sin y";
   EXPECT_GT(left[0].worst.angle, 81);
   const std::string line = check_film(film).lines[0];
-  EXPECT_TRUE(holds(line, "actor 'a b', joint 'j': turns ")) << line;
-  EXPECT_TRUE(holds(line, "about y between keys, outside its limits -81 to 81, in frame 20, the worst of")) << line;
-  EXPECT_TRUE(holds(line, "key 'a b' j --frame 20 --clamp")) << line;
+  EXPECT_TRUE(document::holds(line, "actor 'a b', joint 'j': turns ")) << line;
+  EXPECT_TRUE(document::holds(line, "about y between keys, outside its limits -81 to 81, in frame 20, the worst of")) << line;
+  EXPECT_TRUE(document::holds(line, "key 'a b' j --frame 20 --clamp")) << line;
   const auto warnings = warnings_of(film);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].starts_with("f.json: actor 'a b', joint 'j': turns ")) << warnings[0];
-  EXPECT_TRUE(holds(warnings[0], "outside its limits -81 to 81, in frame 20 (")) << warnings[0];
-  EXPECT_TRUE(holds(warnings[0], "mars animate f.json key 'a b' j --frame 20 --clamp")) << warnings[0];
+  EXPECT_TRUE(document::holds(warnings[0], "outside its limits -81 to 81, in frame 20 (")) << warnings[0];
+  EXPECT_TRUE(document::holds(warnings[0], "mars animate f.json key 'a b' j --frame 20 --clamp")) << warnings[0];
 }
 
 TEST(LimitsLeft, NoneWhereTheyAreWideEnough) {
@@ -70,11 +70,11 @@ TEST(LimitsLeft, ALockedAxisOfAJointWithTwoFreedomsTurnsOnTheWay) {
   EXPECT_EQ(left[0].last, 19u);
   EXPECT_EQ(left[0].frames, 19u);
   // The frames' angles, found without the inverse: the only z that undoes the rest of the turn.
-  const Joint& joint = film.models[0].joints[0];
+  const modeler::Joint& joint = film.models[0].joints[0];
   JointMotion motion(joint, film.actors[0].motion.pose[0]);
   const glm::dvec3 pose = motion.pose_at(left[0].worst.frame);
   EXPECT_NEAR(pose.z, left[0].worst.angle, 1e-12);
-  EXPECT_LT(turn_between(orientation(joint, pose), motion.at(left[0].worst.frame)).angle, 1e-9);
+  EXPECT_LT(turn_between(modeler::orientation(joint, pose), motion.at(left[0].worst.frame)).angle, 1e-9);
 }
 
 // y stands 45 degrees from x, so z never comes nearer to x than 45 degrees. The keys turn it there and as far
@@ -82,17 +82,17 @@ TEST(LimitsLeft, ALockedAxisOfAJointWithTwoFreedomsTurnsOnTheWay) {
 TEST(LimitsLeft, SkewedAxesThatDoNotReachAreTold) {
   Film film = film_of(R"("y_axis": [1, 1, 0])",
                       R"("keys": [{"frame": 0, "pose": {"j": [0, 85, 0]}}, {"frame": 40, "pose": {"j": [0, 0, 0]}}])");
-  const Joint& joint = film.models[0].joints[0];
-  const glm::dmat3 first = orientation(joint, {0, 85, 0});
+  const modeler::Joint& joint = film.models[0].joints[0];
+  const glm::dmat3 first = modeler::orientation(joint, {0, 85, 0});
   const glm::dvec3 axis = glm::normalize(glm::cross(first[2], glm::dvec3(1, 0, 0)));
   const double to_x = std::acos(first[2].x);
-  film.actors[0].motion.pose[0][1].value = pose_of(joint, rotation(axis, 2 * to_x) * first, {180, 85, 0});
+  film.actors[0].motion.pose[0][1].value = pose_of(joint, modeler::rotation(axis, 2 * to_x) * first, {180, 85, 0});
   const auto left = limits_left(film);
   ASSERT_EQ(left.size(), 1u);
   EXPECT_EQ(left[0].worst.axis, 3);
   EXPECT_EQ(left[0].worst.frame, 20u);
   EXPECT_NEAR(left[0].worst.angle, 45, 0.1);
-  EXPECT_TRUE(holds(check_film(film).lines[0], "its skewed axes do not reach"));
+  EXPECT_TRUE(document::holds(check_film(film).lines[0], "its skewed axes do not reach"));
 }
 
 TEST(LimitsLeft, AKeyThereMendsIt) {
@@ -116,7 +116,7 @@ TEST(LimitsLeft, TheWorstIsFoundWithoutLookingAtEveryFrame) {
   for (int trial = 0; trial < 400; ++trial) {
     Film film = film_of(limits[trial % 4], R"("keys": [{"frame": 0, "pose": {"j": [0, 10, 20]}}])");
     film.frames = 1 + std::uint32_t(number(10, 90));  // some end between keys
-    const Joint& joint = film.models[0].joints[0];
+    const modeler::Joint& joint = film.models[0].joints[0];
     Channel<glm::dvec3>& poses = film.actors[0].motion.pose[0];
     poses.clear();
     for (std::uint32_t frame = 0; frame < 80; frame += 1 + std::uint32_t(number(0, 40))) {
@@ -155,8 +155,8 @@ TEST(Check, TellsKeysBehindTheEndAndThoseThatDoNothing) {
                          R"("keys": [{"frame": 3, "place": [1, 1, 1]}, {"frame": 50, "place": [1, 1, 1]}])"))
           .lines;
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_TRUE(holds(lines[0], "actor 'a b': has keys up to frame 50, behind the film's last, 40")) << lines[0];
-  EXPECT_TRUE(holds(lines[1], "never moves")) << lines[1];
+  EXPECT_TRUE(document::holds(lines[0], "actor 'a b': has keys up to frame 50, behind the film's last, 40")) << lines[0];
+  EXPECT_TRUE(document::holds(lines[1], "never moves")) << lines[1];
 }
 
 TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
@@ -166,7 +166,7 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
   const Findings findings = check_film(film);
   EXPECT_FALSE(findings.trouble);
   ASSERT_EQ(findings.lines.size(), 1u);
-  EXPECT_TRUE(holds(findings.lines[0], "1 joint is outside its limits between keys by less than")) << findings.lines[0];
+  EXPECT_TRUE(document::holds(findings.lines[0], "1 joint is outside its limits between keys by less than")) << findings.lines[0];
   EXPECT_TRUE(warnings_of(film).empty());
 }
 
@@ -179,4 +179,4 @@ TEST(Check, TellsJumps) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -6,7 +6,7 @@
 
 #include "host/content/animator/channel.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 TEST(Ease, BeginsAndEndsExactly) {
@@ -94,4 +94,4 @@ TEST(Channel, HoldsOutsideItsKeysAndIsExactOnThem) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

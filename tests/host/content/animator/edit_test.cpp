@@ -6,24 +6,24 @@
 #include "host/content/animator/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
-Json film_with(const std::string& actor) {
-  return Json::parse(R"({"frames": 20, "camera": {"eye": [0, -9, 2]},
+document::Json film_with(const std::string& actor) {
+  return document::Json::parse(R"({"frames": 20, "camera": {"eye": [0, -9, 2]},
     "models": {"arm": {"joints": [{"name": "a"}, {"name": "b", "parent": "a", "limits": {"y": [-10, 90]}}]}},
     "actors": [{"name": "other", "model": "arm"}, )" +
                      actor + "]}");
 }
 
 // The actor "it" with these members beside name and model, after the keys were put.
-Json after(const std::string& members, const std::vector<ActorKey>& keys) {
-  Json film = film_with(R"({"name": "it", "model": "arm")" + members + "}");
+document::Json after(const std::string& members, const std::vector<ActorKey>& keys) {
+  document::Json film = film_with(R"({"name": "it", "model": "arm")" + members + "}");
   put_keys(film, "it", keys);
-  const Document document(laid_out(film), "f.json");
+  const document::Document document(document::laid_out(film), "f.json");
   read_film(document.root(), {});  // what stands there is a film
   EXPECT_EQ(film["actors"][0].dump(), R"({"name":"other","model":"arm"})");
-  Json actor = film["actors"][1];
+  document::Json actor = film["actors"][1];
   actor.erase("name");
   actor.erase("model");
   return actor;
@@ -67,11 +67,11 @@ TEST(PutKeys, AKeyOfFrame0TakesTheStillValuesPlace) {
 }
 
 TEST(PutKeys, WhatCannotBeKeyedIsToldAndTheFilmStays) {
-  Json film = film_with(R"({"name": "it", "model": "arm", "matrices": []})");
-  const Json before = film;
+  document::Json film = film_with(R"({"name": "it", "model": "arm", "matrices": []})");
+  const document::Json before = film;
   const std::vector<ActorKey> keys = {{3, glm::dvec3(1, 1, 1), {}, {}, {}}};
-  EXPECT_TRUE(holds(failure_of([&] { put_keys(film, "it", keys); }), "actor 'it': is moved by matrices"));
-  EXPECT_TRUE(holds(failure_of([&] { put_keys(film, "othre", keys); }), "did you mean 'other'?"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { put_keys(film, "it", keys); }), "actor 'it': is moved by matrices"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { put_keys(film, "othre", keys); }), "did you mean 'other'?"));
   EXPECT_EQ(film, before);
 }
 
@@ -83,4 +83,4 @@ TEST(Rounded, KeepsNineDigits) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -9,11 +9,11 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
-Joint joint_at(std::size_t parent, const glm::dvec3& place) {
-  Joint joint;
+modeler::Joint joint_at(std::size_t parent, const glm::dvec3& place) {
+  modeler::Joint joint;
   joint.name = "j";
   joint.parent = parent;
   joint.place = place;
@@ -22,7 +22,7 @@ Joint joint_at(std::size_t parent, const glm::dvec3& place) {
 
 // Upper arm, fore arm and hand, each one long in x, at rest.
 struct Arm {
-  Model model{{joint_at(kNone, {0, 0, 0}), joint_at(0, {1, 0, 0}), joint_at(1, {1, 0, 0})}, {}, {}, {}};
+  modeler::Model model{{joint_at(modeler::kNone, {0, 0, 0}), joint_at(0, {1, 0, 0}), joint_at(1, {1, 0, 0})}, {}, {}, {}};
   FigureMotion motion{constant(glm::dvec3(0)), constant(glm::dvec3(0)), std::vector<Channel<glm::dvec3>>(3)};
 
   void key(std::size_t joint, std::uint32_t frame, const glm::dvec3& pose, const Ease& ease = kLinear) {
@@ -37,29 +37,29 @@ double difference(const glm::dmat3& a, const glm::dmat3& b) {
 }
 
 TEST(Orientation, TurnsAboutXThenYThenZAsAlreadyTurned) {
-  Joint joint;
-  EXPECT_EQ(orientation(joint, {90, 90, 0}) * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
-  EXPECT_EQ(orientation(joint, {0, 90, 90}) * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
-  EXPECT_EQ(orientation(joint, {90, 0, 90}) * glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
+  modeler::Joint joint;
+  EXPECT_EQ(modeler::orientation(joint, {90, 90, 0}) * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(modeler::orientation(joint, {0, 90, 90}) * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(modeler::orientation(joint, {90, 0, 90}) * glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
 }
 
 TEST(Orientation, SkewAxesStillTurnRigidly) {
-  Joint joint;
+  modeler::Joint joint;
   joint.y_axis = glm::normalize(glm::dvec3(1, 1, 0));
-  const glm::dmat3 turn = orientation(joint, {20, 30, 40});
+  const glm::dmat3 turn = modeler::orientation(joint, {20, 30, 40});
   EXPECT_LT(difference(turn * glm::transpose(turn), glm::dmat3(1)), 1e-15);
   const double angle = 30 * std::acos(-1.0) / 180;
-  EXPECT_LT(difference(orientation(joint, {0, 30, 0}), glm::mat3_cast(glm::angleAxis(angle, joint.y_axis))),
+  EXPECT_LT(difference(modeler::orientation(joint, {0, 30, 0}), glm::mat3_cast(glm::angleAxis(angle, joint.y_axis))),
             1e-15);
 }
 
 TEST(Limits, BoundExactlyTheThreeNumbers) {
-  Joint joint;
+  modeler::Joint joint;
   joint.limits = {{{0, 0}, {-10, 150}, {-180, 180}}};
   EXPECT_FALSE(broken_limit(joint, {0, 150, -180}));
   EXPECT_EQ(*broken_limit(joint, {0, 150.5, 0}),
             "turns 150.5 degrees about y, outside its limits -10 to 150");
-  EXPECT_TRUE(holds(*broken_limit(joint, {1e-9, 0, 0}), "its x axis is locked at 0, not 1e-09"));
+  EXPECT_TRUE(document::holds(*broken_limit(joint, {1e-9, 0, 0}), "its x axis is locked at 0, not 1e-09"));
 }
 
 TEST(SegmentFrame, SkewAxesShearTheSegmentButNoChild) {
@@ -67,14 +67,14 @@ TEST(SegmentFrame, SkewAxesShearTheSegmentButNoChild) {
   arm.model.joints[0].y_axis = glm::normalize(glm::dvec3(1, 1, 0));
   Figure figure(arm.model, arm.motion);
   figure.move_to(0);
-  const Axes sheared = segment_frame(figure.frame_of(0), arm.model.joints[0]);
+  const modeler::Axes sheared = modeler::segment_frame(figure.frame_of(0), arm.model.joints[0]);
   EXPECT_LT(distance(sheared.turn * glm::dvec3(0, 1, 0), {std::sqrt(0.5), std::sqrt(0.5), 0}), 1e-15);
   EXPECT_LT(distance(sheared.turn * glm::dvec3(0, 0, 1), {0, 0, std::sqrt(0.5)}), 1e-15) << "Z = X x Y";
   EXPECT_EQ(figure.frame_of(1).turn, glm::dmat3(1));
 }
 
 TEST(TMatrix, TakesTheUnitCubeToTheBox) {
-  const node::Matrix matrix = t_matrix({glm::dmat3(1), {10, 0, 0}}, {{-1, -2, 3}, {1, 2, 7}});
+  const wire::Matrix matrix = modeler::t_matrix({glm::dmat3(1), {10, 0, 0}}, {{-1, -2, 3}, {1, 2, 7}});
   EXPECT_EQ(matrix.m[0], (std::array<double, 4>{2, 0, 0, 9}));
   EXPECT_EQ(matrix.m[1], (std::array<double, 4>{0, 4, 0, -2}));
   EXPECT_EQ(matrix.m[2], (std::array<double, 4>{0, 0, 4, 3}));
@@ -92,7 +92,7 @@ TEST(Figure, LimbsNeverComeApart) {
     figure.move_to(frame);
     for (const std::size_t joint : {1u, 2u}) {
       EXPECT_NEAR(distance(figure.frame_of(joint).place, figure.frame_of(joint - 1).place), 1, 1e-14);
-      const Axes& parent = figure.frame_of(joint - 1);
+      const modeler::Axes& parent = figure.frame_of(joint - 1);
       EXPECT_LT(distance(figure.frame_of(joint).place, parent.turn * glm::dvec3(1, 0, 0) + parent.place),
                 1e-14);
     }
@@ -104,9 +104,9 @@ TEST(Figure, FreeJointsFollowSlerpBetweenKeys) {
   arm.key(1, 0, {10, 20, 30});
   arm.key(1, 10, {-100, 60, 150});
   Figure figure(arm.model, arm.motion);
-  const Joint& joint = arm.model.joints[1];
-  const glm::dquat first = glm::quat_cast(orientation(joint, {10, 20, 30}));
-  const glm::dquat last = glm::quat_cast(orientation(joint, {-100, 60, 150}));
+  const modeler::Joint& joint = arm.model.joints[1];
+  const glm::dquat first = glm::quat_cast(modeler::orientation(joint, {10, 20, 30}));
+  const glm::dquat last = glm::quat_cast(modeler::orientation(joint, {-100, 60, 150}));
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
     figure.move_to(frame);
     EXPECT_LT(difference(figure.frame_of(1).turn, glm::mat3_cast(glm::slerp(first, last, frame / 10.0))),
@@ -129,7 +129,7 @@ TEST(Figure, HingesMakeWholeTurnsAndKeepTheirLimits) {
       << "an ease that swings back stops at the limit";
   JointMotion hinge(arm.model.joints[1], arm.motion.pose[1]);
   for (std::uint32_t frame = 0; frame <= 8; ++frame)
-    EXPECT_EQ(hinge.at(frame), orientation(arm.model.joints[1], {0, 90.0 * frame, 0}));
+    EXPECT_EQ(hinge.at(frame), modeler::orientation(arm.model.joints[1], {0, 90.0 * frame, 0}));
 }
 
 TEST(Figure, FramesDoNotDependOnTheOrderAskedFor) {
@@ -139,7 +139,7 @@ TEST(Figure, FramesDoNotDependOnTheOrderAskedFor) {
   arm.key(0, 100, {0, 0, 0});
   arm.motion.place = {{0, {0, 0, 0}, kBoth}, {100, {5, 6, 7}, kLinear}};
   Figure forward(arm.model, arm.motion), backward(arm.model, arm.motion);
-  std::vector<Axes> seen;
+  std::vector<modeler::Axes> seen;
   for (std::uint32_t frame = 0; frame <= 100; ++frame) {
     forward.move_to(frame);
     seen.push_back(forward.frame_of(2));
@@ -168,7 +168,7 @@ TEST(Figure, TellsWhatMoved) {
 
 // A ball joint that keys take from 0 to 80 degrees about y and its limits stop at 90.
 struct Ball {
-  Joint joint;
+  modeler::Joint joint;
   Channel<glm::dvec3> poses;
 
   explicit Ball(const Ease& ease) : poses{{0, {0, 0, 0}, ease}, {100, {0, 80, 0}, kLinear}} {
@@ -206,9 +206,9 @@ TEST(JointMotion, ItsPoseGivesItsOrientation) {
   ball.poses[1].value = {40, 60, -30};
   JointMotion motion(ball.joint, ball.poses), same(ball.joint, ball.poses);
   for (std::uint32_t frame = 0; frame <= 100; ++frame)
-    EXPECT_LT(difference(orientation(ball.joint, motion.pose_at(frame)), same.at(frame)), 1e-12) << frame;
+    EXPECT_LT(difference(modeler::orientation(ball.joint, motion.pose_at(frame)), same.at(frame)), 1e-12) << frame;
   EXPECT_EQ(motion.pose_at(100), ball.poses[1].value);
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -10,7 +10,7 @@
 #include "host/content/animator/read_film.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr const char* kArm = R"(
@@ -21,30 +21,30 @@ constexpr const char* kArm = R"(
 
 // A film file as JSON and as it is read, with the edits of a person.
 struct Scene {
-  Json json;
+  document::Json json;
   Film film;
 
   explicit Scene(const std::string& actor, const std::string& more = "")
-      : json(Json::parse(R"({"frames": 49, "camera": {"eye": [0, -9, 2]}, "models": {"arm": {"joints": [)" +
+      : json(document::Json::parse(R"({"frames": 49, "camera": {"eye": [0, -9, 2]}, "models": {"arm": {"joints": [)" +
                          std::string(kArm) + R"(]}}, "actors": [{"name": "it", "model": "arm")" + actor + "}" + more +
                          "]}")) {
     read();
   }
 
   void read() {
-    const Document document(laid_out(json), "f.json");
+    const document::Document document(document::laid_out(json), "f.json");
     film = read_film(document.root(), {});
   }
 
-  const Json& keys() const { return json["actors"][0]["keys"]; }
+  const document::Json& keys() const { return json["actors"][0]["keys"]; }
   std::string frames() const {
     std::string text;
-    for (const Json& key : keys()) text += (text.empty() ? "" : " ") + key["frame"].dump();
+    for (const document::Json& key : keys()) text += (text.empty() ? "" : " ") + key["frame"].dump();
     return text;
   }
 
   // Where the joint with this number stands, and how it is turned.
-  Axes stands(std::size_t joint, std::uint32_t frame) const {
+  modeler::Axes stands(std::size_t joint, std::uint32_t frame) const {
     Figure figure(film.models[0], film.actors[0].motion);
     figure.move_to(frame);
     return figure.frame_of(joint);
@@ -69,7 +69,7 @@ constexpr const char* kMoving = R"(, "keys": [
 double farthest_apart(const Scene& a, const Scene& b, std::uint32_t frame_of_a, std::uint32_t frame_of_b) {
   double worst = 0;
   for (std::size_t joint = 0; joint < 4; ++joint) {
-    const Axes one = a.stands(joint, frame_of_a), other = b.stands(joint, frame_of_b);
+    const modeler::Axes one = a.stands(joint, frame_of_a), other = b.stands(joint, frame_of_b);
     worst = std::max(worst, glm::length(one.place - other.place));
     for (int i = 0; i < 3; ++i) worst = std::max(worst, glm::length(one.turn[i] - other.turn[i]));
   }
@@ -79,7 +79,7 @@ double farthest_apart(const Scene& a, const Scene& b, std::uint32_t frame_of_a, 
 TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
   Scene scene(kMoving);
   const std::vector<std::string> wishes = {"shoulder.y=-20", "place.z=1", "elbow=0,45,0"};
-  scene([&](Json& j, const Film& f) { return pose(j, f, "it", wishes, 24, {}, Beyond::refused); });
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, 24, {}, Beyond::refused); });
   EXPECT_EQ(
       scene.keys()[1].dump(),
       R"({"frame":24,"place":[3,0,1],"turn":[10,20,30],"pose":{"shoulder":[30,-20,50],"elbow":[0,45,0]},"ease":"in"})");
@@ -88,8 +88,8 @@ TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
 TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
   Scene scene(R"(, "place": [1, 2, 3], "pose": {"elbow": [0, 30, 0]})");
   const std::vector<std::string> wishes = {"place.x=5", "elbow.y=60", "shoulder.z=7", "/turn.z=-4"};
-  scene([&](Json& j, const Film& f) { return pose(j, f, "it", wishes, 12, kBoth, Beyond::refused); });
-  Json actor = scene.json["actors"][0];
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, 12, kBoth, Beyond::refused); });
+  document::Json actor = scene.json["actors"][0];
   EXPECT_EQ(
       actor.dump(),
       R"({"name":"it","model":"arm","keys":[)"
@@ -99,10 +99,10 @@ TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
 
 TEST(Pose, LimitsAreHeldAndTold) {
   Scene scene(kMoving);
-  const Json before = scene.json;
+  const document::Json before = scene.json;
   const auto wanted = [&](const std::string& wish, Beyond beyond) {
     const std::vector<std::string> wishes = {wish};
-    return failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, beyond); });
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, beyond); });
   };
   EXPECT_EQ(wanted("elbow.y=170", Beyond::refused),
             "actor 'it', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150 (--clamp takes the "
@@ -120,32 +120,32 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
   Scene scene(kMoving);
   const auto told = [&](const std::string& wish) {
     const std::vector<std::string> wishes = {wish};
-    return failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
   };
-  EXPECT_TRUE(holds(told("elbow"), "write it like elbow.y=90"));
-  EXPECT_TRUE(holds(told("elbow=1"), "one number for one axis"));
-  EXPECT_TRUE(holds(told("elbow.y=1,2"), "has 2 numbers"));
-  EXPECT_TRUE(holds(told("elbow.y=nan"), "where a number belongs"));
-  EXPECT_TRUE(holds(told("elbow.y="), "where a number belongs"));
-  EXPECT_TRUE(holds(told("elbwo.y=1"), "did you mean"));
-  EXPECT_TRUE(holds(told("=1"), "write it like"));
-  EXPECT_TRUE(holds(told("-knee"), "'-knee': is not PART=NUMBERS"));
-  EXPECT_TRUE(holds(told("place=2"), "like place.y=0, or three for all: place="));
+  EXPECT_TRUE(document::holds(told("elbow"), "write it like elbow.y=90"));
+  EXPECT_TRUE(document::holds(told("elbow=1"), "one number for one axis"));
+  EXPECT_TRUE(document::holds(told("elbow.y=1,2"), "has 2 numbers"));
+  EXPECT_TRUE(document::holds(told("elbow.y=nan"), "where a number belongs"));
+  EXPECT_TRUE(document::holds(told("elbow.y="), "where a number belongs"));
+  EXPECT_TRUE(document::holds(told("elbwo.y=1"), "did you mean"));
+  EXPECT_TRUE(document::holds(told("=1"), "write it like"));
+  EXPECT_TRUE(document::holds(told("-knee"), "'-knee': is not PART=NUMBERS"));
+  EXPECT_TRUE(document::holds(told("place=2"), "like place.y=0, or three for all: place="));
   const auto told_twice = [&](const std::vector<std::string>& wishes) {
-    return failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
   };
   EXPECT_EQ(told_twice({"elbow.y=20", "elbow.y=30"}),
             "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
-  EXPECT_TRUE(holds(told_twice({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
+  EXPECT_TRUE(document::holds(told_twice({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
   const std::vector<std::string> eye = {"eye=1,2"};
-  EXPECT_TRUE(holds(failure_of([&] { pose(scene.json, scene.film, "camera", eye, 3, {}, Beyond::refused); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] { pose(scene.json, scene.film, "camera", eye, 3, {}, Beyond::refused); }),
                     "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
 }
 
 TEST(Pose, TheCameraIsSetToo) {
   Scene scene("");
   const std::vector<std::string> wishes = {"eye.x=4", "fov=30"};
-  scene([&](Json& j, const Film& f) { return pose(j, f, "camera", wishes, 10, {}, Beyond::refused); });
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "camera", wishes, 10, {}, Beyond::refused); });
   EXPECT_EQ(scene.json["camera"].dump(),
             R"({"keys":[{"frame":0,"eye":[0,-9,2],"fov":40},{"frame":10,"eye":[4,-9,2],"fov":30}]})");
 }
@@ -155,7 +155,7 @@ TEST(MakeKeys, TheFilmMovesAsBefore) {
   Scene scene(kMoving);
   for (const std::uint32_t frame : {7u, 12u, 40u})
     EXPECT_TRUE(
-        scene([&](Json& j, const Film& f) { return make_keys(j, f, kIt, frame, {}, Beyond::refused); }).empty());
+        scene([&](document::Json& j, const Film& f) { return make_keys(j, f, kIt, frame, {}, Beyond::refused); }).empty());
   EXPECT_EQ(scene.frames(), "0 7 12 24 40 48");
   for (std::uint32_t frame = 0; frame <= 48; ++frame)
     EXPECT_LT(farthest_apart(scene, before, frame, frame), 1e-7) << frame;
@@ -164,7 +164,7 @@ TEST(MakeKeys, TheFilmMovesAsBefore) {
 
 TEST(MakeKeys, OfSomePartsWithAnEase) {
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) {
+  scene([&](document::Json& j, const Film& f) {
     return make_keys(j, f, {false, "it", {"elbow", "place"}}, 24 + 12, kOut, Beyond::refused);
   });
   EXPECT_EQ(scene.keys()[2].size(), 4u);
@@ -175,38 +175,38 @@ TEST(MakeKeys, OfSomePartsWithAnEase) {
 TEST(MakeKeys, WhoseEaseCannotBeKeptIsTold) {
   Scene scene(kMoving);
   const Remarks remarks = scene(
-      [&](Json& j, const Film& f) { return make_keys(j, f, {false, "it", {"elbow"}}, 12, {}, Beyond::refused); });
+      [&](document::Json& j, const Film& f) { return make_keys(j, f, {false, "it", {"elbow"}}, 12, {}, Beyond::refused); });
   ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_TRUE(holds(remarks[0], "actor 'it'")) << remarks[0];
-  EXPECT_TRUE(holds(remarks[0], "elbow at frame 0")) << remarks[0];
+  EXPECT_TRUE(document::holds(remarks[0], "actor 'it'")) << remarks[0];
+  EXPECT_TRUE(document::holds(remarks[0], "elbow at frame 0")) << remarks[0];
   EXPECT_EQ(scene.keys()[0]["ease"], "both") << "the others keep theirs";
 }
 
 TEST(MoveKeys, GoWithTheirEaseAndReplaceOthers) {
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) { return move_keys(j, f, kIt, {24, 24}, 30); });
+  scene([&](document::Json& j, const Film& f) { return move_keys(j, f, kIt, {24, 24}, 30); });
   EXPECT_EQ(scene.frames(), "0 30 48");
   EXPECT_EQ(scene.keys()[1]["ease"], "in");
-  scene([&](Json& j, const Film& f) { return move_keys(j, f, {false, "it", {"elbow"}}, {30, 48}, 32); });
+  scene([&](document::Json& j, const Film& f) { return move_keys(j, f, {false, "it", {"elbow"}}, {30, 48}, 32); });
   EXPECT_EQ(scene.frames(), "0 30 32 48 50");
   EXPECT_EQ(scene.keys()[2]["pose"].dump(), R"({"elbow":[0,90,0]})");
-  scene([&](Json& j, const Film& f) { return move_keys(j, f, kIt, {0, 0}, 30); });
+  scene([&](document::Json& j, const Film& f) { return move_keys(j, f, kIt, {0, 0}, 30); });
   EXPECT_EQ(scene.keys()[0]["place"].dump(), "[0,0,0]");
 }
 
 TEST(MoveKeys, NotBeforeTheFilmAndNotWhereNoneAre) {
   Scene scene(kMoving);
-  const Json before = scene.json;
-  EXPECT_EQ(failure_of([&] { move_keys(scene.json, scene.film, kIt, {1, 20}, 30); }),
+  const document::Json before = scene.json;
+  EXPECT_EQ(document::failure_of([&] { move_keys(scene.json, scene.film, kIt, {1, 20}, 30); }),
             "actor 'it': has no key in frames 1 to 20 (its keys stand at 0, 24, 48)");
-  EXPECT_TRUE(holds(failure_of([&] { move_keys(scene.json, scene.film, kIt, {24, 48}, 1'000'000); }), "frame 1000024"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { move_keys(scene.json, scene.film, kIt, {24, 48}, 1'000'000); }), "frame 1000024"));
   EXPECT_EQ(scene.json, before);
 }
 
 TEST(CopyKeys, OfARange) {
   const Scene before(kMoving);
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) { return copy_keys(j, f, kIt, {0, 24}, 48); });
+  scene([&](document::Json& j, const Film& f) { return copy_keys(j, f, kIt, {0, 24}, 48); });
   EXPECT_EQ(scene.frames(), "0 24 48 72");
   for (std::uint32_t frame = 0; frame < 24; ++frame)
     EXPECT_LT(farthest_apart(scene, before, 48 + frame, frame), 1e-12) << frame;
@@ -214,10 +214,10 @@ TEST(CopyKeys, OfARange) {
 
 TEST(DeleteKeys, OfAJointOrOfAll) {
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"elbow", "place"}}, {0, 1'000'000}); });
+  scene([&](document::Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"elbow", "place"}}, {0, 1'000'000}); });
   EXPECT_EQ(scene.frames(), "0 24 48");
   EXPECT_FALSE(scene.keys()[0]["pose"].contains("elbow"));
-  scene([&](Json& j, const Film& f) { return delete_keys(j, f, kIt, {0, 1'000'000}); });
+  scene([&](document::Json& j, const Film& f) { return delete_keys(j, f, kIt, {0, 1'000'000}); });
   EXPECT_FALSE(scene.json["actors"][0].contains("keys"));
 }
 
@@ -225,7 +225,7 @@ TEST(Hold, StandsStillAndGoesOnAsBefore) {
   const Scene before(kMoving);
   for (const std::uint32_t at : {10u, 24u}) {
     Scene scene(kMoving);
-    scene([&](Json& j, const Film& f) { return hold(j, f, kIt, at, 6); });
+    scene([&](document::Json& j, const Film& f) { return hold(j, f, kIt, at, 6); });
     for (std::uint32_t frame = 0; frame <= 48 + 6; ++frame) {
       const std::uint32_t was = frame <= at ? frame : frame <= at + 6 ? at : frame - 6;
       EXPECT_LT(farthest_apart(scene, before, frame, was), 1e-7) << frame;
@@ -235,26 +235,26 @@ TEST(Hold, StandsStillAndGoesOnAsBefore) {
 
 TEST(Stretch, WhatFollowsComesLater) {
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) { return stretch(j, f, kIt, {0, 24}, 1.5); });
+  scene([&](document::Json& j, const Film& f) { return stretch(j, f, kIt, {0, 24}, 1.5); });
   EXPECT_EQ(scene.frames(), "0 36 60");
-  scene([&](Json& j, const Film& f) { return stretch(j, f, kIt, {0, 60}, 0.1); });
+  scene([&](document::Json& j, const Film& f) { return stretch(j, f, kIt, {0, 60}, 0.1); });
   EXPECT_EQ(scene.frames(), "0 4 6");
-  EXPECT_TRUE(holds(failure_of([&] { stretch(scene.json, scene.film, kIt, {0, 6}, 0.1); }), "two would stand"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { stretch(scene.json, scene.film, kIt, {0, 6}, 0.1); }), "two would stand"));
 }
 
 TEST(Shift, PassesNoKey) {
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) { return shift(j, f, kIt, 24, 5); });
+  scene([&](document::Json& j, const Film& f) { return shift(j, f, kIt, 24, 5); });
   EXPECT_EQ(scene.frames(), "0 29 53");
-  scene([&](Json& j, const Film& f) { return shift(j, f, kIt, 20, -8); });
+  scene([&](document::Json& j, const Film& f) { return shift(j, f, kIt, 20, -8); });
   EXPECT_EQ(scene.frames(), "0 21 45");
-  EXPECT_TRUE(holds(failure_of([&] { shift(scene.json, scene.film, kIt, 40, -30); }), "would lose keys"));
-  EXPECT_TRUE(holds(failure_of([&] { shift(scene.json, scene.film, kIt, 0, -30); }), "frame -9"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { shift(scene.json, scene.film, kIt, 40, -30); }), "would lose keys"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { shift(scene.json, scene.film, kIt, 0, -30); }), "frame -9"));
 }
 
 TEST(EaseKeys, OfAllThatIsKeyedThere) {
   Scene scene(kMoving);
-  scene([&](Json& j, const Film& f) { return ease_keys(j, f, kIt, {0, 24}, swinging(0.1, 0)); });
+  scene([&](document::Json& j, const Film& f) { return ease_keys(j, f, kIt, {0, 24}, swinging(0.1, 0)); });
   EXPECT_TRUE(scene.keys()[0]["ease"].is_array());
   EXPECT_EQ(scene.keys()[0]["ease"], scene.keys()[1]["ease"]);
   EXPECT_FALSE(scene.keys()[2].contains("ease"));
@@ -262,13 +262,13 @@ TEST(EaseKeys, OfAllThatIsKeyedThere) {
 
 TEST(All, IsCameraLightsMaterialsAndActorsButMatrices) {
   Scene scene(kMoving, R"(, {"name": "pot", "model": "arm", "matrices": [{"frame": 0, "segments": {}}]})");
-  scene.json["camera"] = Json::parse(R"({"keys": [{"frame": 10, "eye": [1, 1, 1]}]})");
-  scene.json["lights"] = Json::parse(R"([{"keys": [{"frame": 2, "direction": [0, 0, 2]}]}])");
-  scene.json["materials"] = Json::parse(R"({"red": {"keys": [{"frame": 3, "color": [1, 0, 0]}]}})");
+  scene.json["camera"] = document::Json::parse(R"({"keys": [{"frame": 10, "eye": [1, 1, 1]}]})");
+  scene.json["lights"] = document::Json::parse(R"([{"keys": [{"frame": 2, "direction": [0, 0, 2]}]}])");
+  scene.json["materials"] = document::Json::parse(R"({"red": {"keys": [{"frame": 3, "color": [1, 0, 0]}]}})");
   scene.read();
-  const Remarks remarks = scene([&](Json& j, const Film& f) { return shift(j, f, {true, "", {}}, 0, 7); });
+  const Remarks remarks = scene([&](document::Json& j, const Film& f) { return shift(j, f, {true, "", {}}, 0, 7); });
   EXPECT_EQ(remarks, Remarks{"actor 'pot' is moved by matrices and stays as it is"});
-  EXPECT_TRUE(holds(failure_of([&] { shift(scene.json, scene.film, {false, "pot", {}}, 0, 7); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] { shift(scene.json, scene.film, {false, "pot", {}}, 0, 7); }),
                     "actor 'pot': is moved by matrices, which have no keys"));
   EXPECT_EQ(scene.frames(), "7 31 55");
   EXPECT_EQ(scene.json["camera"]["keys"][0]["frame"], 17);
@@ -302,7 +302,7 @@ TEST(KeysTable, ShowsWhatIsFree) {
 
 Remarks posed(Scene& scene, const std::string& wish, std::uint32_t frame, std::optional<Ease> ease = {}) {
   const std::vector<std::string> wishes = {wish};
-  return scene([&](Json& j, const Film& f) { return pose(j, f, "it", wishes, frame, ease, Beyond::refused); });
+  return scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, frame, ease, Beyond::refused); });
 }
 
 TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
@@ -316,15 +316,15 @@ TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
   EXPECT_TRUE(posed(scene, "turn.z=280", 24).empty());
   // Without the key between it goes back again.
   const Remarks deleted =
-      scene([&](Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"/turn", "turn"}}, {10, 10}); });
+      scene([&](document::Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"/turn", "turn"}}, {10, 10}); });
   ASSERT_EQ(deleted.size(), 1u);
-  EXPECT_TRUE(holds(deleted[0], "goes 90 degrees back from frame 0 to 20")) << deleted[0];
+  EXPECT_TRUE(document::holds(deleted[0], "goes 90 degrees back from frame 0 to 20")) << deleted[0];
   // What was so before is not told again.
-  EXPECT_TRUE(scene([&](Json& j, const Film& f) {
+  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
                 return make_keys(j, f, {false, "it", {"turn"}}, 8, {}, Beyond::refused);
               }).empty());
   EXPECT_TRUE(
-      scene([&](Json& j, const Film& f) { return shift(j, f, {false, "it", {"turn"}}, 8, 4); }).empty());
+      scene([&](document::Json& j, const Film& f) { return shift(j, f, {false, "it", {"turn"}}, 8, 4); }).empty());
 }
 
 struct Turned {
@@ -341,7 +341,7 @@ TEST_P(OtherWay, IsTold) {
     EXPECT_TRUE(remarks.empty()) << remarks[0];
   } else {
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_TRUE(holds(remarks[0], GetParam().told)) << remarks[0];
+    EXPECT_TRUE(document::holds(remarks[0], GetParam().told)) << remarks[0];
   }
 }
 
@@ -371,9 +371,9 @@ TEST(SideEffects, ANewKeysEaseTellsWhomElseItChanges) {
   EXPECT_TRUE(posed(scene, "elbow.y=50", 24, kBoth).empty()) << "it has that ease";
   EXPECT_TRUE(posed(scene, "elbow.y=50", 30, kOut).empty()) << "nothing else is keyed there";
   EXPECT_TRUE(posed(scene, "elbow.y=50", 48, kOut).empty()) << "nothing follows";
-  EXPECT_TRUE(scene([&](Json& j, const Film& f) { return ease_keys(j, f, kIt, {0, 48}, kOut); }).empty())
+  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) { return ease_keys(j, f, kIt, {0, 48}, kOut); }).empty())
       << "all were meant";
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

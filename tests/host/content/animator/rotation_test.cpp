@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace mars::host {
+namespace mars::animator {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -34,14 +34,14 @@ std::vector<glm::dvec3> axes() {
 TEST(Rotation, IsTheQuaternions) {
   for (const glm::dvec3& axis : axes())
     for (const double angle : {-3.0, -1e-9, 0.0, 0.1, 1.0, 3.1, 7.0})
-      EXPECT_LT(difference(rotation(axis, angle), glm::mat3_cast(glm::angleAxis(angle, axis))), 1e-14);
+      EXPECT_LT(difference(modeler::rotation(axis, angle), glm::mat3_cast(glm::angleAxis(angle, axis))), 1e-14);
 }
 
 TEST(Rotation, QuarterTurnsAreExact) {
   const glm::dmat3 quarter(0, 1, 0, -1, 0, 0, 0, 0, 1);
   for (const double turns : {0.0, 1.0, -7.0, 400.0})
-    EXPECT_EQ(rotation_by_degrees({0, 0, 1}, 90 + 360 * turns), quarter);
-  EXPECT_EQ(rotation_by_degrees(glm::normalize(glm::dvec3(1, 2, 3)), 720), glm::dmat3(1));
+    EXPECT_EQ(modeler::rotation_by_degrees({0, 0, 1}, 90 + 360 * turns), quarter);
+  EXPECT_EQ(modeler::rotation_by_degrees(glm::normalize(glm::dvec3(1, 2, 3)), 720), glm::dmat3(1));
 }
 
 TEST(TurnBetween, FollowsSlerp) {
@@ -55,7 +55,7 @@ TEST(TurnBetween, FollowsSlerp) {
     const glm::dmat3 start = glm::mat3_cast(first);
     const Turn turn = turn_between(start, glm::mat3_cast(last));
     for (const double part : {0.0, 0.25, 0.5, 0.9, 1.0})
-      EXPECT_LT(difference(rotation(turn.axis, part * turn.angle) * start,
+      EXPECT_LT(difference(modeler::rotation(turn.axis, part * turn.angle) * start,
                            glm::mat3_cast(glm::slerp(first, last, part))),
                 1e-11 / std::max(1e-6, kPi - turn.angle));
   }
@@ -63,7 +63,7 @@ TEST(TurnBetween, FollowsSlerp) {
 
 TEST(TurnBetween, NothingTurnsAtZero) {
   for (const glm::dvec3& axis : axes()) {
-    const glm::dmat3 any = rotation(axis, 0.7);
+    const glm::dmat3 any = modeler::rotation(axis, 0.7);
     EXPECT_EQ(turn_between(any, any).angle, 0)
         << "the product with the transpose is not the identity to the bit";
   }
@@ -72,7 +72,7 @@ TEST(TurnBetween, NothingTurnsAtZero) {
 TEST(TurnBetween, SmallAnglesKeepTheirAxis) {
   for (const glm::dvec3& axis : axes())
     for (const double angle : {1e-2, 1e-5, 1e-8, 1e-11}) {
-      const Turn turn = turn_between(glm::dmat3(1), rotation(axis, angle));
+      const Turn turn = turn_between(glm::dmat3(1), modeler::rotation(axis, angle));
       EXPECT_NEAR(turn.angle / angle, 1, 1e-9);
       EXPECT_LT(glm::length(turn.axis - axis), 1e-9);
     }
@@ -82,13 +82,13 @@ TEST(TurnBetween, SmallAnglesKeepTheirAxis) {
 TEST(TurnBetween, NearHalfATurnKeepsAxisAndAngle) {
   for (const glm::dvec3& axis : axes())
     for (const double less : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9}) {
-      const glm::dmat3 start = rotation({0.6, 0, 0.8}, 0.3), last = rotation(axis, kPi - less) * start;
+      const glm::dmat3 start = modeler::rotation({0.6, 0, 0.8}, 0.3), last = modeler::rotation(axis, kPi - less) * start;
       const Turn turn = turn_between(start, last);
       EXPECT_NEAR(turn.angle, kPi - less, 1e-13);
       EXPECT_LT(glm::length(turn.axis - axis), 1e-6) << less;
-      EXPECT_LT(difference(rotation(turn.axis, turn.angle) * start, last), 1e-13);
+      EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle) * start, last), 1e-13);
       EXPECT_LT(
-          difference(rotation(turn.axis, turn.angle / 2) * start, rotation(axis, (kPi - less) / 2) * start),
+          difference(modeler::rotation(turn.axis, turn.angle / 2) * start, modeler::rotation(axis, (kPi - less) / 2) * start),
           1e-6);
     }
 }
@@ -103,11 +103,11 @@ TEST(TurnBetween, HalfATurnGoesAboutTheAxisWithItsLargestComponentPositive) {
     const double largest = std::max({size.x, size.y, size.z});
     EXPECT_GT(std::max({turn.axis.x, turn.axis.y, turn.axis.z}), largest - 1e-9)
         << "of " << axis.x << axis.y << axis.z;
-    EXPECT_LT(difference(rotation(turn.axis, turn.angle), last), 1e-12);
+    EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle), last), 1e-12);
     const glm::dquat half = glm::angleAxis(kPi / 2, glm::dot(turn.axis, axis) > 0 ? axis : -axis);
-    EXPECT_LT(difference(rotation(turn.axis, turn.angle / 2), glm::mat3_cast(half)), 1e-12);
+    EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle / 2), glm::mat3_cast(half)), 1e-12);
   }
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::animator

@@ -10,7 +10,7 @@
 #include "host/content/document/file.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 std::string parse_failure(const std::string& json) {
@@ -148,4 +148,4 @@ TEST(File, RefusesWhatIsNoFile) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::document

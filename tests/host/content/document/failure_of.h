@@ -5,7 +5,7 @@
 
 #include "hal/failure/failure.h"
 
-namespace mars::host {
+namespace mars::document {
 
 // The whole message of the Failure that `call` throws; "" if it throws none.
 template <typename Call>
@@ -22,4 +22,4 @@ inline bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-}  // namespace mars::host
+}  // namespace mars::document

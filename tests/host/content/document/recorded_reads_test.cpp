@@ -10,11 +10,11 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   for (const char* name : {"before", "read", "start", "exists", "inner"}) write_whole_file(folder / name, name);
   read_file(folder / "before");
   RecordedReads reads;
@@ -39,7 +39,7 @@ TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
 }
 
 TEST(RecordedReads, HoldAFileAsItStoodFirst) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_whole_file(folder / "file", "first");
   const FileStamp first = stamp_of(folder / "file");
   RecordedReads reads;
@@ -50,4 +50,4 @@ TEST(RecordedReads, HoldAFileAsItStoodFirst) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::document

@@ -10,7 +10,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::document {
 namespace {
 
 std::string text_of(const std::filesystem::path& path) {
@@ -18,7 +18,7 @@ std::string text_of(const std::filesystem::path& path) {
 }
 
 TEST(WholeFile, HoldsWhatWasWrittenLast) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   for (const std::size_t size : {0u, 1u, 65536u, 65537u, 1000000u}) {
     const std::string text(size, 'x');
     write_whole_file(folder / "file", text);
@@ -28,7 +28,7 @@ TEST(WholeFile, HoldsWhatWasWrittenLast) {
 }
 
 TEST(WholeFile, TellsWhatCannotBeWritten) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_whole_file(folder / "file", "x");
   EXPECT_TRUE(
       holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "no/file: cannot write: No"));
@@ -42,7 +42,7 @@ TEST(WholeFile, TellsWhatCannotBeWritten) {
 }
 
 TEST(WholeFile, LinksAndPermissionsStay) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_whole_file(folder / "file", "old");
   std::filesystem::permissions(folder / "file", std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   std::filesystem::create_symlink("file", folder / "link");
@@ -56,7 +56,7 @@ TEST(WholeFile, LinksAndPermissionsStay) {
 
 // Whoever can foresee a temporary name can put a link there.
 TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_whole_file(folder / "precious", "old");
   std::filesystem::create_symlink("precious", folder / "file.part");
   write_whole_file(folder / "file", "new");
@@ -71,7 +71,7 @@ TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
 }
 
 TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_whole_file(folder / "file", [&](const Write& write) {
     write("outer");
     write_whole_file(folder / "file", std::string(1 << 16, 'x'));
@@ -81,14 +81,14 @@ TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
 }
 
 TEST(WholeFile, NamesMayBeAsLongAsTheSystemLetsThemBe) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   const std::string longest(255, 'n');
   write_whole_file(folder / longest, "text");
   EXPECT_EQ(text_of(folder / longest), "text");
 }
 
 TEST(WholeFile, InAFolderOfOursALinkIsReplaced) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_whole_file(folder / "precious", "old");
   std::filesystem::create_symlink("precious", folder / "file");
   replace_file(folder / "file", folder / "file.part", std::as_bytes(std::span("new", 3)));
@@ -99,7 +99,7 @@ TEST(WholeFile, InAFolderOfOursALinkIsReplaced) {
 }
 
 TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(pipe, "x"); }), "pipe: cannot write: is not a regular file"));
@@ -109,7 +109,7 @@ TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
 }
 
 TEST(WholeFile, ANewFileThatCannotBeWrittenIsRemoved) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit two_bytes{2, before.rlim_max};
@@ -123,13 +123,13 @@ TEST(WholeFile, ANewFileThatCannotBeWrittenIsRemoved) {
 }
 
 TEST(WholeFile, ALimitOfFilesIsTold) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   EXPECT_TRUE(holds(failure_of([&] { fail_file("write", folder / "file", EFBIG); }), "raise ulimit -f"));
 }
 
 // A disk of 64 KiB, where the system lets us have one.
 TEST(WholeFile, AFullDiskLeavesTheOldFile) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   if (mount("none", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
     GTEST_SKIP() << "only root may mount a small disk";
   write_whole_file(folder / "file", "old");
@@ -143,4 +143,4 @@ TEST(WholeFile, AFullDiskLeavesTheOldFile) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::document

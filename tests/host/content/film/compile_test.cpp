@@ -8,10 +8,10 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
-std::uint32_t changes_of(const node::FilmView& film, std::size_t segment) {
+std::uint32_t changes_of(const wire::FilmView& film, std::size_t segment) {
   return film.segments()[segment].motion.count;
 }
 
@@ -19,7 +19,7 @@ TEST(Compile, StoresOnlyWhatChanges) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm", "keys": [
       {"frame": 4, "pose": {"b": [0, 0, 0]}}, {"frame": 8, "pose": {"b": [0, 80, 0]}},
       {"frame": 12, "pose": {"b": [0, 80, 0]}}]}, {"name": "y", "model": "arm", "place": [0, 5, 0]})"));
-  const node::FilmView view = film.view();
+  const wire::FilmView view = film.view();
   ASSERT_EQ(view.segments().size(), 4u);
   EXPECT_EQ(view.shapes().size(), 2u) << "actors of one model share its shapes";
   EXPECT_EQ(changes_of(view, 0), 1u);
@@ -42,8 +42,8 @@ TEST(Compile, StoresEqualMeshesOnce) {
   const CompiledFilm film = compiled(R"({"frames": 3, "camera": {"eye": [0, -9, 2]}, "models": {)" + model("m", "30") + "," +
                                      model("n", "30") + "," + model("o", "180") + R"(}, "actors": [
       {"name": "x", "model": "m"}, {"name": "y", "model": "n", "place": [2, 0, 0]}, {"name": "z", "model": "o"}]})");
-  const node::FilmView view = film.view();
-  node::FilmView(film.block(), "f.json");
+  const wire::FilmView view = film.view();
+  wire::FilmView(film.block(), "f.json");
   ASSERT_EQ(view.segments().size(), 6u);
   EXPECT_EQ(view.shapes().size(), 3u) << "flat, box, smooth";
   EXPECT_EQ(view.segments()[0].shape, view.segments()[2].shape);
@@ -56,7 +56,7 @@ TEST(Compile, StoresEqualMeshesOnce) {
 TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
       {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})"));
-  const node::FilmView view = film.view();
+  const wire::FilmView view = film.view();
   const auto color = [&](std::size_t segment) {
     return view.material_at(view.segments()[segment], 0).color[1];
   };
@@ -71,7 +71,7 @@ TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
 TEST(Compile, CameraLooksAtItsPlace) {
   const CompiledFilm film = compiled(R"({"frames": 1, "models": {}, "actors": [],
       "camera": {"eye": [3, -4, 12], "at": [0, 0, 0], "fov": 90}})");
-  const node::Camera& camera = film.view().camera_at(0);
+  const wire::Camera& camera = film.view().camera_at(0);
   const auto at = [&](const glm::dvec3& p) {
     glm::dvec3 q;
     for (int row = 0; row < 3; ++row) {
@@ -90,23 +90,23 @@ TEST(Compile, CameraLooksAtItsPlace) {
 
 TEST(Compile, RefusesACameraThatCannotLook) {
   const auto told = [](const std::string& camera) {
-    return failure_of(
+    return document::failure_of(
         [&] { compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": )" + camera + "}"); });
   };
-  EXPECT_TRUE(holds(told(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
-  EXPECT_TRUE(holds(told(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
+  EXPECT_TRUE(document::holds(told(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
+  EXPECT_TRUE(document::holds(told(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
   const std::string through =
       R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
-  EXPECT_TRUE(holds(told(through), "frame 4"));
+  EXPECT_TRUE(document::holds(told(through), "frame 4"));
 }
 
 TEST(Compile, LightsTurnOnTheGreatCircle) {
   const CompiledFilm film =
       compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
       "lights": [{"keys": [{"frame": 0, "direction": [1, 0, 0]}, {"frame": 10, "direction": [-1, 0, 0]}]}]})");
-  const node::FilmView view = film.view();
+  const wire::FilmView view = film.view();
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
-    const node::Light& light = view.lights()[view.value_at(view.light_tracks()[0], frame)];
+    const wire::Light& light = view.lights()[view.value_at(view.light_tracks()[0], frame)];
     EXPECT_NEAR(light.vector[0], std::cos(frame * std::acos(-1.0) / 10), 1e-6);
     EXPECT_NEAR(std::hypot(light.vector[0], light.vector[1], light.vector[2]), 1, 1e-6);
   }
@@ -118,15 +118,15 @@ TEST(Compile, OvershootKeepsMaterialsWithinWhatTheyCanBe) {
                                    {"frame": 19, "color": [1, 1, 1], "exponent": 0}]}},
       "models": {"b": {"joints": [{"name": "b", "segment": {"shape": "box", "material": "m"}}]}},
       "actors": [{"name": "b", "model": "b"}]})");
-  for (const node::Material& material : film.view().materials()) {
+  for (const wire::Material& material : film.view().materials()) {
     EXPECT_GE(material.color[0], 0);
     EXPECT_LE(material.color[0], 1);
     EXPECT_GE(material.exponent, 0);
   }
-  EXPECT_NO_THROW(node::FilmView(film.block(), "f"));
+  EXPECT_NO_THROW(wire::FilmView(film.block(), "f"));
 }
 
-std::string matrix_text(const Axes& frame) {
+std::string matrix_text(const modeler::Axes& frame) {
   std::string text = "[";
   for (int row = 0; row < 3; ++row) {
     char line[160];
@@ -142,15 +142,15 @@ TEST(Compile, RawMatricesEqualAKeyedFilm) {
       {"frame": 0, "place": [0, 0, 0], "pose": {"a": [0, 0, 0], "b": [0, 0, 0]}, "ease": "both"},
       {"frame": 7, "pose": {"a": [10, 100, -50], "b": [0, 370, 0]}},
       {"frame": 19, "place": [1, 2, 3], "pose": {"a": [180, 0, 0]}}]})");
-  const Film film = film_of(keyed);
-  Figure figure(film.models[0], film.actors[0].motion);
+  const animator::Film film = film_of(keyed);
+  animator::Figure figure(film.models[0], film.actors[0].motion);
   std::string matrices;
   for (std::uint32_t frame = 0; frame < film.frames; ++frame) {
     figure.move_to(frame);
     matrices += (frame ? ", " : "") + ("{\"frame\": " + std::to_string(frame)) + ", \"segments\": {";
     for (std::size_t joint = 0; joint < 2; ++joint)
       matrices += (joint ? ", \"b\": " : "\"a\": ") +
-                  matrix_text(segment_frame(figure.frame_of(joint), film.models[0].joints[joint]));
+                  matrix_text(modeler::segment_frame(figure.frame_of(joint), film.models[0].joints[joint]));
     matrices += "}}";
   }
   const CompiledFilm one = compile(film);
@@ -164,7 +164,7 @@ TEST(Compile, RawMatricesEqualAKeyedFilm) {
 
 TEST(Compile, SizeMayBeChosenAgainstTheFilm) {
   EXPECT_EQ(compiled(arm_film(""), {{}, {{7680, 4320}}}).view().settings().width, 7680u);
-  EXPECT_TRUE(holds(failure_of([] { compiled(arm_film(""), {{}, {{0, 5}}}); }), "1 to 16384 pixels"));
+  EXPECT_TRUE(document::holds(document::failure_of([] { compiled(arm_film(""), {{}, {{0, 5}}}); }), "1 to 16384 pixels"));
 }
 
 TEST(Compile, PlacesThatAddUpTooFarAreRefused) {
@@ -174,8 +174,8 @@ TEST(Compile, PlacesThatAddUpTooFarAreRefused) {
               "\", \"place\": [1e9, 0, 0], \"segment\": {\"shape\": \"box\"}}";
   const std::string film = R"({"frames": 1, "camera": {"eye": [0, 9, 0]}, "models": {"m": {"joints": [)" +
                            joints + R"(]}}, "actors": [{"name": "x", "model": "m"}]})";
-  EXPECT_TRUE(holds(failure_of([&] { compiled(film); }), "x/j1001, frame 0: stands farther"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { compiled(film); }), "x/j1001, frame 0: stands farther"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

@@ -11,7 +11,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,13 +23,13 @@ class FilmFileTest : public testing::Test {
     film_ = compiled(arm_film(R"({"name": "x", "model": "arm", "keys": [
         {"frame": 0, "place": [0, 0, 0]}, {"frame": 5, "place": [1, 0, 0]}]})"));
     save_film(film_, path_);
-    bytes_ = read_file(path_);
+    bytes_ = document::read_file(path_);
   }
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string failure(const std::string& bytes) const {
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
-    return failure_of([&] { load_compiled_film(path_); });
+    return document::failure_of([&] { load_compiled_film(path_); });
   }
 
   fs::path folder_ = fs::temp_directory_path() / "mars_film_file_test";
@@ -51,19 +51,19 @@ TEST_F(FilmFileTest, ComesBackBitForBit) {
 TEST_F(FilmFileTest, SaysTheSameOfBothKinds) {
   const auto after_name = [](const std::string& text) { return text.substr(text.find('\n')); };
   EXPECT_EQ(after_name(describe(load_film(path_))), after_name(describe(film_)));
-  EXPECT_TRUE(holds(describe(film_), "actors      1 with 2 joints"));
-  EXPECT_TRUE(holds(describe(film_), "frames      20 at 24 a second, 0.83 seconds"));
+  EXPECT_TRUE(document::holds(describe(film_), "actors      1 with 2 joints"));
+  EXPECT_TRUE(document::holds(describe(film_), "frames      20 at 24 a second, 0.83 seconds"));
 }
 
 TEST_F(FilmFileTest, TakesAnotherSizeButNotOtherIntervals) {
   const CompiledFilm large = load_film(path_, {{}, {{1920, 1080}}});
   EXPECT_EQ(large.view().settings().height, 1080u);
   EXPECT_EQ(large.view().settings().frames, 20u);
-  EXPECT_TRUE(holds(failure_of([&] {
-                      load_film(path_, {Cutting::keyframes, {}});
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                      load_film(path_, {animator::Cutting::keyframes, {}});
                     }),
                     "its intervals are cut"));
-  EXPECT_TRUE(holds(failure_of([&] { load_film(path_, {{}, {{1920, 0}}}); }), "1 to 16384"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(path_, {{}, {{1920, 0}}}); }), "1 to 16384"));
 }
 
 TEST_F(FilmFileTest, EveryFlippedBitIsSeen) {
@@ -72,23 +72,23 @@ TEST_F(FilmFileTest, EveryFlippedBitIsSeen) {
     std::string bytes = bytes_;
     const std::size_t bit = round < 512 ? round : random() % (8 * bytes.size());
     bytes[bit / 8] ^= char(1 << bit % 8);
-    EXPECT_TRUE(holds(failure(bytes), "no sound compiled film")) << bit;
+    EXPECT_TRUE(document::holds(failure(bytes), "no sound compiled film")) << bit;
   }
 }
 
 TEST_F(FilmFileTest, TornFilesAreSeen) {
   for (std::size_t length = 0; length < bytes_.size(); length += length < 200 ? 1 : 61)
     EXPECT_NE(failure(bytes_.substr(0, length)), "") << length;
-  EXPECT_TRUE(holds(failure(bytes_ + "x"), "its size is wrong"));
+  EXPECT_TRUE(document::holds(failure(bytes_ + "x"), "its size is wrong"));
 }
 
 TEST_F(FilmFileTest, ForeignFilesAreTold) {
   std::ofstream(path_, std::ios::trunc) << "\x89PNG\r\n\x1a\n" << std::string(200, '\0');
-  EXPECT_TRUE(holds(failure_of([&] { load_film(path_); }), "binary, not JSON"));
-  EXPECT_TRUE(holds(failure_of([&] { load_film(folder_ / "none.mars"); }), "no such file"));
-  EXPECT_TRUE(holds(failure_of([&] { load_film(folder_); }), "is a directory"));
-  EXPECT_TRUE(holds(failure_of([&] { save_film(film_, folder_ / "no" / "x.mars"); }), "x.mars"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(path_); }), "binary, not JSON"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(folder_ / "none.mars"); }), "no such file"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(folder_); }), "is a directory"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { save_film(film_, folder_ / "no" / "x.mars"); }), "x.mars"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

@@ -13,49 +13,49 @@
 #include "host/content/modeler/read_model.h"
 #include "host/content/modeler/shape_library.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::set<std::string> keys_in(const Element& schema) {
+std::set<std::string> keys_in(const document::Element& schema) {
   std::set<std::string> keys;
-  const Element properties = *schema.find("properties");
-  for (const Element property : properties) keys.emplace(property.key());
+  const document::Element properties = *schema.find("properties");
+  for (const document::Element property : properties) keys.emplace(property.key());
   return keys;
 }
 
-void expect_same_keys(const std::string& name, std::span<const Keys> known) {
-  const Document schema = read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
-  const Element definitions = *schema.root().find("$defs");
+void expect_same_keys(const std::string& name, std::span<const document::Keys> known) {
+  const document::Document schema = document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
+  const document::Element definitions = *schema.root().find("$defs");
   std::size_t objects = 1;
-  for (const Element definition : definitions) objects += definition.find("properties").has_value();
+  for (const document::Element definition : definitions) objects += definition.find("properties").has_value();
   EXPECT_EQ(objects, known.size()) << "objects of " << name;
-  for (const Keys& keys : known) {
+  for (const document::Keys& keys : known) {
     const auto definition = keys.of == name ? schema.root() : definitions.find(keys.of);
     ASSERT_TRUE(definition) << keys.of;
     EXPECT_EQ(keys_in(*definition), std::set<std::string>(keys.names.begin(), keys.names.end())) << keys.of;
   }
 }
 
-TEST(Schema, NamesTheKeysOfAModel) { expect_same_keys("model", model_keys()); }
+TEST(Schema, NamesTheKeysOfAModel) { expect_same_keys("model", modeler::model_keys()); }
 
-TEST(Schema, NamesTheKeysOfAFilm) { expect_same_keys("film", film_keys()); }
+TEST(Schema, NamesTheKeysOfAFilm) { expect_same_keys("film", animator::film_keys()); }
 
 TEST(Schema, NamesTheLibrarysShapesAndTheirOptions) {
-  const Document schema = read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema/model.schema.json");
-  const Element definitions = *schema.root().find("$defs");
+  const document::Document schema = document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema/model.schema.json");
+  const document::Element definitions = *schema.root().find("$defs");
   std::vector<std::string_view> named, known;
-  const Element names = *definitions.find("library")->find("enum");
-  for (const Element name : names) named.push_back(name.text());
-  for (const LibraryShape& shape : shape_library()) known.push_back(shape.name);
+  const document::Element names = *definitions.find("library")->find("enum");
+  for (const document::Element name : names) named.push_back(name.text());
+  for (const modeler::LibraryShape& shape : modeler::shape_library()) known.push_back(shape.name);
   EXPECT_EQ(named, known);
-  const Element properties = *definitions.find("segment")->find("properties");
-  for (const LibraryShape& shape : shape_library()) {
-    const ShapeOption& option = shape.option;
+  const document::Element properties = *definitions.find("segment")->find("properties");
+  for (const modeler::LibraryShape& shape : modeler::shape_library()) {
+    const modeler::ShapeOption& option = shape.option;
     if (option.key.empty()) continue;
-    const Element property = *properties.find(option.key);
-    const Element number = option.count == 1 ? property : *property.find("anyOf")->begin();
+    const document::Element property = *properties.find(option.key);
+    const document::Element number = option.count == 1 ? property : *property.find("anyOf")->begin();
     EXPECT_EQ(property.find("default")->number(), option.otherwise) << option.key;
     EXPECT_EQ(number.find("minimum")->number(), option.range.lowest) << option.key;
     EXPECT_EQ(number.find("maximum")->number(), option.range.highest) << option.key;
@@ -65,10 +65,10 @@ TEST(Schema, NamesTheLibrarysShapesAndTheirOptions) {
 // Whether a value is as a schema says; of JSON Schema what ours use for values of keys.
 class Schemas {
  public:
-  bool takes(Json schema, const Json& value) const {
+  bool takes(document::Json schema, const document::Json& value) const {
     schema = resolved(schema);
     if (schema.contains("anyOf"))
-      return std::ranges::any_of(schema["anyOf"], [&](const Json& each) { return takes(each, value); });
+      return std::ranges::any_of(schema["anyOf"], [&](const document::Json& each) { return takes(each, value); });
     if (schema.contains("const")) return value == schema["const"];
     if (schema.contains("enum")) return std::ranges::count(schema["enum"], value) > 0;
     const std::string type = schema.value("type", "");
@@ -77,21 +77,21 @@ class Schemas {
     if (type == "array")
       return value.is_array() && value.size() >= schema.value("minItems", std::size_t{0}) &&
              value.size() <= schema.value("maxItems", value.size()) &&
-             std::ranges::all_of(value, [&](const Json& each) { return takes(schema["items"], each); });
+             std::ranges::all_of(value, [&](const document::Json& each) { return takes(schema["items"], each); });
     if (type == "string") return value.is_string();
     if (type == "boolean") return value.is_boolean();
     return type == "object" && value.is_object() && takes_object(schema, value);
   }
 
   // Of a key wherever it may stand; of "above.key" or "above.*" where it stands in that one.
-  std::vector<Json> of(const std::string& name) const {
-    std::vector<Json> found;
+  std::vector<document::Json> of(const std::string& name) const {
+    std::vector<document::Json> found;
     const std::size_t dot = name.find('.');
-    for (const Json& object : objects()) {
+    for (const document::Json& object : objects()) {
       if (!object.contains("properties")) continue;
       const auto property = object["properties"].find(name.substr(0, dot));
       if (property == object["properties"].end()) continue;
-      const Json schema = resolved(*property);
+      const document::Json schema = resolved(*property);
       if (dot == std::string::npos) found.push_back(schema);
       if (dot == std::string::npos || schema.value("type", "") != "object") continue;
       const std::string key = name.substr(dot + 1);
@@ -104,16 +104,16 @@ class Schemas {
   }
 
  private:
-  static Json read(const char* name) { return read_json(fs::path(MARS_SOURCE_DIR) / "docs/schema" / name); }
+  static document::Json read(const char* name) { return document::read_json(fs::path(MARS_SOURCE_DIR) / "docs/schema" / name); }
 
-  std::vector<Json> objects() const {
-    std::vector<Json> all = {film_, model_};
-    for (const Json* schema : {&film_, &model_})
+  std::vector<document::Json> objects() const {
+    std::vector<document::Json> all = {film_, model_};
+    for (const document::Json* schema : {&film_, &model_})
       for (const auto& definition : (*schema)["$defs"].items()) all.push_back(definition.value());
     return all;
   }
 
-  Json resolved(const Json& schema) const {
+  document::Json resolved(const document::Json& schema) const {
     if (!schema.contains("$ref")) return schema;
     const std::string name = schema["$ref"];
     if (name == "model.schema.json") return model_;
@@ -121,34 +121,34 @@ class Schemas {
     return resolved((film_["$defs"].contains(definition) ? film_ : model_)["$defs"][definition]);
   }
 
-  bool takes_object(const Json& schema, const Json& value) const {
-    for (const Json& needed : schema.value("required", Json::array()))
+  bool takes_object(const document::Json& schema, const document::Json& value) const {
+    for (const document::Json& needed : schema.value("required", document::Json::array()))
       if (!value.contains(needed.get<std::string>())) return false;
-    const Json properties = schema.value("properties", Json::object()), others = schema.value("additionalProperties", Json());
+    const document::Json properties = schema.value("properties", document::Json::object()), others = schema.value("additionalProperties", document::Json());
     return std::ranges::all_of(value.items(), [&](const auto& item) {
       if (properties.contains(item.key())) return takes(properties[item.key()], item.value());
       return others.is_object() && takes(others, item.value());
     });
   }
 
-  const Json film_ = read("film.schema.json"), model_ = read("model.schema.json");
+  const document::Json film_ = read("film.schema.json"), model_ = read("model.schema.json");
 };
 
 TEST(Schema, TakesTheFormsThatMessagesShow) {
   const Schemas schemas;
-  for (const Form& form : forms()) {
+  for (const document::Form& form : document::forms()) {
     const auto found = schemas.of(std::string(form.key));
-    const Json value = Json::parse(form.value);
-    EXPECT_TRUE(std::ranges::any_of(found, [&](const Json& schema) { return schemas.takes(schema, value); }))
+    const document::Json value = document::Json::parse(form.value);
+    EXPECT_TRUE(std::ranges::any_of(found, [&](const document::Json& schema) { return schemas.takes(schema, value); }))
         << form.key << ": " << form.value;
   }
 }
 
 TEST(Schema, EveryKeyOfAFilmHasAForm) {
-  for (const Keys& keys : film_keys())
+  for (const document::Keys& keys : animator::film_keys())
     for (const std::string_view key : keys.names) {
       if (key == "dice") continue;  // has messages of its own
-      EXPECT_TRUE(std::ranges::any_of(forms(), [&](const Form& form) { return form.key == key; })) << key;
+      EXPECT_TRUE(std::ranges::any_of(document::forms(), [&](const document::Form& form) { return form.key == key; })) << key;
     }
 }
 
@@ -163,28 +163,28 @@ std::vector<fs::path> json_files(const char* folder) {
 TEST(Examples, AllCompile) {
   for (const fs::path& path : json_files("examples")) {
     const CompiledFilm film = load_film(path);
-    EXPECT_NO_THROW(node::FilmView(film.block(), path.string())) << path;
+    EXPECT_NO_THROW(wire::FilmView(film.block(), path.string())) << path;
     EXPECT_GT(film.view().patch_instances(), 0u) << path;
     EXPECT_LT(fs::file_size(path), 200'000u) << path;
   }
   for (const fs::path& path : json_files("examples/models"))
-    EXPECT_FALSE(load_model(path).joints.empty()) << path;
+    EXPECT_FALSE(modeler::load_model(path).joints.empty()) << path;
 }
 
 // Five bodies of one man's segments: their patches are stored as often as his.
 TEST(Examples, FiguresOfOtherProportionsShareTheirShapes) {
   const fs::path folder = fs::path(MARS_SOURCE_DIR) / "examples";
   const CompiledFilm five = load_film(folder / "bodies.json");
-  Json json = read_json(folder / "bodies.json");
-  Json& actors = json["actors"];
+  document::Json json = document::read_json(folder / "bodies.json");
+  document::Json& actors = json["actors"];
   ASSERT_EQ(actors.size(), 7u);
-  const auto other = [](const Json& actor) {
+  const auto other = [](const document::Json& actor) {
     return actor["name"] != "man" && actor["name"] != "floor" && actor["name"] != "tiles";
   };
   actors.erase(std::remove_if(actors.begin(), actors.end(), other), actors.end());
   ASSERT_EQ(actors.size(), 3u);
-  const Document document(json.dump(), (folder / "one.json").string());
-  const CompiledFilm one = compile(read_film(document.root(), folder));
+  const document::Document document(json.dump(), (folder / "one.json").string());
+  const CompiledFilm one = compile(animator::read_film(document.root(), folder));
   EXPECT_EQ(five.view().patches().size(), one.view().patches().size());
   EXPECT_EQ(five.view().shapes().size(), one.view().shapes().size());
   EXPECT_EQ(five.view().segments().size(), one.view().segments().size() + 4 * 37);
@@ -192,20 +192,20 @@ TEST(Examples, FiguresOfOtherProportionsShareTheirShapes) {
 
 // The first block of JSON on a page of docs/ that begins with `first`.
 std::string worked_example(const char* page, const std::string& first = "{") {
-  const std::string text = read_file(fs::path(MARS_SOURCE_DIR) / "docs" / page);
+  const std::string text = document::read_file(fs::path(MARS_SOURCE_DIR) / "docs" / page);
   const std::size_t start = text.find("```json\n" + first) + 8;
   return text.substr(start, text.find("```", start) - start);
 }
 
 TEST(Examples, ThoseOfTheDocumentationAreTrue) {
-  const Document film(worked_example("film-format.md"), "film-format.md");
-  EXPECT_EQ(compile(read_film(film.root(), ".")).view().segments().size(), 2u);
-  const Document model(worked_example("model-format.md"), "model-format.md");
-  EXPECT_EQ(read_model(model.root()).joints.size(), 3u);
-  const Document sail(R"({"joints": [{"name": "mast", "segment": {"shape": "sail"}}], )" +
+  const document::Document film(worked_example("film-format.md"), "film-format.md");
+  EXPECT_EQ(compile(animator::read_film(film.root(), ".")).view().segments().size(), 2u);
+  const document::Document model(worked_example("model-format.md"), "model-format.md");
+  EXPECT_EQ(modeler::read_model(model.root()).joints.size(), 3u);
+  const document::Document sail(R"({"joints": [{"name": "mast", "segment": {"shape": "sail"}}], )" +
                           worked_example("model-format.md", "\"shapes\"") + "}",
                       "model-format.md");
-  EXPECT_EQ(read_model(sail.root()).shapes[0].patches.size(), 1u);
+  EXPECT_EQ(modeler::read_model(sail.root()).shapes[0].patches.size(), 1u);
 }
 
 TEST(Examples, MeasuringScenesHaveTheirTriangles) {
@@ -224,7 +224,7 @@ TEST(Examples, MeasuringScenesHaveTheirTriangles) {
 
 TEST(Examples, TheCaterpillarHasFortyJointsAndMovesWithTheManAlone) {
   const CompiledFilm film = load_film(fs::path(MARS_SOURCE_DIR) / "examples/demo.json");
-  EXPECT_EQ(load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/caterpillar.json").joints.size(), 40u);
+  EXPECT_EQ(modeler::load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/caterpillar.json").joints.size(), 40u);
   for (const std::uint32_t segment : film.view().moving(film.view().intervals()[0])) {
     const std::string_view name = film.view().name(film.view().segments()[segment]);
     EXPECT_TRUE(name.starts_with("caterpillar/") || name.starts_with("man/")) << name;
@@ -232,14 +232,14 @@ TEST(Examples, TheCaterpillarHasFortyJointsAndMovesWithTheManAlone) {
 }
 
 TEST(Examples, TheManHasJointsWithLimits) {
-  const Model man = load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/human.json");
+  const modeler::Model man = modeler::load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/human.json");
   int turning = 0;
-  for (const Joint& joint : man.joints) {
+  for (const modeler::Joint& joint : man.joints) {
     turning += joint.freedoms() > 0;
-    for (const Limits& limits : joint.limits) EXPECT_LE(limits.upper - limits.lower, 225) << joint.name;
+    for (const modeler::Limits& limits : joint.limits) EXPECT_LE(limits.upper - limits.lower, 225) << joint.name;
   }
   EXPECT_GE(turning, 16);
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

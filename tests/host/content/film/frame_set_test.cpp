@@ -4,7 +4,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 using Frames = std::vector<std::uint32_t>;
@@ -18,23 +18,23 @@ TEST(FrameSet, NamesFrames) {
 }
 
 TEST(FrameSet, TellsWhichPartIsWrong) {
-  const auto failure = [](const char* text) { return failure_of([&] { FrameSet{text}; }); };
+  const auto failure = [](const char* text) { return document::failure_of([&] { FrameSet{text}; }); };
   for (const char* text :
        {"", ",", "1,", ",1", "-", "-3", "1--2", "1-2-3", "x", "1 ", " 1", "1.5", "+1", "0x1"})
-    EXPECT_TRUE(holds(failure(text), "is not a frame or a range of frames")) << "'" << text << "'";
-  EXPECT_TRUE(holds(failure("0-3,b"), "'b'"));
-  EXPECT_TRUE(holds(failure("5-4"), "'5-4' ends before it begins"));
-  EXPECT_TRUE(holds(failure("4294967296"), "too large"));
-  EXPECT_TRUE(holds(failure("x"), "like 0-9,24,30-"));
+    EXPECT_TRUE(document::holds(failure(text), "is not a frame or a range of frames")) << "'" << text << "'";
+  EXPECT_TRUE(document::holds(failure("0-3,b"), "'b'"));
+  EXPECT_TRUE(document::holds(failure("5-4"), "'5-4' ends before it begins"));
+  EXPECT_TRUE(document::holds(failure("4294967296"), "too large"));
+  EXPECT_TRUE(document::holds(failure("x"), "like 0-9,24,30-"));
 }
 
 TEST(FrameSet, TellsWhereTheFilmIsTooShort) {
-  const auto failure = [](const char* text) { return failure_of([&] { FrameSet(text).of_film(10); }); };
+  const auto failure = [](const char* text) { return document::failure_of([&] { FrameSet(text).of_film(10); }); };
   EXPECT_EQ(failure("0-9"), "");
-  EXPECT_TRUE(holds(failure("0-10"), "frame 10 is beyond the film's last, 9"));
-  EXPECT_TRUE(holds(failure("10"), "frame 10 is beyond"));
-  EXPECT_TRUE(holds(failure("12-"), "frame 12 is beyond"));
-  EXPECT_TRUE(holds(failure("0-4294967295"), "frame 4294967295 is beyond"));
+  EXPECT_TRUE(document::holds(failure("0-10"), "frame 10 is beyond the film's last, 9"));
+  EXPECT_TRUE(document::holds(failure("10"), "frame 10 is beyond"));
+  EXPECT_TRUE(document::holds(failure("12-"), "frame 12 is beyond"));
+  EXPECT_TRUE(document::holds(failure("0-4294967295"), "frame 4294967295 is beyond"));
 }
 
 TEST(FrameSet, TextReadsAgain) {
@@ -53,4 +53,4 @@ TEST(FrameSet, TextOfFramesReadsAgain) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

@@ -8,18 +8,18 @@
 
 #include "tests/host/content/film/small_film.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 using Starts = std::vector<std::uint32_t>;
 
-Starts starts_of(const node::FilmView& film) {
+Starts starts_of(const wire::FilmView& film) {
   Starts starts;
-  for (const node::Interval& interval : film.intervals()) starts.push_back(interval.first_frame);
+  for (const wire::Interval& interval : film.intervals()) starts.push_back(interval.first_frame);
   return starts;
 }
 
-bool changes_within(const node::FilmView& film, const node::Track& track, std::uint32_t first,
+bool changes_within(const wire::FilmView& film, const wire::Track& track, std::uint32_t first,
                     std::uint32_t end) {
   for (std::uint32_t frame = first + 1; frame < end; ++frame)
     if (film.value_at(track, frame) != film.value_at(track, frame - 1)) return true;
@@ -27,12 +27,12 @@ bool changes_within(const node::FilmView& film, const node::Track& track, std::u
 }
 
 // What moves in [first, end), plainly.
-Starts movers_between(const node::FilmView& film, std::uint32_t first, std::uint32_t end) {
+Starts movers_between(const wire::FilmView& film, std::uint32_t first, std::uint32_t end) {
   bool all = changes_within(film, film.settings().camera, first, end);
-  for (const node::Track& light : film.light_tracks()) all = all || changes_within(film, light, first, end);
+  for (const wire::Track& light : film.light_tracks()) all = all || changes_within(film, light, first, end);
   Starts movers;
   for (std::uint32_t i = 0; i < film.segments().size(); ++i) {
-    const node::Segment& segment = film.segments()[i];
+    const wire::Segment& segment = film.segments()[i];
     if (all || changes_within(film, segment.motion, first, end) ||
         changes_within(film, segment.look, first, end))
       movers.push_back(i);
@@ -40,7 +40,7 @@ Starts movers_between(const node::FilmView& film, std::uint32_t first, std::uint
   return movers;
 }
 
-double cost_of(const node::FilmView& film, const Starts& starts) {
+double cost_of(const wire::FilmView& film, const Starts& starts) {
   const double pixels = double(film.settings().width) * film.settings().height;
   double cost = 0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -54,8 +54,8 @@ double cost_of(const node::FilmView& film, const Starts& starts) {
 }
 
 void expect_sound(const CompiledFilm& compiled) {
-  const node::FilmView film(compiled.block(), "f");  // checks that every frame is covered once
-  for (const node::Interval& interval : film.intervals()) {
+  const wire::FilmView film(compiled.block(), "f");  // checks that every frame is covered once
+  for (const wire::Interval& interval : film.intervals()) {
     const auto list = film.moving(interval);
     EXPECT_EQ(Starts(list.begin(), list.end()),
               movers_between(film, interval.first_frame, interval.first_frame + interval.frame_count));
@@ -98,10 +98,10 @@ TEST(Intervals, AutomaticOnesCostLeast) {
 TEST(Intervals, OfKeyframesAreCutWhereKeysAre) {
   const std::string json = arm_film(R"({"name": "x", "model": "arm", "keys": [
       {"frame": 2, "place": [0, 0, 0]}, {"frame": 9, "place": [1, 0, 0]}, {"frame": 40, "place": [2, 0, 0]}]})");
-  EXPECT_EQ(starts_of(compiled(json, {Cutting::keyframes, {}}).view()), (Starts{0, 2, 9}));
+  EXPECT_EQ(starts_of(compiled(json, {animator::Cutting::keyframes, {}}).view()), (Starts{0, 2, 9}));
   std::mt19937 random(4);
   for (int round = 0; round < 20; ++round)
-    expect_sound(compiled(random_film(random, 30), {Cutting::keyframes, {}}));
+    expect_sound(compiled(random_film(random, 30), {animator::Cutting::keyframes, {}}));
 }
 
 TEST(Intervals, DenseKeysDoNotDestroyCoherence) {
@@ -113,7 +113,7 @@ TEST(Intervals, DenseKeysDoNotDestroyCoherence) {
   const std::string json =
       arm_film("{\"name\": \"x\", \"model\": \"arm\", \"keys\": [" + keys + "]}" + still, "\"frames\": 300");
   EXPECT_EQ(compiled(json).view().intervals().size(), 1u);
-  EXPECT_EQ(compiled(json, {Cutting::keyframes, {}}).view().intervals().size(), 300u);
+  EXPECT_EQ(compiled(json, {animator::Cutting::keyframes, {}}).view().intervals().size(), 300u);
 }
 
 TEST(Intervals, WhatMovesShortlyIsCutOut) {
@@ -141,4 +141,4 @@ TEST(Intervals, AMovingCameraOrLightMovesEverything) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

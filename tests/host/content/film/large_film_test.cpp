@@ -7,7 +7,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 double seconds_of(const std::function<void()>& work) {
@@ -77,8 +77,8 @@ TEST(LargeFilm, AChainOfAHundredThousandJointsThatMoves) {
       R"(, "keys": [{"frame": 0, "pose": {"j0": [0, 0, 0]}}, {"frame": 9, "pose": {"j0": [0, 0, 90]}}]}]})";
   CompiledFilm film;
   EXPECT_LT(seconds_of([&] { film = compiled(chain(100'000) + keys); }), 20);
-  const node::FilmView view = film.view();
-  const node::Matrix& last = view.matrix_at(view.segments()[99'999], 23);
+  const wire::FilmView view = film.view();
+  const wire::Matrix& last = view.matrix_at(view.segments()[99'999], 23);
   EXPECT_NEAR(last.m[1][3], 99'999, 1e-6);
   EXPECT_EQ(last.m[0][3], 0);
 }
@@ -94,4 +94,4 @@ TEST(LargeFilm, LongFilmsAreCutQuickly) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

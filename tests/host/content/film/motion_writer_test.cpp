@@ -10,7 +10,7 @@
 #include "host/content/film/compile.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 constexpr int kJoints = 40;
@@ -24,7 +24,7 @@ std::string chain() {
 }
 
 // Actors of three kinds: one turns all the time, one stands still between its keys, one never moves.
-Film crowd(int actors, int frames) {
+animator::Film crowd(int actors, int frames) {
   std::string list;
   for (int i = 0; i < actors; ++i) {
     const std::string angle = std::to_string(5 + i % 50), last = std::to_string(frames - 1);
@@ -36,8 +36,8 @@ Film crowd(int actors, int frames) {
   const std::string json = R"({"frames": )" + std::to_string(frames) +
                            R"(, "camera": {"eye": [0, -9, 0]}, "models": {"m": {"joints": [)" + chain() +
                            R"(]}}, "actors": [)" + list + "]}";
-  const Document document(json, "crowd.json");
-  return read_film(document.root(), ".");
+  const document::Document document(json, "crowd.json");
+  return animator::read_film(document.root(), ".");
 }
 
 // Runs `call` where only one processor may be used.
@@ -55,7 +55,7 @@ auto on_one_processor(Call call) {
 }
 
 TEST(MotionWriter, SeveralThreadsWriteWhatOneDoes) {
-  const Film film = crowd(90, 90);
+  const animator::Film film = crowd(90, 90);
   const CompiledFilm alone = on_one_processor([&] { return compile(film); });
   const CompiledFilm together = compile(film);
   EXPECT_TRUE(std::ranges::equal(alone.block(), together.block()));
@@ -63,14 +63,14 @@ TEST(MotionWriter, SeveralThreadsWriteWhatOneDoes) {
 
 TEST(MotionWriter, KeepsOnlyWhatDiffersAndNoGaps) {
   constexpr int kActors = 9, kFrames = 30;
-  const Film film = crowd(kActors, kFrames);
+  const animator::Film film = crowd(kActors, kFrames);
   const CompiledFilm compiled = compile(film);
-  const node::FilmView view = compiled.view();
+  const wire::FilmView view = compiled.view();
   // Each actor's joints at frame 0; then j7 and those it carries, in all later frames or in nine of them.
   EXPECT_EQ(view.matrices().size(), kActors * kJoints + 3u * (kJoints - 7) * (kFrames - 1 + 9));
   for (std::size_t actor = 0; actor < kActors; ++actor)
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
-      const ActorState state = state_at(film, actor, frame);
+      const animator::ActorState state = animator::state_at(film, actor, frame);
       for (std::size_t joint = 0; joint < kJoints; ++joint)
         ASSERT_EQ(*state.segments[joint], view.matrix_at(view.segments()[actor * kJoints + joint], frame))
             << actor << ' ' << joint << ' ' << frame;
@@ -78,13 +78,13 @@ TEST(MotionWriter, KeepsOnlyWhatDiffersAndNoGaps) {
 }
 
 TEST(MotionWriter, RefusesBeforeMemoryEnds) {
-  Film film = crowd(200, 1000);
-  film.frames = node::kMostFrames;
-  for (Actor& actor : film.actors)
+  animator::Film film = crowd(200, 1000);
+  film.frames = wire::kMostFrames;
+  for (animator::Actor& actor : film.actors)
     for (auto& pose : actor.motion.pose)
       if (pose.size() > 1) pose.back().frame = film.frames - 1;
-  EXPECT_TRUE(holds(failure_of([&] { compile(film); }), "moves so much that it needs "));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { compile(film); }), "moves so much that it needs "));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

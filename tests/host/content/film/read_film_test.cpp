@@ -7,7 +7,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 constexpr const char* kWhole = R"({
@@ -26,23 +26,23 @@ constexpr const char* kWhole = R"({
 })";
 
 TEST(ReadFilm, TakesEveryKey) {
-  const Film film = film_of(kWhole);
+  const animator::Film film = film_of(kWhole);
   EXPECT_EQ(film.frames, 12u);
   EXPECT_EQ(film.rate, 25);
   EXPECT_EQ(film.height, 200u);
-  EXPECT_EQ(film.cutting, Cutting::keyframes);
+  EXPECT_EQ(film.cutting, animator::Cutting::keyframes);
   EXPECT_EQ(film.dice, 7u);
   EXPECT_EQ(film.camera.eye.size(), 2u);
-  EXPECT_EQ(film.camera.eye[1].ease, kBoth);
+  EXPECT_EQ(film.camera.eye[1].ease, animator::kBoth);
   EXPECT_EQ(film.camera.up[0].value, glm::dvec3(0, 0, 1));
   EXPECT_EQ(film.lights[0].vector[0].value, glm::dvec3(0, 0, 1)) << "made a unit vector";
   EXPECT_FALSE(film.lights[1].directional);
-  const Actor& actor = film.actors[0];
+  const animator::Actor& actor = film.actors[0];
   EXPECT_EQ(actor.motion.place.size(), 1u);
   EXPECT_EQ(actor.motion.turn[0].frame, 9u) << "a key sets only what it names";
   EXPECT_EQ(actor.motion.pose[0].size(), 1u);
   EXPECT_EQ(actor.motion.pose[1].size(), 2u);
-  EXPECT_EQ(actor.motion.pose[1][0].ease, (Ease{0.2, 0, 0.8, 1}));
+  EXPECT_EQ(actor.motion.pose[1][0].ease, (animator::Ease{0.2, 0, 0.8, 1}));
   EXPECT_EQ(film.actors[1].matrices[0][0].value.place, glm::dvec3(5, 6, 7));
 }
 
@@ -54,9 +54,9 @@ struct Broken {
 class BrokenActor : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenActor, IsOneClearError) {
-  const std::string failure = failure_of([] { film_of(arm_film(GetParam().actor)); });
-  EXPECT_TRUE(holds(failure, "f.json:8: actors")) << failure;
-  EXPECT_TRUE(holds(failure, GetParam().told)) << failure;
+  const std::string failure = document::failure_of([] { film_of(arm_film(GetParam().actor)); });
+  EXPECT_TRUE(document::holds(failure, "f.json:8: actors")) << failure;
+  EXPECT_TRUE(document::holds(failure, GetParam().told)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -100,35 +100,35 @@ INSTANTIATE_TEST_SUITE_P(
                "has 1 items"}));
 
 TEST(ReadFilm, TellsWhatElseIsWrong) {
-  const auto told = [](const std::string& json) { return failure_of([&] { film_of(json); }); };
+  const auto told = [](const std::string& json) { return document::failure_of([&] { film_of(json); }); };
   const std::string rest = R"(, "models": {}, "actors": []})";
-  EXPECT_TRUE(holds(told("{}"), "has no 'frames'"));
-  EXPECT_TRUE(holds(told("{\"frames\": 0}"), "from 1 to 1000000"));
-  EXPECT_TRUE(holds(told("{\"frames\": 1, \"size\": [0, 5]}"), "size[0]: is 0"));
-  EXPECT_TRUE(holds(told("{\"frames\": 1, \"size\": [99999, 5]}"), "to 16384"));
-  EXPECT_TRUE(holds(told("{\"frames\": 1, \"dice\": \"adaptiv\"}"), "did you mean 'adaptive'?"));
-  EXPECT_TRUE(holds(told(R"({"frames": 1, "camera": {})" + rest), "camera: has no 'eye'"));
+  EXPECT_TRUE(document::holds(told("{}"), "has no 'frames'"));
+  EXPECT_TRUE(document::holds(told("{\"frames\": 0}"), "from 1 to 1000000"));
+  EXPECT_TRUE(document::holds(told("{\"frames\": 1, \"size\": [0, 5]}"), "size[0]: is 0"));
+  EXPECT_TRUE(document::holds(told("{\"frames\": 1, \"size\": [99999, 5]}"), "to 16384"));
+  EXPECT_TRUE(document::holds(told("{\"frames\": 1, \"dice\": \"adaptiv\"}"), "did you mean 'adaptive'?"));
+  EXPECT_TRUE(document::holds(told(R"({"frames": 1, "camera": {})" + rest), "camera: has no 'eye'"));
   EXPECT_TRUE(
-      holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest), "not beyond"));
+      document::holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest), "not beyond"));
   const std::string camera = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "lights": [)";
-  EXPECT_TRUE(holds(told(camera + "{}]" + rest), "neither a direction nor a place"));
+  EXPECT_TRUE(document::holds(told(camera + "{}]" + rest), "neither a direction nor a place"));
   EXPECT_TRUE(
-      holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
-  EXPECT_TRUE(holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
-  EXPECT_TRUE(holds(told(R"({"joints": [{"name": "a"}]})"), "is a model, not a film (look at it with mars preview"));
+      document::holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
+  EXPECT_TRUE(document::holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
+  EXPECT_TRUE(document::holds(told(R"({"joints": [{"name": "a"}]})"), "is a model, not a film (look at it with mars preview"));
   EXPECT_TRUE(
-      holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
+      document::holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
             "models.m: is '/nowhere/m.json', which does not exist"));
   const std::string materials = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "materials": {"m": )";
-  EXPECT_TRUE(holds(told(materials + R"({"x": 1}})" + rest), "materials.m.x: is no key of a material"));
-  EXPECT_TRUE(holds(told(materials + R"({"keys": [{}]}})" + rest), "a key of a material needs it"));
-  EXPECT_TRUE(holds(told(materials + R"({"keys": [{"x": 1}]}})" + rest), "x: does not belong to a key of a material"));
+  EXPECT_TRUE(document::holds(told(materials + R"({"x": 1}})" + rest), "materials.m.x: is no key of a material"));
+  EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{}]}})" + rest), "a key of a material needs it"));
+  EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{"x": 1}]}})" + rest), "x: does not belong to a key of a material"));
   const auto named = [&](const std::string& model) {
     return told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
   };
   EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: /: is a directory, not a file (name a file in it)");
-  EXPECT_TRUE(holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
-  EXPECT_TRUE(holds(named(R"({"from": "none.json", "proportions": {}})"), "f.json:1: models.m.from: none.json: there is no"));
+  EXPECT_TRUE(document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
+  EXPECT_TRUE(document::holds(named(R"({"from": "none.json", "proportions": {}})"), "f.json:1: models.m.from: none.json: there is no"));
 }
 
 std::string outcome_of(const std::string& json) {
@@ -144,7 +144,7 @@ TEST(ReadFilm, CutShortAnywhereIsOneClearError) {
   const std::string whole = kWhole;
   EXPECT_EQ(outcome_of(whole), "film");
   for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_TRUE(holds(outcome_of(whole.substr(0, length)),
+    EXPECT_TRUE(document::holds(outcome_of(whole.substr(0, length)),
                       whole.find_first_not_of(" \n") < length ? "it ends before its last bracket" : "is empty"))
         << length;
 }
@@ -155,27 +155,27 @@ TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
     std::string json = kWhole;
     for (int flips = 1 + round % 3; flips > 0; --flips) json[random() % json.size()] = char(random());
     const std::string outcome = outcome_of(json);
-    EXPECT_TRUE(outcome == "film" || holds(outcome, "f.json") || holds(outcome, "/nowhere")) << outcome;
+    EXPECT_TRUE(outcome == "film" || document::holds(outcome, "f.json") || document::holds(outcome, "/nowhere")) << outcome;
   }
 }
 
 TEST(ReadFilm, LimitsOfTheWrongFormShowTheRightOne) {
   const auto told = [](const std::string& limits) {
-    return failure_of([&] {
+    return document::failure_of([&] {
       film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {"m": {"joints": [
                  {"name": "j", "limits": )" + limits + "}]}}}");
     });
   };
-  EXPECT_TRUE(holds(told("[-30, 30]"), R"(joints[0].limits: is a list, not an object (write "limits": {"x": [-30, 30]}))"));
-  EXPECT_TRUE(holds(told(R"({"y": 30})"), R"(limits.y: is a number, not a list (write "y": [-30, 30]))"));
-  EXPECT_TRUE(holds(told(R"({"x": [1, 2, 3]})"), R"(has 3 items (write "x": [-30, 30]))"));
-  EXPECT_TRUE(holds(told(R"({"x": ["a", 3]})"), R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
-  EXPECT_TRUE(holds(told(R"({"x": [30, -30]})"), R"("x": [-30, 30])"));
+  EXPECT_TRUE(document::holds(told("[-30, 30]"), R"(joints[0].limits: is a list, not an object (write "limits": {"x": [-30, 30]}))"));
+  EXPECT_TRUE(document::holds(told(R"({"y": 30})"), R"(limits.y: is a number, not a list (write "y": [-30, 30]))"));
+  EXPECT_TRUE(document::holds(told(R"({"x": [1, 2, 3]})"), R"(has 3 items (write "x": [-30, 30]))"));
+  EXPECT_TRUE(document::holds(told(R"({"x": ["a", 3]})"), R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
+  EXPECT_TRUE(document::holds(told(R"({"x": [30, -30]})"), R"("x": [-30, 30])"));
 }
 
 TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
   const auto told = [](const std::string& color) {
-    return failure_of([&] {
+    return document::failure_of([&] {
       film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {}, "background": )" + color + "}");
     });
   };
@@ -184,14 +184,14 @@ TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
   EXPECT_EQ(told("[1e18, 0, 0]"), "f.json:1: background[0]: is 1e+18 (write a number from 0 to 1)");
   EXPECT_EQ(told("[256, 0, 0]"), "f.json:1: background[0]: is 256 (write a number from 0 to 1)");
   EXPECT_EQ(told("[200, -1, 0]"), "f.json:1: background[0]: is 200 (write a number from 0 to 1)");
-  EXPECT_TRUE(holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
+  EXPECT_TRUE(document::holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
   EXPECT_EQ(told("[0, 1.5, 0]"), "f.json:1: background[1]: is 1.5 (write a number from 0 to 1)");
   EXPECT_EQ(told("[0, 1, 0.5]"), "");
-  EXPECT_TRUE(holds(failure_of([] {
+  EXPECT_TRUE(document::holds(document::failure_of([] {
                       film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 200]}])"));
                     }),
                     "lights[0].color: has 200, above 1"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

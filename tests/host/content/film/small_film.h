@@ -6,11 +6,11 @@
 #include "host/content/film/compile.h"
 #include "host/content/animator/read_film.h"
 
-namespace mars::host {
+namespace mars::film {
 
-inline Film film_of(const std::string& json) {
-  const Document document(json, "f.json");
-  return read_film(document.root(), "/nowhere");
+inline animator::Film film_of(const std::string& json) {
+  const document::Document document(json, "f.json");
+  return animator::read_film(document.root(), "/nowhere");
 }
 
 inline CompiledFilm compiled(const std::string& json, const CompileOptions& options = {}) {
@@ -30,4 +30,4 @@ inline std::string arm_film(const std::string& actors, const std::string& more =
          actors + "]}";
 }
 
-}  // namespace mars::host
+}  // namespace mars::film

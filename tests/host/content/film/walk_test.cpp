@@ -12,7 +12,7 @@
 #include "host/content/film/compile.h"
 #include "tests/host/content/modeler/surface.h"
 
-namespace mars::host {
+namespace mars::film {
 namespace {
 
 constexpr double kMillimetre = 2.9 / 1000;  // the demo's metre is 2.9 units long: its man, 1.75 m
@@ -25,17 +25,17 @@ class Walk : public ::testing::Test {
   // Places, in the world, of points all over one shoe.
   std::vector<glm::dvec3> shoe(const std::string& side, std::uint32_t frame) const {
     std::vector<glm::dvec3> points;
-    for (const node::Segment& segment : film_.view().segments()) {
+    for (const wire::Segment& segment : film_.view().segments()) {
       const std::string_view name = film_.view().name(segment);
       if (std::none_of(std::begin(kShoe), std::end(kShoe),
                        [&](const char* part) { return name == "man/" + side + part; }))
         continue;
       const auto& m = film_.view().matrix_at(segment, frame).m;
-      const node::Shape& shape = film_.view().shapes()[segment.shape];
-      for (const node::Patch& patch : film_.view().patches().subspan(shape.first_patch, shape.patch_count))
+      const wire::Shape& shape = film_.view().shapes()[segment.shape];
+      for (const wire::Patch& patch : film_.view().patches().subspan(shape.first_patch, shape.patch_count))
         for (const double u : {0.0, 0.5})
           for (const double v : {0.0, 0.5}) {
-            const glm::dvec3 p = point_of(patch, u, v);
+            const glm::dvec3 p = modeler::point_of(patch, u, v);
             const auto at = [&](std::size_t r) {
               return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3];
             };
@@ -101,4 +101,4 @@ TEST_F(Walk, BothFeetTakeStepsForward) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::film

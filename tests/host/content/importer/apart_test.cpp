@@ -11,7 +11,7 @@
 #include "hal/failure/failure.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 using namespace std::chrono_literals;
@@ -23,7 +23,7 @@ std::string apart(const std::function<std::string()>& work, const ApartLimits& l
 }
 
 std::string failure(const std::function<std::string()>& work, const ApartLimits& limits = kLimits) {
-  const std::string text = failure_of([&] { apart(work, limits); });
+  const std::string text = document::failure_of([&] { apart(work, limits); });
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no process is left behind";
   return text;
 }
@@ -72,4 +72,4 @@ TEST(Apart, TakingAllMemoryIsTold) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::importer

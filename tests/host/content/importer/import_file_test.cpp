@@ -19,7 +19,7 @@
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,12 +123,12 @@ class ImportTest : public testing::Test {
     options.force = true;
     return options;
   }
-  Model import(const ImportOptions& options) const {
+  modeler::Model import(const ImportOptions& options) const {
     told_ = import_model(options);
-    return load_model(options.to);
+    return modeler::load_model(options.to);
   }
-  Model import(const fs::path& from) const { return import(wishes(from)); }
-  Model import_upright(const fs::path& from, char up) const {
+  modeler::Model import(const fs::path& from) const { return import(wishes(from)); }
+  modeler::Model import_upright(const fs::path& from, char up) const {
     ImportOptions options = wishes(from);
     options.up = up;
     return import(options);
@@ -143,17 +143,17 @@ class ImportTest : public testing::Test {
   std::string failure(const std::string& name, const std::string& text) const {
     ImportOptions options = wishes(write(name, text));
     options.to = folder_ / "none.json";
-    const std::string told = failure_of([&] { import_model(options); });
+    const std::string told = document::failure_of([&] { import_model(options); });
     EXPECT_FALSE(fs::exists(options.to));
-    EXPECT_TRUE(holds(told, name)) << told;
+    EXPECT_TRUE(document::holds(told, name)) << told;
     return told;
   }
 
   // Six times the volume of what the mesh encloses, in the unit cube: its faces run outward.
-  static double volume(const Mesh& mesh) {
+  static double volume(const modeler::Mesh& mesh) {
     double sum = 0;
     for (std::size_t f = 0; f < mesh.ends.size(); ++f) {
-      const auto area = area_vector(mesh, mesh.face(f));
+      const auto area = modeler::area_vector(mesh, mesh.face(f));
       for (std::size_t axis = 0; axis < 3; ++axis) sum += area[axis] * (mesh.vertices[mesh.face(f)[0]][axis] - 0.5);
     }
     return sum;
@@ -166,20 +166,20 @@ class ImportTest : public testing::Test {
 TEST_F(ImportTest, ABoxIsABoxInEveryFormat) {
   for (const auto& [name, text] : std::map<std::string, std::string>{
            {"box.obj", obj_box()}, {"box.STL", stl_box()}, {"box.ply", ply_box()}}) {
-    const Model model = import_upright(write(name, text), 'z');
+    const modeler::Model model = import_upright(write(name, text), 'z');
     ASSERT_EQ(model.joints.size(), 1u) << name;
     EXPECT_EQ(model.joints[0].name, "box");
     EXPECT_EQ(model.joints[0].segment->sbb.min, glm::dvec3(1, 1, 1));
     EXPECT_EQ(model.joints[0].segment->sbb.max, glm::dvec3(3, 5, 7));
     EXPECT_TRUE(model.joints[0].segment->material.empty());
-    const Mesh& mesh = model.shapes[0].mesh.value();
+    const modeler::Mesh& mesh = model.shapes[0].mesh.value();
     EXPECT_EQ(mesh.vertices.size(), 8u) << name << ": vertices at one place are one";
     EXPECT_EQ(mesh.ends.size(), name == "box.STL" ? 12u : 6u);
     EXPECT_EQ(mesh.crease, 30);
     EXPECT_NEAR(volume(mesh), 6, 1e-6) << name;
-    EXPECT_EQ(cut_meshlets(mesh).places.size(), 24u) << name << ": a box has sharp edges";
-    EXPECT_TRUE(holds(told_, "model.json: model of one joint 'box'\n  box        2 x 4 x 6, the file's z upward\n")) << told_;
-    EXPECT_TRUE(holds(told_, "  read       8 vertices")) << told_;
+    EXPECT_EQ(modeler::cut_meshlets(mesh).places.size(), 24u) << name << ": a box has sharp edges";
+    EXPECT_TRUE(document::holds(told_, "model.json: model of one joint 'box'\n  box        2 x 4 x 6, the file's z upward\n")) << told_;
+    EXPECT_TRUE(document::holds(told_, "  read       8 vertices")) << told_;
     EXPECT_EQ(not_read(), std::vector<std::string>{"nothing: all of the file was read"});
   }
 }
@@ -197,13 +197,13 @@ TEST_F(ImportTest, NormalsOfTheFileAreTakenAndTurnFaces) {
     for (int k = 4; k-- > 0;) text += " " + std::to_string(face[k] + 1) + "//" + std::to_string(face[k] + 1);
     text += "\n";
   }
-  const Model model = import_upright(write("round.obj", text), 'z');
-  const Mesh& mesh = model.shapes[0].mesh.value();
+  const modeler::Model model = import_upright(write("round.obj", text), 'z');
+  const modeler::Mesh& mesh = model.shapes[0].mesh.value();
   ASSERT_EQ(mesh.normals.size(), 8u);
   EXPECT_NEAR(volume(mesh), 6, 1e-6);
   // In the cube, (x - 2, y - 3, z - 4) of a box 2 x 4 x 6 goes by the extents: (2, 8, 18) at the far corner.
   const auto& far = mesh.normals[static_cast<std::size_t>(
-      std::find(mesh.vertices.begin(), mesh.vertices.end(), Mesh::Place{1, 1, 1}) - mesh.vertices.begin())];
+      std::find(mesh.vertices.begin(), mesh.vertices.end(), modeler::Mesh::Place{1, 1, 1}) - mesh.vertices.begin())];
   EXPECT_NEAR(far[1] / far[0], 4, 1e-5);
   EXPECT_NEAR(far[2] / far[0], 9, 1e-5);
 }
@@ -213,7 +213,7 @@ TEST_F(ImportTest, ColoursAreJointsOfOneBox) {
   std::string text = "mtllib two.mtl\n" + obj_box();
   text.insert(text.find("\nf ") + 1, "usemtl red\n");
   text.insert(text.rfind("f "), "usemtl blue\n");
-  const Model model = import(write("two.obj", text));
+  const modeler::Model model = import(write("two.obj", text));
   ASSERT_EQ(model.joints.size(), 2u);
   ASSERT_EQ(model.materials.size(), 2u);
   EXPECT_EQ(model.joints[1].name, "two-2");
@@ -228,7 +228,7 @@ TEST_F(ImportTest, ColoursAreJointsOfOneBox) {
 
 TEST_F(ImportTest, ColoursBeyondOneAreCutAndTold) {
   write("bytes.mtl", "newmtl red\nKd 255 20 0\n");
-  const Model model = import(write("two words.obj", "mtllib bytes.mtl\nusemtl red\n" + obj_box()));
+  const modeler::Model model = import(write("two words.obj", "mtllib bytes.mtl\nusemtl red\n" + obj_box()));
   EXPECT_EQ(model.materials[0].material.color, (std::array<float, 3>{1, 1, 0}));
   EXPECT_EQ(not_read(), std::vector<std::string>{"1 colour beyond 0 to 1: cut to that (another: mars model set " +
                                                  (folder_ / "model.json").string() +
@@ -237,46 +237,46 @@ TEST_F(ImportTest, ColoursBeyondOneAreCutAndTold) {
 
 TEST_F(ImportTest, FacesThatCannotBeReadAsTheyStandAreMended) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nf 1 2 2\nf 1 3 2 4\nf 1 2 5\n";
-  const Mesh mesh = import(write("odd.obj", text)).shapes[0].mesh.value();
+  const modeler::Mesh mesh = import(write("odd.obj", text)).shapes[0].mesh.value();
   EXPECT_EQ(mesh.face(0).size(), 4u);
   EXPECT_EQ(mesh.ends.size(), 4u) << "a quad, a bow tie in two triangles, one without area; the line is left out";
 }
 
 TEST_F(ImportTest, AFlatMeshHasABoxAllTheSame) {
-  const Model model = import_upright(write("flat.obj", "v 0 0 3\nv 2 0 3\nv 0 2 3\nf 1 2 3\n"), 'z');
+  const modeler::Model model = import_upright(write("flat.obj", "v 0 0 3\nv 2 0 3\nv 0 2 3\nf 1 2 3\n"), 'z');
   EXPECT_EQ(model.joints[0].segment->sbb.max, glm::dvec3(2, 2, 4));
-  EXPECT_TRUE(holds(told_, "  box        2 x 2 x 0, the file's z upward\n")) << told_;
+  EXPECT_TRUE(document::holds(told_, "  box        2 x 2 x 0, the file's z upward\n")) << told_;
 }
 
 TEST_F(ImportTest, BadFilesAreOneClearFailure) {
-  EXPECT_TRUE(holds(failure("a.obj", ""), "is no sound mesh file"));
-  EXPECT_TRUE(holds(failure("a.stl", "solid x\nfacet"), "mesh file"));
-  EXPECT_TRUE(holds(failure("a.glb", "glTF and then nothing"), "is no sound mesh file"));
-  EXPECT_TRUE(holds(failure("a.gltf", "{\"asset\": "), "is no sound mesh file"));
-  EXPECT_TRUE(holds(failure("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "has no faces"));
-  EXPECT_TRUE(holds(failure("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n"), "within 1e9"));
+  EXPECT_TRUE(document::holds(failure("a.obj", ""), "is no sound mesh file"));
+  EXPECT_TRUE(document::holds(failure("a.stl", "solid x\nfacet"), "mesh file"));
+  EXPECT_TRUE(document::holds(failure("a.glb", "glTF and then nothing"), "is no sound mesh file"));
+  EXPECT_TRUE(document::holds(failure("a.gltf", "{\"asset\": "), "is no sound mesh file"));
+  EXPECT_TRUE(document::holds(failure("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "has no faces"));
+  EXPECT_TRUE(document::holds(failure("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n"), "within 1e9"));
   for (const std::string number : {"nan", "1e999"}) {
     const std::string told = failure("a.obj", "v 0 0 0\nv " + number + " 3 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_TRUE(holds(told, "has a vertex that is not at numbers, or at too large ones (the file may be damaged")) << told;
+    EXPECT_TRUE(document::holds(told, "has a vertex that is not at numbers, or at too large ones (the file may be damaged")) << told;
   }
-  EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(folder_ / "no.obj")); }), "no.obj"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(wishes(folder_ / "no.obj")); }), "no.obj"));
   ImportOptions options = wishes(write("b.obj", obj_box()));
   options.joint = "a/b";
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "'/'"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "'/'"));
   options.joint = "caf\xe9";
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "'caf?': cannot name a joint")) << "no UTF-8";
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "'caf?': cannot name a joint")) << "no UTF-8";
   const fs::path lines = write("a b\nc.obj", obj_box());
-  EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(lines)); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(wishes(lines)); }),
                     "a b?c.obj: its name, 'a b?c', cannot name a joint (give the joint a name with --joint: one of 1"));
   options.to = folder_ / "x/m.json";
   options.joint = "";
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "m.json"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "m.json"));
 }
 
 TEST_F(ImportTest, WhatIsNoFileIsRefusedAtOnce) {
   for (const char* name : {"pipe.obj", "pipe.ply", "pipe.glb", "pipe.gltf", "pipe.bpt"}) {
     ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
-    EXPECT_TRUE(holds(failure_of([&] { import_model(wishes(folder_ / name)); }), "is not a regular file"));
+    EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(wishes(folder_ / name)); }), "is not a regular file"));
   }
 }
 
@@ -289,28 +289,28 @@ TEST_F(ImportTest, WhatAMeshNamesMustBeAFile) {
   for (const std::string name : {"pipe", "folder", "device"}) {
     const std::string says = name + (name == "folder" ? ": is a directory, not a file" : ": is not a regular file");
     const std::string obj = failure("names.obj", "mtllib " + name + "\n" + obj_box());
-    EXPECT_TRUE(holds(obj, says)) << obj;
+    EXPECT_TRUE(document::holds(obj, says)) << obj;
     std::string text = gltf_figure();
     text.replace(text.find("figure.bin"), 10, name);
     const std::string gltf = failure("names.gltf", text);
-    EXPECT_TRUE(holds(gltf, says)) << gltf;
+    EXPECT_TRUE(document::holds(gltf, says)) << gltf;
   }
-  EXPECT_TRUE(holds(failure("lost.gltf", gltf_figure()), "figure.bin: cannot be read ("));
+  EXPECT_TRUE(document::holds(failure("lost.gltf", gltf_figure()), "figure.bin: cannot be read ("));
 }
 
 TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
   const std::string lines = failure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
-  EXPECT_TRUE(holds(lines, "is no sound mesh file: a face has two corners (export it again")) << lines;
+  EXPECT_TRUE(document::holds(lines, "is no sound mesh file: a face has two corners (export it again")) << lines;
   const std::string points = failure("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n# no more\n");
-  EXPECT_TRUE(holds(points, "is no sound mesh file: a mesh has no faces (")) << points;
+  EXPECT_TRUE(document::holds(points, "is no sound mesh file: a mesh has no faces (")) << points;
   const std::string empty = failure("a.gltf", R"({"asset": {"version": "2.0"}})");
-  EXPECT_TRUE(holds(empty, "is no sound mesh file: it has no scene (")) << empty;
+  EXPECT_TRUE(document::holds(empty, "is no sound mesh file: it has no scene (")) << empty;
   for (const std::string& text : {std::string("v 0 0 0\nf 1 2 9\n"), std::string("{"), std::string(9, '\xff')}) {
     for (const char* name : {"b.obj", "b.stl", "b.gltf", "b.glb"}) {
-      if (text == "{" && holds(name, "glb")) continue;  // its name is told to be wrong
+      if (text == "{" && document::holds(name, "glb")) continue;  // its name is told to be wrong
       const std::string told = failure(name, text);
       for (const char* theirs : {"aiMesh", "aiScene", "suitable reader", "Validation", "OBJ:", "GLTF:", "STL:", "JSON parse"})
-        EXPECT_FALSE(holds(told.substr(told.find(": ")), theirs)) << told;
+        EXPECT_FALSE(document::holds(told.substr(told.find(": ")), theirs)) << told;
     }
   }
 }
@@ -318,24 +318,24 @@ TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
 TEST_F(ImportTest, AFileThatWasReadBesidesIsNotOverwritten) {
   ImportOptions options = wishes(write("wedge.obj", "mtllib wedge.mtl\n" + obj_box()));
   options.to = write("wedge.mtl", "newmtl a\n");
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "wedge.mtl: is the file that is read (write to another)"));
-  EXPECT_EQ(read_file(options.to).size(), 9u);
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "wedge.mtl: is the file that is read (write to another)"));
+  EXPECT_EQ(document::read_file(options.to).size(), 9u);
 }
 
 TEST_F(ImportTest, OtherEndingsAreRefusedByName) {
-  EXPECT_TRUE(holds(failure("a.FBX", "x"), "is an FBX scene, which cannot be imported (open it in Blender and export glTF)"));
-  EXPECT_TRUE(holds(failure("a.dae", "x"), "COLLADA"));
-  EXPECT_TRUE(holds(failure("a.bvh", "x"), "is a skeleton with its motion"));
-  EXPECT_TRUE(holds(failure("a.asf", "x"), "is a skeleton"));
-  EXPECT_TRUE(holds(failure("a.rib", "x"), "RenderMan"));
-  EXPECT_TRUE(holds(failure("a.xyz", "x"), "has an ending that is not known, .xyz (mesh files end in .obj"));
-  EXPECT_TRUE(holds(failure("teapot", "x"), "has no ending"));
+  EXPECT_TRUE(document::holds(failure("a.FBX", "x"), "is an FBX scene, which cannot be imported (open it in Blender and export glTF)"));
+  EXPECT_TRUE(document::holds(failure("a.dae", "x"), "COLLADA"));
+  EXPECT_TRUE(document::holds(failure("a.bvh", "x"), "is a skeleton with its motion"));
+  EXPECT_TRUE(document::holds(failure("a.asf", "x"), "is a skeleton"));
+  EXPECT_TRUE(document::holds(failure("a.rib", "x"), "RenderMan"));
+  EXPECT_TRUE(document::holds(failure("a.xyz", "x"), "has an ending that is not known, .xyz (mesh files end in .obj"));
+  EXPECT_TRUE(document::holds(failure("teapot", "x"), "has no ending"));
 }
 
 TEST_F(ImportTest, AFileOfAnotherKindThanItsNameSaysIsToldSo) {
-  EXPECT_TRUE(holds(failure("a.obj", ply_box()), "is PLY, though its name does not say so (let its name end in .ply)"));
-  EXPECT_TRUE(holds(failure("a.gltf", "glTF\2"), "let its name end in .glb"));
-  EXPECT_TRUE(holds(failure("a.glb", "{}"), "let its name end in .gltf"));
+  EXPECT_TRUE(document::holds(failure("a.obj", ply_box()), "is PLY, though its name does not say so (let its name end in .ply)"));
+  EXPECT_TRUE(document::holds(failure("a.gltf", "glTF\2"), "let its name end in .glb"));
+  EXPECT_TRUE(document::holds(failure("a.glb", "{}"), "let its name end in .gltf"));
 }
 
 TEST_F(ImportTest, NamesAreEscaped) {
@@ -347,7 +347,7 @@ TEST_F(ImportTest, NamesAreEscaped) {
 // Without normals that would turn faces: a file that is not mirrored keeps its volume's sign.
 TEST_F(ImportTest, TheAxisThatPointsUpBecomesZ) {
   const fs::path obj = write("box.obj", obj_box()), ply = write("box.ply", ply_box());
-  const auto box = [&](const Model& model) {
+  const auto box = [&](const modeler::Model& model) {
     EXPECT_NEAR(volume(model.shapes[0].mesh.value()), 6, 1e-6);
     return std::pair(model.joints[0].segment->sbb.min, model.joints[0].segment->sbb.max);
   };
@@ -361,11 +361,11 @@ TEST_F(ImportTest, TheAxisThatPointsUpBecomesZ) {
 TEST_F(ImportTest, ScaleIsTheBoxes) {
   ImportOptions options = wishes(write("box.ply", ply_box()));
   options.scale = 0.5;
-  const Model model = import(options);
+  const modeler::Model model = import(options);
   EXPECT_EQ(model.joints[0].segment->sbb.max, glm::dvec3(1.5, 2.5, 3.5));
   EXPECT_EQ(model.shapes[0].mesh, import(write("box.ply", ply_box())).shapes[0].mesh);
   options.scale = 1e9;
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "with a smaller --scale"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "with a smaller --scale"));
 }
 
 TEST_F(ImportTest, CreaseStandsInPlaceOfNormals) {
@@ -374,9 +374,9 @@ TEST_F(ImportTest, CreaseStandsInPlaceOfNormals) {
     text.insert(text.find_first_of(" \n", at + 1), "//1"), ++at;
   ImportOptions options = wishes(write("box.obj", text));
   EXPECT_FALSE(import(options).shapes[0].mesh->normals.empty());
-  EXPECT_TRUE(holds(told_, ", normals")) << told_;
+  EXPECT_TRUE(document::holds(told_, ", normals")) << told_;
   options.crease = 95;
-  const Model smooth = import(options);
+  const modeler::Model smooth = import(options);
   EXPECT_TRUE(smooth.shapes[0].mesh->normals.empty());
   EXPECT_EQ(smooth.shapes[0].mesh->crease, 95);
   EXPECT_EQ(not_read(), std::vector<std::string>{"normals (--crease makes others)"});
@@ -387,9 +387,9 @@ TEST_F(ImportTest, AFileThatIsThereIsReplacedOnlyByForce) {
   options.force = false;
   import_model(options);
   std::ofstream(options.to) << "mine";
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
                     "model.json: is there already (choose another name, or replace it with --force)"));
-  EXPECT_EQ(read_file(options.to).size(), 4u);
+  EXPECT_EQ(document::read_file(options.to).size(), 4u);
   options.force = true;
   EXPECT_EQ(import(options).joints.size(), 1u);
 }
@@ -405,7 +405,7 @@ TEST_F(ImportTest, AModelInStripsKeepsItsBody) {
     strip += " " + std::to_string(i);
   }
   import(write("strip.ply", text + std::to_string(2 * kRows) + strip + "\n"));
-  EXPECT_TRUE(holds(told_, "80 vertices, 78 faces")) << told_;
+  EXPECT_TRUE(document::holds(told_, "80 vertices, 78 faces")) << told_;
 }
 
 TEST_F(ImportTest, BuffersBesideAFileCountAsItsSize) {
@@ -420,7 +420,7 @@ TEST_F(ImportTest, BuffersBesideAFileCountAsItsSize) {
 TEST_F(ImportTest, WhatIsNotReadIsListed) {
   write("figure.bin", gltf_numbers());
   import(write("figure.gltf", gltf_figure()));
-  EXPECT_TRUE(holds(told_, "  read       3 vertices, 1 face, 1 colour\n")) << told_;
+  EXPECT_TRUE(document::holds(told_, "  read       3 vertices, 1 face, 1 colour\n")) << told_;
   const std::vector<std::string> list = not_read();
   for (const char* part : {"4 nodes as joints", "2 bones", "1 animation", "1 morph target", "1 texture (", "3 vertices' places",
                            "3 vertices' colours", "1 material's gloss", "1 camera", "1 light", "1 mesh outside the scene"})
@@ -431,27 +431,27 @@ TEST_F(ImportTest, WhatIsNotReadIsListed) {
 
 TEST_F(ImportTest, ColoursOfAFileThatIsMissingAreTold) {
   import(write("box.obj", "mtllib " + std::string(300, 'x') + "\n" + obj_box()));
-  EXPECT_TRUE(holds(told_, "no such file beside the mesh")) << "a name that is too long for any file";
+  EXPECT_TRUE(document::holds(told_, "no such file beside the mesh")) << "a name that is too long for any file";
   import(write("box.obj", "mtllib lost.mtl\n" + obj_box() + "l 1 2\n"));
   EXPECT_EQ(not_read(), (std::vector<std::string>{"1 line", "colours of lost.mtl (no such file beside the mesh)"}));
 }
 
 // Assimp leaves out faces without a word: one that names a vertex beyond the last, one after a space.
 TEST_F(ImportTest, FacesThatAreLostAreAFailure) {
-  EXPECT_TRUE(holds(failure("a.obj", obj_box() + " f 1 2 3\n"), "promises 7 faces, 6 were read"));
+  EXPECT_TRUE(document::holds(failure("a.obj", obj_box() + " f 1 2 3\n"), "promises 7 faces, 6 were read"));
   std::string numbers = gltf_numbers();
   numbers[36] = 7;
   write("figure.bin", numbers);
   std::string text = gltf_figure();
   text.insert(text.find("\"material\": 0"), "\"indices\": 8, ");
   text.insert(text.find("],\n\"bufferViews\""), ",\n{\"bufferView\": 1, \"componentType\": 5121, \"count\": 6, \"type\": \"SCALAR\"}");
-  EXPECT_TRUE(holds(failure("a.gltf", text), "faces, 1 was read")) << text;
+  EXPECT_TRUE(document::holds(failure("a.gltf", text), "faces, 1 was read")) << text;
 }
 
 TEST_F(ImportTest, PackedShapesAreRefused) {
   std::string text = gltf_figure();
   text.insert(1, "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"], ");
-  EXPECT_TRUE(holds(failure("a.gltf", text), "has its shapes packed as KHR_draco_mesh_compression (export it without"));
+  EXPECT_TRUE(document::holds(failure("a.gltf", text), "has its shapes packed as KHR_draco_mesh_compression (export it without"));
 }
 
 // A file of half a kilobyte that promises 200 million vertices, all but one of them at the origin.
@@ -465,7 +465,7 @@ TEST_F(ImportTest, AFileThatTakesAllMemoryIsOneClearFailure) {
   text.replace(text.find("\"bufferView\": 0, " + count), 17 + count.size(),
                "\"componentType\": 5126, \"count\": 200000000, \"type\": \"VEC3\", \"sparse\": {\"count\": 1, \"indices\": "
                "{\"bufferView\": 1, \"componentType\": 5121}, \"values\": {\"bufferView\": 0}}, \"min\"");
-  EXPECT_TRUE(holds(failure("a.gltf", text), "takes more than 1024 MiB of memory to read"));
+  EXPECT_TRUE(document::holds(failure("a.gltf", text), "takes more than 1024 MiB of memory to read"));
 }
 
 TEST_F(ImportTest, PatchFilesAreModelsToo) {
@@ -473,41 +473,41 @@ TEST_F(ImportTest, PatchFilesAreModelsToo) {
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) text += std::to_string(10 + 2 * i) + " " + std::to_string(-j) + " 7\n";
   const fs::path from = write("in.bpt", text);
-  const Model model = import(from);
+  const modeler::Model model = import(from);
   ASSERT_EQ(model.joints.size(), 1u);
   EXPECT_EQ(model.joints[0].name, "in");
   EXPECT_EQ(model.joints[0].segment->sbb.min, glm::dvec3(10, -3, 7));
-  EXPECT_EQ(model.shapes[0].patches[0].points, read_patch_file(from).patches[0].points);
-  EXPECT_TRUE(holds(told_, "  read       1 patch\n  not read   nothing")) << told_;
+  EXPECT_EQ(model.shapes[0].patches[0].points, modeler::read_patch_file(from).patches[0].points);
+  EXPECT_TRUE(document::holds(told_, "  read       1 patch\n  not read   nothing")) << told_;
   ImportOptions options = wishes(from);
   options.up = 'y';
   options.scale = 2;
-  const Box box = import(options).joints[0].segment->sbb;
+  const modeler::Box box = import(options).joints[0].segment->sbb;
   EXPECT_EQ(box.min, glm::dvec3(20, -14, -6));
   EXPECT_EQ(box.max, glm::dvec3(32, -13, 0)) << "flat: one unit thick";
-  EXPECT_TRUE(holds(told_, "  box        12 x 0 x 6, the file's y upward\n")) << told_;
+  EXPECT_TRUE(document::holds(told_, "  box        12 x 0 x 6, the file's y upward\n")) << told_;
   options.crease = 30;
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "leave out --crease"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "leave out --crease"));
 }
 
 TEST_F(ImportTest, TheFileItselfIsNotOverwritten) {
   const fs::path from = write("in.bpt", "1\n");
   ImportOptions options = wishes(from);
   options.to = from;
-  EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "is the file that is read (write to another)"));
-  EXPECT_EQ(read_file(from).size(), 2u);
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "is the file that is read (write to another)"));
+  EXPECT_EQ(document::read_file(from).size(), 2u);
 }
 
 // Files of others, where they lie beside the project.
 TEST_F(ImportTest, GltfFilesOfOthers) {
   const fs::path data = fs::path(MARS_SOURCE_DIR) / "../shared/data";
   if (!fs::exists(data / "BoxAnimated.glb") || !fs::exists(data / "RiggedFigure.glb")) GTEST_SKIP() << "no files in " << data;
-  const Model box = import(data / "BoxAnimated.glb");
+  const modeler::Model box = import(data / "BoxAnimated.glb");
   EXPECT_EQ(box.joints.size(), 2u) << "of two colours";
   EXPECT_EQ(box.shapes[0].mesh->normals.size(), box.shapes[0].mesh->vertices.size());
-  const Model figure = import(data / "RiggedFigure.glb");
-  EXPECT_TRUE(holds(told_, "365 vertices of the file's 370, 256 faces, normals, 1 colour")) << told_;
-  EXPECT_TRUE(holds(told_, "19 bones")) << told_;
+  const modeler::Model figure = import(data / "RiggedFigure.glb");
+  EXPECT_TRUE(document::holds(told_, "365 vertices of the file's 370, 256 faces, normals, 1 colour")) << told_;
+  EXPECT_TRUE(document::holds(told_, "19 bones")) << told_;
   const glm::dvec3 extent = figure.joints[0].segment->sbb.max - figure.joints[0].segment->sbb.min;
   EXPECT_GT(extent.z, extent.x) << "it stands upright";
   EXPECT_GT(extent.x, extent.y);
@@ -515,4 +515,4 @@ TEST_F(ImportTest, GltfFilesOfOthers) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::importer

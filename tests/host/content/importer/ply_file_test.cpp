@@ -10,7 +10,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::importer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,8 +57,8 @@ class PlyFileTest : public testing::Test {
     return read_ply_file(folder_ / "a.ply");
   }
   std::string failure(const std::string& content) const {
-    const std::string text = failure_of([&] { read(content); });
-    EXPECT_TRUE(holds(text, "a.ply: ")) << text;
+    const std::string text = document::failure_of([&] { read(content); });
+    EXPECT_TRUE(document::holds(text, "a.ply: ")) << text;
     return text;
   }
   void expect_triangle(const std::string& content, float first = 0) const {
@@ -126,29 +126,29 @@ TEST_F(PlyFileTest, NormalsAreReadAndTheRestIsTold) {
 
 TEST_F(PlyFileTest, WhatIsPromisedMustBeThere) {
   const std::string many = header("binary_little_endian", "element vertex 4000000000\n" + kPlaces);
-  EXPECT_TRUE(holds(failure(many + triangle_bytes(0, true)), "promises 4000000000 vertices, 4 were read"));
+  EXPECT_TRUE(document::holds(failure(many + triangle_bytes(0, true)), "promises 4000000000 vertices, 4 were read"));
   EXPECT_TRUE(
-      holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), "promises 1 face, 0 were read"));
-  EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 x\n"), "promises 3 vertices, 1 was read"));
+      document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), "promises 1 face, 0 were read"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 x\n"), "promises 3 vertices, 1 was read"));
   EXPECT_TRUE(
-      holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"), "goes on after all"));
-  EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "at vertex 3, of 3 from 0"));
-  EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"), "no vertex's number"));
-  EXPECT_TRUE(holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "promises 1 face"));
+      document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"), "goes on after all"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "at vertex 3, of 3 from 0"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"), "no vertex's number"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "promises 1 face"));
 }
 
 TEST_F(PlyFileTest, HeadersAreUnderstoodOrRefused) {
-  EXPECT_TRUE(holds(failure(""), "ends within its header"));
-  EXPECT_TRUE(holds(failure("solid\n"), "does not begin with 'ply'"));
-  EXPECT_TRUE(holds(failure("ply\nformat ascii 1.0\nelement vertex 3\n"), "ends within its header"));
-  EXPECT_TRUE(holds(failure("ply\nelement vertex 0\nend_header\n"), "does not say its format"));
+  EXPECT_TRUE(document::holds(failure(""), "ends within its header"));
+  EXPECT_TRUE(document::holds(failure("solid\n"), "does not begin with 'ply'"));
+  EXPECT_TRUE(document::holds(failure("ply\nformat ascii 1.0\nelement vertex 3\n"), "ends within its header"));
+  EXPECT_TRUE(document::holds(failure("ply\nelement vertex 0\nend_header\n"), "does not say its format"));
   for (const char* line : {"format ebcdic 1.0", "element vertex many", "element vertex -1", "element vertex 3",
                            "property float x", "property quad w", "property list int vertex_indices", "end_9der"})
-    EXPECT_TRUE(holds(failure(header("ascii", "element vertex 3\n" + kPlaces + line + "\n")),
+    EXPECT_TRUE(document::holds(failure(header("ascii", "element vertex 3\n" + kPlaces + line + "\n")),
                       "is not understood: " + std::string(line)));
   EXPECT_TRUE(
-      holds(failure(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 1\n"), "no z"));
+      document::holds(failure(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 1\n"), "no z"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::importer

@@ -7,7 +7,7 @@
 #include "host/content/modeler/loft.h"
 #include "tests/host/content/modeler/surface.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 TEST(BodyShapes, HandsMirrorEachOther) {
@@ -46,4 +46,4 @@ TEST(Loft, ReachesItsPolesFlat) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,7 +8,7 @@
 
 #include "tests/host/content/modeler/surface.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 // Knots and control points as a plain, long list: where the direction is periodic, a turn before and one
@@ -253,4 +253,4 @@ TEST(BSpline, OfBezierKnotsIsTheBezierPatchItself) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -4,11 +4,11 @@
 
 #include "host/content/modeler/read_model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 Model model_of(const std::string& joints) {
-  const Document document("{\"joints\": [" + joints + "], \"materials\": {\"fur\": {\"color\": [1, 0.5, 0]}}}", "m.json");
+  const document::Document document("{\"joints\": [" + joints + "], \"materials\": {\"fur\": {\"color\": [1, 0.5, 0]}}}", "m.json");
   return read_model(document.root());
 }
 
@@ -33,7 +33,7 @@ fur       1 0.5 0  0.1      0.65     0.45      32        2
 }
 
 TEST(Describe, TellsLimbsWhereAModelHasThem) {
-  const Document document(R"({"joints": [{"name": "hip"}, {"name": "calf", "parent": "hip"}],
+  const document::Document document(R"({"joints": [{"name": "hip"}, {"name": "calf", "parent": "hip"}],
                               "limbs": {"left": {"knee": "calf"}}})", "m.json");
   const std::string text = describe_model(read_model(document.root()));
   EXPECT_NE(text.find("hip     free   -     -          -"), std::string::npos) << text;
@@ -41,7 +41,7 @@ TEST(Describe, TellsLimbsWhereAModelHasThem) {
 }
 
 TEST(Describe, MeshesHaveFacesAndASizeAtRest) {
-  const Document document(R"({"shapes": {"tip": {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]],
+  const document::Document document(R"({"shapes": {"tip": {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]],
       "faces": [[0, 1, 2], [0, 2, 3]]}}}, "joints": [{"name": "a", "segment": {"shape": "tip", "sbb": [[0, 0, 0], [2, 3, 4]]}},
       {"name": "b", "parent": "a", "place": [2, 0, 0], "segment": {"shape": "tip"}}]})", "m.json");
   const std::string text = describe_model(read_model(document.root()));
@@ -61,4 +61,4 @@ TEST(Describe, TellsSkewedAxes) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

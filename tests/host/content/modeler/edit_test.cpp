@@ -4,11 +4,11 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
-Json dog() {
-  return Json::parse(R"({"joints": [
+document::Json dog() {
+  return document::Json::parse(R"({"joints": [
       {"name": "body", "segment": {"shape": "sphere", "material": "fur"}},
       {"name": "leg", "parent": "body", "limits": {"y": [-30, 30]}, "segment": {"shape": "cone", "top": 0.5}},
       {"name": "paw", "parent": "leg"}],
@@ -16,21 +16,21 @@ Json dog() {
     "limbs": {"pelvis": "body", "left": {"hip": "leg"}}})");
 }
 
-std::string failure(const std::function<void(Json&)>& change) {
-  Json model = dog();
-  return failure_of([&] { change(model); });
+std::string failure(const std::function<void(document::Json&)>& change) {
+  document::Json model = dog();
+  return document::failure_of([&] { change(model); });
 }
 
-Json changed(const std::string& joint, const JointChange& change) {
-  Json model = dog();
+document::Json changed(const std::string& joint, const JointChange& change) {
+  document::Json model = dog();
   set_joint(model, joint, change);
-  for (Json& each : model["joints"])
+  for (document::Json& each : model["joints"])
     if (each["name"] == joint) return each;
   return nullptr;
 }
 
 TEST(Edit, AJointIsWrittenAsAPersonWould) {
-  Json model = dog();
+  document::Json model = dog();
   JointChange change;
   change.sbb = Box{{-1, -1, -0.5}, {1, 1, 0}};
   change.shape = "cone";
@@ -46,7 +46,7 @@ TEST(Edit, AJointIsWrittenAsAPersonWould) {
 }
 
 TEST(Edit, WithoutLimitsAJointIsFree) {
-  Json model = dog();
+  document::Json model = dog();
   add_joint(model, "tail", {});
   EXPECT_EQ(model["joints"][3].dump(), R"({"name":"tail"})");
 }
@@ -62,7 +62,7 @@ TEST(Edit, LimitsAreSetAxisByAxis) {
   change.freedom = Freedom::free;
   EXPECT_FALSE(changed("leg", change).contains("limits"));
   change.limits = {{'y', {3, 2}}};
-  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }),
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }),
                     "joint 'leg': has limits about y from 3 to 2 degrees (give the lower one first)"));
 }
 
@@ -73,17 +73,17 @@ TEST(Edit, AnotherShapeLosesTheOptionsOfTheOneBefore) {
   change.shape = "cone";
   EXPECT_EQ(changed("leg", change)["segment"].dump(), R"({"shape":"cone","top":0.5})");
   change.options = {{"tube", {0.1}}};
-  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }), "its own is 'top'"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "its own is 'top'"));
   change = {};
   change.sbb = Box{};
-  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "paw", change); }), "has no segment (give it a shape"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "paw", change); }), "has no segment (give it a shape"));
 }
 
 TEST(Edit, ResetGoesBackToWhatAFileNeedNotTell) {
   JointChange change;
   change.x_axis = {1, 1, 0};
   change.reset = {"parent", "limits"};
-  Json leg = changed("leg", change);
+  document::Json leg = changed("leg", change);
   EXPECT_EQ(leg["x_axis"].dump(), "[1,1,0]");
   EXPECT_FALSE(leg.contains("parent"));
   EXPECT_FALSE(leg.contains("limits"));
@@ -93,7 +93,7 @@ TEST(Edit, ResetGoesBackToWhatAFileNeedNotTell) {
 }
 
 TEST(Edit, ANewNameIsPutWhereOthersNameTheJoint) {
-  Json model = dog();
+  document::Json model = dog();
   JointChange change;
   change.name = "thigh";
   set_joint(model, "leg", change);
@@ -102,16 +102,16 @@ TEST(Edit, ANewNameIsPutWhereOthersNameTheJoint) {
   EXPECT_EQ(model["limbs"]["left"]["hip"], "thigh");
   EXPECT_EQ(model["limbs"]["pelvis"], "body");
   change.name = "paw";
-  EXPECT_TRUE(holds(failure([&](Json& other) { set_joint(other, "leg", change); }),
+  EXPECT_TRUE(document::holds(failure([&](document::Json& other) { set_joint(other, "leg", change); }),
                     "joint 'paw': is in the model already"));
 }
 
 TEST(Edit, WhatCarriesOthersIsRemovedOnlyWithThem) {
-  EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "leg", false); }), "joint 'leg': carries 'paw'"));
-  EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "leg", true); }),
+  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "leg", false); }), "joint 'leg': carries 'paw'"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "leg", true); }),
                     "is one of the model's limbs: left.hip"));
-  EXPECT_TRUE(holds(failure([](Json& model) { remove_joint(model, "body", true); }), "a model has at least one joint"));
-  Json model = dog();
+  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "body", true); }), "a model has at least one joint"));
+  document::Json model = dog();
   model.erase("limbs");
   remove_joint(model, "leg", true);
   EXPECT_EQ(model["joints"].size(), 1u);
@@ -120,20 +120,20 @@ TEST(Edit, WhatCarriesOthersIsRemovedOnlyWithThem) {
 TEST(Edit, NamesThatAreNotThereAreGuessed) {
   JointChange change;
   change.parent = "bdoy";
-  EXPECT_TRUE(holds(failure([&](Json& model) { add_joint(model, "tail", change); }), "did you mean 'body'?"));
-  EXPECT_TRUE(holds(failure([&](Json& model) { add_joint(model, "leg", {}); }), "is in the model already"));
-  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "pwa", {}); }), "did you mean 'paw'?"));
-  EXPECT_TRUE(holds(failure([&](Json& model) { remove_joint(model, "legg", true); }), "did you mean 'leg'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { add_joint(model, "tail", change); }), "did you mean 'body'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { add_joint(model, "leg", {}); }), "is in the model already"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "pwa", {}); }), "did you mean 'paw'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { remove_joint(model, "legg", true); }), "did you mean 'leg'?"));
   change = {};
   change.material = "furr";
-  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }), "did you mean 'fur'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "did you mean 'fur'?"));
   change = {};
   change.shape = "spere";
-  EXPECT_TRUE(holds(failure([&](Json& model) { set_joint(model, "leg", change); }), "did you mean 'sphere'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "did you mean 'sphere'?"));
 }
 
 TEST(Edit, Materials) {
-  Json model = dog();
+  document::Json model = dog();
   MaterialChange change;
   change.exponent = 16;
   change.color = {0.5, 0.25, 1};
@@ -147,9 +147,9 @@ TEST(Edit, Materials) {
   EXPECT_EQ(model["joints"][0]["segment"]["material"], "coat");
   remove_material(model, "nose");
   EXPECT_FALSE(model["materials"].contains("nose"));
-  EXPECT_TRUE(holds(failure([](Json& other) { remove_material(other, "fur"); }), "is what 'body' is made of"));
-  EXPECT_TRUE(holds(failure([](Json& other) { add_material(other, "fur", {}); }), "is in the model already"));
-  EXPECT_TRUE(holds(failure([](Json& other) { set_material(other, "fru", {}, {}); }), "did you mean 'fur'?"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& other) { remove_material(other, "fur"); }), "is what 'body' is made of"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& other) { add_material(other, "fur", {}); }), "is in the model already"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& other) { set_material(other, "fru", {}, {}); }), "did you mean 'fur'?"));
 }
 
 TEST(Edit, NumbersAreShort) {
@@ -160,17 +160,17 @@ TEST(Edit, NumbersAreShort) {
 }
 
 TEST(EditLimbs, AJointIsOneLimbAndALimbOneJoint) {
-  Json model = Json::parse(R"({"joints": [{"name": "a"}, {"name": "b", "parent": "a"}]})");
+  document::Json model = document::Json::parse(R"({"joints": [{"name": "a"}, {"name": "b", "parent": "a"}]})");
   JointChange knee;
   knee.limb = "left.knee";
   set_joint(model, "b", knee);
-  EXPECT_EQ(model["limbs"], Json::parse(R"({"left": {"knee": "b"}})"));
+  EXPECT_EQ(model["limbs"], document::Json::parse(R"({"left": {"knee": "b"}})"));
   set_joint(model, "a", knee);
-  EXPECT_EQ(model["limbs"], Json::parse(R"({"left": {"knee": "a"}})"));
+  EXPECT_EQ(model["limbs"], document::Json::parse(R"({"left": {"knee": "a"}})"));
   JointChange pelvis;
   pelvis.limb = "pelvis";
   set_joint(model, "a", pelvis);
-  EXPECT_EQ(model["limbs"], Json::parse(R"({"pelvis": "a"})"));
+  EXPECT_EQ(model["limbs"], document::Json::parse(R"({"pelvis": "a"})"));
   JointChange none;
   none.reset = {"limb"};
   set_joint(model, "a", none);
@@ -178,19 +178,19 @@ TEST(EditLimbs, AJointIsOneLimbAndALimbOneJoint) {
 }
 
 TEST(EditLimbs, ANewJointTakesNoLimbFromAnother) {
-  Json model = Json::parse(R"({"joints": [{"name": "a"}], "limbs": {"head": "a"}})");
+  document::Json model = document::Json::parse(R"({"joints": [{"name": "a"}], "limbs": {"head": "a"}})");
   JointChange change;
   change.limb = "head";
-  EXPECT_TRUE(holds(failure_of([&] { add_joint(model, "b", change); }), "joint 'b': cannot be head too: 'a' is"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { add_joint(model, "b", change); }), "joint 'b': cannot be head too: 'a' is"));
 }
 
 TEST(EditLimbs, RefuseWhatIsNoLimb) {
-  Json model = Json::parse(R"({"joints": [{"name": "a"}]})");
+  document::Json model = document::Json::parse(R"({"joints": [{"name": "a"}]})");
   JointChange change;
   change.limb = "left.kne";
-  EXPECT_EQ(failure_of([&] { set_joint(model, "a", change); }),
+  EXPECT_EQ(document::failure_of([&] { set_joint(model, "a", change); }),
             "joint 'a': cannot be 'left.kne', which is no limb (did you mean 'left.knee'?)");
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

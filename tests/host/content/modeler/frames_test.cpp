@@ -7,11 +7,11 @@
 
 #include "host/content/modeler/read_model.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 Model model_of(const std::string& json) {
-  const Document document(json, "m.json");
+  const document::Document document(json, "m.json");
   return read_model(document.root());
 }
 
@@ -19,7 +19,7 @@ void expect_near(const glm::dvec3& is, const glm::dvec3& wanted, double error = 
   EXPECT_LT(glm::length(is - wanted), error) << is.x << " " << is.y << " " << is.z;
 }
 
-glm::dvec3 placed(const node::Matrix& matrix, const glm::dvec3& point) {
+glm::dvec3 placed(const wire::Matrix& matrix, const glm::dvec3& point) {
   glm::dvec3 result;
   for (int row = 0; row < 3; ++row)
     result[row] = matrix.m[row][0] * point.x + matrix.m[row][1] * point.y + matrix.m[row][2] * point.z + matrix.m[row][3];
@@ -32,7 +32,7 @@ TEST(Frames, SkewedAxesShearTheSegment) {
   const Model model = model_of(R"({"joints": [{"name": "a", "y_axis": [0.5, 0.8660254037844386, 0],
       "limits": {}, "segment": {"shape": "box", "sbb": [[0, 0, 0], [2, 3, 1]]}}]})");
   const Joint& joint = model.joints[0];
-  const node::Matrix matrix = t_matrix(segment_frame(rest_frames(model)[0], joint), joint.segment->sbb);
+  const wire::Matrix matrix = t_matrix(segment_frame(rest_frames(model)[0], joint), joint.segment->sbb);
   const double cosine = std::sqrt(0.75);
   expect_near(placed(matrix, {0, 0, 0}), {0, 0, 0});
   expect_near(placed(matrix, {1, 0, 0}), {2, 0, 0});
@@ -75,4 +75,4 @@ TEST(Frames, BoundsAreThoseOfTheSurface) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

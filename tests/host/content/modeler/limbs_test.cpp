@@ -7,11 +7,11 @@
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 Model model_with(const std::string& limbs) {
-  const Document document(R"({"joints": [{"name": "thigh", "parent": "hips"}, {"name": "hips"},
+  const document::Document document(R"({"joints": [{"name": "thigh", "parent": "hips"}, {"name": "hips"},
                                          {"name": "shin", "parent": "thigh"}], "limbs": )" +
                               limbs + "}",
                           "m.json");
@@ -27,11 +27,11 @@ TEST(Limbs, NameJointsAsTheModelKeepsThem) {
 }
 
 TEST(Limbs, RefuseWhatIsNoJointOrTwiceOrOutOfOrder) {
-  EXPECT_EQ(failure_of([] { model_with(R"({"left": {"hip": "tigh"}})"); }),
+  EXPECT_EQ(document::failure_of([] { model_with(R"({"left": {"hip": "tigh"}})"); }),
             "m.json:2: limbs.left.hip: is 'tigh', which is no joint of this model (did you mean 'thigh'?)");
-  EXPECT_EQ(failure_of([] { model_with(R"({"left": {"hip": "thigh"}, "right": {"hip": "thigh"}})"); }),
+  EXPECT_EQ(document::failure_of([] { model_with(R"({"left": {"hip": "thigh"}, "right": {"hip": "thigh"}})"); }),
             "m.json:2: limbs.right.hip: is 'thigh', which is another limb already (name each joint once)");
-  EXPECT_EQ(failure_of([] { model_with(R"({"left": {"hip": "shin", "knee": "thigh"}})"); }),
+  EXPECT_EQ(document::failure_of([] { model_with(R"({"left": {"hip": "shin", "knee": "thigh"}})"); }),
             "m.json:2: limbs.left.knee: is 'thigh', which does not hang below the hip 'shin' "
             "(name joints from the body outwards)");
 }
@@ -44,4 +44,4 @@ TEST(Limbs, TheExamplesManHasThemAll) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -12,7 +12,7 @@
 #include "host/content/modeler/mesh_normals.h"
 #include "host/content/modeler/meshlets.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 using Place = Mesh::Place;
@@ -194,11 +194,11 @@ TEST(MeshletCutting, EveryTriangleOnceWithinItsBox) {
       EXPECT_EQ(cut.places.size(), cut.normals.size());
       std::uint32_t vertices = 0, triangles = 0;
       std::map<Place, double> angles;  // a sixth of what is round a vertex belongs to each of its triangles
-      for (const node::Meshlet& m : cut.meshlets) {
+      for (const wire::Meshlet& m : cut.meshlets) {
         EXPECT_EQ(m.first_vertex, vertices);
         EXPECT_EQ(m.first_triangle, triangles);
-        EXPECT_LE(m.vertex_count, node::kMeshletVertices);
-        EXPECT_LE(m.triangle_count, node::kMeshletTriangles);
+        EXPECT_LE(m.vertex_count, wire::kMeshletVertices);
+        EXPECT_LE(m.triangle_count, wire::kMeshletTriangles);
         for (std::uint32_t t = 0; t < m.triangle_count; ++t)
           for (const std::uint8_t corner : cut.triangles[m.first_triangle + t]) {
             ASSERT_LT(corner, m.vertex_count);
@@ -228,4 +228,4 @@ TEST(MeshletCutting, GivenNormalsAreTaken) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

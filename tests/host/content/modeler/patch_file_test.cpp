@@ -8,7 +8,7 @@
 #include "host/content/modeler/teapot.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ class PatchFileTest : public testing::Test {
   }
   std::string failure(const std::string& text) const {
     const fs::path path = write(text);
-    return failure_of([&] { read_patch_file(path); });
+    return document::failure_of([&] { read_patch_file(path); });
   }
 
   fs::path folder_ = fs::temp_directory_path() / "mars_patch_file_test";
@@ -48,15 +48,15 @@ TEST_F(PatchFileTest, ScalesIntoTheUnitCube) {
 }
 
 TEST_F(PatchFileTest, TellsTheLineOfWhatIsWrong) {
-  EXPECT_TRUE(holds(failure(""), "ends before the number of patches"));
-  EXPECT_TRUE(holds(failure("x"), "has 'x' for the number of patches"));
+  EXPECT_TRUE(document::holds(failure(""), "ends before the number of patches"));
+  EXPECT_TRUE(document::holds(failure("x"), "has 'x' for the number of patches"));
   for (const char* count : {"0", "1.5", "4000000000", "1e300"})
-    EXPECT_TRUE(holds(failure(count), "for the number of patches (begin with the number of patches, a whole number from 1"));
-  EXPECT_TRUE(holds(failure("1\n3 3\n0 2e9"), "has 2e+09 for y (at most 1e9"));
-  EXPECT_TRUE(holds(failure("9999999\n3 3\n"), "cut short"));
-  EXPECT_TRUE(holds(failure(one_patch("2 3")), ":2: has a patch of degrees 2 3"));
-  EXPECT_TRUE(holds(failure(one_patch() + "1\n"), "goes on after its last patch"));
-  EXPECT_TRUE(holds(failure("1\n3 3\n0 0 nan"), "in.bpt:3"));
+    EXPECT_TRUE(document::holds(failure(count), "for the number of patches (begin with the number of patches, a whole number from 1"));
+  EXPECT_TRUE(document::holds(failure("1\n3 3\n0 2e9"), "has 2e+09 for y (at most 1e9"));
+  EXPECT_TRUE(document::holds(failure("9999999\n3 3\n"), "cut short"));
+  EXPECT_TRUE(document::holds(failure(one_patch("2 3")), ":2: has a patch of degrees 2 3"));
+  EXPECT_TRUE(document::holds(failure(one_patch() + "1\n"), "goes on after its last patch"));
+  EXPECT_TRUE(document::holds(failure("1\n3 3\n0 0 nan"), "in.bpt:3"));
 }
 
 TEST_F(PatchFileTest, TheTeapotOfOthersIsOurs) {
@@ -71,4 +71,4 @@ TEST_F(PatchFileTest, TheTeapotOfOthersIsOurs) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,14 +8,14 @@
 #include "host/content/modeler/teapot.h"
 #include "tests/host/content/modeler/surface.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
 struct Solid {
   const char* name;
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   double volume;
 };
 
@@ -40,7 +40,7 @@ TEST(Primitives, HaveTheirVolumeWithTheOutsideOut) {
 // A shape in the sbb in which it is round, and how far a point of that is off the true surface, by a formula.
 struct Round {
   const char* name;
-  std::vector<node::Patch> patches;
+  std::vector<wire::Patch> patches;
   glm::dvec3 sbb;  // its middle is the origin
   double radius;   // the smallest of its roundings
   double (*off)(const glm::dvec3&);
@@ -100,7 +100,7 @@ std::vector<Round> rounds() {
 TEST(Primitives, LieOnTheTrueSurface) {
   for (const Round& round : rounds()) {
     double most = 0;
-    for (const node::Patch& patch : round.patches)
+    for (const wire::Patch& patch : round.patches)
       for (int j = 0; j <= 20; ++j)
         for (int i = 0; i <= 20; ++i) {
           const glm::dvec3 p = (point_of(patch, i / 20.0, j / 20.0) - glm::dvec3(0.5)) * round.sbb;
@@ -114,7 +114,7 @@ TEST(Primitives, LieOnTheTrueSurface) {
 // Along the formula's gradient, where it has one: not on the sharp edges.
 TEST(Primitives, HaveTheTrueNormals) {
   for (const Round& round : rounds())
-    for (const node::Patch& patch : round.patches)
+    for (const wire::Patch& patch : round.patches)
       for (const double u : {0.1, 0.5, 0.9})
         for (const double v : {0.1, 0.5, 0.9}) {
           const auto at = [&](const glm::dvec3& away) {
@@ -168,4 +168,4 @@ TEST(Teapot, TheLidCanMeetTheRim) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

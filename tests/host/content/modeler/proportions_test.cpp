@@ -10,7 +10,7 @@
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,13 +24,13 @@ constexpr const char* kArm = R"({"joints": [
      "segment": {"shape": "box", "sbb": [[0, 0, -0.2], [0.2, 0.2, 0]]}}]})";
 
 Model model_of(const std::string& json) {
-  const Document document(json, "m.json");
+  const document::Document document(json, "m.json");
   return read_model(document.root());
 }
 
 Model scaled(const std::string& json, const std::string& proportions) {
   Model model = model_of(json);
-  const Document document(proportions, "p.json");
+  const document::Document document(proportions, "p.json");
   apply(read_proportions(document.root()), model);
   return model;
 }
@@ -116,7 +116,7 @@ std::vector<glm::dvec3> attachments(const Model& model) {
 TEST(Proportions, LimbsOfAManStayTogether) {
   const Model man = load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/human.json");
   Model other = man;
-  const Document document(R"({"branches": {"head": [1.3, 1.2, 1.4]}, "joints": {"*-thigh": [1.1, 1.2, 0.7],
+  const document::Document document(R"({"branches": {"head": [1.3, 1.2, 1.4]}, "joints": {"*-thigh": [1.1, 1.2, 0.7],
       "chest": [1, 1.4, 0.8], "*-brow": [1, 2, 1]}, "height": 3})", "p.json");
   apply(read_proportions(document.root()), other);
   const auto before = attachments(man), after = attachments(other);
@@ -136,10 +136,10 @@ class Derived : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const char* name, std::string_view text) { write_whole_file(folder_ / name, text); }
+  void write(const char* name, std::string_view text) { document::write_whole_file(folder_ / name, text); }
   std::string failure(const char* text) {
     write("it.json", text);
-    return failure_of([&] { load_model(folder_ / "it.json"); });
+    return document::failure_of([&] { load_model(folder_ / "it.json"); });
   }
 
   fs::path folder_;
@@ -156,35 +156,35 @@ TEST_F(Derived, ReadsTheOtherFileFromItsOwnFolder) {
 }
 
 TEST_F(Derived, EveryMistakeIsOneClearError) {
-  EXPECT_TRUE(holds(failure(R"({"from": "leg.json", "proportions": {}})"), "leg.json: there is no such file"));
-  EXPECT_TRUE(holds(failure(R"({"from": "it.json", "proportions": {}})"), "derives the model from itself"));
-  EXPECT_TRUE(holds(failure(R"({"from": "arm.json"})"), "has no 'proportions'"));
-  EXPECT_TRUE(holds(failure(R"({"joints": [{"name": "a"}], "proportions": {}})"), "stands without from"));
-  EXPECT_TRUE(holds(failure(R"({"from": "arm.json", "proportions": {}, "joints": []})"), "stands beside from"));
-  EXPECT_TRUE(holds(failure(R"({"from": "arm.json", "proportions": {"joints": {"left-hnd": 2}}})"),
+  EXPECT_TRUE(document::holds(failure(R"({"from": "leg.json", "proportions": {}})"), "leg.json: there is no such file"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "it.json", "proportions": {}})"), "derives the model from itself"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json"})"), "has no 'proportions'"));
+  EXPECT_TRUE(document::holds(failure(R"({"joints": [{"name": "a"}], "proportions": {}})"), "stands without from"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {}, "joints": []})"), "stands beside from"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {"joints": {"left-hnd": 2}}})"),
                     "did you mean 'left-hand'?"));
-  EXPECT_TRUE(holds(failure(R"({"from": "arm.json", "proportions": {"joints": {"arm": 0}}})"),
+  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {"joints": {"arm": 0}}})"),
                     "proportions.joints.arm: is 0"));
-  EXPECT_TRUE(holds(failure(R"({"from": "arm.json", "proportions": {"hight": 2}})"), "did you mean 'height'?"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {"hight": 2}})"), "did you mean 'height'?"));
   write("other.json", R"({"from": "it.json", "proportions": {}})");
-  EXPECT_TRUE(holds(failure(R"({"from": "other.json", "proportions": {}})"), "derives the model from itself"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "other.json", "proportions": {}})"), "derives the model from itself"));
   write("none.json", R"({"joints": [{"name": "a"}]})");
-  EXPECT_TRUE(holds(failure(R"({"from": "none.json", "proportions": {"height": 2}})"), "has no height"));
+  EXPECT_TRUE(document::holds(failure(R"({"from": "none.json", "proportions": {"height": 2}})"), "has no height"));
 }
 
 TEST(ScaleModel, ChangesPlacesAndBoxesInPlace) {
-  Json json = Json::parse(kArm);
+  document::Json json = document::Json::parse(kArm);
   Proportions proportions;
   proportions.joints = {{"arm", false, {2, 1, 0.5}}};
   proportions.ground = false;
   scale_model(json, model_of(kArm), proportions);
   EXPECT_EQ(json["joints"][1]["place"].dump(), "[0.5,0,-1]");
   EXPECT_EQ(json["joints"][0]["segment"]["sbb"].dump(), "[[-1,-0.5,-1],[1,0.5,0]]");
-  EXPECT_EQ(json["joints"][3], Json::parse(kArm)["joints"][3]);
+  EXPECT_EQ(json["joints"][3], document::Json::parse(kArm)["joints"][3]);
 }
 
 TEST(ScaleModel, MultipliesTheProportionsOfADerivedModel) {
-  Json json = Json::parse(R"({"from": "m.json", "proportions": {"joints": {"arm": 2}, "height": 3}})");
+  document::Json json = document::Json::parse(R"({"from": "m.json", "proportions": {"joints": {"arm": 2}, "height": 3}})");
   Proportions proportions;
   proportions.joints = {{"arm", false, {1, 1, 0.5}}, {"left-hand", true, {3, 3, 3}}};
   scale_model(json, model_of(kArm), proportions);
@@ -192,4 +192,4 @@ TEST(ScaleModel, MultipliesTheProportionsOfADerivedModel) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -3,11 +3,11 @@
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 Model model_of(const std::string& json) {
-  const Document document(json, "m.json");
+  const document::Document document(json, "m.json");
   return read_model(document.root());
 }
 
@@ -58,10 +58,10 @@ TEST_P(BrokenBSpline, IsOneClearError) {
   std::string bspline = GetParam().bspline;
   if (const auto at = bspline.find("GRID"); at != std::string::npos)
     bspline.replace(at, 4, "\"points\": " + grid(5, 4));
-  const std::string failure = failure_of([&] { model_of(spline_model(bspline)); });
-  EXPECT_TRUE(holds(failure, "m.json:1: shapes.sail.bspline" + std::string(GetParam().place) + ": "))
+  const std::string failure = document::failure_of([&] { model_of(spline_model(bspline)); });
+  EXPECT_TRUE(document::holds(failure, "m.json:1: shapes.sail.bspline" + std::string(GetParam().place) + ": "))
       << failure;
-  EXPECT_TRUE(holds(failure, GetParam().told)) << failure;
+  EXPECT_TRUE(document::holds(failure, GetParam().told)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -95,4 +95,4 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenSpline{R"({GRID, "u": {"knots": [0, 1, 2, 3, 3, 3, 4, 5, 6]}})", ".u.knots", "the same knot"}));
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -8,25 +8,25 @@
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 const std::string kVertices = "[[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0.5,0.5,1]]";
 
 Model model_with(const std::string& mesh) {
-  const Document document("{\"shapes\": {\"hut\": {\"mesh\": {" + mesh + "}}},\n\"joints\": [{\"name\": \"j\", " +
+  const document::Document document("{\"shapes\": {\"hut\": {\"mesh\": {" + mesh + "}}},\n\"joints\": [{\"name\": \"j\", " +
                               "\"segment\": {\"shape\": \"hut\"}}]}",
                           "hut.json");
   return read_model(document.root());
 }
 
 std::string failure(const std::string& mesh) {
-  return failure_of([&] { model_with(mesh); });
+  return document::failure_of([&] { model_with(mesh); });
 }
 
 // Whether the text holds both parts.
 bool both(const std::string& text, const std::string& one, const std::string& other) {
-  return holds(text, one) && holds(text, other);
+  return document::holds(text, one) && document::holds(text, other);
 }
 
 std::string with_faces(const std::string& faces) { return "\"vertices\": " + kVertices + ", \"faces\": " + faces; }
@@ -50,25 +50,25 @@ TEST(ReadMesh, TellsWhereAFaceIsWrong) {
   EXPECT_TRUE(both(failure(with_faces("[[0,1,-1]]")), "faces[0][2]: is -1", "from 0 to 4"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,1.5]]")), "faces[0][2]: is 1.5", "whole number"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1]]")), "faces[0]: has 2 vertices", "3 to 4096"));
-  EXPECT_TRUE(holds(failure(with_faces("[[0,1,1,4]]")), "faces[0]: names vertex 1 twice in a row"));
-  EXPECT_TRUE(holds(failure(with_faces("[[0,1,0,1]]")), "faces[0]: has fewer than 3 different vertices"));
+  EXPECT_TRUE(document::holds(failure(with_faces("[[0,1,1,4]]")), "faces[0]: names vertex 1 twice in a row"));
+  EXPECT_TRUE(document::holds(failure(with_faces("[[0,1,0,1]]")), "faces[0]: has fewer than 3 different vertices"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,3,2]]")), "faces[0]: crosses itself", "outline"));
-  EXPECT_TRUE(holds(failure(with_faces("[]")), "faces: has no faces"));
-  EXPECT_TRUE(holds(failure(with_faces("[[0,1,4], 7]")), "faces[1]: is a number, not a list"));
+  EXPECT_TRUE(document::holds(failure(with_faces("[]")), "faces: has no faces"));
+  EXPECT_TRUE(document::holds(failure(with_faces("[[0,1,4], 7]")), "faces[1]: is a number, not a list"));
 }
 
 TEST(ReadMesh, TellsWhatElseIsWrong) {
   EXPECT_TRUE(both(failure("\"vertices\": [[0,0,0],[1,0,0],[1,1,2]], \"faces\": [[0,1,2]]"),
                     "mesh.vertices[2][2]: is 2", "from 0 to 1"));
-  EXPECT_TRUE(holds(failure("\"vertices\": [[0,0,0],[1,0,0],[1,1]], \"faces\": [[0,1,2]]"), "vertices[2]: has 2 items"));
-  EXPECT_TRUE(holds(failure("\"vertices\": [[0,0,0]], \"faces\": [[0,0,0]]"), "vertices: has fewer than 3"));
+  EXPECT_TRUE(document::holds(failure("\"vertices\": [[0,0,0],[1,0,0],[1,1]], \"faces\": [[0,1,2]]"), "vertices[2]: has 2 items"));
+  EXPECT_TRUE(document::holds(failure("\"vertices\": [[0,0,0]], \"faces\": [[0,0,0]]"), "vertices: has fewer than 3"));
   EXPECT_TRUE(both(failure("\"vertices\": " + kVertices), "has no 'faces'", "a mesh needs it"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,4]]") + ", \"creese\": 3"), "creese", "did you mean 'crease'?"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,4]]") + ", \"crease\": 200"), "crease: is 200", "from 0 to 180"));
-  EXPECT_TRUE(holds(failure(with_faces("[[0,1,4]]") + ", \"crease\": 0, \"normals\": []"), "beside a crease"));
+  EXPECT_TRUE(document::holds(failure(with_faces("[[0,1,4]]") + ", \"crease\": 0, \"normals\": []"), "beside a crease"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,4]]") + ", \"normals\": [[0,0,1]]"), "normals: has 1 items", "write 5"));
-  const Document wrong(R"({"shapes": {"hut": {"mush": 1}}, "joints": [{"name": "j"}]})", "hut.json");
-  EXPECT_TRUE(both(failure_of([&] { read_model(wrong.root()); }), "mush", "did you mean 'mesh'?"));
+  const document::Document wrong(R"({"shapes": {"hut": {"mush": 1}}, "joints": [{"name": "j"}]})", "hut.json");
+  EXPECT_TRUE(both(document::failure_of([&] { read_model(wrong.root()); }), "mush", "did you mean 'mesh'?"));
 }
 
 TEST(ReadMesh, NormalsMayNotPointInside) {
@@ -79,4 +79,4 @@ TEST(ReadMesh, NormalsMayNotPointInside) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

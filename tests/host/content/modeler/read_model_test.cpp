@@ -6,16 +6,16 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 Model model_of(const std::string& json) {
-  const Document document(json, "m.json");
+  const document::Document document(json, "m.json");
   return read_model(document.root());
 }
 
 std::string model_failure(const std::string& json) {
-  return failure_of([&] { model_of(json); });
+  return document::failure_of([&] { model_of(json); });
 }
 
 std::string with_joints(const std::string& joints) { return "{\"joints\": [" + joints + "]}"; }
@@ -64,9 +64,9 @@ TEST(ReadModel, TakesPatchesOfItsOwn) {
   const std::string joints = R"({"joints": [{"name": "a", "segment": {"shape": "leaf"}}])";
   const Model model = model_of(joints + shapes + patch_of("[0.25, 0, 0]") + "]}}");
   EXPECT_EQ(model.shapes[0].patches[0].points[0][0], 0.25f);
-  EXPECT_TRUE(holds(model_failure(joints + shapes + patch_of("[1.25, 0, 0]") + "]}}"),
+  EXPECT_TRUE(document::holds(model_failure(joints + shapes + patch_of("[1.25, 0, 0]") + "]}}"),
                     "shapes.leaf[0][0][0]: is 1.25"));
-  EXPECT_TRUE(holds(model_failure(joints + shapes + "[[0, 0, 0]]]}}"), "has 1 items"));
+  EXPECT_TRUE(document::holds(model_failure(joints + shapes + "[[0, 0, 0]]]}}"), "has 1 items"));
 }
 
 struct Broken {
@@ -78,8 +78,8 @@ class BrokenModel : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenModel, IsOneClearError) {
   const std::string failure = model_failure(with_joints(GetParam().joints));
-  EXPECT_TRUE(holds(failure, "m.json:1: joints")) << failure;
-  EXPECT_TRUE(holds(failure, GetParam().told)) << failure;
+  EXPECT_TRUE(document::holds(failure, "m.json:1: joints")) << failure;
+  EXPECT_TRUE(document::holds(failure, GetParam().told)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -114,8 +114,8 @@ TEST(ReadModel, HundredThousandJointsInAChainAreFine) {
   ASSERT_EQ(model.joints.size(), 100'000u);
   EXPECT_EQ(model.joints[99'999].parent, 99'998u);
   const std::string cycle = model_failure(with_joints(joints + R"({"name": "j0", "parent": "j99999"})"));
-  EXPECT_TRUE(holds(cycle, "is its own ancestor")) << cycle;
+  EXPECT_TRUE(document::holds(cycle, "is its own ancestor")) << cycle;
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

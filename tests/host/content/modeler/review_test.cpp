@@ -5,11 +5,11 @@
 #include "host/content/modeler/model_file.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
 std::vector<std::string> doubts(const std::string& joints, const std::string& more = "") {
-  const Document document("{\"joints\": [" + joints + "]" + more + "}", "m.json");
+  const document::Document document("{\"joints\": [" + joints + "]" + more + "}", "m.json");
   return doubts_about(read_own_model(document.root()));
 }
 
@@ -17,7 +17,7 @@ const std::string kBody = R"({"name": "body", "segment": {"shape": "box", "sbb":
 
 void expect_one(const std::vector<std::string>& told, const std::string& part) {
   ASSERT_EQ(told.size(), 1u) << part << testing::PrintToString(told);
-  EXPECT_TRUE(holds(told[0], part)) << told[0];
+  EXPECT_TRUE(document::holds(told[0], part)) << told[0];
 }
 
 TEST(Review, AWholeFigureIsNotDoubted) {
@@ -72,8 +72,8 @@ TEST(Review, TellsFiguresThatWouldWalkBackwardOrUnderTheFloor) {
   expect_one(walker(0.5, 2.25), "the figure stands 0.25 over the floor");
   const std::vector<std::string> backward = walker(-0.5, 2);
   ASSERT_EQ(backward.size(), 2u);
-  EXPECT_TRUE(holds(backward[0], "joint 'left-foot' points backward: are left and right limbs exchanged?"));
+  EXPECT_TRUE(document::holds(backward[0], "joint 'left-foot' points backward: are left and right limbs exchanged?"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -11,10 +11,10 @@
 #include "node/simd/instruction_set.h"
 #include "tests/host/content/modeler/surface.h"
 
-namespace mars::host {
+namespace mars::modeler {
 namespace {
 
-using Patches = std::vector<node::Patch>;
+using Patches = std::vector<wire::Patch>;
 
 struct Variant {
   const LibraryShape* shape;
@@ -79,7 +79,7 @@ std::vector<Patches> pieces_of(const Patches& patches) {
 TEST_P(Library, FillsTheUnitCube) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     float least = 1, greatest = 0;
-    for (const node::Patch& patch : patches_)
+    for (const wire::Patch& patch : patches_)
       for (const auto& point : patch.points) {
         least = std::min(least, point[axis]);
         greatest = std::max(greatest, point[axis]);
@@ -124,11 +124,11 @@ glm::dvec3 round_box(const Variant& variant) {
 TEST_P(Library, HasUnitNormalsOnTheOutsideOfEveryDicedFace) {
   const glm::dvec3 box = round_box(GetParam());
   const glm::vec3 size = box / std::max({box.x, box.y, box.z});
-  const node::EyeMatrix away{{{size.x, 0, 0, 0}, {0, size.y, 0, 0}, {0, 0, size.z, -2}}};
-  const node::Projection view{1000, {500, 500}, 0.1f, 100, 8000, 0.5f};
-  node::Dicer dicer(node::best_instruction_set(""));
-  for (const node::Patch& patch : patches_) {
-    dicer.dice(node::to_eye(away, patch), view, 8);
+  const shape::EyeMatrix away{{{size.x, 0, 0, 0}, {0, size.y, 0, 0}, {0, 0, size.z, -2}}};
+  const shape::Projection view{1000, {500, 500}, 0.1f, 100, 8000, 0.5f};
+  shape::Dicer dicer(simd::best_instruction_set(""));
+  for (const wire::Patch& patch : patches_) {
+    dicer.dice(shape::to_eye(away, patch), view, 8);
     for (std::uint32_t number = 0; number < dicer.triangles().count; ++number) {
       const auto [a, b, c] = dicer.triangles()[number];
       const auto place = [&](std::uint32_t vertex) { return vector_of(dicer.vertices().place, vertex); };
@@ -150,7 +150,7 @@ TEST_P(Library, IsSmoothAcrossItsEdges) {
   constexpr double ends[4][4] = {
       {0, 0, 1, 0}, {1, 0, 1, 1}, {1, 1, 0, 1}, {0, 1, 0, 0}};  // u, v as sides_of runs
   std::map<std::pair<Edge, int>, glm::dvec3> seen;
-  for (const node::Patch& patch : patches_) {
+  for (const wire::Patch& patch : patches_) {
     const auto sides = sides_of(patch);
     for (std::size_t side = 0; side < 4; ++side)
       for (const int step : {1, 2, 3}) {
@@ -187,4 +187,4 @@ TEST(ShapeLibrary, KnowsWhatAWrongNameMayMean) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::modeler

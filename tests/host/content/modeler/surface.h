@@ -10,7 +10,7 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::modeler {
 
 inline std::array<double, 4> bernstein(double t) {
   const double s = 1 - t;
@@ -22,7 +22,7 @@ inline std::array<double, 4> bernstein_slope(double t) {
   return {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
 }
 
-inline glm::dvec3 blend(const node::Patch& patch, const std::array<double, 4>& u,
+inline glm::dvec3 blend(const wire::Patch& patch, const std::array<double, 4>& u,
                         const std::array<double, 4>& v) {
   glm::dvec3 sum(0, 0, 0);
   for (int j = 0; j < 4; ++j)
@@ -33,20 +33,20 @@ inline glm::dvec3 blend(const node::Patch& patch, const std::array<double, 4>& u
   return sum;
 }
 
-inline glm::dvec3 point_of(const node::Patch& patch, double u, double v) {
+inline glm::dvec3 point_of(const wire::Patch& patch, double u, double v) {
   return blend(patch, bernstein(u), bernstein(v));
 }
 
 // Along the outward normal, as long as the surface element.
-inline glm::dvec3 normal_of(const node::Patch& patch, double u, double v) {
+inline glm::dvec3 normal_of(const wire::Patch& patch, double u, double v) {
   return glm::cross(blend(patch, bernstein_slope(u), bernstein(v)),
                     blend(patch, bernstein(u), bernstein_slope(v)));
 }
 
 // By Gauss's theorem; negative if the normals point inward.
-inline double volume_of(const std::vector<node::Patch>& patches, int steps = 24) {
+inline double volume_of(const std::vector<wire::Patch>& patches, int steps = 24) {
   double volume = 0;
-  for (const node::Patch& patch : patches)
+  for (const wire::Patch& patch : patches)
     for (int j = 0; j < steps; ++j)
       for (int i = 0; i < steps; ++i) {
         const double u = (i + 0.5) / steps, v = (j + 0.5) / steps;
@@ -60,7 +60,7 @@ using Point = std::array<float, 3>;
 using Edge = std::array<Point, 4>;
 
 // The four sides, as they run round the patch with the outside in front.
-inline std::array<Edge, 4> sides_of(const node::Patch& patch) {
+inline std::array<Edge, 4> sides_of(const wire::Patch& patch) {
   constexpr int index[4][4] = {{0, 1, 2, 3}, {3, 7, 11, 15}, {15, 14, 13, 12}, {12, 8, 4, 0}};
   std::array<Edge, 4> sides;
   for (int side = 0; side < 4; ++side)
@@ -78,9 +78,9 @@ struct EdgeUse {
   int backward = 0;
 };
 
-inline std::map<Edge, EdgeUse> edge_uses(const std::vector<node::Patch>& patches) {
+inline std::map<Edge, EdgeUse> edge_uses(const std::vector<wire::Patch>& patches) {
   std::map<Edge, EdgeUse> uses;
-  for (const node::Patch& patch : patches)
+  for (const wire::Patch& patch : patches)
     for (const Edge& side : sides_of(patch)) {
       if (collapsed(side)) continue;
       Edge reversed = side;
@@ -90,4 +90,4 @@ inline std::map<Edge, EdgeUse> edge_uses(const std::vector<node::Patch>& patches
   return uses;
 }
 
-}  // namespace mars::host
+}  // namespace mars::modeler

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace mars::host {
+namespace mars::compositor {
 namespace {
 
 using Blocks = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // row, column
@@ -84,4 +84,4 @@ TEST(BlockFlags, Join) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::compositor

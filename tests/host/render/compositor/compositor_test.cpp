@@ -9,13 +9,13 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::compositor {
 namespace {
 
 using Pixels = std::vector<std::uint32_t>;
 
 struct Runs {
-  std::vector<node::Run> runs;
+  std::vector<wire::Run> runs;
   Pixels pixels;
 };
 
@@ -41,7 +41,7 @@ Runs random_runs(std::mt19937& random, const Size& size, std::uint32_t part, std
 
 void paste(const Runs& runs, std::uint32_t width, Pixels& picture) {
   const std::uint32_t* source = runs.pixels.data();
-  for (const node::Run& run : runs.runs)
+  for (const wire::Run& run : runs.runs)
     for (std::uint32_t x = 0; x < run.count; ++x) picture[run.line * width + run.first + x] = *source++;
 }
 
@@ -183,7 +183,7 @@ TEST(Compositor, FramesPassFromOneToAnother) {
   Frame frame(20, 10, 4);
   Compositor first(20, 10, 4, 1);
   Compositor second(20, 10, 4, 2);
-  const std::vector<node::Run> runs{{3, 2, 5}};
+  const std::vector<wire::Run> runs{{3, 2, 5}};
   const Pixels pixels(5, 9);
   for (const auto& [compositor, background] : {std::pair{&first, 1u}, {&second, 2u}, {&first, 1u}}) {
     compositor->begin_frame(frame);
@@ -197,7 +197,7 @@ TEST(Compositor, RestoresFlaggedBlocksOnly) {
   Compositor compositor(64, 64, 16, 0);
   Frame frame(64, 64, 16);
   compositor.begin_frame(frame);
-  compositor.paste_moving(frame, std::vector<node::Run>{{20, 20, 3}}, Pixels(3, 7));
+  compositor.paste_moving(frame, std::vector<wire::Run>{{20, 20, 3}}, Pixels(3, 7));
   compositor.finish_frame(frame, 0);
   frame.pixels[0] = 5;
   frame.pixels[17 * 64 + 17] = 5;
@@ -219,7 +219,7 @@ TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
   const auto begin = [&](std::uint16_t column) {
     compositor.begin_interval();
     compositor.begin_frame(keyframe);
-    compositor.paste_constant(std::vector<node::Run>{{0, column, 3}}, Pixels(3, 7), &keyframe);
+    compositor.paste_constant(std::vector<wire::Run>{{0, column, 3}}, Pixels(3, 7), &keyframe);
     compositor.finish_frame(keyframe, 0);
   };
   begin(0);
@@ -238,7 +238,7 @@ TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
 TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
   Compositor compositor(64, 64, 16, 0);
   Frame frame(64, 64, 16);
-  const std::vector<node::Run> runs{{0, 0, 1}};
+  const std::vector<wire::Run> runs{{0, 0, 1}};
   compositor.paste_constant(runs, Pixels{7}, nullptr);
   compositor.begin_frame(frame);
   compositor.paste_constant(runs, Pixels{7}, nullptr);
@@ -250,7 +250,7 @@ TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
   Frame frame(64, 64, 16);
   for (std::uint32_t number = 0; number < 2; ++number) {
     compositor.begin_frame(frame);
-    const std::vector<node::Run> runs{{number * 40, static_cast<std::uint16_t>(number * 40), 1}};
+    const std::vector<wire::Run> runs{{number * 40, static_cast<std::uint16_t>(number * 40), 1}};
     compositor.paste_moving(frame, runs, Pixels{7});
     compositor.finish_frame(frame, number);
   }
@@ -265,21 +265,21 @@ TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
   Frame frame(10, 5, 4);
   compositor.begin_frame(frame);
   const Pixels pixels(3, 7);
-  const auto wrong = [&](node::Run run) {
-    const std::vector<node::Run> runs{{0, 0, 0}, run};
-    const std::span<const node::Run> one = std::span(runs).subspan(1);
-    const std::string moving = failure_of([&] { compositor.paste_moving(frame, one, pixels); });
-    EXPECT_EQ(moving, failure_of([&] { compositor.paste_constant(one, pixels, &frame); }));
+  const auto wrong = [&](wire::Run run) {
+    const std::vector<wire::Run> runs{{0, 0, 0}, run};
+    const std::span<const wire::Run> one = std::span(runs).subspan(1);
+    const std::string moving = document::failure_of([&] { compositor.paste_moving(frame, one, pixels); });
+    EXPECT_EQ(moving, document::failure_of([&] { compositor.paste_constant(one, pixels, &frame); }));
     return moving;
   };
-  EXPECT_TRUE(holds(wrong({5, 0, 3}), "3 pixels from column 0 of line 5"));
-  EXPECT_TRUE(holds(wrong({0, 8, 3}), "outside the picture"));
-  EXPECT_TRUE(holds(wrong({0xffffffff, 0xffff, 0xffff}), "outside the picture"));
-  EXPECT_TRUE(holds(wrong({0, 0, 0}), "0 pixels"));
-  EXPECT_TRUE(holds(wrong({0, 0, 2}), "has 3 pixels where its runs count 2"));
-  EXPECT_TRUE(holds(wrong({0, 0, 4}), "has 3 pixels where its runs count 4"));
+  EXPECT_TRUE(document::holds(wrong({5, 0, 3}), "3 pixels from column 0 of line 5"));
+  EXPECT_TRUE(document::holds(wrong({0, 8, 3}), "outside the picture"));
+  EXPECT_TRUE(document::holds(wrong({0xffffffff, 0xffff, 0xffff}), "outside the picture"));
+  EXPECT_TRUE(document::holds(wrong({0, 0, 0}), "0 pixels"));
+  EXPECT_TRUE(document::holds(wrong({0, 0, 2}), "has 3 pixels where its runs count 2"));
+  EXPECT_TRUE(document::holds(wrong({0, 0, 4}), "has 3 pixels where its runs count 4"));
   EXPECT_EQ(frame.pixels, Pixels(50, 0));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::compositor

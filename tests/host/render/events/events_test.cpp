@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::host {
+namespace mars::events {
 namespace {
 
 std::vector<Event> one_of_each() {
@@ -78,4 +78,4 @@ TEST(Progress, AKindNotSeenYetIsExpectedToTakeAsTheOther) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::events

@@ -11,16 +11,16 @@
 
 #include "tests/host/render/farm/strips.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 constexpr std::uint32_t kWidth = 40, kHeight = 24, kBlock = 8, kPlain = 3;
 
 using Pixels = std::vector<std::uint32_t>;
 
-class MemorySink : public Sink {
+class MemorySink : public sinks::Sink {
  public:
-  void take(const Frame& frame) override {
+  void take(const compositor::Frame& frame) override {
     const std::lock_guard lock(mutex_);
     EXPECT_TRUE(frames.emplace(frame.number, frame.pixels).second) << "frame " << frame.number << " came twice";
   }
@@ -44,7 +44,7 @@ Runs random_runs(std::mt19937& random, std::uint32_t top, std::uint32_t bottom) 
 
 void paste(const Runs& runs, Pixels& picture) {
   const std::uint32_t* source = runs.pixels.data();
-  for (const node::Run& run : runs.runs)
+  for (const wire::Run& run : runs.runs)
     for (std::uint32_t x = 0; x < run.count; ++x) picture[run.line * kWidth + run.first + x] = *source++;
 }
 
@@ -64,16 +64,16 @@ Drawn draw(std::mt19937& random, const Task& task, int nodes, StripStore& store)
     const int contributors = keyframe ? nodes : 1;
     for (int contributor = 0; contributor < contributors; ++contributor) {
       const std::uint64_t inbetween = task.first_inbetween + frame - task.frames.front() - 1;
-      const int node = keyframe ? contributor : node::contributor_of_inbetween(inbetween, nodes);
+      const int node = keyframe ? contributor : wire::contributor_of_inbetween(inbetween, nodes);
       const std::uint32_t passes = 1 + random() % 3;
       const std::uint32_t parts = static_cast<std::uint32_t>(contributors) * passes;
       for (std::uint32_t pass = 0; pass < passes; ++pass) {
         const std::uint32_t part = static_cast<std::uint32_t>(contributor) * passes + pass;
         const std::uint32_t top = kHeight * part / parts, bottom = kHeight * (part + 1) / parts;
-        node::Strip header{};
+        wire::Strip header{};
         header.frame = frame;
         header.interval = task.interval;
-        header.kind = keyframe ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+        header.kind = keyframe ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
         header.node = node;
         header.last = pass + 1 == passes;
         const Runs constant = keyframe ? random_runs(random, top, bottom) : Runs{};
@@ -95,8 +95,8 @@ Drawn draw(std::mt19937& random, const Task& task, int nodes, StripStore& store)
 void expect_put_together(unsigned seed) {
   std::mt19937 random(seed);
   MemorySink sink;
-  SinkPool pool(sink, {kWidth, kHeight, kBlock, 1 + static_cast<std::uint32_t>(random() % 4), 1, kPlain});
-  Compositor compositor(kWidth, kHeight, kBlock, kPlain);
+  sinks::SinkPool pool(sink, {kWidth, kHeight, kBlock, 1 + static_cast<std::uint32_t>(random() % 4), 1, kPlain});
+  compositor::Compositor compositor(kWidth, kHeight, kBlock, kPlain);
   StripStore store;
   std::map<std::uint32_t, Pixels> expected;
   const int nodes = 1 + static_cast<int>(random() % 4);
@@ -122,7 +122,7 @@ void expect_put_together(unsigned seed) {
       }
       while (auto pasted = assembly.paste(compositor, pool, store)) {
         not_pasted -= pasted->sent_more.size();
-        EXPECT_EQ(pasted->kind == node::FrameKind::keyframe, pasted->number == task.frames.front());
+        EXPECT_EQ(pasted->kind == wire::FrameKind::keyframe, pasted->number == task.frames.front());
         if (pasted->whole == nullptr) continue;
         EXPECT_EQ(pasted->contributors.size(), pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
         pool.submit(pasted->whole);
@@ -144,7 +144,7 @@ struct OneTask {
       : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}) {}
 
   void receive(std::uint32_t frame, int node, bool last = true) {
-    node::Strip header{};
+    wire::Strip header{};
     header.frame = frame;
     header.node = node;
     header.last = last;
@@ -153,8 +153,8 @@ struct OneTask {
   std::optional<Assembly::Pasted> paste() { return assembly.paste(compositor, pool, store); }
 
   MemorySink sink;
-  SinkPool pool;
-  Compositor compositor{kWidth, kHeight, kBlock, kPlain};
+  sinks::SinkPool pool;
+  compositor::Compositor compositor{kWidth, kHeight, kBlock, kPlain};
   StripStore store;
   Assembly assembly;
 };
@@ -202,11 +202,11 @@ TEST(Assembly, FramesInTheMakingLeaveABufferToThoseThatAreWhole) {
 TEST(Assembly, WantsEachStripFromItsContributorAlone) {
   OneTask task({4, 5, 6}, 3, 3);
   const auto wants = [&](std::uint32_t frame, std::int32_t node, std::uint32_t interval = 0) {
-    node::Strip strip{};
+    wire::Strip strip{};
     strip.frame = frame;
     strip.node = node;
     strip.interval = interval;
-    strip.kind = frame == 4 ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+    strip.kind = frame == 4 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
     return task.assembly.wants(strip);
   };
   for (const int node : {0, 1, 2}) {
@@ -218,9 +218,9 @@ TEST(Assembly, WantsEachStripFromItsContributorAlone) {
   EXPECT_FALSE(wants(4, -1));
   EXPECT_FALSE(wants(7, 0));
   EXPECT_FALSE(wants(4, 0, 1)) << "of another interval";
-  node::Strip moving{};
+  wire::Strip moving{};
   moving.frame = 4;
-  moving.kind = node::FrameKind::inbetween;
+  moving.kind = wire::FrameKind::inbetween;
   EXPECT_FALSE(task.assembly.wants(moving)) << "the first frame is the keyframe";
   task.receive(4, 2, false);
   EXPECT_TRUE(wants(4, 2));
@@ -242,4 +242,4 @@ TEST(Assembly, WithoutABufferStripsWait) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -7,14 +7,14 @@
 
 #include "node/wire/film.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 class EmptyFilm {
  public:
   // Intervals of so many frames; the block has more than `bytes`.
   explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
                      std::size_t bytes = 0) {
-    node::FilmData film;
+    wire::FilmData film;
     for (const std::uint32_t frames : intervals) {
       film.intervals.push_back({film.settings.frames, frames, 0, 0});
       film.settings.frames += frames;
@@ -26,18 +26,18 @@ class EmptyFilm {
     film.cameras = {{{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}, 2, 0.1, 100}};
     film.changes = {{0, 0}};
     film.names.resize(bytes);
-    const std::vector<std::byte> block = node::pack(film);
+    const std::vector<std::byte> block = wire::pack(film);
     words_.resize((block.size() + 7) / 8);
     size_ = block.size();
     std::memcpy(words_.data(), block.data(), size_);
   }
 
   std::span<const std::byte> block() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
-  node::FilmView view() const { return {block(), "empty film"}; }
+  wire::FilmView view() const { return {block(), "empty film"}; }
 
  private:
   std::vector<std::uint64_t> words_;  // aligned as FilmView wants it
   std::size_t size_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::farm

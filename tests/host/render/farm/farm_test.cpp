@@ -9,7 +9,7 @@
 #include "host/render/farm/node_inbox.h"
 #include "tests/host/render/farm/scripted_node.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 void sound_node() {
@@ -76,7 +76,7 @@ TEST(Farm, StripsMayComeInAnyOrder) {
 // A frame in 40 strips with few credits.
 TEST(Farm, CreditsComeBack) {
   const EmptyFilm film({2, 2});
-  for (const std::int32_t credits : {1, 2, node::kMaxCredits}) {
+  for (const std::int32_t credits : {1, 2, wire::kMaxCredits}) {
     ScriptedRun run;
     run.nodes = 2;
     run.work = {frames_to(4), true, 1};
@@ -91,7 +91,7 @@ TEST(Farm, CreditsComeBack) {
         for (const std::uint32_t frame : ScriptedNode::own_frames(*command)) {
           for (std::uint32_t number = 0; number < 40; ++number) {
             while (node.credits == 0) node.take_credit();
-            node::Strip strip = ScriptedNode::strip_of(*command, frame);
+            wire::Strip strip = ScriptedNode::strip_of(*command, frame);
             strip.number = number;
             strip.last = number == 39;
             node.send_strip(strip, 1000 + frame);
@@ -120,7 +120,7 @@ TEST(Farm, StripsThatWaitHoldTheirCredits) {
       if (mynode() == 1 && frame == 0)
         while (!used_up) flick();
       if (mynode() == 0 && node.credits == 0 && !used_up) {
-        EXPECT_EQ(iprobe(node::kCredit), 0) << "a keyframe of which a part is missing has not been taken";
+        EXPECT_EQ(iprobe(wire::kCredit), 0) << "a keyframe of which a part is missing has not been taken";
         used_up = true;
       }
       while (node.credits == 0) node.take_credit();
@@ -142,13 +142,13 @@ TEST(Farm, ANodesFaultEndsTheRun) {
       node.boot();
       node.next_command();
       if (mynode() == 2) {
-        node::Fault fault{};
+        wire::Fault fault{};
         fault.node = 2;
         fault.frame = 3;
         std::memcpy(fault.reason.data(), "out of clay", 11);
-        ScriptedNode::send(node::kFault, fault);
+        ScriptedNode::send(wire::kFault, fault);
       }
-      ScriptedNode::receive(node::kStop);
+      ScriptedNode::receive(wire::kStop);
     });
     FAIL() << "nothing was thrown";
   } catch (const NodeFailure& failure) {
@@ -206,11 +206,11 @@ TEST(Farm, CancelEndsTheWaitForANodeThatNeverAnswers) {
       if (mynode() == 0 || silent_after > 1) {
         node.boot();
       } else if (silent_after == 1) {
-        ScriptedNode::send(node::kHello, ScriptedNode::hello());
+        ScriptedNode::send(wire::kHello, ScriptedNode::hello());
         node.take_load();
       }
       if (mynode() == 1) canceller = std::thread([&] { cancellation.cancel(); });
-      ScriptedNode::receive(node::kStop);
+      ScriptedNode::receive(wire::kStop);
     });
     canceller.join();
     EXPECT_TRUE(report.cancelled);
@@ -220,7 +220,7 @@ TEST(Farm, CancelEndsTheWaitForANodeThatNeverAnswers) {
 
 // In pieces, for messages have less than 2 GiB; once a machine.
 TEST(Farm, TheFilmTravelsInPieces) {
-  const EmptyFilm film({4}, 16, 8, 2 * node::kFilmPiece);
+  const EmptyFilm film({4}, 16, 8, 2 * wire::kFilmPiece);
   const std::size_t bytes = film.block().size();
   ScriptedRun run;
   run.nodes = 2;
@@ -232,7 +232,7 @@ TEST(Farm, TheFilmTravelsInPieces) {
     EXPECT_EQ(node.film_pieces.size(), 3u);
     std::vector<std::byte> whole;
     for (const auto& piece : node.film_pieces) {
-      EXPECT_LE(piece.size(), node::kFilmPiece);
+      EXPECT_LE(piece.size(), wire::kFilmPiece);
       whole.insert(whole.end(), piece.begin(), piece.end());
     }
     EXPECT_TRUE(std::equal(whole.begin(), whole.end(), film.block().begin(), film.block().end()));
@@ -241,4 +241,4 @@ TEST(Farm, TheFilmTravelsInPieces) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::farm

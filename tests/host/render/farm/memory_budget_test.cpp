@@ -4,13 +4,13 @@
 
 #include "node/wire/protocol.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
 
-node::FilmSettings picture(std::uint32_t width, std::uint32_t height) {
-  node::FilmSettings settings{};
+wire::FilmSettings picture(std::uint32_t width, std::uint32_t height) {
+  wire::FilmSettings settings{};
   settings.width = width;
   settings.height = height;
   return settings;
@@ -19,9 +19,9 @@ node::FilmSettings picture(std::uint32_t width, std::uint32_t height) {
 TEST(SharedHostMemory, OrdinaryFilmsHaveAllTheyCanUse) {
   const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), 64, 8, 16);
   EXPECT_EQ(memory.frames, 18u) << "two more than threads";
-  EXPECT_EQ(memory.credits, node::kMaxCredits);
+  EXPECT_EQ(memory.credits, wire::kMaxCredits);
   EXPECT_EQ(memory.backgrounds, 8u);
-  EXPECT_EQ(memory.strip_bytes(), 64u * 4 * node::kMaxStripBytes);
+  EXPECT_EQ(memory.strip_bytes(), 64u * 4 * wire::kMaxStripBytes);
   EXPECT_LT(memory.most_bytes(), memory.budget);
 }
 
@@ -31,7 +31,7 @@ TEST(SharedHostMemory, BuffersTakeOneGiBAtMost) {
 }
 
 TEST(SharedHostMemory, ManyNodesHaveFewerCredits) {
-  std::int32_t before = node::kMaxCredits;
+  std::int32_t before = wire::kMaxCredits;
   for (const std::uint32_t nodes : {256u, 1024u, 2048u, 4096u}) {
     const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), nodes, 1, 16);
     EXPECT_LE(memory.credits, before);
@@ -39,7 +39,7 @@ TEST(SharedHostMemory, ManyNodesHaveFewerCredits) {
     EXPECT_LE(memory.most_bytes(), memory.budget);
     before = memory.credits;
   }
-  EXPECT_LT(before, node::kMaxCredits);
+  EXPECT_LT(before, wire::kMaxCredits);
 }
 
 TEST(SharedHostMemory, HoweverSmallTheBudgetWorkGoesOn) {
@@ -50,4 +50,4 @@ TEST(SharedHostMemory, HoweverSmallTheBudgetWorkGoesOn) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::farm

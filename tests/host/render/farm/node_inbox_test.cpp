@@ -10,7 +10,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/farm/scripted_node.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 const EmptyFilm& film() {
@@ -21,11 +21,11 @@ const EmptyFilm& film() {
 // What the host says when node 1 of two does this while node 0 does all it should.
 std::string failure_with(const std::function<void()>& bad_node, bool traced = false) {
   ScriptedRun run;
-  Trace trace;
+  trace::Trace trace;
   run.nodes = 2;
   run.work = {frames_to(4)};
   if (traced) run.farm.trace = &trace;
-  return failure_of([&] {
+  return document::failure_of([&] {
     run.render(film(), [&] {
       if (mynode() == 1) return bad_node();
       ScriptedNode node;
@@ -41,20 +41,20 @@ void send_bytes(long type, const void* data, std::size_t bytes) { csend(type, da
 template <typename Spoil>
 std::string failure_greeting(const Spoil& spoil) {
   return failure_with([&] {
-    node::Hello hello = ScriptedNode::hello();
+    wire::Hello hello = ScriptedNode::hello();
     spoil(hello);
-    ScriptedNode::send(node::kHello, hello);
-    ScriptedNode::receive(node::kStop);
+    ScriptedNode::send(wire::kHello, hello);
+    ScriptedNode::receive(wire::kStop);
   });
 }
 
 TEST(Greeting, AnotherVersionIsNamedByItsMachine) {
-  const std::string failure = failure_greeting([](node::Hello& hello) {
+  const std::string failure = failure_greeting([](wire::Hello& hello) {
     hello.stamp.release = {0, 1, 0};
     hello.stamp.wire = 1;
     hello.host = {"old-machine"};
   });
-  const node::WireStamp own = node::own_stamp();
+  const wire::WireStamp own = wire::own_stamp();
   const std::string version =
       std::to_string(own.release[0]) + "." + std::to_string(own.release[1]) + "." + std::to_string(own.release[2]);
   EXPECT_EQ(failure, "old-machine (node 1) runs MARS 0.1.0 (wire 1), the host runs MARS " + version + " (wire " +
@@ -64,72 +64,72 @@ TEST(Greeting, AnotherVersionIsNamedByItsMachine) {
 TEST(Greeting, AnotherVersionsIsNotReadFurther) {
   const std::string failure = failure_with([] {
     std::vector<std::byte> message(200, std::byte{0xff});
-    node::Hello hello = ScriptedNode::hello();
+    wire::Hello hello = ScriptedNode::hello();
     ++hello.stamp.wire;
-    std::memcpy(message.data(), &hello, offsetof(node::Hello, node));
-    send_bytes(node::kHello, message.data(), message.size());
-    ScriptedNode::receive(node::kStop);
+    std::memcpy(message.data(), &hello, offsetof(wire::Hello, node));
+    send_bytes(wire::kHello, message.data(), message.size());
+    ScriptedNode::receive(wire::kStop);
   });
-  EXPECT_TRUE(holds(failure, "n1 (node 1) runs MARS")) << failure;
+  EXPECT_TRUE(document::holds(failure, "n1 (node 1) runs MARS")) << failure;
 }
 
 TEST(Greeting, IsOfTheSameBuild) {
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { hello.stamp.magic[2] ^= 1; }), "n1 (node 1) is not MARS"));
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { hello.stamp.byte_order = 0x04030201; }),
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.magic[2] ^= 1; }), "n1 (node 1) is not MARS"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.byte_order = 0x04030201; }),
                     "use machines of one byte order"));
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { ++hello.stamp.sizes; }), "messages of other sizes"));
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { ++hello.stamp.release[2]; }), "n1 (node 1) runs MARS"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { ++hello.stamp.sizes; }), "messages of other sizes"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { ++hello.stamp.release[2]; }), "n1 (node 1) runs MARS"));
 }
 
 TEST(Greeting, CutOffAnywhere) {
-  for (const std::size_t bytes : {std::size_t{0}, std::size_t{3}, sizeof(node::WireStamp) - 1, sizeof(node::WireStamp),
-                                  sizeof(node::Hello) - 1, sizeof(node::Hello) + 1}) {
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{3}, sizeof(wire::WireStamp) - 1, sizeof(wire::WireStamp),
+                                  sizeof(wire::Hello) - 1, sizeof(wire::Hello) + 1}) {
     const std::string failure = failure_with([bytes] {
-      std::vector<std::byte> message(sizeof(node::Hello) + 1);
-      const node::Hello hello = ScriptedNode::hello();
+      std::vector<std::byte> message(sizeof(wire::Hello) + 1);
+      const wire::Hello hello = ScriptedNode::hello();
       std::memcpy(message.data(), &hello, sizeof hello);
-      send_bytes(node::kHello, message.data(), bytes);
-      ScriptedNode::receive(node::kStop);
+      send_bytes(wire::kHello, message.data(), bytes);
+      ScriptedNode::receive(wire::kStop);
     });
-    const bool too_short = bytes < sizeof(node::WireStamp);
-    EXPECT_TRUE(holds(failure, too_short ? "node 1 is not MARS" : "node 1: sent a greeting of another size")) << failure;
+    const bool too_short = bytes < sizeof(wire::WireStamp);
+    EXPECT_TRUE(document::holds(failure, too_short ? "node 1 is not MARS" : "node 1: sent a greeting of another size")) << failure;
   }
 }
 
 TEST(Greeting, SaysOnlyWhatIsTrue) {
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { hello.node = 0; }), "another node's greeting"));
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { hello.machine = 7; }), "a machine that is not there"));
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { hello.machine = -1; }), "a machine that is not there"));
-  EXPECT_TRUE(holds(failure_greeting([](node::Hello& hello) { hello.simd.fill('x'); }), "names without end"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.node = 0; }), "another node's greeting"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = 7; }), "a machine that is not there"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = -1; }), "a machine that is not there"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.simd.fill('x'); }), "names without end"));
 }
 
 TEST(Greeting, ComesOnce) {
   ScriptedRun run;
   run.nodes = 2;
   run.work = {frames_to(4)};
-  const std::string failure = failure_of([&] {
+  const std::string failure = document::failure_of([&] {
     run.render(film(), [] {
-      for (int i = 0; mynode() == 1 && i < 2; ++i) ScriptedNode::send(node::kHello, ScriptedNode::hello());
-      ScriptedNode::receive(node::kStop);
+      for (int i = 0; mynode() == 1 && i < 2; ++i) ScriptedNode::send(wire::kHello, ScriptedNode::hello());
+      ScriptedNode::receive(wire::kStop);
     });
   });
-  EXPECT_TRUE(holds(failure, "n1 (node 1): sent another node's greeting")) << failure;
+  EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent another node's greeting")) << failure;
 }
 
 TEST(Inbox, WordOfTheFilmHasNothingInIt) {
   const std::string failure = failure_with([] {
     ScriptedNode node;
-    ScriptedNode::send(node::kHello, ScriptedNode::hello());
+    ScriptedNode::send(wire::kHello, ScriptedNode::hello());
     node.take_load();
-    ScriptedNode::send(node::kLoaded, std::int32_t{1});
-    ScriptedNode::receive(node::kStop);
+    ScriptedNode::send(wire::kLoaded, std::int32_t{1});
+    ScriptedNode::receive(wire::kStop);
   });
-  EXPECT_TRUE(holds(failure, "n1 (node 1): sent word of the film")) << failure;
+  EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent word of the film")) << failure;
 }
 
 // A strip for the keyframe of node 1: `spoil` changes the message.
 using Bytes = std::vector<std::byte>;
-std::string failure_of_strip(const std::function<void(Bytes&, node::Strip&)>& spoil) {
+std::string failure_of_strip(const std::function<void(Bytes&, wire::Strip&)>& spoil) {
   return failure_with([&] {
     ScriptedNode node;
     node.boot();
@@ -138,51 +138,51 @@ std::string failure_of_strip(const std::function<void(Bytes&, node::Strip&)>& sp
     const StripBytes strip = strip_bytes(ScriptedNode::strip_of(*command, command->frames.front()), {{{0, 1, 2}}, {1, 2}},
                                          {{{3, 0, 1}}, {3}}, store);
     Bytes bytes(strip.data.get(), strip.data.get() + strip.size);
-    node::Strip header;
+    wire::Strip header;
     std::memcpy(&header, bytes.data(), sizeof header);
     spoil(bytes, header);
     std::memcpy(bytes.data(), &header, std::min(bytes.size(), sizeof header));
-    send_bytes(node::kStrip, bytes.data(), bytes.size());
+    send_bytes(wire::kStrip, bytes.data(), bytes.size());
     while (node.next_command()) {
     }
   });
 }
 
-void expect_refused(const std::string& what, const std::function<void(Bytes&, node::Strip&)>& spoil) {
+void expect_refused(const std::string& what, const std::function<void(Bytes&, wire::Strip&)>& spoil) {
   const std::string failure = failure_of_strip(spoil);
   EXPECT_EQ(failure, "n1 (node 1): sent " + what + " (please report it)");
 }
 
 TEST(Inbox, StripsOfAnotherSize) {
-  expect_refused("a strip of an impossible size", [](Bytes& bytes, node::Strip&) { bytes.clear(); });
-  expect_refused("a strip of an impossible size", [](Bytes& bytes, node::Strip&) { bytes.resize(sizeof(node::Strip) - 1); });
-  expect_refused("a strip of an impossible size", [](Bytes& bytes, node::Strip& strip) {
-    bytes.resize(node::kMaxStripBytes + 4);
+  expect_refused("a strip of an impossible size", [](Bytes& bytes, wire::Strip&) { bytes.clear(); });
+  expect_refused("a strip of an impossible size", [](Bytes& bytes, wire::Strip&) { bytes.resize(sizeof(wire::Strip) - 1); });
+  expect_refused("a strip of an impossible size", [](Bytes& bytes, wire::Strip& strip) {
+    bytes.resize(wire::kMaxStripBytes + 4);
     strip.pixels += (bytes.size() - sizeof strip) / 4 - strip.pixels;
   });
   const std::string broken = "a strip that is not what its header says";
-  expect_refused(broken, [](Bytes& bytes, node::Strip&) { bytes.resize(sizeof(node::Strip)); });
-  expect_refused(broken, [](Bytes& bytes, node::Strip&) { bytes.push_back({}); });
-  expect_refused(broken, [](Bytes&, node::Strip& strip) { strip.pixels = ~std::uint64_t{0}; });
-  expect_refused(broken, [](Bytes&, node::Strip& strip) { strip.moving_runs = 0x80000000; });
-  expect_refused(broken, [](Bytes&, node::Strip& strip) { strip.kind = static_cast<node::FrameKind>(7); });
+  expect_refused(broken, [](Bytes& bytes, wire::Strip&) { bytes.resize(sizeof(wire::Strip)); });
+  expect_refused(broken, [](Bytes& bytes, wire::Strip&) { bytes.push_back({}); });
+  expect_refused(broken, [](Bytes&, wire::Strip& strip) { strip.pixels = ~std::uint64_t{0}; });
+  expect_refused(broken, [](Bytes&, wire::Strip& strip) { strip.moving_runs = 0x80000000; });
+  expect_refused(broken, [](Bytes&, wire::Strip& strip) { strip.kind = static_cast<wire::FrameKind>(7); });
 }
 
 // The second run's place and count, as they lie in the message.
-void spoil_run(Bytes& bytes, const node::Run& run) {
+void spoil_run(Bytes& bytes, const wire::Run& run) {
   std::memcpy(bytes.data() + bytes.size() - sizeof run, &run, sizeof run);
 }
 
 TEST(Inbox, StripsThatDrawWhereTheyMustNot) {
-  expect_refused("pixels outside the picture", [](Bytes& bytes, node::Strip&) { spoil_run(bytes, {3, 16, 1}); });
-  expect_refused("pixels outside the picture", [](Bytes& bytes, node::Strip&) { spoil_run(bytes, {3, 65535, 1}); });
-  expect_refused("pixels outside the strip's lines", [](Bytes& bytes, node::Strip&) { spoil_run(bytes, {8, 0, 1}); });
-  expect_refused("pixels outside the strip's lines", [](Bytes& bytes, node::Strip&) { spoil_run(bytes, {~0u, 0, 1}); });
-  expect_refused("pixels outside the strip's lines", [](Bytes&, node::Strip& strip) { strip.last_line = 3; });
-  expect_refused("lines outside the picture", [](Bytes&, node::Strip& strip) { strip.last_line = 9; });
-  expect_refused("lines outside the picture", [](Bytes&, node::Strip& strip) { strip.first_line = 8, strip.last_line = 0; });
+  expect_refused("pixels outside the picture", [](Bytes& bytes, wire::Strip&) { spoil_run(bytes, {3, 16, 1}); });
+  expect_refused("pixels outside the picture", [](Bytes& bytes, wire::Strip&) { spoil_run(bytes, {3, 65535, 1}); });
+  expect_refused("pixels outside the strip's lines", [](Bytes& bytes, wire::Strip&) { spoil_run(bytes, {8, 0, 1}); });
+  expect_refused("pixels outside the strip's lines", [](Bytes& bytes, wire::Strip&) { spoil_run(bytes, {~0u, 0, 1}); });
+  expect_refused("pixels outside the strip's lines", [](Bytes&, wire::Strip& strip) { strip.last_line = 3; });
+  expect_refused("lines outside the picture", [](Bytes&, wire::Strip& strip) { strip.last_line = 9; });
+  expect_refused("lines outside the picture", [](Bytes&, wire::Strip& strip) { strip.first_line = 8, strip.last_line = 0; });
   // A run of nothing: as many pixels as the runs count.
-  expect_refused("pixels outside the picture", [](Bytes& bytes, node::Strip& strip) {
+  expect_refused("pixels outside the picture", [](Bytes& bytes, wire::Strip& strip) {
     spoil_run(bytes, {3, 0, 0});
     bytes.erase(bytes.begin() + sizeof strip, bytes.begin() + sizeof strip + 4);
     --strip.pixels;
@@ -190,21 +190,21 @@ TEST(Inbox, StripsThatDrawWhereTheyMustNot) {
 }
 
 TEST(Inbox, StripsThatNobodyAskedFor) {
-  expect_refused("another node's strip", [](Bytes&, node::Strip& strip) { strip.node = 0; });
-  expect_refused("another node's strip", [](Bytes&, node::Strip& strip) { strip.node = 1000; });
-  expect_refused("a strip of frame 9 that it was not asked for", [](Bytes&, node::Strip& strip) { strip.frame = 9; });
-  expect_refused("a strip of frame 0 that it was not asked for", [](Bytes&, node::Strip& strip) { strip.interval = 3; });
-  expect_refused("a strip that is neither the last nor another", [](Bytes&, node::Strip& strip) { strip.last = 2; });
+  expect_refused("another node's strip", [](Bytes&, wire::Strip& strip) { strip.node = 0; });
+  expect_refused("another node's strip", [](Bytes&, wire::Strip& strip) { strip.node = 1000; });
+  expect_refused("a strip of frame 9 that it was not asked for", [](Bytes&, wire::Strip& strip) { strip.frame = 9; });
+  expect_refused("a strip of frame 0 that it was not asked for", [](Bytes&, wire::Strip& strip) { strip.interval = 3; });
+  expect_refused("a strip that is neither the last nor another", [](Bytes&, wire::Strip& strip) { strip.last = 2; });
 }
 
 TEST(Inbox, FaultsOfAnotherSize) {
   const std::string failure = failure_with([] {
     ScriptedNode node;
     node.boot();
-    ScriptedNode::send(node::kFault, std::int32_t{3});
-    ScriptedNode::receive(node::kStop);
+    ScriptedNode::send(wire::kFault, std::int32_t{3});
+    ScriptedNode::receive(wire::kStop);
   });
-  EXPECT_TRUE(holds(failure, "n1 (node 1): sent a fault of an impossible size")) << failure;
+  EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent a fault of an impossible size")) << failure;
 }
 
 // The reason has no end, the frame and the node are nonsense.
@@ -212,46 +212,46 @@ TEST(Inbox, AFaultIsOfItsSender) {
   const std::string failure = failure_with([] {
     ScriptedNode node;
     node.boot();
-    node::Fault fault{};
+    wire::Fault fault{};
     fault.node = 77;
     fault.frame = -5;
     fault.reason.fill('x');
-    ScriptedNode::send(node::kFault, fault);
-    ScriptedNode::receive(node::kStop);
+    ScriptedNode::send(wire::kFault, fault);
+    ScriptedNode::receive(wire::kStop);
   });
-  EXPECT_EQ(failure, "node 1: " + std::string(sizeof node::Fault::reason - 1, 'x'));
+  EXPECT_EQ(failure, "node 1: " + std::string(sizeof wire::Fault::reason - 1, 'x'));
 }
 
 TEST(Inbox, EventsOfARunThatIsNotTraced) {
   const std::string failure = failure_with([] {
     ScriptedNode node;
     node.boot();
-    hal::Event end{};
-    end.kind = hal::Event::Kind::lost;
-    ScriptedNode::send(node::kTrace, end);
-    ScriptedNode::receive(node::kStop);
+    messages::Event end{};
+    end.kind = messages::Event::Kind::lost;
+    ScriptedNode::send(wire::kTrace, end);
+    ScriptedNode::receive(wire::kStop);
   });
-  EXPECT_TRUE(holds(failure, "events of a run that is not traced")) << failure;
+  EXPECT_TRUE(document::holds(failure, "events of a run that is not traced")) << failure;
 }
 
 // What node 1 of a traced run sends.
-std::string failure_of_events(const std::vector<hal::Event>& events, std::size_t bytes_less = 0) {
+std::string failure_of_events(const std::vector<messages::Event>& events, std::size_t bytes_less = 0) {
   return failure_with(
       [&] {
         ScriptedNode node;
         node.boot();
-        send_bytes(node::kTrace, events.data(), events.size() * sizeof(hal::Event) - bytes_less);
-        ScriptedNode::receive(node::kStop);
+        send_bytes(wire::kTrace, events.data(), events.size() * sizeof(messages::Event) - bytes_less);
+        ScriptedNode::receive(wire::kStop);
       },
       true);
 }
 
 TEST(Inbox, EventsThatMakeNoSense) {
-  using Kind = hal::Event::Kind;
-  hal::Event end{}, event{};
+  using Kind = messages::Event::Kind;
+  messages::Event end{}, event{};
   end.kind = Kind::lost;
-  const auto refused = [&](const std::vector<hal::Event>& events, std::size_t bytes_less = 0) {
-    return holds(failure_of_events(events, bytes_less), "n1 (node 1): sent events ");
+  const auto refused = [&](const std::vector<messages::Event>& events, std::size_t bytes_less = 0) {
+    return document::holds(failure_of_events(events, bytes_less), "n1 (node 1): sent events ");
   };
   EXPECT_TRUE(refused({}));
   EXPECT_TRUE(refused({event, end}, 1));
@@ -269,14 +269,14 @@ TEST(Inbox, EventsThatMakeNoSense) {
 TEST(Inbox, TimesOfAnotherSize) {
   const std::string failure = failure_with(
       [] {
-        ScriptedNode::send(node::kHello, ScriptedNode::hello());
-        ScriptedNode::receive(node::kClock);
-        ScriptedNode::send(node::kClock, 1.0f);
-        ScriptedNode::receive(node::kStop);
+        ScriptedNode::send(wire::kHello, ScriptedNode::hello());
+        ScriptedNode::receive(wire::kClock);
+        ScriptedNode::send(wire::kClock, 1.0f);
+        ScriptedNode::receive(wire::kStop);
       },
       true);
-  EXPECT_TRUE(holds(failure, "n1 (node 1): sent a time of an impossible size")) << failure;
+  EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent a time of an impossible size")) << failure;
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::farm

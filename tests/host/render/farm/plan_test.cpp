@@ -7,7 +7,7 @@
 #include "node/wire/protocol.h"
 #include "tests/host/render/farm/empty_film.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
 using Frames = std::vector<std::uint32_t>;
@@ -39,16 +39,16 @@ TEST(Plan, OneFrame) {
   const Plan plan = make_plan(film.view(), {{6}}, 8);
   ASSERT_EQ(plan.tasks.size(), 1u);
   EXPECT_EQ(plan.tasks[0].frames, (Frames{6}));
-  EXPECT_EQ(plan.groups, (std::vector<hal::Group>{{0, 8}}));
+  EXPECT_EQ(plan.groups, (std::vector<collectives::Group>{{0, 8}}));
 }
 
 TEST(Plan, GroupsCoverTheNodesSideBySide) {
   for (const int nodes : {1, 2, 5, 8})
     for (const int groups : {1, 2, 3, 100}) {
-      const std::vector<hal::Group> made = make_groups(nodes, groups, 1);
+      const std::vector<collectives::Group> made = make_groups(nodes, groups, 1);
       EXPECT_EQ(made.size(), static_cast<std::size_t>(std::min(nodes, groups))) << "no more than nodes, though than tasks";
       int next = 0;
-      for (const hal::Group& group : made) {
+      for (const collectives::Group& group : made) {
         EXPECT_EQ(group.first, next);
         EXPECT_GE(group.count, 1);
         next += group.count;
@@ -67,9 +67,9 @@ TEST(Plan, WithoutAWishAGroupForEveryFourTasks) {
 TEST(Plan, InbetweensGoRoundTheGroup) {
   Frames counts(3);
   for (std::uint64_t inbetween = 0; inbetween < 300; ++inbetween)
-    ++counts.at(static_cast<std::size_t>(node::contributor_of_inbetween(inbetween, 3)));
+    ++counts.at(static_cast<std::size_t>(wire::contributor_of_inbetween(inbetween, 3)));
   EXPECT_EQ(counts, (Frames{100, 100, 100}));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::farm

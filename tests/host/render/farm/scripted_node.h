@@ -15,14 +15,14 @@
 #include "tests/host/render/farm/empty_film.h"
 #include "tests/host/render/farm/strips.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 class ScriptedNode {
  public:
   // A sound one; every node is a machine of its own, n0, n1, ...
-  static node::Hello hello() {
-    node::Hello hello{};
-    hello.stamp = node::own_stamp();
+  static wire::Hello hello() {
+    wire::Hello hello{};
+    hello.stamp = wire::own_stamp();
     hello.node = hello.machine = static_cast<std::int32_t>(mynode());
     hello.memory = 1 << 20;
     const std::string name = "n" + std::to_string(mynode());
@@ -37,23 +37,23 @@ class ScriptedNode {
 
   // Greets and takes the film, unless the host says stop.
   void boot() {
-    send(node::kHello, hello());
-    if (take_load()) csend(node::kLoaded, nullptr, 0, myhost(), 0);
+    send(wire::kHello, hello());
+    if (take_load()) csend(wire::kLoaded, nullptr, 0, myhost(), 0);
   }
 
   // Its clock is asked first where the run is traced.
   bool take_load() {
     while (true) {
-      cprobe(node::any_of(node::kLoad, node::kClock, node::kStop));
-      if (infotype() == node::kStop) return false;
-      if (infotype() == node::kLoad) break;
-      receive(node::kClock);
-      send(node::kClock, dclock());
+      cprobe(wire::any_of(wire::kLoad, wire::kClock, wire::kStop));
+      if (infotype() == wire::kStop) return false;
+      if (infotype() == wire::kLoad) break;
+      receive(wire::kClock);
+      send(wire::kClock, dclock());
     }
-    const std::vector<std::byte> message = receive(node::kLoad);
+    const std::vector<std::byte> message = receive(wire::kLoad);
     std::memcpy(&load, message.data(), sizeof load);
     for (std::uint64_t at = 0; at < load.film_bytes; at += film_pieces.back().size())
-      film_pieces.push_back(receive(node::kFilmBlock));
+      film_pieces.push_back(receive(wire::kFilmBlock));
     return true;
   }
 
@@ -66,20 +66,20 @@ class ScriptedNode {
 
   // The next command; none: stop.
   struct Command {
-    node::Render render;
+    wire::Render render;
     std::vector<std::uint32_t> frames;
   };
   std::optional<Command> next_command() {
     while (true) {
-      cprobe(node::any_of(node::kRender, node::kCredit, node::kStop));
-      if (infotype() == node::kStop) {
-        receive(node::kStop);
+      cprobe(wire::any_of(wire::kRender, wire::kCredit, wire::kStop));
+      if (infotype() == wire::kStop) {
+        receive(wire::kStop);
         return std::nullopt;
       }
-      if (infotype() == node::kRender) break;
+      if (infotype() == wire::kRender) break;
       take_credit();
     }
-    const std::vector<std::byte> message = receive(node::kRender);
+    const std::vector<std::byte> message = receive(wire::kRender);
     Command command;
     std::memcpy(&command.render, message.data(), sizeof command.render);
     command.frames.resize((message.size() - sizeof command.render) / sizeof(std::uint32_t));
@@ -88,16 +88,16 @@ class ScriptedNode {
   }
 
   void take_credit() {
-    receive(node::kCredit);
+    receive(wire::kCredit);
     ++credits;
   }
 
   // The header of this node's only strip of a frame.
-  static node::Strip strip_of(const Command& command, std::uint32_t frame) {
-    node::Strip strip{};
+  static wire::Strip strip_of(const Command& command, std::uint32_t frame) {
+    wire::Strip strip{};
     strip.frame = frame;
     strip.interval = command.render.interval;
-    strip.kind = frame == command.frames.front() ? node::FrameKind::keyframe : node::FrameKind::inbetween;
+    strip.kind = frame == command.frames.front() ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
     strip.node = static_cast<std::int32_t>(mynode());
     strip.last = 1;
     strip.last_line = 8;
@@ -105,19 +105,19 @@ class ScriptedNode {
   }
 
   // One pixel, in line and column 0.
-  void send_strip(const node::Strip& header, std::uint32_t pixel) {
+  void send_strip(const wire::Strip& header, std::uint32_t pixel) {
     StripStore store;
     const StripBytes bytes = strip_bytes(header, {}, {{{0, 0, 1}}, {pixel}}, store);
-    csend(node::kStrip, bytes.data.get(), static_cast<long>(bytes.size), myhost(), 0);
+    csend(wire::kStrip, bytes.data.get(), static_cast<long>(bytes.size), myhost(), 0);
     --credits;
   }
 
   // This node's frames of a task: the keyframe and its inbetweens.
   static std::vector<std::uint32_t> own_frames(const Command& command) {
     std::vector<std::uint32_t> own{command.frames.front()};
-    const node::Render& render = command.render;
+    const wire::Render& render = command.render;
     for (std::size_t k = 1; k < command.frames.size(); ++k)
-      if (render.group_first + node::contributor_of_inbetween(render.first_inbetween + k - 1, render.group_count) == mynode())
+      if (render.group_first + wire::contributor_of_inbetween(render.first_inbetween + k - 1, render.group_count) == mynode())
         own.push_back(command.frames[k]);
     return own;
   }
@@ -134,22 +134,22 @@ class ScriptedNode {
   // False: the host says stop.
   bool wait_for_credit() {
     while (credits == 0) {
-      cprobe(node::any_of(node::kCredit, node::kStop));
-      if (infotype() == node::kStop) return false;
+      cprobe(wire::any_of(wire::kCredit, wire::kStop));
+      if (infotype() == wire::kStop) return false;
       take_credit();
     }
     return true;
   }
 
-  node::Load load{};
+  wire::Load load{};
   std::vector<std::vector<std::byte>> film_pieces;
-  int credits = node::kMaxCredits;
+  int credits = wire::kMaxCredits;
 };
 
 // Keeps the first pixel of each frame.
-class FirstPixels : public Sink {
+class FirstPixels : public sinks::Sink {
  public:
-  void take(const Frame& frame) override {
+  void take(const compositor::Frame& frame) override {
     if (taken) taken(frame.number);
     const std::lock_guard lock(mutex_);
     pixels[frame.number] = frame.pixels.front();
@@ -173,10 +173,10 @@ struct ScriptedRun {
     const Plan plan = make_plan(film.view(), work, nodes);
     FarmReport report;
     const auto host = [&] {
-      SinkPool pool(sink, {film.view().settings().width, film.view().settings().height, 8, buffers, 1});
+      sinks::SinkPool pool(sink, {film.view().settings().width, film.view().settings().height, 8, buffers, 1});
       report = render_film(film.block(), plan, farm, pool, listener);
     };
-    hal::run_threads(nodes, host, node);
+    threads::run_threads(nodes, host, node);
     return report;
   }
 };
@@ -194,4 +194,4 @@ inline std::map<std::uint32_t, std::uint32_t> pixels_of(const std::vector<std::u
   return pixels;
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

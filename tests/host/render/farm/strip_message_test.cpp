@@ -6,12 +6,12 @@
 
 #include "tests/host/render/farm/strips.h"
 
-namespace mars::host {
+namespace mars::farm {
 namespace {
 
-node::Strip keyframe_strip() {
-  node::Strip strip{};
-  strip.kind = node::FrameKind::keyframe;
+wire::Strip keyframe_strip() {
+  wire::Strip strip{};
+  strip.kind = wire::FrameKind::keyframe;
   return strip;
 }
 
@@ -36,18 +36,18 @@ TEST(StripMessage, OtherThanItsHeaderSaysIsNone) {
   StripStore store;
   const auto is_none = [&](const auto& spoil) {
     StripBytes bytes = strip_bytes(keyframe_strip(), kConstant, kMoving, store);
-    spoil(bytes, *reinterpret_cast<node::Strip*>(bytes.data.get()));
+    spoil(bytes, *reinterpret_cast<wire::Strip*>(bytes.data.get()));
     return !StripMessage::read(std::move(bytes));
   };
-  EXPECT_FALSE(is_none([](StripBytes&, node::Strip&) {}));
-  EXPECT_TRUE(is_none([](StripBytes& bytes, node::Strip&) { bytes.size = sizeof(node::Strip) - 1; }));
-  EXPECT_TRUE(is_none([](StripBytes& bytes, node::Strip&) { bytes.size -= 1; }));
-  EXPECT_TRUE(is_none([](StripBytes&, node::Strip& strip) { strip.pixels = ~std::uint64_t{0} / 4; }));
-  EXPECT_TRUE(is_none([](StripBytes&, node::Strip& strip) { strip.constant_runs = 0xffffffff; }));
-  EXPECT_TRUE(is_none([](StripBytes&, node::Strip& strip) { strip.kind = node::FrameKind::inbetween; }));
-  EXPECT_TRUE(is_none([](StripBytes&, node::Strip& strip) { strip.kind = static_cast<node::FrameKind>(2); }));
+  EXPECT_FALSE(is_none([](StripBytes&, wire::Strip&) {}));
+  EXPECT_TRUE(is_none([](StripBytes& bytes, wire::Strip&) { bytes.size = sizeof(wire::Strip) - 1; }));
+  EXPECT_TRUE(is_none([](StripBytes& bytes, wire::Strip&) { bytes.size -= 1; }));
+  EXPECT_TRUE(is_none([](StripBytes&, wire::Strip& strip) { strip.pixels = ~std::uint64_t{0} / 4; }));
+  EXPECT_TRUE(is_none([](StripBytes&, wire::Strip& strip) { strip.constant_runs = 0xffffffff; }));
+  EXPECT_TRUE(is_none([](StripBytes&, wire::Strip& strip) { strip.kind = wire::FrameKind::inbetween; }));
+  EXPECT_TRUE(is_none([](StripBytes&, wire::Strip& strip) { strip.kind = static_cast<wire::FrameKind>(2); }));
   // As many bytes, but a pixel's are taken for half a run's.
-  EXPECT_TRUE(is_none([](StripBytes&, node::Strip& strip) { strip.pixels += 2, strip.moving_runs -= 1; }));
+  EXPECT_TRUE(is_none([](StripBytes&, wire::Strip& strip) { strip.pixels += 2, strip.moving_runs -= 1; }));
 }
 
 TEST(StripStore, UsesMemoryAgain) {
@@ -72,4 +72,4 @@ TEST(StripStore, UsesMemoryAgain) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::farm

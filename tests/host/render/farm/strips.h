@@ -6,19 +6,19 @@
 
 #include "host/render/farm/strip_message.h"
 
-namespace mars::host {
+namespace mars::farm {
 
 struct Runs {
-  std::vector<node::Run> runs;
+  std::vector<wire::Run> runs;
   std::vector<std::uint32_t> pixels;
 };
 
 // The message of a strip with `header`'s names and these contents, in memory of `store`.
-inline StripBytes strip_bytes(node::Strip header, const Runs& constant, const Runs& moving, StripStore& store) {
+inline StripBytes strip_bytes(wire::Strip header, const Runs& constant, const Runs& moving, StripStore& store) {
   header.constant_runs = static_cast<std::uint32_t>(constant.runs.size());
   header.moving_runs = static_cast<std::uint32_t>(moving.runs.size());
   header.pixels = constant.pixels.size() + moving.pixels.size();
-  const std::size_t runs = (constant.runs.size() + moving.runs.size()) * sizeof(node::Run);
+  const std::size_t runs = (constant.runs.size() + moving.runs.size()) * sizeof(wire::Run);
   StripBytes bytes = store.take(sizeof header + header.pixels * sizeof(std::uint32_t) + runs);
   std::byte* to = bytes.data.get();
   const auto append = [&](const void* from, std::size_t size) {
@@ -28,8 +28,8 @@ inline StripBytes strip_bytes(node::Strip header, const Runs& constant, const Ru
   append(&header, sizeof header);
   for (const Runs* part : {&constant, &moving})
     append(part->pixels.data(), part->pixels.size() * sizeof(std::uint32_t));
-  for (const Runs* part : {&constant, &moving}) append(part->runs.data(), part->runs.size() * sizeof(node::Run));
+  for (const Runs* part : {&constant, &moving}) append(part->runs.data(), part->runs.size() * sizeof(wire::Run));
   return bytes;
 }
 
-}  // namespace mars::host
+}  // namespace mars::farm

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace mars::host {
+namespace mars::report {
 namespace {
 
 using nlohmann::json;
 
-node::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last) {
-  node::Strip strip{};
+wire::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last) {
+  wire::Strip strip{};
   strip.frame = frame;
   strip.node = node;
   strip.last = last;
@@ -23,10 +23,10 @@ node::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last)
   return strip;
 }
 
-FarmReport two_nodes_two_frames() {
-  FarmReport report;
+farm::FarmReport two_nodes_two_frames() {
+  farm::FarmReport report;
   for (const std::int32_t number : {0, 1}) {
-    node::Hello hello{};
+    wire::Hello hello{};
     hello.node = number;
     hello.memory = 1000;
     hello.seat = {number, number, 0, 0, 0};
@@ -35,14 +35,14 @@ FarmReport two_nodes_two_frames() {
     report.nodes.push_back(hello);
   }
   report.strips = {strip_of(1, 1, 1), strip_of(0, 1, 0), strip_of(0, 1, 1), strip_of(0, 0, 1)};
-  report.frames = {{1, 0, node::FrameKind::inbetween, 0.5, 0}, {0, 0, node::FrameKind::keyframe, 0.25, 0}};
+  report.frames = {{1, 0, wire::FrameKind::inbetween, 0.5, 0}, {0, 0, wire::FrameKind::keyframe, 0.25, 0}};
   report.film_bytes = 4096;
   report.total_seconds = 3;
   return report;
 }
 
 TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
-  const ReportHead head{"film.json", "abc", "mpi", {"film.json", "-o", "x"}, 96, 54, share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, 2, 1, 4)};
+  const ReportHead head{"film.json", "abc", "mpi", {"film.json", "-o", "x"}, 96, 54, farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, 2, 1, 4)};
   const json report = json::parse(report_text(head, two_nodes_two_frames()));
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);
@@ -67,8 +67,8 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
 
 TEST(Report, NamesNeedNotBeText) {
   const ReportHead head{"\xff.json", "abc", "mpi", {"\xff.json"}, 96, 54, {}};
-  EXPECT_FALSE(json::parse(report_text(head, FarmReport{})).empty());
+  EXPECT_FALSE(json::parse(report_text(head, farm::FarmReport{})).empty());
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::report

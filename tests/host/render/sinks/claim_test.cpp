@@ -10,7 +10,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::sinks {
 namespace {
 
 Manifest film(const char* name, char checksum, std::vector<std::uint32_t> frames) {
@@ -24,12 +24,12 @@ class ClaimOf {
     ProcessName process = this_process();
     process.host = "n1";
     process.number = 4711;
-    write_whole_file(folder_ / "n1.claim", text_of(Claim{process, since, manifest}));
+    document::write_whole_file(folder_ / "n1.claim", text_of(Claim{process, since, manifest}));
   }
   RunFiles run() const { return {"n1", {folder_ / "n1.claim", folder_ / "n1.hashes"}}; }
   std::filesystem::path hashes() const { return folder_ / "n1.hashes"; }
   std::string refuses(const Manifest& wanted) const {
-    return failure_of([&] { refuse_rival(run(), wanted, "out"); });
+    return document::failure_of([&] { refuse_rival(run(), wanted, "out"); });
   }
 
  private:
@@ -56,9 +56,9 @@ TEST(Claim, OnlyOtherFramesOfTheSameFilmAreLetIn) {
       << overlap;
   EXPECT_TRUE(overlap.ends_with("(give other frames with --frames, another folder with -o, or wait)")) << overlap;
   const std::string other = claim.refuses(film("b.json", 'b', {3}));
-  EXPECT_TRUE(holds(other, "renders frames 0-2,9 of a.json into this folder")) << other;
-  EXPECT_TRUE(holds(other, "(give another folder with -o, or wait)")) << other;
-  EXPECT_TRUE(holds(claim.refuses(film("a.json", 'b', {3})), "of another version or size of a.json into"));
+  EXPECT_TRUE(document::holds(other, "renders frames 0-2,9 of a.json into this folder")) << other;
+  EXPECT_TRUE(document::holds(other, "(give another folder with -o, or wait)")) << other;
+  EXPECT_TRUE(document::holds(claim.refuses(film("a.json", 'b', {3})), "of another version or size of a.json into"));
 }
 
 TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {
@@ -66,24 +66,24 @@ TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {
   for (std::uint32_t frame = 1; frame < 400; frame += 2) odd.push_back(frame);
   const ClaimOf claim(film("a.json", 'a', odd), 12345);
   const std::string refusal = claim.refuses(film("a.json", 'a', {1}));
-  EXPECT_TRUE(holds(refusal, "renders 200 frames from 1 to 399 of a.json into this folder since 19")) << refusal;
-  EXPECT_TRUE(holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})), "renders frame 3 of a.json"));
+  EXPECT_TRUE(document::holds(refusal, "renders 200 frames from 1 to 399 of a.json into this folder since 19")) << refusal;
+  EXPECT_TRUE(document::holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})), "renders frame 3 of a.json"));
 }
 
 TEST(Claim, OneThatCannotBeReadIsRefusedToo) {
   const ClaimOf claim(film("a.json", 'a', {1}));
-  write_whole_file(claim.run().files.front(), "nonsense");
-  EXPECT_TRUE(holds(claim.refuses(film("a.json", 'a', {3})), "n1.claim: another run renders into this folder"));
+  document::write_whole_file(claim.run().files.front(), "nonsense");
+  EXPECT_TRUE(document::holds(claim.refuses(film("a.json", 'a', {3})), "n1.claim: another run renders into this folder"));
 }
 
 TEST(Claim, OneThatNoRunWritesCannotBeRead) {
   const ClaimOf claim(film("a.json", 'a', {1}));
   const std::filesystem::path file = claim.run().files.front();
-  const nlohmann::json sound = nlohmann::json::parse(read_file(file));
+  const nlohmann::json sound = nlohmann::json::parse(document::read_file(file));
   const auto with = [&](const char* key, const nlohmann::json& value) {
     nlohmann::json changed = sound;
     changed[key] = value;
-    write_whole_file(file, changed.dump());
+    document::write_whole_file(file, changed.dump());
     return claim_of(claim.run()).has_value();
   };
   EXPECT_TRUE(with("process", 4712));
@@ -99,11 +99,11 @@ TEST(Claim, OneThatNoRunWritesCannotBeRead) {
 
 TEST(Claim, FilmsNamesAreToldOnOneLineAndShort) {
   const std::string odd = ClaimOf(film("a\n\033[2J.json", 'a', {1})).refuses(film("x", 'a', {1}));
-  EXPECT_TRUE(holds(odd, "renders frame 1 of a??[2J.json into")) << odd;
+  EXPECT_TRUE(document::holds(odd, "renders frame 1 of a??[2J.json into")) << odd;
   const std::string path = std::string(4000, '/') + "film.json";
   const std::string refusal = ClaimOf(film(path.c_str(), 'a', {1})).refuses(film("x", 'a', {1}));
-  EXPECT_TRUE(holds(refusal, "frame 1 of ...//")) << refusal;
-  EXPECT_TRUE(holds(refusal, "/film.json into")) << refusal;
+  EXPECT_TRUE(document::holds(refusal, "frame 1 of ...//")) << refusal;
+  EXPECT_TRUE(document::holds(refusal, "/film.json into")) << refusal;
   EXPECT_LT(refusal.size(), 500u);
 }
 
@@ -117,10 +117,10 @@ TEST(Claim, WhatWasRenderedIsKnownUpToWhereTheRunWasKilled) {
     log.add(1, hash);
     log.add(5, hash);  // not claimed
   }
-  EXPECT_NE(failure_of([&] { HashLog(claim.hashes()); }), "") << "it is one run's own";
-  write_whole_file(claim.hashes(), read_file(claim.hashes()) + "2 777");
+  EXPECT_NE(document::failure_of([&] { HashLog(claim.hashes()); }), "") << "it is one run's own";
+  document::write_whole_file(claim.hashes(), document::read_file(claim.hashes()) + "2 777");
   EXPECT_EQ(rendered_by(claim.run())->pixel_hashes, (std::vector<std::string>{"", hash, "", hash}));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -12,7 +12,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::sinks {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,7 +62,7 @@ TEST(FolderTurn, ThatOfAnEndedRunDoesNotCount) {
   const TemporaryFolder folder;
   const RunsFolder before(folder.path(), ended()), runs(folder.path(), this_process());
   before.add_own_file(kTurnEnding, to_json(before.self()).dump());
-  EXPECT_EQ(failure_of([&] { FolderTurn(runs, 2s); }), "");
+  EXPECT_EQ(document::failure_of([&] { FolderTurn(runs, 2s); }), "");
 }
 
 TEST(FolderTurn, OfARunOnAnotherMachineItCountsForAMinute) {
@@ -70,10 +70,10 @@ TEST(FolderTurn, OfARunOnAnotherMachineItCountsForAMinute) {
   const RunsFolder there(folder.path(), elsewhere()), runs(folder.path(), this_process());
   const fs::path turn = there.add_own_file(kTurnEnding, to_json(there.self()).dump());
   age(turn, 50s);
-  const std::string failure = failure_of([&] { FolderTurn(runs, 50ms); });
-  EXPECT_TRUE(holds(failure, "on host n7, begins or ends in this folder, and does not go on")) << failure;
+  const std::string failure = document::failure_of([&] { FolderTurn(runs, 50ms); });
+  EXPECT_TRUE(document::holds(failure, "on host n7, begins or ends in this folder, and does not go on")) << failure;
   age(turn, 15s);
-  EXPECT_EQ(failure_of([&] { FolderTurn(runs, 2s); }), "");
+  EXPECT_EQ(document::failure_of([&] { FolderTurn(runs, 2s); }), "");
 }
 
 TEST(FolderTurn, ARunWhoseFileIsRenamedMeanwhileHasNotEnded) {
@@ -114,14 +114,14 @@ TEST(FolderTurn, WhatTheSystemRefusesIsNotTakenForALoss) {
   const TemporaryFolder folder;
   const RunsFolder blocked(folder.path(), this_process()), runs(folder.path(), this_process());
   fs::create_directories(blocked.own_file(kTurnEnding));
-  const std::string failure = failure_of([&] { const FolderTurn turn(blocked); });
-  EXPECT_TRUE(holds(failure, ".turn: is not a regular file")) << failure;
+  const std::string failure = document::failure_of([&] { const FolderTurn turn(blocked); });
+  EXPECT_TRUE(document::holds(failure, ".turn: is not a regular file")) << failure;
   fs::remove(blocked.own_file(kTurnEnding));
   const FolderTurn turn(runs);
   fs::rename(folder / ".runs", folder / "away");
   fs::create_symlink(".runs", folder / ".runs");
-  const std::string looped = failure_of([&] { turn.confirm(); });
-  EXPECT_TRUE(holds(looped, "cannot renew: Too many levels of symbolic links")) << looped;
+  const std::string looped = document::failure_of([&] { turn.confirm(); });
+  EXPECT_TRUE(document::holds(looped, "cannot renew: Too many levels of symbolic links")) << looped;
 }
 
 TEST(FolderTurn, PausesGrowAndDiffer) {
@@ -147,7 +147,7 @@ TEST(FolderTurn, WhoHasLostItLearnsThat) {
   const FolderTurn turn(runs);
   turn.confirm();
   fs::remove(turn.file());
-  EXPECT_TRUE(holds(failure_of([&] { turn.confirm(); }), "another has taken it for ended"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { turn.confirm(); }), "another has taken it for ended"));
 }
 
 TEST(FolderTurn, NothingIsWrittenWhereALinkLeads) {
@@ -156,7 +156,7 @@ TEST(FolderTurn, NothingIsWrittenWhereALinkLeads) {
   fs::create_directory(folder / "out");
   fs::create_directory_symlink("../elsewhere", folder / "out/.runs");
   const RunsFolder runs(folder / "out", this_process());
-  EXPECT_TRUE(holds(failure_of([&] { const FolderTurn turn(runs); }), ".runs: is not a folder"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { const FolderTurn turn(runs); }), ".runs: is not a folder"));
   EXPECT_TRUE(fs::is_empty(folder / "elsewhere"));
 }
 
@@ -169,4 +169,4 @@ TEST(RunsFolder, IsForWhomTheFolderOfFramesIsFor) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::sinks

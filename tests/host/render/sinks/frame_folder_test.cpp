@@ -23,7 +23,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::sinks {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,7 +40,7 @@ Manifest of_frames(std::vector<std::uint32_t> frames) {
 // Each frame of one colour.
 void put_frames(FrameFolder& folder, const Manifest& manifest, std::uint32_t color) {
   PngSink sink(folder);
-  Frame frame(manifest.width, manifest.height, 16);
+  compositor::Frame frame(manifest.width, manifest.height, 16);
   for (const std::uint32_t number : manifest.frames) {
     frame.number = number;
     std::fill(frame.pixels.begin(), frame.pixels.end(), color + number);
@@ -64,7 +64,7 @@ void run_and_kill(const fs::path& path, const Manifest& manifest, const std::vec
     put_frames(folder, of_frames(written), 7);
     for (const fs::directory_entry& entry : fs::directory_iterator(path / ".runs"))
       if (entry.path().extension() == ".claim")
-        create_file(fs::path(entry.path()).replace_extension(".frame.part"), "x");
+        document::create_file(fs::path(entry.path()).replace_extension(".frame.part"), "x");
     kill(getpid(), SIGKILL);
   }
   int status = 0;
@@ -73,7 +73,7 @@ void run_and_kill(const fs::path& path, const Manifest& manifest, const std::vec
 }
 
 std::string failure_to_claim(const fs::path& path, const Manifest& manifest) {
-  return failure_of([&] { FrameFolder(path, manifest); });
+  return document::failure_of([&] { FrameFolder(path, manifest); });
 }
 
 TEST(FrameFolder, NamesSortAsFramesDo) {
@@ -118,8 +118,8 @@ TEST(FrameFolder, WhatItHasRenderedDoesNotDependOnReadingItsClaimAgain) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), small_manifest());
   put_frames(frames, small_manifest(), 7);
-  write_whole_file(file_of_run(folder.path(), ".claim"), "nonsense");
-  write_whole_file(file_of_run(folder.path(), ".hashes"), "");
+  document::write_whole_file(file_of_run(folder.path(), ".claim"), "nonsense");
+  document::write_whole_file(file_of_run(folder.path(), ".hashes"), "");
   frames.finish();
   EXPECT_TRUE(verify_folder(folder.path()).troubles.empty());
   EXPECT_EQ(folder.entries(), 6u);
@@ -129,9 +129,9 @@ TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
   put_frames(frames, of_frames({1}), 7);
-  write_whole_file(folder / "frames.json", "nonsense");
-  const std::string failure = failure_of([&] { frames.finish(); });
-  EXPECT_TRUE(holds(failure, "frames.json: not a manifest of frames")) << failure;
+  document::write_whole_file(folder / "frames.json", "nonsense");
+  const std::string failure = document::failure_of([&] { frames.finish(); });
+  EXPECT_TRUE(document::holds(failure, "frames.json: not a manifest of frames")) << failure;
   EXPECT_TRUE(fs::exists(file_of_run(folder.path(), ".hashes")));
 }
 
@@ -151,8 +151,8 @@ TEST(FrameFolder, ARunThatFailsDoesNotWaitForOneThatHangs) {
 
 TEST(FrameFolder, TheLongestFilmsManifestIsRead) {
   const TemporaryFolder folder;
-  Manifest manifest = of_frames({0, node::kMostFrames - 1});
-  manifest.film_frames = node::kMostFrames;
+  Manifest manifest = of_frames({0, wire::kMostFrames - 1});
+  manifest.film_frames = wire::kMostFrames;
   fill(folder.path(), manifest, 7);
   EXPECT_EQ(read_manifest(folder.path()).frames, manifest.frames);
 }
@@ -192,10 +192,10 @@ TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
   const fs::path of_another = folder / ".runs/vm-1-another.frame-0003.png.part";
-  create_file(of_another, "nobody says any more whose it is");
+  document::create_file(of_another, "nobody says any more whose it is");
   fs::last_write_time(of_another, fs::last_write_time(of_another) - 65s);
   const fs::path part = file_of_run(folder.path(), ".claim").replace_extension(".frame-0001.png.part");
-  create_file(part, "half a frame");
+  document::create_file(part, "half a frame");
   fill(folder.path(), of_frames({2}), 7);
   clear_ended_runs(folder.path());
   EXPECT_TRUE(fs::exists(part));
@@ -210,13 +210,13 @@ TEST(FrameFolder, RunsThatWouldBeMixedAreRefusedAndChangeNothing) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1, 2}));
   put_frames(frames, of_frames({1}), 7);
-  const std::string manifest = read_file(folder / "frames.json");
-  EXPECT_TRUE(holds(failure_to_claim(folder.path(), of_frames({2, 3})), "renders frames 1-2 of a film.json into"));
+  const std::string manifest = document::read_file(folder / "frames.json");
+  EXPECT_TRUE(document::holds(failure_to_claim(folder.path(), of_frames({2, 3})), "renders frames 1-2 of a film.json into"));
   Manifest other = of_frames({1, 3});
   other.checksum = std::string(32, 'b');
   other.film = "other.json";
-  EXPECT_TRUE(holds(failure_to_claim(folder.path(), other), "renders frames 1-2 of a film.json into"));
-  EXPECT_EQ(read_file(folder / "frames.json"), manifest);
+  EXPECT_TRUE(document::holds(failure_to_claim(folder.path(), other), "renders frames 1-2 of a film.json into"));
+  EXPECT_EQ(document::read_file(folder / "frames.json"), manifest);
   EXPECT_TRUE(fs::exists(frames.file_of(1)));
   EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), "");
   put_frames(frames, of_frames({2}), 7);
@@ -234,7 +234,7 @@ TEST(FrameFolder, OfARunOnAnotherMachineTheClaimCountsForAMinute) {
       fs::last_write_time(entry.path(), entry.last_write_time() - by);
   };
   age(50s);
-  EXPECT_TRUE(holds(failure_to_claim(folder.path(), of_frames({2})), "another run"));
+  EXPECT_TRUE(document::holds(failure_to_claim(folder.path(), of_frames({2})), "another run"));
   clear_ended_runs(folder.path());
   EXPECT_TRUE(fs::exists(folder / ".runs"));
   age(15s);
@@ -246,7 +246,7 @@ TEST(FrameFolder, WhoHasLostItsClaimWritesNoMore) {
   const TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1, 2}));
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs")) fs::remove(entry.path());
-  EXPECT_TRUE(holds(failure_of([&] { frames.finish(); }), "claim to the folder is gone"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { frames.finish(); }), "claim to the folder is gone"));
 }
 
 TEST(FrameFolder, OfRunsThatStartAtOnceOneGetsAFrameTwoWant) {
@@ -261,8 +261,8 @@ TEST(FrameFolder, OfRunsThatStartAtOnceOneGetsAFrameTwoWant) {
         std::unique_ptr<FrameFolder> frames;
         start.arrive_and_wait();
         const std::string failure =
-            failure_of([&] { frames = std::make_unique<FrameFolder>(folder.path(), small_manifest()); });
-        refused += holds(failure, "another run, process");
+            document::failure_of([&] { frames = std::make_unique<FrameFolder>(folder.path(), small_manifest()); });
+        refused += document::holds(failure, "another run, process");
         tried.arrive_and_wait();
         if (!frames) return;
         ++won;
@@ -291,15 +291,15 @@ TEST(FrameFolder, OfRunsOfOtherFramesNothingIsLost) {
 
 TEST(FrameFolder, NothingIsWrittenThroughLinks) {
   const TemporaryFolder folder;
-  write_whole_file(folder / "precious", "old");
+  document::write_whole_file(folder / "precious", "old");
   fs::create_directory(folder / "out");
   for (const char* name : {"frame-0001.png", "frame-0001.png.part", "frames.json.part"})
     fs::create_symlink("../precious", folder / "out" / name);
   fill(folder / "theirs", of_frames({3}), 7);
-  const std::string theirs = read_file(folder / "theirs/frames.json");
+  const std::string theirs = document::read_file(folder / "theirs/frames.json");
   fs::create_symlink("../theirs/frames.json", folder / "out/frames.json");
   fill(folder / "out", of_frames({1}), 7);
-  EXPECT_EQ(read_file(folder / "theirs/frames.json"), theirs);
+  EXPECT_EQ(document::read_file(folder / "theirs/frames.json"), theirs);
   fs::remove(folder / "out/frames.json");
   fill(folder / "out", small_manifest(), 7);
   EXPECT_EQ(fs::file_size(folder / "precious"), 3u);
@@ -335,44 +335,44 @@ TEST(FrameFolder, FramesOfTheSameFilmAreAdded) {
 
 TEST(FrameFolder, TellsWhereItCannotBe) {
   const TemporaryFolder folder;
-  write_whole_file(folder / "file", "x");
+  document::write_whole_file(folder / "file", "x");
   const auto failure = [&](const std::string& name) {
-    return failure_of([&] { FrameFolder(folder / name, small_manifest()); });
+    return document::failure_of([&] { FrameFolder(folder / name, small_manifest()); });
   };
-  EXPECT_TRUE(holds(failure("file"), "cannot create the folder")) << failure("file");
-  EXPECT_TRUE(holds(failure("file/below"), "cannot create the folder")) << failure("file/below");
+  EXPECT_TRUE(document::holds(failure("file"), "cannot create the folder")) << failure("file");
+  EXPECT_TRUE(document::holds(failure("file/below"), "cannot create the folder")) << failure("file/below");
 }
 
 TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(holds(failure_of([&] { read_manifest(folder.path()); }), "it has no frames.json"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_manifest(folder.path()); }), "it has no frames.json"));
   const auto failure_with = [&](const std::string& text) {
-    write_whole_file(folder / "frames.json", text);
-    const std::string failure = failure_of([&] { read_manifest(folder.path()); });
-    EXPECT_TRUE(holds(failure, "frames.json: not a manifest of frames: ")) << text;
-    EXPECT_TRUE(holds(failure, "remove it, and render all frames")) << text;
-    EXPECT_FALSE(holds(failure, "exception")) << failure;
+    document::write_whole_file(folder / "frames.json", text);
+    const std::string failure = document::failure_of([&] { read_manifest(folder.path()); });
+    EXPECT_TRUE(document::holds(failure, "frames.json: not a manifest of frames: ")) << text;
+    EXPECT_TRUE(document::holds(failure, "remove it, and render all frames")) << text;
+    EXPECT_FALSE(document::holds(failure, "exception")) << failure;
     EXPECT_EQ(failure_to_claim(folder.path(), small_manifest()), failure);
-    EXPECT_EQ(read_file(folder / "frames.json"), text);
+    EXPECT_EQ(document::read_file(folder / "frames.json"), text);
     return failure;
   };
-  EXPECT_TRUE(holds(failure_with("{\n"), "byte 3 is no JSON, or the end is missing"));
-  EXPECT_TRUE(holds(failure_with("[]"), "a list is not an object"));
-  EXPECT_TRUE(holds(failure_with("{\"film\": 3}"), "film: 3 is not a text"));
+  EXPECT_TRUE(document::holds(failure_with("{\n"), "byte 3 is no JSON, or the end is missing"));
+  EXPECT_TRUE(document::holds(failure_with("[]"), "a list is not an object"));
+  EXPECT_TRUE(document::holds(failure_with("{\"film\": 3}"), "film: 3 is not a text"));
   for (const char* text : {"", "\xff", "null"}) failure_with(text);
   const std::string head = R"({"film":"x","width":1,"height":1,"rate":24,"film_frames":4,)";
   const std::string sum = "\"checksum\":\"" + std::string(32, 'a') + "\",";
-  write_whole_file(folder / "frames.json", head + sum + R"("frames":[[0,1]]})");
-  EXPECT_EQ(failure_of([&] { read_manifest(folder.path()); }), "") << "else what follows is wrong anyway";
+  document::write_whole_file(folder / "frames.json", head + sum + R"("frames":[[0,1]]})");
+  EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), "") << "else what follows is wrong anyway";
   for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]", "[[2,1]]",
                              R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])",
                              R"([[0,0]],"pixel_hashes":["x"])"})
     failure_with(head + sum + "\"frames\":" + frames + "}");
-  EXPECT_TRUE(holds(failure_with(head + sum + R"("frames":[[0,1]],"pixel\u001b_hashes":[]})"),
+  EXPECT_TRUE(document::holds(failure_with(head + sum + R"("frames":[[0,1]],"pixel\u001b_hashes":[]})"),
                     R"(the key "pixel\u001b_hashes" is unknown)"));
-  EXPECT_TRUE(holds(failure_with(head + R"("frames":[[0,1]]})"), R"(the key "checksum" is missing)"));
+  EXPECT_TRUE(document::holds(failure_with(head + R"("frames":[[0,1]]})"), R"(the key "checksum" is missing)"));
   const std::string of_long = failure_with(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
-  EXPECT_TRUE(holds(of_long, "xxx... is not 32 hexadecimal digits")) << of_long.substr(0, 1000);
+  EXPECT_TRUE(document::holds(of_long, "xxx... is not 32 hexadecimal digits")) << of_long.substr(0, 1000);
   EXPECT_LT(of_long.size(), 400u);
 }
 
@@ -384,8 +384,8 @@ TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
   fs::rename(manifest, folder / "kept");
   const auto refused = [&](const char* reason) {
     const std::string failure = failure_to_claim(folder.path(), of_frames({3}));
-    EXPECT_TRUE(holds(failure, manifest.string() + ": " + reason)) << failure;
-    EXPECT_EQ(failure_of([&] { read_manifest(folder.path()); }), failure);
+    EXPECT_TRUE(document::holds(failure, manifest.string() + ": " + reason)) << failure;
+    EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), failure);
     EXPECT_TRUE(fs::exists(fs::symlink_status(manifest)));
     fs::remove(manifest);
   };
@@ -397,7 +397,7 @@ TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
   refused("is a directory");
   fs::create_symlink("frames.json", manifest);
   refused("cannot be read: Too many levels");
-  write_whole_file(manifest, "");
+  document::write_whole_file(manifest, "");
   fs::resize_file(manifest, std::uintmax_t{1} << 40);
   refused("has 1099511627776 bytes, too many");
   EXPECT_EQ(folder.entries(), 6u);
@@ -412,7 +412,7 @@ TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
     ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
     const std::string says = file.string() + ": is not a regular file, and runs keep only such there (remove it)";
     EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
-    EXPECT_EQ(failure_of([&] { read_manifest(folder.path()); }), says);
+    EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), says);
     clear_ended_runs(folder.path());
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".runs"), {}), 1) << "what was begun is gone again";
     fs::remove(file);
@@ -444,7 +444,7 @@ TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
   fill(folder.path(), small_manifest(), 7);
   fs::permissions(folder / "frames.json", fs::perms::none);
   as_nobody(folder.path(), [&] {
-    return holds(failure_to_claim(folder.path(), of_frames({3})),
+    return document::holds(failure_to_claim(folder.path(), of_frames({3})),
                  "frames.json: cannot be read: Permission denied (check its permissions)");
   });
   EXPECT_EQ(read_manifest(folder.path()).frames, small_manifest().frames);
@@ -458,8 +458,8 @@ TEST(FrameFolder, RivalsThatCannotBeListedAreAnError) {
   fs::permissions(folder / ".runs", fs::perms::owner_write | fs::perms::owner_exec);
   as_nobody(folder.path(), [&] {
     const char* says = ".runs: cannot be listed, and who else renders into this folder stands there";
-    return holds(failure_to_claim(folder.path(), of_frames({3})), says) &&
-           holds(failure_of([&] { read_manifest(folder.path()); }), says);
+    return document::holds(failure_to_claim(folder.path(), of_frames({3})), says) &&
+           document::holds(document::failure_of([&] { read_manifest(folder.path()); }), says);
   });
 }
 
@@ -467,7 +467,7 @@ TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "frame-0001.png/below");
   const std::string failure = failure_to_claim(folder.path(), small_manifest());
-  EXPECT_TRUE(holds(failure, "frame-0001.png: cannot remove: Is a directory (something of another kind")) << failure;
+  EXPECT_TRUE(document::holds(failure, "frame-0001.png: cannot remove: Is a directory (something of another kind")) << failure;
 }
 
 TEST(Verify, OneHashForEqualFrames) {
@@ -492,14 +492,14 @@ TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {
   fill(folder.path(), manifest, 0);
   fs::remove(folder / "frame-0001.png");
   fs::resize_file(folder / "frame-0002.png", 40);
-  write_whole_file(folder / "frame-0005.png", encode_png(2, 3, std::vector<std::uint32_t>(6)));
+  document::write_whole_file(folder / "frame-0005.png", images::encode_png(2, 3, std::vector<std::uint32_t>(6)));
   fs::copy_file(folder / "frame-0000.png", folder / "frame-0011.png", fs::copy_options::overwrite_existing);
   const Verdict verdict = verify_folder(folder.path());
   ASSERT_EQ(verdict.troubles.size(), 4u);
   EXPECT_EQ(verdict.troubles[0].frame, 1u);
   EXPECT_EQ(verdict.troubles[0].reason, "missing");
   EXPECT_EQ(verdict.troubles[1].frame, 2u);
-  EXPECT_TRUE(holds(verdict.troubles[1].reason, "not a whole PNG"));
+  EXPECT_TRUE(document::holds(verdict.troubles[1].reason, "not a whole PNG"));
   EXPECT_EQ(verdict.troubles[2].reason, "2x3 pixels instead of 6x4");
   EXPECT_EQ(verdict.troubles[3].reason, "other pixels than were rendered");
   EXPECT_EQ(verdict.hash, "");
@@ -516,7 +516,7 @@ TEST(Verify, FramesThatAreNoFilesAreNamedAndTheOthersLookedAt) {
   fs::create_directory(folder / "frame-0005.png");
   const Verdict verdict = verify_folder(folder.path());
   ASSERT_EQ(verdict.troubles.size(), 4u);
-  EXPECT_TRUE(holds(verdict.troubles[0].reason, "cannot be read: Too many levels"));
+  EXPECT_TRUE(document::holds(verdict.troubles[0].reason, "cannot be read: Too many levels"));
   EXPECT_EQ(verdict.troubles[1].reason, "is not a regular file");
   EXPECT_EQ(verdict.troubles[2].reason, "is not a regular file");
   EXPECT_EQ(verdict.troubles[3].reason, "is a directory, not a file");
@@ -525,17 +525,17 @@ TEST(Verify, FramesThatAreNoFilesAreNamedAndTheOthersLookedAt) {
 TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
   const TemporaryFolder folder;
   { const FrameFolder unfinished(folder.path(), of_frames({1})); }
-  write_whole_file(folder / "frame-0001.png", encode_png(6, 4, std::vector<std::uint32_t>(24)));
+  document::write_whole_file(folder / "frame-0001.png", images::encode_png(6, 4, std::vector<std::uint32_t>(24)));
   const Verdict verdict = verify_folder(folder.path());
   ASSERT_EQ(verdict.troubles.size(), 1u);
-  EXPECT_TRUE(holds(verdict.troubles[0].reason, "its run ended before it recorded the pixels"));
+  EXPECT_TRUE(document::holds(verdict.troubles[0].reason, "its run ended before it recorded the pixels"));
 }
 
 TEST(Verify, ManifestsWithoutHashesAreReadToo) {
   const TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   const std::string hash = verify_folder(folder.path()).hash;
-  write_whole_file(folder / "frames.json",
+  document::write_whole_file(folder / "frames.json",
                    R"({"film":"a film.json","checksum":")" + std::string(32, 'a') +
                        R"(","width":6,"height":4,"rate":24,"film_frames":12,"frames":[[0,2],[5,5],[11,11]]})");
   const Verdict verdict = verify_folder(folder.path());
@@ -546,4 +546,4 @@ TEST(Verify, ManifestsWithoutHashesAreReadToo) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::sinks

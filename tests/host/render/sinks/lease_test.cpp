@@ -9,7 +9,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::sinks {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 class LeaseOfAFile : public testing::Test {
  protected:
   LeaseOfAFile() {
-    create_file(file_, "");
+    document::create_file(file_, "");
     fs::last_write_time(file_, fs::file_time_type::clock::now() - 1h);
   }
   bool is_young() const { return fs::file_time_type::clock::now() - fs::last_write_time(file_) < 30min; }
@@ -45,13 +45,13 @@ TEST_F(LeaseOfAFile, IsRenewedByItsHolderWhereTheThreadDidNot) {
 
 TEST_F(LeaseOfAFile, WhoWasStoppedForLongLearnsThatItIsGone) {
   fs::remove(file_);
-  EXPECT_EQ(failure_of([&] { lease_.check(); }), "") << "others wait longer before they take it away";
-  EXPECT_TRUE(holds(failure_of([&] { Lease(file_).confirm(); }), "file: this run's claim to the folder is gone"));
+  EXPECT_EQ(document::failure_of([&] { lease_.check(); }), "") << "others wait longer before they take it away";
+  EXPECT_TRUE(document::holds(document::failure_of([&] { Lease(file_).confirm(); }), "file: this run's claim to the folder is gone"));
   now_ = 1031;
-  EXPECT_TRUE(holds(failure_of([&] { lease_.check(); }), "file: this run's claim to the folder is gone"));
-  create_file(file_, "");
-  EXPECT_NE(failure_of([&] { lease_.check(); }), "") << "another's under its name is not its own";
+  EXPECT_TRUE(document::holds(document::failure_of([&] { lease_.check(); }), "file: this run's claim to the folder is gone"));
+  document::create_file(file_, "");
+  EXPECT_NE(document::failure_of([&] { lease_.check(); }), "") << "another's under its name is not its own";
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::sinks

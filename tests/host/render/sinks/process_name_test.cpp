@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace mars::host {
+namespace mars::sinks {
 namespace {
 
 TEST(ProcessName, ThisProcessRuns) {
@@ -66,4 +66,4 @@ TEST(ProcessName, AStoppedProcessRunsAndAKilledOneDoesNot) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::sinks

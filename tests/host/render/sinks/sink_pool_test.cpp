@@ -11,7 +11,7 @@
 #include "hal/failure/failure.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::sinks {
 namespace {
 
 using namespace std::chrono_literals;
@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 // Keeps the numbers of its frames; may be held up, and may fail at a frame.
 class TestSink : public Sink {
  public:
-  void take(const Frame& frame) override {
+  void take(const compositor::Frame& frame) override {
     most_at_once_ = std::max(most_at_once_.load(), ++at_once_);
     while (held) std::this_thread::sleep_for(1ms);
     const bool whole = std::count(frame.pixels.begin(), frame.pixels.end(), frame.number) ==
@@ -39,13 +39,13 @@ class TestSink : public Sink {
   std::atomic<int> most_at_once_ = 0;
 };
 
-void compose(Frame& frame, std::uint32_t number) {
+void compose(compositor::Frame& frame, std::uint32_t number) {
   frame.number = number;
   std::fill(frame.pixels.begin(), frame.pixels.end(), number);
 }
 
-Frame& wait_for_frame(SinkPool& pool) {
-  Frame* frame = nullptr;
+compositor::Frame& wait_for_frame(SinkPool& pool) {
+  compositor::Frame* frame = nullptr;
   while ((frame = pool.free_frame()) == nullptr) std::this_thread::yield();
   return *frame;
 }
@@ -63,7 +63,7 @@ TEST(SinkPool, TakesEveryFrameOnce) {
     }
   };
   for (std::uint32_t number = 0; number < 500; ++number) {
-    Frame& frame = wait_for_frame(pool);
+    compositor::Frame& frame = wait_for_frame(pool);
     compose(frame, number);
     pool.submit(&frame);
     note();
@@ -81,8 +81,8 @@ TEST(SinkPool, HasNoMoreFramesThanItWasGiven) {
   TestSink sink;
   sink.held = true;
   SinkPool pool(sink, {8, 8, 4, 3, 2});
-  std::set<Frame*> frames;
-  while (Frame* frame = pool.free_frame()) {
+  std::set<compositor::Frame*> frames;
+  while (compositor::Frame* frame = pool.free_frame()) {
     compose(*frame, 0);
     frames.insert(frame);
     pool.submit(frame);
@@ -98,7 +98,7 @@ TEST(SinkPool, HasNoMoreFramesThanItWasGiven) {
 TEST(SinkPool, PrefersAFrameThatShowsTheBackground) {
   TestSink sink;
   SinkPool pool(sink, {8, 8, 4, 3, 1});
-  std::vector<Frame*> frames{pool.free_frame(), pool.free_frame(), pool.free_frame()};
+  std::vector<compositor::Frame*> frames{pool.free_frame(), pool.free_frame(), pool.free_frame()};
   for (std::uint32_t i = 0; i < 3; ++i) {
     compose(*frames[i], i);
     frames[i]->background = 10 + i;
@@ -125,7 +125,7 @@ TEST(SinkPool, EarlyFramesLeaveHalfToTheOthers) {
 TEST(SinkPool, NewFramesShowTheBackground) {
   TestSink sink;
   SinkPool pool(sink, {8, 8, 4, 4, 1, 77});
-  while (const Frame* frame = pool.free_frame()) {
+  while (const compositor::Frame* frame = pool.free_frame()) {
     EXPECT_EQ(frame->plain, 77u);
     EXPECT_EQ(frame->pixels, std::vector<std::uint32_t>(64, 77));
   }
@@ -135,16 +135,16 @@ TEST(SinkPool, AFailureReachesTheLoop) {
   TestSink sink;
   sink.fails_at = 1;
   SinkPool pool(sink, {8, 8, 4, 2, 2});
-  const std::string failure = failure_of([&] {
+  const std::string failure = document::failure_of([&] {
     for (std::uint32_t number = 0; number < 1000; ++number) {
-      Frame& frame = wait_for_frame(pool);
+      compositor::Frame& frame = wait_for_frame(pool);
       compose(frame, number);
       pool.submit(&frame);
     }
   });
   EXPECT_EQ(failure, "frame 1: no room");
-  EXPECT_EQ(failure_of([&] { pool.finish(); }), failure);
-  EXPECT_EQ(failure_of([&] { pool.taken(); }), failure);
+  EXPECT_EQ(document::failure_of([&] { pool.finish(); }), failure);
+  EXPECT_EQ(document::failure_of([&] { pool.taken(); }), failure);
 }
 
 TEST(SinkPool, EndsWithFramesStillWaiting) {
@@ -153,7 +153,7 @@ TEST(SinkPool, EndsWithFramesStillWaiting) {
   std::jthread later;
   {
     SinkPool pool(sink, {8, 8, 4, 4, 1});
-    while (Frame* frame = pool.free_frame()) {
+    while (compositor::Frame* frame = pool.free_frame()) {
       compose(*frame, 0);
       pool.submit(frame);
     }
@@ -165,4 +165,4 @@ TEST(SinkPool, EndsWithFramesStillWaiting) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::sinks

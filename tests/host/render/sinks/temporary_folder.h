@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace mars::host {
+namespace mars::sinks {
 
 class TemporaryFolder {
  public:
@@ -30,4 +30,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace mars::host
+}  // namespace mars::sinks

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::host {
+namespace mars::trace {
 namespace {
 
 // A machine that started 1000 seconds after the host's, and whose clock gains 50 millionths.
@@ -43,4 +43,4 @@ TEST(NodeClock, TheHostsOwnClockIsRecognised) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::trace

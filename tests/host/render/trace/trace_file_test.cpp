@@ -8,17 +8,17 @@
 #include "host/render/trace/timeline.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::trace {
 namespace {
 
-using hal::Event;
+using messages::Event;
 using nlohmann::json;
 using Kind = Event::Kind;
 
 constexpr double kStart = 100;  // seconds of the host's clock at the trace's beginning
 
-node::Hello hello(std::int32_t node, const std::string& host) {
-  node::Hello hello{};
+wire::Hello hello(std::int32_t node, const std::string& host) {
+  wire::Hello hello{};
   hello.node = node;
   host.copy(hello.host.data(), hello.host.size() - 1);
   return hello;
@@ -30,7 +30,7 @@ Event closing(std::uint64_t lost = 0) { return {kStart, kStart, lost, Kind::lost
 Trace small_trace(std::size_t most = 100) {
   Trace trace(most);
   trace.begin(std::vector{hello(0, "ada"), hello(1, "a \"b\" \xff")}, 4, kStart);
-  const auto triangles = static_cast<std::int32_t>(node::triangles_from(0));
+  const auto triangles = static_cast<std::int32_t>(wire::triangles_from(0));
   trace.add(0, std::vector<Event>{{kStart + 1e-3, kStart + 2e-3, 64, Kind::sent, triangles, 1, 0, 7, 0},
                                   {kStart + 3e-3, kStart + 4e-3, 32, Kind::sent, triangles, 1, 1, 7, 0},
                                   {kStart + 0e-3, kStart + 5e-3, 0, Kind::span, 3, -1, 0, 7, 0},
@@ -40,7 +40,7 @@ Trace small_trace(std::size_t most = 100) {
 }
 
 json written(const Trace& trace) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   write_trace(folder / "trace.json", {"a film", "threads"}, trace);
   std::ifstream file(folder / "trace.json");
   return json::parse(file);
@@ -111,4 +111,4 @@ TEST(TraceFile, ForeignClocksAreMapped) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::trace

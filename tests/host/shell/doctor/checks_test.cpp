@@ -8,7 +8,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::doctor {
 namespace {
 
 using State = Finding::State;
@@ -20,7 +20,7 @@ constexpr std::uint64_t kGiB = 1024 * kMiB;
 Facts sound() {
   Facts facts;
   facts.host = "ada";
-  facts.programs = {"/usr/bin/mpirun", "/opt/mars/mars-host", "/opt/mars/mars-node", "/opt/mars/mars-threads", Mpi::open_mpi, {}};
+  facts.programs = {"/usr/bin/mpirun", "/opt/mars/mars-host", "/opt/mars/mars-node", "/opt/mars/mars-threads", launch::Mpi::open_mpi, {}};
   facts.surroundings = {8, 8, 0, false, false, false, {}};
   facts.mpirun_version = "mpirun (Open MPI) 4.1.4\n\nReport bugs to http://www.open-mpi.org/community/help/\n";
   facts.processors = facts.machine_processors = 8;
@@ -50,7 +50,7 @@ void expect(State state, const std::string& about, const std::string& found, con
             const std::function<void(Facts&)>& change) {
   const std::vector<Finding> all = findings(change);
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Finding& each) {
-    return each.state == state && each.about == about && holds(each.found, found) && holds(each.remedy, remedy);
+    return each.state == state && each.about == about && document::holds(each.found, found) && document::holds(each.remedy, remedy);
   })) << about << ": " << found << " (" << remedy << ")";
   for (const Finding& each : all) EXPECT_TRUE(each.state != State::trouble || !each.remedy.empty()) << each.found;
 }
@@ -74,11 +74,11 @@ TEST(Checks, Mpi) {
   expect(State::trouble, "MPI", "not Open MPI's: HYDRA build details:", "PATH",
          [](Facts& f) { f.mpirun_version = "HYDRA build details:\n    Version:  4.0.2\n"; });
   expect(State::good, "MPI", "MPICH 4.0.2, /usr/bin/mpirun", "", [](Facts& f) {
-    f.programs.mpi = Mpi::mpich;
+    f.programs.mpi = launch::Mpi::mpich;
     f.mpirun_version = "HYDRA build details:\n    Version:                                 4.0.2\n";
   });
   expect(State::trouble, "MPI", "not MPICH's: mpirun (Open MPI) 4.1.4", "module load mpich",
-         [](Facts& f) { f.programs.mpi = Mpi::mpich; });
+         [](Facts& f) { f.programs.mpi = launch::Mpi::mpich; });
   expect(State::good, "MPI", "Open MPI, /usr/bin/mpirun", "", [](Facts& f) { f.mpirun_version.reset(); });
   expect(State::trouble, "MPI", "says nothing", "--backend threads", [](Facts& f) { f.mpirun_version = ""; });
 }
@@ -89,7 +89,7 @@ TEST(Checks, Programs) {
     f.programs.node.reset();
   });
   expect(State::note, "programs", "mars-host, mars-node", "MPI is installed", [](Facts& f) {
-    f.programs = {std::nullopt, std::nullopt, std::nullopt, "/opt/mars/mars-threads", Mpi::open_mpi, {}};
+    f.programs = {std::nullopt, std::nullopt, std::nullopt, "/opt/mars/mars-threads", launch::Mpi::open_mpi, {}};
   });
   expect(State::note, "programs", "/usr/bin/mars-node", "different versions",
          [](Facts& f) { f.programs.node = "/usr/bin/mars-node"; });
@@ -193,7 +193,7 @@ TEST(Checks, Video) {
 }
 
 TEST(Checks, AStart) {
-  Trial trial;
+  launch::Trial trial;
   trial.command = "mpirun x";
   trial.boot_seconds = 0.52;
   trial.frames = 4;
@@ -206,4 +206,4 @@ TEST(Checks, AStart) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::doctor

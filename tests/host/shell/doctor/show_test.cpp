@@ -6,7 +6,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::doctor {
 namespace {
 
 using State = Finding::State;
@@ -56,9 +56,9 @@ TEST(Text, OneLineEachAndWhatToDoBelow) {
             "  TROUBLE  /dev/shm    64 MiB\n"
             "                       -> enlarge it\n");
   EXPECT_TRUE(in_trouble(findings));
-  EXPECT_TRUE(holds(verdict(findings), "1 trouble"));
+  EXPECT_TRUE(document::holds(verdict(findings), "1 trouble"));
   EXPECT_FALSE(in_trouble(std::vector<Finding>{kGood, kOther}));
-  EXPECT_TRUE(holds(verdict(std::vector<Finding>{kOther}), "No trouble found"));
+  EXPECT_TRUE(document::holds(verdict(std::vector<Finding>{kOther}), "No trouble found"));
 }
 
 TEST(Text, FitsATerminal) {
@@ -83,8 +83,8 @@ TEST(Placement, TellsCoresAndWhatTheyShare) {
             "  0:  cores 0-1      1:  cores 2-3      2:  cores 4-5      3:  cores 6-7\n"
             "  across dimension 0 neighbours share an L3 cache\n"
             "  across dimension 1 neighbours share the machine\n");
-  EXPECT_TRUE(holds(placement_text(machine, 9, 1), "9 nodes on 8 cores: none is bound"));
+  EXPECT_TRUE(document::holds(placement_text(machine, 9, 1), "9 nodes on 8 cores: none is bound"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::doctor

@@ -10,7 +10,7 @@
 
 #include "topology/memory_limit.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 std::string wait_for(BackgroundText& text) {
@@ -63,4 +63,4 @@ TEST(BackgroundTextDeathTest, NothingIsDestroyedWhileItIsLookedFor) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::launch

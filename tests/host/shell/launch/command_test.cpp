@@ -8,7 +8,7 @@
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,8 +18,8 @@ Programs all_programs() {
           "/opt/mars-loopback.so"};
 }
 
-RenderOptions film(std::uint32_t nodes) {
-  RenderOptions options;
+options::RenderOptions film(std::uint32_t nodes) {
+  options::RenderOptions options;
   options.film = "a film.json";
   options.folder = "out";
   options.nodes = nodes;
@@ -32,12 +32,12 @@ std::string line(std::uint32_t nodes, const Surroundings& surroundings) {
 
 // A machine without a batch system.
 Surroundings alone(std::uint32_t cores, std::vector<std::string> environment = {}) {
-  return {cores, 2 * cores, 0, false, false, false, {}, 0, Environment(std::move(environment))};
+  return {cores, 2 * cores, 0, false, false, false, {}, 0, child::Environment(std::move(environment))};
 }
 
-Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}, 0, Environment({})}; }
+Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}, 0, child::Environment({})}; }
 
-fs::path write_hostfile(const TemporaryFolder& folder, const std::string& text) {
+fs::path write_hostfile(const sinks::TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "hosts") << text;
   return folder / "hosts";
 }
@@ -57,44 +57,44 @@ TEST(Command, OneHostAndItsNodes) {
 }
 
 TEST(Command, OversubscribesWhereHostAndNodesExceedTheCores) {
-  EXPECT_FALSE(holds(line(3, alone(4)), "--oversubscribe"));
-  EXPECT_TRUE(holds(line(4, alone(4)), "--bind-to none --oversubscribe -n 1"));
+  EXPECT_FALSE(document::holds(line(3, alone(4)), "--oversubscribe"));
+  EXPECT_TRUE(document::holds(line(4, alone(4)), "--bind-to none --oversubscribe -n 1"));
 }
 
 TEST(Command, ABatchJobHasItsOwnRoom) {
-  EXPECT_FALSE(holds(line(7, batch_job(8)), "--oversubscribe"));
-  EXPECT_TRUE(holds(line(8, batch_job(8)), "--oversubscribe"));
-  EXPECT_TRUE(holds(line(7, batch_job(8)), "OMPI_MCA_oob_tcp_keepalive_time=10"));
-  EXPECT_FALSE(holds(line(7, batch_job(8)), "PMIX_MCA_gds"));
-  EXPECT_FALSE(holds(line(3, alone(8)), "keepalive"));
+  EXPECT_FALSE(document::holds(line(7, batch_job(8)), "--oversubscribe"));
+  EXPECT_TRUE(document::holds(line(8, batch_job(8)), "--oversubscribe"));
+  EXPECT_TRUE(document::holds(line(7, batch_job(8)), "OMPI_MCA_oob_tcp_keepalive_time=10"));
+  EXPECT_FALSE(document::holds(line(7, batch_job(8)), "PMIX_MCA_gds"));
+  EXPECT_FALSE(document::holds(line(3, alone(8)), "keepalive"));
 }
 
 TEST(Command, OnlyOnThisMachineDoesItKeepToTheLoopbackInterface) {
   const std::string held = "LD_PRELOAD=/opt/mars-loopback.so";
   EXPECT_TRUE(mpi_command(film(3), all_programs(), alone(8)).session_folders);
   for (const Surroundings& several : {batch_job(8), alone(8, {"PBS_NODEFILE=/var/nodes"})}) {
-    EXPECT_FALSE(holds(line(3, several), held));
-    EXPECT_FALSE(holds(line(3, several), "OMPI_MCA_btl="));
+    EXPECT_FALSE(document::holds(line(3, several), held));
+    EXPECT_FALSE(document::holds(line(3, several), "OMPI_MCA_btl="));
     EXPECT_FALSE(mpi_command(film(3), all_programs(), several).session_folders);
   }
-  EXPECT_TRUE(holds(line(3, alone(8, {"LD_PRELOAD=a.so"})), held + ":a.so "));
+  EXPECT_TRUE(document::holds(line(3, alone(8, {"LD_PRELOAD=a.so"})), held + ":a.so "));
   Programs programs = all_programs();
   programs.loopback = "/a folder/mars-loopback.so";
-  EXPECT_FALSE(holds(shell_text(mpi_command(film(3), programs, alone(8))), "LD_PRELOAD"));
+  EXPECT_FALSE(document::holds(shell_text(mpi_command(film(3), programs, alone(8))), "LD_PRELOAD"));
 }
 
 TEST(Command, WhatAPersonSetOfMpiCounts) {
   const std::string text = line(3, alone(8, {"OMPI_MCA_btl=tcp,self", "PMIX_MCA_gds=ds21"}));
-  EXPECT_FALSE(holds(text, "OMPI_MCA_btl="));
-  EXPECT_FALSE(holds(text, "PMIX_MCA_gds="));
-  EXPECT_TRUE(holds(text, "OMPI_MCA_pml=ob1"));
+  EXPECT_FALSE(document::holds(text, "OMPI_MCA_btl="));
+  EXPECT_FALSE(document::holds(text, "PMIX_MCA_gds="));
+  EXPECT_TRUE(document::holds(text, "OMPI_MCA_pml=ob1"));
 }
 
 TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
-  RenderOptions options = film(3);
+  options::RenderOptions options = film(3);
   options.film = options.folder = options.report = options.hostfile = ":";
   options.trace = "-t";
-  const Command command = mpi_command(options, all_programs(), alone(8));
+  const child::Command command = mpi_command(options, all_programs(), alone(8));
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), ":"), 1) << shell_text(command);
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./:"), 4) << shell_text(command);
   EXPECT_EQ(std::count(command.words.begin(), command.words.end(), "./-t"), 1) << shell_text(command);
@@ -103,29 +103,29 @@ TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
 TEST(Command, NoMpiWithinTooFewAddresses) {
   Surroundings surroundings = alone(8);
   surroundings.address_limit = std::uint64_t{200} << 20;
-  EXPECT_TRUE(holds(failure_of([&] { line(3, surroundings); }), "ulimit -v: the limit of 204800 kB"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { line(3, surroundings); }), "ulimit -v: the limit of 204800 kB"));
   surroundings.address_limit = std::uint64_t{1} << 30;
-  EXPECT_EQ(failure_of([&] { line(3, surroundings); }), "");
+  EXPECT_EQ(document::failure_of([&] { line(3, surroundings); }), "");
 }
 
 TEST(Command, AHostfileIsPassedOn) {
-  RenderOptions options = film(7);
+  options::RenderOptions options = film(7);
   options.hostfile = "my hosts";
   const std::string text = shell_text(mpi_command(options, all_programs(), alone(8)));
-  EXPECT_TRUE(holds(text, "--bind-to none --hostfile 'my hosts' --oversubscribe -n 1"));
-  EXPECT_TRUE(holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
+  EXPECT_TRUE(document::holds(text, "--bind-to none --hostfile 'my hosts' --oversubscribe -n 1"));
+  EXPECT_TRUE(document::holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
 }
 
 TEST(Command, MpichHasWordsOfItsOwn) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   Programs programs = all_programs();
   programs.mpi = Mpi::mpich;
-  RenderOptions options = film(7);
-  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}, 0, Environment({})};
+  options::RenderOptions options = film(7);
+  const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}, 0, child::Environment({})};
   EXPECT_EQ(shell_text(mpi_command(options, programs, surroundings)),
             "UCX_TLS=sm,self LD_PRELOAD=/opt/mars-loopback.so /usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 7 /opt/mars-node");
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn4\n").string();
-  EXPECT_TRUE(holds(shell_text(mpi_command(options, programs, surroundings)), "-bind-to none -hosts n1:2,n4:1 -n 1"));
+  EXPECT_TRUE(document::holds(shell_text(mpi_command(options, programs, surroundings)), "-bind-to none -hosts n1:2,n4:1 -n 1"));
 }
 
 TEST(Command, SlurmsTasksAreCounted) {
@@ -137,44 +137,44 @@ TEST(Command, SlurmsTasksAreCounted) {
 }
 
 TEST(Command, HostfilesAreRead) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   std::string found;
   for (const Slots& slots : read_hostfile(
            write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")))
     found += slots.host + ":" + std::to_string(slots.count) + " ";
   EXPECT_EQ(found, "n1:2 n2:3 n4:1 ");
-  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }), "names no host"));
-  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, "n1\nn2 slots=many\n")); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }), "names no host"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "n1\nn2 slots=many\n")); }),
                     "hosts:2: slots has no number up to 999999"));
   const std::string long_name(100000, 'y');
-  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
                     "hosts:1: is no host's name: it is too long"));
   const std::string longest(255, 'y');
   EXPECT_EQ(read_hostfile(write_hostfile(folder, longest + " slots=2\n")).at(0).host, longest);
   EXPECT_EQ(read_hostfile(write_hostfile(folder, "n1 " + long_name + " slots=2 #" + long_name)).at(0).count, 2u);
-  EXPECT_TRUE(holds(failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(folder / "nowhere"); }), "cannot be read"));
 }
 
 TEST(Command, NodesFillWhatThereIs) {
-  const TemporaryFolder folder;
-  RenderOptions options;
-  options.backend = Backend::mpi;
+  const sinks::TemporaryFolder folder;
+  options::RenderOptions options;
+  options.backend = options::Backend::mpi;
   EXPECT_EQ(default_nodes(options, alone(4)), 8u) << "a node a processor";
   EXPECT_EQ(default_nodes(options, batch_job(8)), 7u) << "and one task for the host";
   EXPECT_EQ(default_nodes(options, batch_job(1)), 1u);
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn2 slots=2\n").string();
   EXPECT_EQ(default_nodes(options, batch_job(8)), 3u);
   options = {};
-  options.backend = Backend::threads;
+  options.backend = options::Backend::threads;
   EXPECT_EQ(default_nodes(options, batch_job(8)), 2u);
 }
 
 TEST(Command, MindsRootContainersAndSettings) {
-  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}, 0, Environment({})});
-  EXPECT_TRUE(holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
-  EXPECT_TRUE(holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
-  EXPECT_TRUE(holds(text, "OMPI_MCA_plm=^rsh"));
-  EXPECT_TRUE(holds(text, "-x MARS_MEMORY -n 1"));
+  const std::string text = line(1, {8, 8, 0, true, true, true, {"MARS_MEMORY"}, 0, child::Environment({})});
+  EXPECT_TRUE(document::holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
+  EXPECT_TRUE(document::holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
+  EXPECT_TRUE(document::holds(text, "OMPI_MCA_plm=^rsh"));
+  EXPECT_TRUE(document::holds(text, "-x MARS_MEMORY -n 1"));
 }
 
 TEST(Command, ThreadsAreOneProcess) {
@@ -183,12 +183,12 @@ TEST(Command, ThreadsAreOneProcess) {
 }
 
 TEST(Command, AnyWordCanBePasted) {
-  const Command command{{{"A", "b c"}}, {"x", "", "it's", "$HOME", "a*b", "tab\there", "é"}};
+  const child::Command command{{{"A", "b c"}}, {"x", "", "it's", "$HOME", "a*b", "tab\there", "é"}};
   EXPECT_EQ(shell_text(command), "A='b c' x '' 'it'\\''s' '$HOME' 'a*b' 'tab\there' 'é'");
 }
 
 TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   make_program(folder / "bin/mars-host");
   make_program(folder / "libexec/mars-node");
   make_program(folder / "path/mars-threads");
@@ -204,7 +204,7 @@ TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
 }
 
 TEST(Command, MpirunIsThatOfOurMpi) {
-  const TemporaryFolder folder;
+  const sinks::TemporaryFolder folder;
   for (const char* name : {"module/mpirun", "usr/mpirun", "usr/mpirun.openmpi", "usr/mpirun.mpich", "usr/mpiexec.hydra"})
     make_program(folder / name);
   const std::string usr = (folder / "usr").string();
@@ -216,19 +216,19 @@ TEST(Command, MpirunIsThatOfOurMpi) {
 
 TEST(Command, AutoTakesMpiWhereItIs) {
   Programs programs = all_programs();
-  EXPECT_EQ(choose_backend(Backend::automatic, programs), Backend::mpi);
-  EXPECT_EQ(choose_backend(Backend::threads, programs), Backend::threads);
+  EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::mpi);
+  EXPECT_EQ(choose_backend(options::Backend::threads, programs), options::Backend::threads);
   programs.mpirun.reset();
-  EXPECT_EQ(choose_backend(Backend::automatic, programs), Backend::threads);
-  EXPECT_TRUE(holds(failure_of([&] { choose_backend(Backend::mpi, programs); }), "mpirun was not found"));
+  EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::threads);
+  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }), "mpirun was not found"));
   programs = all_programs();
   programs.node.reset();
-  EXPECT_EQ(choose_backend(Backend::automatic, programs), Backend::threads);
-  EXPECT_TRUE(holds(failure_of([&] { choose_backend(Backend::mpi, programs); }), "mars-host and mars-node"));
+  EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::threads);
+  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }), "mars-host and mars-node"));
   programs.threads.reset();
   EXPECT_TRUE(
-      holds(failure_of([&] { choose_backend(Backend::automatic, programs); }), "mars-threads was not"));
+      document::holds(document::failure_of([&] { choose_backend(options::Backend::automatic, programs); }), "mars-threads was not"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::launch

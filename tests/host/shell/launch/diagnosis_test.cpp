@@ -7,7 +7,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 Remains failed_with(std::deque<std::string> words) {
@@ -19,14 +19,14 @@ Remains failed_with(std::deque<std::string> words) {
 }
 
 std::string message(const Remains& remains) {
-  RenderOptions options;
+  options::RenderOptions options;
   options.folder = "out";
   return diagnose(remains, options, [] { return std::string("/dev/shm is small"); }).what();
 }
 
 TEST(Diagnosis, TheHostsOwnWordComesFirst) {
   Remains remains = failed_with({"mars: something else", "noise"});
-  remains.fault = Fault{"out of memory", "node 1, frame 3", "use less", 1, 3, "mars render x"};
+  remains.fault = events::Fault{"out of memory", "node 1, frame 3", "use less", 1, 3, "mars render x"};
   EXPECT_EQ(message(remains), "node 1, frame 3: out of memory (use less; to see it again: mars render x)");
   remains.fault->remedy = "";
   EXPECT_EQ(message(remains), "node 1, frame 3: out of memory (to see it again: mars render x)");
@@ -44,12 +44,12 @@ TEST(Diagnosis, OfAKilledRank) {
     Remains remains = failed_with({"Primary job  terminated normally, but 1 process returned", "",
                                    std::string("mpirun noticed that process rank ") + rank +
                                        " with PID 0 on node ada exited on signal 9 (Killed)."});
-    remains.booted = Booted{"mpi", 1, {{0, "ada", 2, "", "sse2"}, {1, "ada", 1, "", "sse2"}}};
+    remains.booted = events::Booted{"mpi", 1, {{0, "ada", 2, "", "sse2"}, {1, "ada", 1, "", "sse2"}}};
     return remains;
   };
-  EXPECT_TRUE(holds(message(words("2")), "machine ada: node 0 was killed by signal 9 (Killed)"));
-  EXPECT_TRUE(holds(message(words("0")), "the host was killed"));
-  EXPECT_TRUE(holds(message(words("0")), "out of memory"));
+  EXPECT_TRUE(document::holds(message(words("2")), "machine ada: node 0 was killed by signal 9 (Killed)"));
+  EXPECT_TRUE(document::holds(message(words("0")), "the host was killed"));
+  EXPECT_TRUE(document::holds(message(words("0")), "out of memory"));
 }
 
 TEST(Diagnosis, OfALostMachine) {
@@ -64,13 +64,13 @@ TEST(Diagnosis, OfALostMachine) {
 TEST(Diagnosis, OfAMachineWhoseDaemonEndsFirst) {
   Remains remains = failed_with({"ORTE was unable to reliably start one or more daemons.", "",
                                  "  Message:    connect() to 127.0.0.1:1028 failed"});
-  EXPECT_TRUE(holds(message(remains), "cannot start on another machine")) << "nothing had booted";
-  remains.booted = Booted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n4", 2, "", "sse2"}, {2, "n4", 3, "", "sse2"}}};
-  EXPECT_TRUE(holds(message(remains), "machine localhost: does not answer any more"));
+  EXPECT_TRUE(document::holds(message(remains), "cannot start on another machine")) << "nothing had booted";
+  remains.booted = events::Booted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n4", 2, "", "sse2"}, {2, "n4", 3, "", "sse2"}}};
+  EXPECT_TRUE(document::holds(message(remains), "machine localhost: does not answer any more"));
   remains.last_words.back() = "  Message:    connect() to n4-ib0:1028 failed";
-  EXPECT_TRUE(holds(message(remains), "machine n4-ib0: does not answer any more")) << "no address";
+  EXPECT_TRUE(document::holds(message(remains), "machine n4-ib0: does not answer any more")) << "no address";
   remains.last_words.pop_back();
-  EXPECT_TRUE(holds(message(remains), "machine n1 or n4: does not answer any more"));
+  EXPECT_TRUE(document::holds(message(remains), "machine n1 or n4: does not answer any more"));
 }
 
 // MPI may say very much in between, and in very long words.
@@ -79,35 +79,35 @@ TEST(Diagnosis, OfAnyAmountOfWords) {
   for (const std::string& noise : {std::string(80, 'y'), long_word, std::string(100000, ' ')}) {
     std::deque<std::string> words{"ORTE has lost communication with a remote daemon.", "=   PID 17078 RUNNING AT ada"};
     words.insert(words.end(), noise.size() > 80 ? 10 : 380, noise);
-    EXPECT_TRUE(holds(message(failed_with(words)), "a machine was lost"));
+    EXPECT_TRUE(document::holds(message(failed_with(words)), "a machine was lost"));
     std::deque<std::string> named = words;
     named.push_back("  Remote daemon: [[6456,0],2] on node n3");
-    EXPECT_TRUE(holds(message(failed_with(named)), "machine n3: does not answer any more"));
+    EXPECT_TRUE(document::holds(message(failed_with(named)), "machine n3: does not answer any more"));
     named.back() += long_word;
     EXPECT_LT(message(failed_with(named)).size(), 1000u);
     words.push_back("YOUR APPLICATION TERMINATED WITH THE EXIT STRING: Killed (signal 9)");
-    EXPECT_TRUE(holds(message(failed_with(words)), "machine ada: the host or a node was killed by signal 9"));
+    EXPECT_TRUE(document::holds(message(failed_with(words)), "machine ada: the host or a node was killed by signal 9"));
   }
 }
 
 TEST(Diagnosis, OfAKilledRankWhoseWordsAreWrapped) {
   Remains remains = failed_with({"process rank x of", "mpirun noticed that process rank 0 with PID 17",
                                  "on node ada exited on", "    signal 11 (Segmentation fault)."});
-  EXPECT_TRUE(holds(message(remains), "machine ada: the host was killed by signal 11"));
+  EXPECT_TRUE(document::holds(message(remains), "machine ada: the host was killed by signal 11"));
 }
 
 TEST(Diagnosis, ShowsTheLastOfManyWords) {
   std::deque<std::string> words(300, "earlier");
   words.push_back("at last");
   const std::string told = message(failed_with(words));
-  EXPECT_TRUE(holds(told, "at last"));
+  EXPECT_TRUE(document::holds(told, "at last"));
   EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 41) << told;
 }
 
 TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {
   for (const char* words : {"There are not enough slots available in the system to satisfy the 9",
                             "All nodes which are allocated for this job are already filled."}) {
-    EXPECT_TRUE(holds(message(failed_with({words})), "too few slots for the host and the nodes"));
+    EXPECT_TRUE(document::holds(message(failed_with({words})), "too few slots for the host and the nodes"));
   }
 }
 
@@ -120,15 +120,15 @@ TEST(Diagnosis, OfWhatIsNotUnderstoodTheLastWords) {
   EXPECT_EQ(message(failed_with({"first", "second"})),
             "mpirun ended with exit code 1 (its last words:\nfirst\nsecond\n/dev/shm is small)");
   Remains booted = failed_with({"first"});
-  booted.booted = Booted{};
+  booted.booted = events::Booted{};
   EXPECT_EQ(message(booted), "mpirun ended with exit code 1 (its last words:\nfirst\n)") << "it could start";
   Remains killed = failed_with({});
   killed.ending = {0, SIGSEGV};
-  EXPECT_TRUE(holds(message(killed), "mpirun was killed by signal 11 (Segmentation fault)"));
+  EXPECT_TRUE(document::holds(message(killed), "mpirun was killed by signal 11 (Segmentation fault)"));
   Remains silent = failed_with({});
   silent.ending = {};
-  EXPECT_TRUE(holds(message(silent), "ended before all frames were there"));
+  EXPECT_TRUE(document::holds(message(silent), "ended before all frames were there"));
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::launch

@@ -4,11 +4,11 @@
 
 #include <sstream>
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
-Progress some_progress() {
-  Progress progress;
+events::Progress some_progress() {
+  events::Progress progress;
   progress.intervals = 5;
   progress.interval = 1;
   progress.keyframes = {1, 2, 3.0};
@@ -29,13 +29,13 @@ TEST(Display, ProgressKeepsTheKindsApart) {
 }
 
 TEST(Display, ProgressOfOneKind) {
-  Progress progress = some_progress();
+  events::Progress progress = some_progress();
   progress.inbetweens = {};
   EXPECT_EQ(progress_text(progress), "frame 1 of 2, interval 2 of 5, 0.3 frames/s, 0:03 left");
 }
 
 TEST(Display, ProgressBeforeTheFirstFrame) {
-  Progress progress = some_progress();
+  events::Progress progress = some_progress();
   progress.keyframes.done = progress.inbetweens.done = 0;
   EXPECT_EQ(progress_text(progress), "frame 0 of 22");
 }
@@ -78,4 +78,4 @@ TEST(Display, OtherLines) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::launch

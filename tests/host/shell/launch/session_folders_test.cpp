@@ -21,7 +21,7 @@
 
 #include "tests/host/render/sinks/temporary_folder.h"
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 constexpr const char* kTemporary = "OMPI_MCA_orte_tmpdir_base";
 constexpr std::array kShared = {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"};
 
-Command open_mpi() { return {{}, {"mpirun"}, true}; }
+child::Command open_mpi() { return {{}, {"mpirun"}, true}; }
 
-std::optional<fs::path> folder_for(const char* setting, const Command& command) {
+std::optional<fs::path> folder_for(const char* setting, const child::Command& command) {
   for (const auto& [name, value] : command.environment)
     if (name == setting) return value;
   return std::nullopt;
@@ -49,11 +49,11 @@ class SessionFoldersTest : public testing::Test {
 
   bool base_is_empty() const { return fs::is_empty(base_.path()); }
 
-  const TemporaryFolder base_;
+  const sinks::TemporaryFolder base_;
 };
 
 TEST_F(SessionFoldersTest, ArePartOfTheCommandAndGo) {
-  Command command = open_mpi();
+  child::Command command = open_mpi();
   {
     const SessionFolders folders(command);
     EXPECT_EQ(folder_for(kTemporary, command)->parent_path(), base_.path());
@@ -68,7 +68,7 @@ TEST_F(SessionFoldersTest, ArePartOfTheCommandAndGo) {
 TEST_F(SessionFoldersTest, AnEmptyTmpdirIsNone) {
   setenv("TMPDIR", "", 1);
   setenv("TMP", base_.path().c_str(), 1);
-  Command command = open_mpi(), threads{{}, {"mars-threads"}};
+  child::Command command = open_mpi(), threads{{}, {"mars-threads"}};
   const SessionFolders folders(command), none(threads);
   EXPECT_EQ(folder_for(kTemporary, command)->parent_path(), base_.path());
   EXPECT_TRUE(threads.environment.empty());
@@ -78,7 +78,7 @@ TEST_F(SessionFoldersTest, OfARelativeTmpdirAreNamedInFull) {
   const fs::path before = fs::current_path();
   fs::current_path(base_.path());
   setenv("TMPDIR", ".", 1);
-  Command command = open_mpi();
+  child::Command command = open_mpi();
   {
     const SessionFolders folders(command);
     EXPECT_TRUE(folder_for(kTemporary, command)->is_absolute());
@@ -91,7 +91,7 @@ TEST_F(SessionFoldersTest, OfARelativeTmpdirAreNamedInFull) {
 TEST_F(SessionFoldersTest, AreNotMadeWhereAPersonNamedOthers) {
   setenv(kTemporary, "/elsewhere", 1);
   setenv(kShared[0], "/elsewhere", 1);
-  Command command = open_mpi();
+  child::Command command = open_mpi();
   const SessionFolders folders(command);
   EXPECT_TRUE(base_is_empty());
   ASSERT_EQ(command.environment.size(), 1u);
@@ -99,7 +99,7 @@ TEST_F(SessionFoldersTest, AreNotMadeWhereAPersonNamedOthers) {
 }
 
 TEST_F(SessionFoldersTest, OfALivingJobStayAndOfAnEndedOneGo) {
-  Command first = open_mpi(), second = open_mpi();
+  child::Command first = open_mpi(), second = open_mpi();
   const SessionFolders living(first);
   const fs::path lives = *folder_for(kTemporary, first);
   const fs::path ended = lives.string().substr(0, lives.string().size() - 6) + "abcdef";
@@ -131,7 +131,7 @@ TEST_F(SessionFoldersTest, AreRemovedByAnotherWithNothingOpen) {
   const pid_t starter = fork();
   if (starter == 0) {
     forbid_close_range();
-    Command command = open_mpi();
+    child::Command command = open_mpi();
     const SessionFolders folders(command);
     folders.leave_to_another();
     _exit(base_is_empty() ? 1 : 0);
@@ -151,4 +151,4 @@ TEST_F(SessionFoldersTest, AreRemovedByAnotherWithNothingOpen) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::launch

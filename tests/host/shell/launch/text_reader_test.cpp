@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::host {
+namespace mars::launch {
 namespace {
 
 TEST(TextReader, ReadsFromLeftToRight) {
@@ -43,4 +43,4 @@ TEST(OnOneLine, HasNoBreaks) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::launch

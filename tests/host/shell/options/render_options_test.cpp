@@ -7,7 +7,7 @@
 #include "host/shell/options/command_line.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::options {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -41,9 +41,9 @@ RenderOptions unusual() {
   options.folder = "a folder";
   options.nodes = 7;
   options.backend = Backend::threads;
-  options.frames = FrameSet("0-9,24,30-");
-  options.size = PictureSize{33, 44};
-  options.mapping = node::Mapping::optimal;
+  options.frames = film::FrameSet("0-9,24,30-");
+  options.size = images::PictureSize{33, 44};
+  options.mapping = wire::Mapping::optimal;
   options.intervals = Intervals::keyframes;
   options.no_coherence = true;
   options.block = 5;
@@ -101,9 +101,9 @@ TEST(RenderOptions, FormerNamesAreRefusedWithTheNewOne) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json", "--cubes", "2"});
     EXPECT_EQ(reading.code, kUsage);
-    EXPECT_TRUE(holds(reading.told, "--cubes: use --groups")) << reading.told;
+    EXPECT_TRUE(document::holds(reading.told, "--cubes: use --groups")) << reading.told;
   }
-  EXPECT_FALSE(holds(read(Program::mars, {"--help"}).told, "cubes"));
+  EXPECT_FALSE(document::holds(read(Program::mars, {"--help"}).told, "cubes"));
 }
 
 TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
@@ -128,15 +128,15 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
   for (const auto& [words, reason] : wrong) {
     const Reading reading = read(Program::mars, {"film.json", words[0], words[1]});
     EXPECT_EQ(reading.code, kUsage) << words[0] << " " << words[1];
-    EXPECT_TRUE(holds(reading.told, words[0])) << reading.told;
-    EXPECT_TRUE(holds(reading.told, reason)) << reading.told;
+    EXPECT_TRUE(document::holds(reading.told, words[0])) << reading.told;
+    EXPECT_TRUE(document::holds(reading.told, reason)) << reading.told;
   }
 }
 
 TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
-  EXPECT_TRUE(holds(read(Program::mars, {}).told, "FILM is required"));
-  EXPECT_TRUE(holds(read(Program::mars, {"film.json", "--bogus"}).told, "--bogus"));
-  EXPECT_TRUE(holds(read(Program::mars, {"film.json", "--nodes"}).told, "--nodes"));
+  EXPECT_TRUE(document::holds(read(Program::mars, {}).told, "FILM is required"));
+  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--bogus"}).told, "--bogus"));
+  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--nodes"}).told, "--nodes"));
   EXPECT_EQ(read(Program::mars, {"a.json", "b.json"}).code, kUsage);
   EXPECT_EQ(read(Program::host, {"film.json", "--nodes", "3"}).code, kUsage) << "MPI knows the nodes";
 }
@@ -145,7 +145,7 @@ TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
 TEST(RenderOptions, CompilingTakesWhatShapesTheFilm) {
   const Reading reading = read(Program::compile, {"film.json", "--size", "4x3", "--intervals", "keyframes"});
   EXPECT_EQ(reading.code, std::nullopt) << reading.told;
-  EXPECT_EQ(reading.options.size, (PictureSize{4, 3}));
+  EXPECT_EQ(reading.options.size, (images::PictureSize{4, 3}));
   EXPECT_EQ(read(Program::compile, {"film.json", "-o", "x"}).code, kUsage);
 }
 
@@ -163,7 +163,7 @@ TEST(RenderOptions, EveryOptionHasAnExample) {
     for (const CLI::Option* option :
          app.get_options([](const CLI::Option* each) { return each != nullptr; })) {
       if (option->get_name() == "--help" || option->get_group().empty()) continue;  // a refused name is in no group
-      EXPECT_TRUE(holds(option->get_description(), "Example: ")) << option->get_name();
+      EXPECT_TRUE(document::holds(option->get_description(), "Example: ")) << option->get_name();
     }
   }
   EXPECT_EQ(read(Program::mars, {"--help"}).code, 0);
@@ -173,11 +173,11 @@ TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json"});
     EXPECT_EQ(reading.code, kUsage);
-    EXPECT_TRUE(holds(reading.told, "add -o DIR"));
+    EXPECT_TRUE(document::holds(reading.told, "add -o DIR"));
     EXPECT_EQ(read(program, {"film.json", "--sink", "none"}).code, std::nullopt);
   }
   EXPECT_EQ(read(Program::compile, {"film.json"}).code, std::nullopt);
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::options

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mars::host {
+namespace mars::options {
 namespace {
 
 TEST(Wrapped, BreaksAtSpacesAndIndentsWhatFollows) {
@@ -18,4 +18,4 @@ TEST(Wrapped, KeepsLongWordsAndLineEnds) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::options

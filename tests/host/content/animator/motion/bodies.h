@@ -8,49 +8,49 @@
 #include "host/content/animator/motion/action.h"
 #include "host/content/animator/read_film.h"
 
-namespace mars::host {
+namespace mars::motion {
 
 struct Build {
   std::string name;
-  Json model;
+  document::Json model;
   double leg;  // length, in the model's unit
 };
 
-inline Json human() {
-  return read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/human.json");
+inline document::Json human() {
+  return document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/human.json");
 }
 
 // Another body of the man's parts: everything times `size`, with longer or shorter legs, and wider.
-inline Json built(double size, double legs, double width) {
-  Json model = human();
-  const auto shape = [&](Json& point, double height) {
+inline document::Json built(double size, double legs, double width) {
+  document::Json model = human();
+  const auto shape = [&](document::Json& point, double height) {
     for (int axis = 0; axis < 3; ++axis)
       point[axis] = point[axis].get<double>() * size * (axis == 1 ? width : axis == 2 ? height : 1);
   };
-  for (Json& joint : model["joints"]) {
+  for (document::Json& joint : model["joints"]) {
     const auto name = joint["name"].get<std::string>();
     const bool below_bone = name.ends_with("shin") || name.ends_with("-foot") || name == "pelvis";
     const bool bone = name.ends_with("thigh") || name.ends_with("shin");
     if (joint.contains("place")) shape(joint["place"], below_bone ? legs : 1);
     if (joint.contains("segment"))
-      for (Json& corner : joint["segment"]["sbb"]) shape(corner, bone ? legs : 1);
+      for (document::Json& corner : joint["segment"]["sbb"]) shape(corner, bone ? legs : 1);
   }
   return model;
 }
 
-inline Json jointed(const std::string& name, const std::string& parent, const Json& place, const Json& limits,
-                    const Json& sbb, const char* shape = "box") {
-  Json joint{{"name", name}, {"place", place}, {"segment", {{"shape", shape}, {"sbb", sbb}}}};
+inline document::Json jointed(const std::string& name, const std::string& parent, const document::Json& place, const document::Json& limits,
+                    const document::Json& sbb, const char* shape = "box") {
+  document::Json joint{{"name", name}, {"place", place}, {"segment", {{"shape", shape}, {"sbb", sbb}}}};
   if (!parent.empty()) joint["parent"] = parent;
   if (!limits.is_null()) joint["limits"] = limits;
   return joint;
 }
 
 // Of boxes, every joint a hinge: it can neither sway nor turn.
-inline Json robot() {
-  Json joints =
-      Json::array({jointed("hull", "", {0, 0, 95}, Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
-  Json limbs{{"pelvis", "hull"}};
+inline document::Json robot() {
+  document::Json joints =
+      document::Json::array({jointed("hull", "", {0, 0, 95}, document::Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
+  document::Json limbs{{"pelvis", "hull"}};
   for (const std::string side : {"left", "right"}) {
     const double y = side == "left" ? 18 : -18;
     joints.push_back(
@@ -70,11 +70,11 @@ inline Json robot() {
 }
 
 // It is drawn looking along -y, and its legs are of one piece.
-inline Json bird() {
-  Json joints = Json::array(
+inline document::Json bird() {
+  document::Json joints = document::Json::array(
       {jointed("body", "", {0, 0, 1.04}, {}, {{-0.5, -0.7, -0.3}, {0.5, 0.6, 0.6}}, "sphere"),
        jointed("head", "body", {0, -0.6, 0.6}, {{"x", {-40, 40}}}, {{-0.2, -0.3, -0.1}, {0.2, 0.2, 0.3}})});
-  Json limbs{{"pelvis", "body"}, {"head", "head"}};
+  document::Json limbs{{"pelvis", "body"}, {"head", "head"}};
   for (const std::string side : {"left", "right"}) {
     const double x = side == "left" ? 0.25 : -0.25;
     joints.push_back(jointed(side + " leg", "body", {x, 0, 0}, {}, {{-0.05, -0.05, -1}, {0.05, 0.05, 0}}));
@@ -86,11 +86,11 @@ inline Json bird() {
 }
 
 // Legs of one piece in a box, with hips so far aside, that turn freely or about one axis.
-inline Json stilts(double leg, double aside, const Json& limits) {
+inline document::Json stilts(double leg, double aside, const document::Json& limits) {
   const double wide = 0.9 * std::min(aside, 0.1 * leg);
-  Json joints =
-      Json::array({jointed("hull", "", {0, 0, 1.1 * leg}, {}, {{-0.1, -aside, 0}, {0.1, aside, leg / 2}})});
-  Json limbs{{"pelvis", "hull"}};
+  document::Json joints =
+      document::Json::array({jointed("hull", "", {0, 0, 1.1 * leg}, {}, {{-0.1, -aside, 0}, {0.1, aside, leg / 2}})});
+  document::Json limbs{{"pelvis", "hull"}};
   for (const std::string side : {"left", "right"}) {
     const double y = side == "left" ? aside : -aside;
     joints.push_back(
@@ -103,23 +103,23 @@ inline Json stilts(double leg, double aside, const Json& limits) {
 }
 
 // The man, changed: limits of all joints whose names end so.
-inline Json limited(Json model, const std::string& end, const char* axis, const Json& limits) {
-  for (Json& joint : model["joints"])
+inline document::Json limited(document::Json model, const std::string& end, const char* axis, const document::Json& limits) {
+  for (document::Json& joint : model["joints"])
     if (joint["name"].get<std::string>().ends_with(end)) joint["limits"][axis] = limits;
   return model;
 }
 
-inline Json film_with(const Json& model) {
+inline document::Json film_with(const document::Json& model) {
   return {
       {"frames", 1000},
       {"camera", {{"eye", {0, -9, 2}}}},
       {"models", {{"figure", model}}},
       {"actors",
-       Json::array({{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
+       document::Json::array({{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
 }
 
 // "walk steps 4 lean 5", from a frame on, or else from the last key.
-inline Performed act(Json& film, const std::string& text, std::optional<std::uint32_t> at = {}) {
+inline Performed act(document::Json& film, const std::string& text, std::optional<std::uint32_t> at = {}) {
   std::vector<std::string> words;
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t to = std::min(text.find(' ', from), text.size());
@@ -137,9 +137,9 @@ inline Performed act(Json& film, const std::string& text, std::optional<std::uin
   return perform(film, "film.json", "anna", action, at, Wishes(values, std::string(action.name)));
 }
 
-inline Film read(const Json& json) {
-  const Document document(laid_out(json), "film.json");
-  return read_film(document.root(), ".");
+inline animator::Film read(const document::Json& json) {
+  const document::Document document(document::laid_out(json), "film.json");
+  return animator::read_film(document.root(), ".");
 }
 
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -11,7 +11,7 @@
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/modeler/surface.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 // Of a leg's length, which is 835 mm on a man of 1.75 m: what is lower is on the floor; how far it may slide,
@@ -23,19 +23,19 @@ constexpr double kNarrow = 0.04, kNarrowSlide = 0.05;
 using Points = std::vector<glm::dvec3>;
 
 // All over the parts whose names begin with "anna/left" and end so.
-Points sole(const CompiledFilm& film, const std::string& side, std::uint32_t frame) {
+Points sole(const film::CompiledFilm& film, const std::string& side, std::uint32_t frame) {
   Points points;
-  for (const node::Segment& segment : film.view().segments()) {
+  for (const wire::Segment& segment : film.view().segments()) {
     const std::string name(film.view().name(segment));
     if (!name.starts_with("anna/" + side) ||
         !(name.ends_with("foot") || name.ends_with("toes") || name.ends_with("sole")))
       continue;
     const auto& m = film.view().matrix_at(segment, frame).m;
-    const node::Shape& shape = film.view().shapes()[segment.shape];
-    for (const node::Patch& patch : film.view().patches().subspan(shape.first_patch, shape.patch_count))
+    const wire::Shape& shape = film.view().shapes()[segment.shape];
+    for (const wire::Patch& patch : film.view().patches().subspan(shape.first_patch, shape.patch_count))
       for (const double u : {0.0, 0.5, 1.0})
         for (const double v : {0.0, 0.5, 1.0}) {
-          const glm::dvec3 p = point_of(patch, u, v);
+          const glm::dvec3 p = modeler::point_of(patch, u, v);
           const auto at = [&](std::size_t r) {
             return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3];
           };
@@ -59,8 +59,8 @@ glm::dvec3 middle(const Points& points) {
 
 class Feet {
  public:
-  Feet(const Json& film, const Performed& performed, double leg)
-      : film_(compile(read(film))),
+  Feet(const document::Json& film, const Performed& performed, double leg)
+      : film_(film::compile(read(film))),
         performed_(performed),
         leg_(leg),
         floor_(std::min(lowest(sole(film_, "left", 0)), lowest(sole(film_, "right", 0)))) {}
@@ -106,7 +106,7 @@ class Feet {
     ++held_;
   }
 
-  CompiledFilm film_;
+  film::CompiledFilm film_;
   Performed performed_;
   double leg_, floor_;
   std::map<std::string, std::vector<std::optional<glm::dvec3>>> landed_;
@@ -130,7 +130,7 @@ std::vector<Build> everybody() {
 
 TEST(Feet, OfAllBuildsStayWhereTheyStandInAWalk) {
   for (const Build& build : everybody()) {
-    Json film = film_with(build.model);
+    document::Json film = film_with(build.model);
     const Performed performed = act(film, "walk steps 5", 5);
     Feet feet(film, performed, build.leg);
     feet.expect_footing(build.name + " walks");
@@ -142,7 +142,7 @@ TEST(Feet, OfLegsOfOnePieceStayWhateverTheProportions) {
   for (const double leg : {0.5, 1.0, 2.0})
     for (const double aside : {0.02, 0.05, 0.1, 0.15, 0.3})
       for (const char* words : {"walk steps 4", "walk steps 4 step-length 0.1", "walk turn 90", "turn"}) {
-        Json film = film_with(stilts(leg, aside * leg, {}));
+        document::Json film = film_with(stilts(leg, aside * leg, {}));
         const Performed performed = act(film, words, 5);
         Feet(film, performed, leg)
             .expect_footing(std::to_string(leg) + " " + std::to_string(aside) + " " + words,
@@ -154,7 +154,7 @@ TEST(Feet, OfLegsOfOnePieceStayWhateverTheProportions) {
 // round.
 TEST(Feet, OfLegsOfOnePieceOnHingesDoNotSink) {
   for (const double aside : {0.02, 0.1, 0.3}) {
-    Json film = film_with(stilts(1, aside, {{"y", {-60, 60}}}));
+    document::Json film = film_with(stilts(1, aside, {{"y", {-60, 60}}}));
     const Performed performed = act(film, "walk steps 4", 5);
     Feet(film, performed, 1).expect_no_sinking(std::to_string(aside));
   }
@@ -165,7 +165,7 @@ TEST(Feet, StayInOtherStylesAndOnBows) {
        {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
         "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
     for (const Build& build : people()) {
-      Json film = film_with(build.model);
+      document::Json film = film_with(build.model);
       const Performed performed = act(film, words, 5);
       Feet(film, performed, build.leg).expect_footing(build.name + " " + words);
     }
@@ -175,7 +175,7 @@ TEST(Feet, StayWhileAFigureSitsDownAndStandsUp) {
   std::vector<Build> builds = people();
   builds.push_back({"robot", robot(), 87});
   for (const Build& build : builds) {
-    Json film = film_with(build.model);
+    document::Json film = film_with(build.model);
     for (const char* words : {"sit", "stand"}) {
       const Performed performed = act(film, words);
       Feet(film, performed, build.leg).expect_footing(build.name + " " + words);
@@ -184,7 +184,7 @@ TEST(Feet, StayWhileAFigureSitsDownAndStandsUp) {
 }
 
 TEST(Walking, GoesOnFromWhereTheFigureStandsAndLooks) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   act(film, "turn by 60", 0);
   const Performed performed = act(film, "walk steps 3 step-length 1.5");
   const glm::dvec3 way = Feet(film, performed, 2.42).way();
@@ -193,11 +193,11 @@ TEST(Walking, GoesOnFromWhereTheFigureStandsAndLooks) {
 }
 
 TEST(Walking, GoesToAPlace) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   const Performed performed = act(film, "walk to -6 3", 0);
   const glm::dvec3 end = Feet(film, performed, 2.42).at(performed.last);
   EXPECT_LT(std::hypot(end.x + 6, end.y - 3), 0.35) << "soles reach farther ahead of the ankles than behind";
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::motion

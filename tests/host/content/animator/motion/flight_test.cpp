@@ -8,7 +8,7 @@
 #include "host/content/animator/figure.h"
 #include "tests/host/content/animator/motion/bodies.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kG = 9.81;
@@ -52,20 +52,20 @@ TEST(Flight, FrictionTakesItsShareAndThenBrakesToRest) {
 }
 
 // What the film shows at a frame.
-glm::dvec3 shown(const Json& json, std::uint32_t frame) {
-  return value_at(read(json).actors[0].motion.place, frame);
+glm::dvec3 shown(const document::Json& json, std::uint32_t frame) {
+  return animator::value_at(read(json).actors[0].motion.place, frame);
 }
 
-Json ball_at(double height) {
-  Json film = film_with(
+document::Json ball_at(double height) {
+  document::Json film = film_with(
       {{"joints",
-        Json::array({jointed("ball", "", {0, 0, 0}, {}, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, "sphere")})}});
+        document::Json::array({jointed("ball", "", {0, 0, 0}, {}, {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, "sphere")})}});
   film["actors"][0]["place"] = {0, 0, height};
   return film;
 }
 
 TEST(Bounce, FilmsFollowTheLawAtEveryFrameWithinTheTolerance) {
-  Json film = ball_at(3.5);
+  document::Json film = ball_at(3.5);
   const Performed done = act(film, "bounce velocity 2 0 1 restitution 0.75 friction 0.1 spin 0 300 0", 10);
   const Flight flight({{0, 0, 3}, {2, 0, 1}, {0, 0, -kG}},
                       {.height = 0, .restitution = 0.75, .friction = 0.1}, 1e-3 * (3 + 1 / (2 * kG)));
@@ -78,23 +78,23 @@ TEST(Bounce, FilmsFollowTheLawAtEveryFrameWithinTheTolerance) {
 }
 
 TEST(Bounce, OfABallThatFallsStraightEndsWithTheSeries) {
-  Json film = ball_at(2.5);
+  document::Json film = ball_at(2.5);
   const Performed done = act(film, "bounce restitution 0.5", 0);
   EXPECT_EQ(done.last, std::uint32_t(std::ceil(24 * 3 * std::sqrt(4 / kG))));
   EXPECT_EQ(shown(film, done.last).z, 0.5);
 }
 
 TEST(Spin, TurnsEvenlyThroughWholeTurns) {
-  Json film = ball_at(0);
+  document::Json film = ball_at(0);
   film["actors"][0].erase("turn");
   act(film, "spin axis z degrees 720 seconds 3", 0);
-  const Film meaning = read(film);
-  JointMotion turning(Joint{}, meaning.actors[0].motion.turn);
+  const animator::Film meaning = read(film);
+  animator::JointMotion turning(modeler::Joint{}, meaning.actors[0].motion.turn);
   for (std::uint32_t frame = 0; frame <= 72; ++frame) {
-    const glm::dmat3 turn = turning.at(frame), wanted = rotation_by_degrees({0, 0, 1}, 10.0 * frame);
-    EXPECT_LT(turn_between(turn, wanted).angle, 1e-3) << frame;
+    const glm::dmat3 turn = turning.at(frame), wanted = modeler::rotation_by_degrees({0, 0, 1}, 10.0 * frame);
+    EXPECT_LT(animator::turn_between(turn, wanted).angle, 1e-3) << frame;
   }
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::motion

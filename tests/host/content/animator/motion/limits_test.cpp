@@ -10,21 +10,21 @@
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
 constexpr double kRounding = 1e-4;  // degrees
 
 struct Shown {
-  explicit Shown(const Json& film) : film(read(film)), body(body_of(film_model(), "anna", "test")) {}
+  explicit Shown(const document::Json& film) : film(read(film)), body(body_of(film_model(), "anna", "test")) {}
 
-  const Model& film_model() const { return film.models[0]; }
+  const modeler::Model& film_model() const { return film.models[0]; }
   Posture at(std::uint32_t frame) const { return posture_at(film_model(), film.actors[0].motion, frame); }
   glm::dvec3 place(std::size_t joint, std::uint32_t frame) const {
     return frame_in(film_model(), at(frame), joint).place;
   }
 
-  Film film;
+  animator::Film film;
   Body body;
 };
 
@@ -41,7 +41,7 @@ const char* const kAll[] = {"walk steps 4",
                             "walk to 9 9 arm-swing 1.5"};
 
 TEST(Actions, KeepTheLimitsAtEveryFrame) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   for (const char* words : kAll) {
     const Performed done = act(film, words);
     const Shown shown(film);
@@ -49,7 +49,7 @@ TEST(Actions, KeepTheLimitsAtEveryFrame) {
       const Posture posture = shown.at(frame);
       for (std::size_t i = 0; i < posture.pose.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) {
-          const Limits& limits = shown.film_model().joints[i].limits[axis];
+          const modeler::Limits& limits = shown.film_model().joints[i].limits[axis];
           EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding)
               << words << " " << frame << shown.body.joint_name(i);
           EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding)
@@ -61,7 +61,7 @@ TEST(Actions, KeepTheLimitsAtEveryFrame) {
 
 // No joint's speed changes by more, from a frame to the next, than a foot's that comes down.
 TEST(Actions, GoOnWithoutAJump) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   std::uint32_t last = 0;
   for (const char* words : kAll) last = act(film, words).last;
   const Shown shown(film);
@@ -76,7 +76,7 @@ TEST(Actions, GoOnWithoutAJump) {
 }
 
 TEST(Actions, BeginWithWhatTheFigureDoes) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   film["actors"][0]["pose"] = {{"left-upper-arm", {60, 0, 0}}, {"spine", {0, 15, 0}}};
   const Shown before(film);
   act(film, "walk steps 2", 12);
@@ -87,7 +87,7 @@ TEST(Actions, BeginWithWhatTheFigureDoes) {
 }
 
 TEST(Actions, AskedAgainReplaceWhatTheyHadMade) {
-  Json once = film_with(human()), twice = once;
+  document::Json once = film_with(human()), twice = once;
   act(once, "walk steps 3", 5);
   act(twice, "walk steps 3 lean 10 pace 1.9", 5);
   act(twice, "walk steps 3", 5);
@@ -115,28 +115,28 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
            Impossible{"spin seconds 600", "would end at frame 1500000", 1000, 900'000},
            Impossible{"throw seconds 600", "would end at frame 1500000", 1000, 900'000},
        }) {
-    Json film = film_with(human());
+    document::Json film = film_with(human());
     film["rate"] = rate;
-    const std::string failure = failure_of([&] { act(film, words, at); });
-    EXPECT_TRUE(holds(failure, told)) << words << ": " << failure;
+    const std::string failure = document::failure_of([&] { act(film, words, at); });
+    EXPECT_TRUE(document::holds(failure, told)) << words << ": " << failure;
   }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 TEST(Walk, SwingsArmsAgainstLegsAndBendsKneesForward) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   const Performed done = act(film, "walk steps 6", 0);
   const Shown shown(film);
   const glm::dvec3 forward = canonical_turn(0, 0, 30)[0];
   int opposite = 0, frames = 0;
   for (std::uint32_t frame = 30; frame + 30 < done.last; ++frame, ++frames) {
-    const auto ahead = [&](Limb limb) {
-      return glm::dot(shown.place(shown.body.find(limb, Side::left), frame) -
-                          shown.place(shown.body.find(limb, Side::right), frame),
+    const auto ahead = [&](modeler::Limb limb) {
+      return glm::dot(shown.place(shown.body.find(limb, modeler::Side::left), frame) -
+                          shown.place(shown.body.find(limb, modeler::Side::right), frame),
                       forward);
     };
-    opposite += ahead(Limb::ankle) * ahead(Limb::wrist) < 0;
-    for (const Side side : kSides) {
+    opposite += ahead(modeler::Limb::ankle) * ahead(modeler::Limb::wrist) < 0;
+    for (const modeler::Side side : kSides) {
       const glm::dvec3 hip = shown.place(shown.body.leg(side).hip, frame),
                        knee = shown.place(shown.body.leg(side).knee, frame),
                        ankle = shown.place(shown.body.leg(side).ankle, frame);
@@ -147,16 +147,16 @@ TEST(Walk, SwingsArmsAgainstLegsAndBendsKneesForward) {
 }
 
 TEST(Sit, HasThighsLevelFeetDownAndHandsOnThighs) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   const Performed done = act(film, "sit", 0);
   const Shown shown(film);
-  for (const Side side : kSides) {
+  for (const modeler::Side side : kSides) {
     const Leg& leg = shown.body.leg(side);
     const glm::dvec3 hip = shown.place(leg.hip, done.last), knee = shown.place(leg.knee, done.last);
     EXPECT_NEAR(hip.z, knee.z, 0.01 * leg.thigh);
     EXPECT_NEAR(glm::distance(glm::dvec2(knee), glm::dvec2(shown.place(leg.ankle, done.last))), 0,
                 0.2 * leg.shin);
-    const glm::dvec3 hand = shown.place(shown.body.find(Limb::wrist, side), done.last);
+    const glm::dvec3 hand = shown.place(shown.body.find(modeler::Limb::wrist, side), done.last);
     EXPECT_GT(hand.z, knee.z);
     EXPECT_LT(glm::distance(hand, 0.5 * (hip + knee)), 0.5 * leg.thigh);
   }
@@ -164,22 +164,22 @@ TEST(Sit, HasThighsLevelFeetDownAndHandsOnThighs) {
 }
 
 TEST(Sit, OnASeatOfAnotherHeight) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   const Performed low = act(film, "sit seat-height 0.9", 0);
   const double hips = Shown(film).place(Shown(film).body.pelvis, low.last).z;
-  Json other = film_with(human());
+  document::Json other = film_with(human());
   const Performed high = act(other, "sit seat-height 1.3", 0);
   EXPECT_NEAR(Shown(other).place(Shown(other).body.pelvis, high.last).z - hips, 0.4, 1e-3);
 }
 
 TEST(Wave, RaisesTheHandAndMovesItToAndFro) {
   for (const std::string hand : {"left", "right"}) {
-    Json film = film_with(human());
+    document::Json film = film_with(human());
     const Performed done = act(film, "wave times 2 hand " + hand, 0);
     const Shown shown(film);
-    const Side side = hand == "left" ? Side::left : Side::right;
-    const std::size_t wrist = shown.body.find(Limb::wrist, side),
-                      shoulder = shown.body.find(Limb::shoulder, side);
+    const modeler::Side side = hand == "left" ? modeler::Side::left : modeler::Side::right;
+    const std::size_t wrist = shown.body.find(modeler::Limb::wrist, side),
+                      shoulder = shown.body.find(modeler::Limb::shoulder, side);
     EXPECT_GT(shown.place(wrist, 12).z, shown.place(shoulder, 12).z + 0.2 * shown.body.leg_length());
     EXPECT_GT(glm::distance(shown.place(wrist, 12), shown.place(wrist, 18)), 0.15 * shown.body.leg_length());
     EXPECT_LT(glm::distance(shown.place(wrist, 0), shown.place(wrist, done.last)), 1e-3);
@@ -187,13 +187,13 @@ TEST(Wave, RaisesTheHandAndMovesItToAndFro) {
 }
 
 TEST(Nod, BendsTheHeadAsDeepAsAskedAndComesBack) {
-  Json film = film_with(human());
+  document::Json film = film_with(human());
   const Performed done = act(film, "nod times 1 depth 30 seconds 1", 0);
   const Shown shown(film);
-  const std::size_t head = shown.body.find(Trunk::head);
+  const std::size_t head = shown.body.find(modeler::Trunk::head);
   const auto bent = [&](std::uint32_t frame) {
     return glm::degrees(
-        turn_between(shown.body.turn_of(shown.at(0), head), shown.body.turn_of(shown.at(frame), head)).angle);
+        animator::turn_between(shown.body.turn_of(shown.at(0), head), shown.body.turn_of(shown.at(frame), head)).angle);
   };
   EXPECT_NEAR(bent(11), 30, 0.25);
   EXPECT_NEAR(bent(done.last), 0, 0.01);
@@ -202,14 +202,14 @@ TEST(Nod, BendsTheHeadAsDeepAsAskedAndComesBack) {
 // After a turn its feet point outward, which such ankles cannot do for a figure that sits.
 TEST(Sit, IsDoneByFiguresWhoseAnklesDoNotTwist) {
   for (const char* before : {"turn", "walk steps 2"}) {
-    Json film = film_with(limited(human(), "-foot", "z", {0, 0}));
+    document::Json film = film_with(limited(human(), "-foot", "z", {0, 0}));
     for (const char* words : {before, "sit", "stand"}) EXPECT_NO_THROW(act(film, words)) << before << words;
   }
 }
 
 TEST(Turn, TakesSmallerStepsWhereLimitsWantIt) {
   for (const char* words : {"turn by 90", "walk turn 200"}) {
-    Json free = film_with(human()), narrow = film_with(limited(human(), "-thigh", "z", {-10, 10}));
+    document::Json free = film_with(human()), narrow = film_with(limited(human(), "-thigh", "z", {-10, 10}));
     const Performed quick = act(free, words, 0), slow = act(narrow, words, 0);
     EXPECT_GT(slow.last, quick.last) << words;
     const Shown a(free), b(narrow);
@@ -218,22 +218,22 @@ TEST(Turn, TakesSmallerStepsWhereLimitsWantIt) {
 }
 
 // "head", "left shoulder" and "left elbow" only.
-Json bust() {
-  Json model = human();
-  const Json limbs = model["limbs"];
+document::Json bust() {
+  document::Json model = human();
+  const document::Json limbs = model["limbs"];
   model["limbs"] = {{"head", limbs["head"]},
                     {"left", {{"shoulder", limbs["left"]["shoulder"]}, {"elbow", limbs["left"]["elbow"]}}}};
   return model;
 }
 
 TEST(Gestures, NeedNoLegsAndNoHands) {
-  Json film = film_with(bust()), whole = film_with(human());
+  document::Json film = film_with(bust()), whole = film_with(human());
   EXPECT_NO_THROW(act(film, "nod", 0));
   act(film, "wave hand left", 0);
   act(whole, "wave hand left", 0);
-  const Film a = read(film), b = read(whole);
-  const Model& model = b.models[0];
-  const std::size_t wrist = model.limbs.of(Limb::wrist, Side::left);
+  const animator::Film a = read(film), b = read(whole);
+  const modeler::Model& model = b.models[0];
+  const std::size_t wrist = model.limbs.of(modeler::Limb::wrist, modeler::Side::left);
   for (const std::uint32_t frame : {12u, 18u})
     EXPECT_LT(
         glm::distance(frame_in(a.models[0], posture_at(a.models[0], a.actors[0].motion, frame), wrist).place,
@@ -241,9 +241,9 @@ TEST(Gestures, NeedNoLegsAndNoHands) {
         0.25);
 }
 
-std::string refused(const Json& model, const std::string& words) {
-  Json film = film_with(model);
-  return failure_of([&] { act(film, words, 0); });
+std::string refused(const document::Json& model, const std::string& words) {
+  document::Json film = film_with(model);
+  return document::failure_of([&] { act(film, words, 0); });
 }
 
 TEST(Actions, SayWhatIsInTheWay) {
@@ -262,9 +262,9 @@ TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(bird(), "sit"),
             "actor 'anna': its model names no left knee, which 'sit' needs "
             "(add it to the model's limbs: docs/model-format.md)");
-  Json seated = film_with(human());
+  document::Json seated = film_with(human());
   act(seated, "sit", 0);
-  EXPECT_NE(failure_of([&] { act(seated, "sit"); }).find("give --at with the frame where it began"),
+  EXPECT_NE(document::failure_of([&] { act(seated, "sit"); }).find("give --at with the frame where it began"),
             std::string::npos);
   EXPECT_EQ(refused(human(), "nod depth 100"),
             "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
@@ -275,18 +275,18 @@ TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(human(), "wave hand lft"), "wave: 'hand' is 'lft' (did you mean 'left'?)");
 }
 
-Json with_places(const std::vector<std::pair<std::string, Json>>& places) {
-  Json model = human();
-  for (Json& joint : model["joints"])
+document::Json with_places(const std::vector<std::pair<std::string, document::Json>>& places) {
+  document::Json model = human();
+  for (document::Json& joint : model["joints"])
     for (const auto& [name, place] : places)
       if (joint["name"] == name) joint["place"] = place;
   return model;
 }
 
 TEST(Actions, LegsThatTellNoDirectionAreRefused) {
-  const Json together = with_places({{"left-thigh", {0, 0, -0.2}}, {"right-thigh", {0, 0, -0.2}}});
-  const Json above = with_places({{"left-thigh", {0, 0, 0}}, {"right-thigh", {0, 0, -0.5}}});
-  const Json none = with_places({{"right-shin", {0, 0, 0}}, {"right-foot", {0, 0, 0}}});
+  const document::Json together = with_places({{"left-thigh", {0, 0, -0.2}}, {"right-thigh", {0, 0, -0.2}}});
+  const document::Json above = with_places({{"left-thigh", {0, 0, 0}}, {"right-thigh", {0, 0, -0.5}}});
+  const document::Json none = with_places({{"right-shin", {0, 0, 0}}, {"right-foot", {0, 0, 0}}});
   for (const char* words : {"walk", "turn", "sit", "nod", "wave"}) {
     EXPECT_EQ(refused(together, words),
               "actor 'anna': its hips are at one place "
@@ -297,11 +297,11 @@ TEST(Actions, LegsThatTellNoDirectionAreRefused) {
 }
 
 TEST(Actions, DoNotEndBehindWhatAFilmCanHave) {
-  Json film = film_with(human());
-  EXPECT_EQ(failure_of([&] { act(film, "spin seconds 600", 999'000); }),
+  document::Json film = film_with(human());
+  EXPECT_EQ(document::failure_of([&] { act(film, "spin seconds 600", 999'000); }),
             "actor 'anna', spin: would end at frame 1013400 "
             "(begin earlier, or make it shorter: a film has at most 1000000 frames)");
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::motion

@@ -8,38 +8,38 @@
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
 
-namespace mars::host {
+namespace mars::motion {
 namespace {
 
-const Json& cubes() {
-  static const Json film = [] {
-    Json made =
-        film_with({{"joints", Json::array({jointed("cube", "", {0, 0, 0}, {}, {{-1, -1, -1}, {1, 1, 1}})})}});
+const document::Json& cubes() {
+  static const document::Json film = [] {
+    document::Json made =
+        film_with({{"joints", document::Json::array({jointed("cube", "", {0, 0, 0}, {}, {{-1, -1, -1}, {1, 1, 1}})})}});
     made["actors"] =
-        Json::array({{{"name", "green"}, {"model", "figure"}}, {{"name", "the blue"}, {"model", "figure"}}});
+        document::Json::array({{{"name", "green"}, {"model", "figure"}}, {{"name", "the blue"}, {"model", "figure"}}});
     return made;
   }();
   return film;
 }
 
-Json played(const std::string& script, Json film = cubes()) {
+document::Json played(const std::string& script, document::Json film = cubes()) {
   play_script(film, "film.json", script, "a.script");
   read(film);
   return film;
 }
 
 std::string failure(const std::string& script) {
-  return failure_of([&] { played(script); });
+  return document::failure_of([&] { played(script); });
 }
 
-std::vector<std::uint32_t> frames_of(const Json& actor) {
+std::vector<std::uint32_t> frames_of(const document::Json& actor) {
   std::vector<std::uint32_t> frames;
-  for (const Json& key : actor.at("keys")) frames.push_back(key.at("frame"));
+  for (const document::Json& key : actor.at("keys")) frames.push_back(key.at("frame"));
   return frames;
 }
 
 TEST(Script, TheThesisTwoCubesOnOnePage) {
-  const Json film = played(R"(
+  const document::Json film = played(R"(
 let runtime = 96
 let midpoint = runtime / 2   # half way
 at 0         green      spin degrees 180 until runtime
@@ -53,7 +53,7 @@ at runtime   cut)");
 }
 
 TEST(Script, ACameraMovesNoLongerThanAFilmLasts) {
-  EXPECT_TRUE(holds(failure("at 10 camera move eye 1 2 3 seconds 1e6"),
+  EXPECT_TRUE(document::holds(failure("at 10 camera move eye 1 2 3 seconds 1e6"),
                     "a.script:1: this line moves the camera until frame 24000010 (a film has at most 1000000 frames"));
 }
 
@@ -62,7 +62,7 @@ TEST(Script, CutAloneEndsTheFilmWhenTheLineBeforeEnds) {
 }
 
 TEST(Script, CuesFollowOneAnother) {
-  const Json film = played(
+  const document::Json film = played(
       "at 1s green go to 1 0 0 seconds 0.5 as there\n"
       "then green go to 2 0 0\n"
       "after there + 0.5s \"the blue\" go to 0 1 0 seconds 1");
@@ -71,21 +71,21 @@ TEST(Script, CuesFollowOneAnother) {
 }
 
 TEST(Script, PlayedAgainAfterAChangeLeavesNothingOfTheOld) {
-  const Json once = played("at 10 green spin seconds 4\nat 20 camera cut eye 1 2 3");
+  const document::Json once = played("at 10 green spin seconds 4\nat 20 camera cut eye 1 2 3");
   const std::string shorter = "at 10 green go to 3 0 0\nat 30 camera cut eye 3 2 1";
-  EXPECT_EQ(laid_out(played(shorter, played(shorter))), laid_out(played(shorter)));
+  EXPECT_EQ(document::laid_out(played(shorter, played(shorter))), document::laid_out(played(shorter)));
   EXPECT_EQ(frames_of(played(shorter, once).at("actors")[0]).back(), 34u);
 }
 
 TEST(Script, TheCameraCutsFromOneFrameToTheNextAndMoves) {
-  Json film = played("at 20 camera cut eye 5 0 1 fov 30\nat 40 camera move eye 9 0 1 seconds 1");
-  const Film meaning = read(film);
-  EXPECT_EQ(value_at(meaning.camera.eye, 19), glm::dvec3(0, -9, 2));
-  EXPECT_EQ(value_at(meaning.camera.eye, 20), glm::dvec3(5, 0, 1));
-  EXPECT_EQ(value_at(meaning.camera.eye, 40), glm::dvec3(5, 0, 1));
-  EXPECT_EQ(value_at(meaning.camera.eye, 64), glm::dvec3(9, 0, 1));
-  EXPECT_EQ(value_at(meaning.camera.fov, 19), 40);
-  EXPECT_EQ(value_at(meaning.camera.fov, 20), 30);
+  document::Json film = played("at 20 camera cut eye 5 0 1 fov 30\nat 40 camera move eye 9 0 1 seconds 1");
+  const animator::Film meaning = read(film);
+  EXPECT_EQ(animator::value_at(meaning.camera.eye, 19), glm::dvec3(0, -9, 2));
+  EXPECT_EQ(animator::value_at(meaning.camera.eye, 20), glm::dvec3(5, 0, 1));
+  EXPECT_EQ(animator::value_at(meaning.camera.eye, 40), glm::dvec3(5, 0, 1));
+  EXPECT_EQ(animator::value_at(meaning.camera.eye, 64), glm::dvec3(9, 0, 1));
+  EXPECT_EQ(animator::value_at(meaning.camera.fov, 19), 40);
+  EXPECT_EQ(animator::value_at(meaning.camera.fov, 20), 30);
 }
 
 TEST(Script, SaysLineAndRemedyOfWhatIsWrong) {
@@ -116,8 +116,8 @@ TEST(Script, SaysLineAndRemedyOfWhatIsWrong) {
 }
 
 TEST(Script, WhatFailsLeavesTheFilmAsItWas) {
-  Json film = cubes();
-  EXPECT_NE(failure_of([&] { play_script(film, "film.json", "at 0 green spin\nat 5 red spin", "a.script"); }),
+  document::Json film = cubes();
+  EXPECT_NE(document::failure_of([&] { play_script(film, "film.json", "at 0 green spin\nat 5 red spin", "a.script"); }),
             "");
   EXPECT_EQ(film, cubes());
 }
@@ -125,16 +125,16 @@ TEST(Script, WhatFailsLeavesTheFilmAsItWas) {
 TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
   for (const std::string name : {"cubes", "visit"}) {
     const std::filesystem::path path = std::filesystem::path(MARS_SOURCE_DIR) / "examples" / (name + ".json");
-    const Json kept = read_json(path);
-    Json made = kept;
-    play_script(made, path, read_file(path.parent_path() / (name + ".script")), name + ".script");
-    const Film a = read_film(path);
-    const Document document(laid_out(made), name);
-    const Film b = read_film(document.root(), path.parent_path());
+    const document::Json kept = document::read_json(path);
+    document::Json made = kept;
+    play_script(made, path, document::read_file(path.parent_path() / (name + ".script")), name + ".script");
+    const animator::Film a = animator::read_film(path);
+    const document::Document document(document::laid_out(made), name);
+    const animator::Film b = animator::read_film(document.root(), path.parent_path());
     ASSERT_EQ(a.frames, b.frames);
     for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
       for (std::uint32_t frame = 0; frame < a.frames; ++frame) {
-        const auto place = [&](const Film& film) { return value_at(film.actors[actor].motion.place, frame); };
+        const auto place = [&](const animator::Film& film) { return animator::value_at(film.actors[actor].motion.place, frame); };
         EXPECT_LT(glm::distance(place(a), place(b)), 1e-3)
             << name << " " << a.actors[actor].name << " " << frame;
       }
@@ -146,4 +146,4 @@ TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
 }
 
 }  // namespace
-}  // namespace mars::host
+}  // namespace mars::motion
