@@ -118,7 +118,7 @@ void Firmware::receive_film(std::span<std::byte> block) {
 void Firmware::render() {
   Renderer& renderer = this->renderer();
   const auto [command, frames] = wire::read_render(receive(wire::kRender), *film_, static_cast<int>(mynode()),
-                                             static_cast<int>(numnodes()), groups_);
+                                                   static_cast<int>(numnodes()), groups_);
   renderer.render(command, frames);
 }
 

@@ -8,7 +8,8 @@
 
 namespace mars::node {
 
-Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set)
+Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
+                   simd::InstructionSet set)
     : scene_(film),
       mapping_(load.mapping),
       tessellator_(set),
@@ -51,12 +52,14 @@ void Renderer::begin_interval(const wire::Render& command, std::span<const std::
   moving_line_bounds_ = scene_.moving_line_bounds(inbetweens);
   std::ranges::fill(contributes_, std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k)
-    contributes_[static_cast<std::size_t>(wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count))] = 1;
+    contributes_[static_cast<std::size_t>(
+        wire::contributor_of_inbetween(command.first_inbetween + k, command.group_count))] = 1;
 }
 
 // The thesis's four steps: triangles, homes for the scanlines, triangles to their homes, scanlines. An inbetween takes
 // them with moving parts only, by one node, which is the home of all lines.
-void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame, const collectives::Group& group) {
+void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uint32_t frame,
+                          const collectives::Group& group) {
   group_ = group;
   report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
@@ -94,8 +97,8 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
-  const Tessellation own =
-      tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_}, arena_, report_.strip().work);
+  const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_},
+                                                   arena_, report_.strip().work);
   report_.clock(wire::Phase::dice);
   return own;
 }
@@ -116,7 +119,8 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
 // Edge boxes of all nodes on the caller's lines. While others' are on their way, the own ones are put into their lines.
 raster::LineBoxes Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
   const auto homes_now = std::span(pass_homes_).first(homes().size());
-  std::ranges::transform(homes(), homes_now.begin(), [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
+  std::ranges::transform(homes(), homes_now.begin(),
+                         [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
   triangle_exchange_.send_triangles(group_, own, homes_now, line_counts_, arena_);
   report_.clock(wire::Phase::exchange);
   raster::LineFiller filler(homes_now[member()], sums_.ebc(), own.triangles, arena_);
@@ -133,7 +137,8 @@ raster::LineBoxes Renderer::exchange_triangles(const raster::Polygons& own, cons
   return boxes;
 }
 
-void Renderer::draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles, const group::Pass& pass) {
+void Renderer::draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles,
+                          const group::Pass& pass) {
   const shading::Shading shades = shading(triangles);
   const bool constant = boxes.any_stationary();
   geometry::LineRange strip{boxes.lines.first, boxes.lines.first};

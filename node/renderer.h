@@ -26,7 +26,8 @@ namespace mars::node {
 class Renderer {
  public:
   // `machines`: each node's. Collective over a machine's nodes.
-  Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines, simd::InstructionSet set);
+  Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
+           simd::InstructionSet set);
 
   // Draws the caller's share of `frames` (see Render) and sends it.
   void render(const wire::Render& command, std::span<const std::uint32_t> frames);
@@ -52,7 +53,8 @@ class Renderer {
   raster::LineBoxes exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
   void draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles, const group::Pass& pass);
   // Draws lines from `first` on until the strip is full or all are drawn; one past the last of them.
-  std::uint32_t draw_strip(const raster::LineBoxes& boxes, std::uint32_t first, const shading::Shading& shading, raster::StripBuffer& out);
+  std::uint32_t draw_strip(const raster::LineBoxes& boxes, std::uint32_t first, const shading::Shading& shading,
+                           raster::StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void send_strip(const geometry::LineRange& lines, bool last);
@@ -74,11 +76,11 @@ class Renderer {
   group::Outbox outbox_;
 
   // Of the interval at hand.
-  geometry::LineRange moving_line_bounds_;           // in its inbetweens
-  std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
+  geometry::LineRange moving_line_bounds_;  // in its inbetweens
+  std::vector<std::uint8_t> contributes_;   // 1: the node draws inbetweens; by nodes of the group
 
   // Of the frame at hand.
-  collectives::Group group_;                        // that draws it
+  collectives::Group group_;                // that draws it
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<std::uint8_t> wanted_lines_;
   std::vector<geometry::LineRange> homes_;

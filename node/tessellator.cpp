@@ -21,12 +21,14 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKi
           out.all_stored()};
 }
 
-void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out, wire::WorkCounts& work) {
+void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
+                      wire::WorkCounts& work) {
   const wire::FilmView& film = scene.film();
   raster::SetUp set_up(instruction_set_, scene.projection(), scene.width(), scene.height());
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   const int fixed_rate = static_cast<int>(film.settings().dice);
-  const auto set_up_surface = [&](const shape::Surface& surface, raster::PatchIdentity& identity, std::uint32_t number) {
+  const auto set_up_surface = [&](const shape::Surface& surface, raster::PatchIdentity& identity,
+                                  std::uint32_t number) {
     identity.patch = number;
     set_up.add(surface, identity, out);
     ++work.patches;

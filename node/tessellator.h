@@ -31,7 +31,7 @@ struct LineTable {
 struct Tessellation {
   raster::Polygons polygons;
   group::MadeCounts made;  // on wanted lines, whether stored or not
-  bool all_stored;  // else memory was short
+  bool all_stored;         // else memory was short
 };
 
 class Tessellator {
@@ -41,11 +41,12 @@ class Tessellator {
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
   // keyframe, of the moving ones in an inbetween. They lie in `arena`. Sets `lines.counts`, and the patches and
   // vertices of `work`.
-  Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter, const LineTable& lines,
-                          raster::Arena& arena, wire::WorkCounts& work);
+  Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
+                          const LineTable& lines, raster::Arena& arena, wire::WorkCounts& work);
 
  private:
-  void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out, wire::WorkCounts& work);
+  void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
+           wire::WorkCounts& work);
 
   simd::InstructionSet instruction_set_;
   shape::Dicer dicer_;

@@ -15,16 +15,13 @@
 namespace mars::topology {
 namespace {
 
-constexpr std::size_t kRoomToLoad = std::size_t{16}
-                                    << 20;  // bytes; a machine of 256 processors takes some 2 MiB
+constexpr std::size_t kRoomToLoad = std::size_t{16} << 20;  // bytes; a machine of 256 processors takes some 2 MiB
 
 using Bitmap = std::unique_ptr<hwloc_bitmap_s, decltype(&hwloc_bitmap_free)>;
 
 Bitmap make_bitmap() { return {hwloc_bitmap_alloc(), &hwloc_bitmap_free}; }
 
-[[noreturn]] void fail(const std::string& what) {
-  throw std::runtime_error(what + ": " + std::strerror(errno));
-}
+[[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what + ": " + std::strerror(errno)); }
 
 hwloc_topology_t start_topology() {
   hwloc_topology_t topology = nullptr;
@@ -68,8 +65,7 @@ Bitmap bound_processors(hwloc_topology_t topology) {
 Bitmap processors_of(hwloc_topology_t topology, const Place& place) {
   Bitmap processors = make_bitmap();
   for (int core = place.first; core < place.first + place.count; ++core)
-    hwloc_bitmap_or(processors.get(), processors.get(),
-                    hwloc_get_obj_by_type(topology, unit(topology), core)->cpuset);
+    hwloc_bitmap_or(processors.get(), processors.get(), hwloc_get_obj_by_type(topology, unit(topology), core)->cpuset);
   return processors;
 }
 
@@ -145,9 +141,7 @@ std::uint64_t Machine::memory() const { return hwloc_get_root_obj(topology_.get(
 
 // How much lies between a core and the one before: less the more they share.
 int Machine::gap(int core) const {
-  const auto object = [&](int number) {
-    return hwloc_get_obj_by_type(topology_.get(), unit(topology_.get()), number);
-  };
+  const auto object = [&](int number) { return hwloc_get_obj_by_type(topology_.get(), unit(topology_.get()), number); };
   return -hwloc_get_common_ancestor_obj(topology_.get(), object(core - 1), object(core))->depth;
 }
 
@@ -207,8 +201,7 @@ Binding Machine::binding() {
   const Bitmap mine = bound_processors(topology);
   const Bitmap cores = cores_of(topology, mine.get());
   const bool free = hwloc_bitmap_isincluded(hwloc_topology_get_topology_cpuset(topology), mine.get());
-  return {free ? "" : list(cores.get()), std::max(0, hwloc_bitmap_first(cores.get())),
-          seat_of(topology, mine.get())};
+  return {free ? "" : list(cores.get()), std::max(0, hwloc_bitmap_first(cores.get())), seat_of(topology, mine.get())};
 }
 
 }  // namespace mars::topology

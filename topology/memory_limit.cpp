@@ -67,15 +67,11 @@ ProcessMemory process_memory(const fs::path& root) {
 
 std::uint64_t MemoryLimit::least() const { return lesser(together, lesser(each.addresses, each.data)); }
 
-MemoryLimit memory_limit(const fs::path& root) {
-  return {group_limit(root), process_limit(), process_memory(root)};
-}
+MemoryLimit memory_limit(const fs::path& root) { return {group_limit(root), process_limit(), process_memory(root)}; }
 
-std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes,
-                           int threads) {
+std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
-  std::uint64_t share =
-      std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);
+  std::uint64_t share = std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);
   const auto keep_within = [&](std::uint64_t most, std::uint64_t used, std::uint64_t part) {
     if (most == 0) return;
     const std::uint64_t left = most - std::min(most, used);

@@ -36,8 +36,8 @@ std::vector<Closeness> dimensions(std::span<const Location> nodes) {
 }
 
 std::vector<int> number_nodes(std::span<const Spot> processes) {
-  std::map<int, unsigned> count;    // processes of each machine
-  std::map<int, int> first;         // process of each machine
+  std::map<int, unsigned> count;  // processes of each machine
+  std::map<int, int> first;       // process of each machine
   for (int i = 0; i < static_cast<int>(processes.size()); ++i) {
     ++count[processes[i].machine];
     first.try_emplace(processes[i].machine, i);

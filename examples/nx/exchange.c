@@ -37,7 +37,7 @@ int main(void)
             wrong += all[node][i] != node * WORDS + i;
     gisum(&wrong, 1, &work);
     if (me == 0)
-        printf("exchange: %d parts of %d bytes on %d nodes, %ld words wrong\n", corners,
-               (int) sizeof all[0], nodes, wrong);
+        printf("exchange: %d parts of %d bytes on %d nodes, %ld words wrong\n", corners, (int) sizeof all[0], nodes,
+               wrong);
     return wrong != 0;
 }

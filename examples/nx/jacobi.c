@@ -9,7 +9,7 @@
 #define EDGE 100   /* types of messages: the side they come from */
 #define STEPS 2000 /* at most */
 #define MAX(a, b) ((a) > (b) ? (a) : (b))
-#define EVERY 20   /* steps from one look at the change to the next */
+#define EVERY 20 /* steps from one look at the change to the next */
 
 enum { NORTH, SOUTH, WEST, EAST };
 
@@ -55,18 +55,24 @@ static int edge(double *buffer, int side, int outside, int in)
     if (side == NORTH || side == SOUTH) {
         line = side == NORTH ? top - outside : bottom - 1 + outside;
         for (i = left; i < right; i++, n++)
-            if (in) u[line][i] = buffer[n]; else buffer[n] = u[line][i];
+            if (in)
+                u[line][i] = buffer[n];
+            else
+                buffer[n] = u[line][i];
     } else {
         line = side == WEST ? left - outside : right - 1 + outside;
         for (i = top; i < bottom; i++, n++)
-            if (in) u[i][line] = buffer[n]; else buffer[n] = u[i][line];
+            if (in)
+                u[i][line] = buffer[n];
+            else
+                buffer[n] = u[i][line];
     }
     return n * (int) sizeof(double);
 }
 
 static void exchange(void)
 {
-    static const int opposite[4] = { SOUTH, NORTH, EAST, WEST };
+    static const int opposite[4] = {SOUTH, NORTH, EAST, WEST};
     double buffer[N];
     int side, length;
 

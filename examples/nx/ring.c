@@ -24,7 +24,6 @@ int main(void)
     if (me != 0)
         return 0;
     right = (long) ROUNDS * nodes * (nodes + 1) / 2;
-    printf("ring: %ld after %d rounds of %d nodes, %s\n", token, ROUNDS, nodes,
-           token == right ? "right" : "WRONG");
+    printf("ring: %ld after %d rounds of %d nodes, %s\n", token, ROUNDS, nodes, token == right ? "right" : "WRONG");
     return token != right;
 }

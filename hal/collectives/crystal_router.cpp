@@ -32,9 +32,7 @@ struct CrystalRouter::Head {
   std::size_t bytes;
 
   // In a load; the next head is aligned.
-  std::size_t whole() const {
-    return sizeof(Head) + (bytes + alignof(Head) - 1) / alignof(Head) * alignof(Head);
-  }
+  std::size_t whole() const { return sizeof(Head) + (bytes + alignof(Head) - 1) / alignof(Head) * alignof(Head); }
 };
 
 template <class Visit>
@@ -58,9 +56,7 @@ void CrystalRouter::add(Load& load, const Head& head, const std::byte* bytes) {
 template <class Wanted>
 void CrystalRouter::split(const Load& from, Load& wanted, Load& others, const Wanted& is_wanted) {
   wanted.size = others.size = 0;
-  visit(from, [&](const Head& head, const std::byte* bytes) {
-    add(is_wanted(head) ? wanted : others, head, bytes);
-  });
+  visit(from, [&](const Head& head, const std::byte* bytes) { add(is_wanted(head) ? wanted : others, head, bytes); });
 }
 
 void CrystalRouter::send(int to, const Load& load) {
@@ -88,8 +84,7 @@ void CrystalRouter::by_crystal(const Group& group) {
   const bool folds = me + corners < group.count;
   if (folds) receive(group.first + me + corners, held_);
   for (int bit = 1; bit < corners; bit <<= 1) {
-    split(held_, out_, next_,
-          [&](const Head& head) { return ((position(head) & (corners - 1)) & bit) != (me & bit); });
+    split(held_, out_, next_, [&](const Head& head) { return ((position(head) & (corners - 1)) & bit) != (me & bit); });
     std::swap(held_, next_);
     const messages::Ticket sending = start(group.first + (me ^ bit), out_);
     receive(group.first + (me ^ bit), held_);
@@ -125,9 +120,8 @@ bool CrystalRouter::by_network(const Group& group) {
   const auto count = static_cast<std::size_t>(group.count);
   if (group != Group{0, backend.nodes()}) return false;
   lengths_.assign(2 * count, 0);
-  visit(held_, [&](const Head& head, const std::byte*) {
-    lengths_[static_cast<std::size_t>(head.to)] += head.whole();
-  });
+  visit(held_,
+        [&](const Head& head, const std::byte*) { lengths_[static_cast<std::size_t>(head.to)] += head.whole(); });
   to_.resize(count);
   from_.resize(count);
   for (std::size_t i = 0; i < count; ++i) to_[i] = from_[i] = {i * sizeof(std::size_t), sizeof(std::size_t)};
@@ -143,9 +137,8 @@ bool CrystalRouter::by_network(const Group& group) {
   std::vector<std::size_t>& places = lengths_;
   for (std::size_t i = 0; i < count; ++i) places[i] = to_[i].offset;
   visit(held_, [&](const Head& head, const std::byte* bytes) {
-    std::byte* place =
-        out_.buffer.data() + std::exchange(places[static_cast<std::size_t>(head.to)],
-                                           places[static_cast<std::size_t>(head.to)] + head.whole());
+    std::byte* place = out_.buffer.data() + std::exchange(places[static_cast<std::size_t>(head.to)],
+                                                          places[static_cast<std::size_t>(head.to)] + head.whole());
     std::memcpy(place, &head, sizeof head);
     if (head.bytes > 0) std::memcpy(place + sizeof head, bytes, head.bytes);
   });
@@ -156,27 +149,23 @@ bool CrystalRouter::by_network(const Group& group) {
 
 std::span<const Parcel> CrystalRouter::sorted() {
   parcels_.clear();
-  visit(held_, [&](const Head& head, const std::byte* bytes) {
-    parcels_.push_back({head.from, {bytes, head.bytes}});
-  });
-  std::stable_sort(parcels_.begin(), parcels_.end(),
-                   [](const Parcel& a, const Parcel& b) { return a.node < b.node; });
+  visit(held_, [&](const Head& head, const std::byte* bytes) { parcels_.push_back({head.from, {bytes, head.bytes}}); });
+  std::stable_sort(parcels_.begin(), parcels_.end(), [](const Parcel& a, const Parcel& b) { return a.node < b.node; });
   return parcels_;
 }
 
-std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<const Parcel> parcels,
-                                                Route route) {
+std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<const Parcel> parcels, Route route) {
   DimensionExchange membership(kCall, group);  // fails on who is no member
   const int me = messages::process().backend().rank();
   held_.size = 0;
   for (const Parcel& parcel : parcels) {
-    check(group.first <= parcel.node && parcel.node < group.first + group.count,
-          "a parcel is for a node of the group");
+    check(group.first <= parcel.node && parcel.node < group.first + group.count, "a parcel is for a node of the group");
     add(held_, {me, parcel.node, parcel.bytes.size()}, parcel.bytes.data());
   }
   if (route == Route::automatic && messages::process().collectives() == messages::CollectiveMethod::network)
     route = Route::network;
-  if (route == Route::automatic && messages::process().collectives() == messages::CollectiveMethod::cube) route = Route::crystal;
+  if (route == Route::automatic && messages::process().collectives() == messages::CollectiveMethod::cube)
+    route = Route::crystal;
   if (route == Route::automatic && group.count >= kFewNodes) {
     auto most = static_cast<unsigned long>(held_.size), work = 0ul;
     reduce(membership, operation<unsigned long, higher>, &most, 1, &work);

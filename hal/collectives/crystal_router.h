@@ -38,8 +38,7 @@ class CrystalRouter {
   // All members of the group call, with the same route; parcels may be for the node itself, and several for
   // one node. Returns what is for this node, by sender, and of each sender in the order given: valid until
   // the next exchange.
-  std::span<const Parcel> exchange(const Group& group, std::span<const Parcel> parcels,
-                                   Route route = Route::automatic);
+  std::span<const Parcel> exchange(const Group& group, std::span<const Parcel> parcels, Route route = Route::automatic);
 
  private:
   // Records one behind the other: each a head and its bytes.

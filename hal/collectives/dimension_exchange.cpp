@@ -44,8 +44,7 @@ void DimensionExchange::receive(int from, void* data, std::size_t bytes) {
   check_came(from, process_.receive_internal(call_, group_.first + from, data, bytes), bytes);
 }
 
-void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in,
-                             std::size_t in_bytes) {
+void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes) {
   if (spoilt() || out_bytes < kLong) {
     send(with, out, out_bytes);
     receive(with, in, in_bytes);
@@ -62,8 +61,8 @@ void DimensionExchange::check_came(int from, std::size_t came, std::size_t bytes
   if (came == spoilt_length(bytes))
     return spoil(messages::kBadLength, std::string("another node's ") + call_ + " failed", remedy);
   spoil(messages::kBadLength,
-        messages::rank_name(group_.first + from, process_.backend().host()) + " gave " + messages::bytes_text(came) + " where " +
-            messages::bytes_text(bytes) + " belong",
+        messages::rank_name(group_.first + from, process_.backend().host()) + " gave " + messages::bytes_text(came) +
+            " where " + messages::bytes_text(bytes) + " belong",
         remedy);
 }
 

@@ -31,8 +31,7 @@ Failure no_more_threads(const std::string& problem) { return within_limits(probl
 Failure explain(const std::exception& reason) {
   if (const auto* failure = dynamic_cast<const Failure*>(&reason)) return *failure;
   if (dynamic_cast<const std::bad_alloc*>(&reason) || dynamic_cast<const std::length_error*>(&reason))
-    return within_limits("there is no more memory to be had", "",
-                         "use fewer nodes, or set MARS_MEMORY to fewer MiB");
+    return within_limits("there is no more memory to be had", "", "use fewer nodes, or set MARS_MEMORY to fewer MiB");
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&reason))
     return Failure(file->code().message(), file->path1().string(), "");
   if (const auto* system = dynamic_cast<const std::system_error*>(&reason);
@@ -41,8 +40,7 @@ Failure explain(const std::exception& reason) {
   if (const auto* system = dynamic_cast<const std::system_error*>(&reason))
     return Failure(system->code().message(), "", "");
   if (dynamic_cast<const BrokenRule*>(&reason)) return Failure(reason.what(), "", "");
-  return Failure(std::string("MARS did not expect this: ") + reason.what(), "",
-                 "please report it with the command");
+  return Failure(std::string("MARS did not expect this: ") + reason.what(), "", "please report it with the command");
 }
 
 std::string reason_of(const std::exception& failure) { return explain(failure).what(); }

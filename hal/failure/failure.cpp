@@ -20,8 +20,8 @@ Failure::Failure(std::string what, std::string at, std::string mend)
 
 void check(bool holds, const char* rule, std::source_location at) {
   if (holds) return;
-  throw BrokenRule(std::string("a rule of MARS itself is broken: ") + rule + " (" + at.file_name() +
-                   ":" + std::to_string(at.line()) + ", please report it)");
+  throw BrokenRule(std::string("a rule of MARS itself is broken: ") + rule + " (" + at.file_name() + ":" +
+                   std::to_string(at.line()) + ", please report it)");
 }
 
 }  // namespace mars

@@ -20,9 +20,7 @@ int descriptor(const Integer* unit) { return _gfortran_fnum_i4 != nullptr ? _gfo
 extern "C" {
 
 void cread_(const Integer* unit, void* buf, const Integer* len) { cread(descriptor(unit), buf, *len); }
-void cwrite_(const Integer* unit, const void* buf, const Integer* len) {
-  cwrite(descriptor(unit), buf, *len);
-}
+void cwrite_(const Integer* unit, const void* buf, const Integer* len) { cwrite(descriptor(unit), buf, *len); }
 Integer iread_(const Integer* unit, void* buf, const Integer* len) {
   return narrow(iread(descriptor(unit), buf, *len));
 }

@@ -1,2 +1,1 @@
-! What Fortran programs of the Paragon include: the same as fcube.h.
-      INCLUDE 'fcube.h'
+!What Fortran programs of the Paragon include : the same as fcube.h.INCLUDE 'fcube.h'

@@ -43,9 +43,7 @@ void glor_(Integer x[], const Integer* n, Integer*) { combine(glor, x, *n); }
 void glxor_(Integer x[], const Integer* n, Integer*) { combine(glxor, x, *n); }
 
 // A Fortran function of two arrays is called like a C function of two pointers.
-void gopf_(void* x, const Integer* xlen, void* work, nx_operation function) {
-  gopf(x, *xlen, work, function);
-}
+void gopf_(void* x, const Integer* xlen, void* work, nx_operation function) { gopf(x, *xlen, work, function); }
 
 void gcol_(const void* x, const Integer* xlen, void* y, const Integer* ylen, Integer* ncnt) {
   long all = 0;
@@ -54,8 +52,7 @@ void gcol_(const void* x, const Integer* xlen, void* y, const Integer* ylen, Int
 }
 void gcolx_(const void* x, const Integer xlens[], void* y) { gcolx(x, widen(xlens, numnodes()).data(), y); }
 
-void gsendx_(const Integer* type, const void* x, const Integer* xlen, const Integer nodes[],
-             const Integer* n) {
+void gsendx_(const Integer* type, const void* x, const Integer* xlen, const Integer nodes[], const Integer* n) {
   gsendx(*type, x, *xlen, widen(nodes, *n).data(), *n);
 }
 

@@ -6,10 +6,9 @@ using namespace mars::fortran;
 
 extern "C" {
 
-void getcube_(const char* name, const char* type, const char* srm, const Integer* keep,
-              CharacterLength name_length, CharacterLength type_length, CharacterLength srm_length) {
-  getcube(text(name, name_length).c_str(), text(type, type_length).c_str(), text(srm, srm_length).c_str(),
-          *keep);
+void getcube_(const char* name, const char* type, const char* srm, const Integer* keep, CharacterLength name_length,
+              CharacterLength type_length, CharacterLength srm_length) {
+  getcube(text(name, name_length).c_str(), text(type, type_length).c_str(), text(srm, srm_length).c_str(), *keep);
 }
 void attachcube_(const char* name, CharacterLength length) { attachcube(text(name, length).c_str()); }
 void relcube_(const char* name, CharacterLength length) { relcube(text(name, length).c_str()); }

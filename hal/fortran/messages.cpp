@@ -19,31 +19,25 @@ void call_handler(long type, long length, long node, long pid, long proc) {
 
 extern "C" {
 
-void csend_(const Integer* type, const void* buf, const Integer* len, const Integer* node,
-            const Integer* pid) {
+void csend_(const Integer* type, const void* buf, const Integer* len, const Integer* node, const Integer* pid) {
   csend(*type, buf, *len, *node, *pid);
 }
 void crecv_(const Integer* typesel, void* buf, const Integer* len) { crecv(*typesel, buf, *len); }
-Integer csendrecv_(const Integer* type, const void* sbuf, const Integer* slen, const Integer* node,
-                   const Integer* pid, const Integer* typesel, void* rbuf, const Integer* rlen) {
+Integer csendrecv_(const Integer* type, const void* sbuf, const Integer* slen, const Integer* node, const Integer* pid,
+                   const Integer* typesel, void* rbuf, const Integer* rlen) {
   return narrow(csendrecv(*type, sbuf, *slen, *node, *pid, *typesel, rbuf, *rlen));
 }
-Integer isend_(const Integer* type, const void* buf, const Integer* len, const Integer* node,
-               const Integer* pid) {
+Integer isend_(const Integer* type, const void* buf, const Integer* len, const Integer* node, const Integer* pid) {
   return narrow(isend(*type, buf, *len, *node, *pid));
 }
-Integer irecv_(const Integer* typesel, void* buf, const Integer* len) {
-  return narrow(irecv(*typesel, buf, *len));
-}
-Integer isendrecv_(const Integer* type, const void* sbuf, const Integer* slen, const Integer* node,
-                   const Integer* pid, const Integer* typesel, void* rbuf, const Integer* rlen) {
+Integer irecv_(const Integer* typesel, void* buf, const Integer* len) { return narrow(irecv(*typesel, buf, *len)); }
+Integer isendrecv_(const Integer* type, const void* sbuf, const Integer* slen, const Integer* node, const Integer* pid,
+                   const Integer* typesel, void* rbuf, const Integer* rlen) {
   return narrow(isendrecv(*type, sbuf, *slen, *node, *pid, *typesel, rbuf, *rlen));
 }
 void cprobe_(const Integer* typesel) { cprobe(*typesel); }
 Integer iprobe_(const Integer* typesel) { return narrow(iprobe(*typesel)); }
-void flushmsg_(const Integer* typesel, const Integer* node, const Integer* pid) {
-  flushmsg(*typesel, *node, *pid);
-}
+void flushmsg_(const Integer* typesel, const Integer* node, const Integer* pid) { flushmsg(*typesel, *node, *pid); }
 
 Integer infocount_() { return narrow(infocount()); }
 Integer infonode_() { return narrow(infonode()); }
@@ -57,8 +51,8 @@ void hsend_(const Integer* type, const void* buf, const Integer* len, const Inte
 void hrecv_(const Integer* typesel, void* buf, const Integer* len, Handler proc) {
   hrecvx(*typesel, buf, *len, -1, -1, call_handler, reinterpret_cast<long>(proc));
 }
-void hsendrecv_(const Integer* type, const void* sbuf, const Integer* slen, const Integer* node,
-                const Integer* pid, const Integer* typesel, void* rbuf, const Integer* rlen, Handler proc) {
+void hsendrecv_(const Integer* type, const void* sbuf, const Integer* slen, const Integer* node, const Integer* pid,
+                const Integer* typesel, void* rbuf, const Integer* rlen, Handler proc) {
   hrecv_(typesel, rbuf, rlen, proc);
   csend(*type, sbuf, *slen, *node, *pid);
 }

@@ -47,8 +47,8 @@ void move_on(long mid, long other, std::multimap<long, std::unique_ptr<MessageIn
   }
 }
 
-using Handler = void (*)(const Integer* type, const Integer* length, const Integer* node,
-                         const Integer* ptype, const Integer* parameter);
+using Handler = void (*)(const Integer* type, const Integer* length, const Integer* node, const Integer* ptype,
+                         const Integer* parameter);
 
 // A subroutine and the number that goes with it: until its one call.
 struct Call {
@@ -62,9 +62,7 @@ void call_handler(long type, long length, long node, long ptype, long call) {
   known->proc(&arguments[0], &arguments[1], &arguments[2], &arguments[3], &arguments[4]);
 }
 
-long make_call(Handler proc, const Integer* parameter) {
-  return reinterpret_cast<long>(new Call{proc, *parameter});
-}
+long make_call(Handler proc, const Integer* parameter) { return reinterpret_cast<long>(new Call{proc, *parameter}); }
 
 }  // namespace
 
@@ -76,8 +74,8 @@ void crecvx_(const Integer* typesel, void* buf, const Integer* len, const Intege
   crecvx(*typesel, buf, *len, *node, *ptype, message_info.longs());
   message_info.pass_on();
 }
-Integer irecvx_(const Integer* typesel, void* buf, const Integer* len, const Integer* node,
-                const Integer* ptype, Integer info[8]) {
+Integer irecvx_(const Integer* typesel, void* buf, const Integer* len, const Integer* node, const Integer* ptype,
+                Integer info[8]) {
   auto message_info = std::make_unique<MessageInfo>(info);
   const long mid = irecvx(*typesel, buf, *len, *node, *ptype, message_info->longs());
   const std::lock_guard lock(mutex);
@@ -121,8 +119,8 @@ void msgignore_(const Integer* mid) {
   move_on(*mid, *mid, ignored);
 }
 
-void hsendx_(const Integer* type, const void* buf, const Integer* len, const Integer* node,
-             const Integer* ptype, Handler proc, const Integer* parameter) {
+void hsendx_(const Integer* type, const void* buf, const Integer* len, const Integer* node, const Integer* ptype,
+             Handler proc, const Integer* parameter) {
   hsendx(*type, buf, *len, *node, *ptype, call_handler, make_call(proc, parameter));
 }
 void hrecvx_(const Integer* typesel, void* buf, const Integer* len, const Integer* node, const Integer* ptype,

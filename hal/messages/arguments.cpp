@@ -8,8 +8,7 @@ namespace {
 
 // Failures are apart from the checks, which are the quicker for it.
 [[noreturn]] void fail_length(const Caller& caller, const char* call, long length) {
-  caller.fail(call, kBadLength, "length " + std::to_string(length) + " is negative",
-              "give a length in bytes");
+  caller.fail(call, kBadLength, "length " + std::to_string(length) + " is negative", "give a length in bytes");
 }
 
 [[noreturn]] void fail_buffer(const Caller& caller, const char* call, std::size_t bytes) {
@@ -23,9 +22,8 @@ namespace {
 }
 
 [[noreturn]] void fail_node(const Caller& caller, const char* call, long node, const char* all) {
-  const char* host = caller.backend().has_host()
-                         ? ", the host is myhost()"
-                         : ", and this job has no host: mars-nx run ./host ./node starts one";
+  const char* host = caller.backend().has_host() ? ", the host is myhost()"
+                                                 : ", and this job has no host: mars-nx run ./host ./node starts one";
   caller.fail(call, kNoSuchNode, "there is no node " + std::to_string(node),
               "nodes are 0 to " + std::to_string(caller.backend().nodes() - 1) + host + ", -1 is " + all);
 }
@@ -61,12 +59,10 @@ void check_node(const Caller& caller, const char* call, long node, const char* a
 
 }  // namespace
 
-std::string bytes_text(std::size_t bytes) {
-  return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
-}
+std::string bytes_text(std::size_t bytes) { return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes"); }
 
-Outgoing check_send(const Caller& caller, const char* call, long type, const void* buffer, long length,
-                    long node, long pid) {
+Outgoing check_send(const Caller& caller, const char* call, long type, const void* buffer, long length, long node,
+                    long pid) {
   if (type_class(type) == TypeClass::reserved) fail_type(caller, call, type);
   const std::size_t bytes = check_buffer(caller, call, buffer, length);
   check_pid(caller, call, node, pid);

@@ -32,8 +32,8 @@ struct ReceiveBuffer {
   std::size_t capacity;
 };
 
-Outgoing check_send(const Caller& caller, const char* call, long type, const void* buffer, long length,
-                    long node, long pid);
+Outgoing check_send(const Caller& caller, const char* call, long type, const void* buffer, long length, long node,
+                    long pid);
 Selection check_selection(const Caller& caller, const char* call, long typesel, long node, long pid);
 ReceiveBuffer check_receive_buffer(const Caller& caller, const char* call, void* buffer, long length);
 

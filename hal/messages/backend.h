@@ -86,8 +86,8 @@ class Backend {
   virtual std::optional<Ticket> start_reduce(const Reduction& /*reduction*/, void* /*x*/, std::size_t /*n*/) {
     return {};
   }
-  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const ByteRange> /*to*/,
-                                                 void* /*in*/, std::span<const ByteRange> /*from*/) {
+  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const ByteRange> /*to*/, void* /*in*/,
+                                                 std::span<const ByteRange> /*from*/) {
     return {};
   }
 

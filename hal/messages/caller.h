@@ -17,8 +17,7 @@ class Caller {
   Backend& backend() const { return backend_; }
 
   // Throws this rank's CallFailure: "node 3, csend: ..."; `code` is a CallError, or an errno of the system.
-  [[noreturn]] void fail(const char* call, int code, const std::string& what,
-                         const std::string& remedy) const;
+  [[noreturn]] void fail(const char* call, int code, const std::string& what, const std::string& remedy) const;
 
  protected:
   ~Caller() = default;

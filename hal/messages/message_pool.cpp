@@ -14,9 +14,7 @@ constexpr int kLastReady = 20;     // 1 MiB: the classes up to it are there from
 constexpr std::size_t kSlab = 32 * 1024;
 constexpr std::size_t kReady = 8;
 
-int class_for(std::size_t length) {
-  return std::max<int>(kSmallestClass, std::bit_width(length - (length > 0)));
-}
+int class_for(std::size_t length) { return std::max<int>(kSmallestClass, std::bit_width(length - (length > 0))); }
 
 }  // namespace
 
@@ -86,8 +84,7 @@ void MessagePool::grow(int size_class) {
   const std::size_t size = sizeof(Message) + (std::size_t{1} << size_class);
   const std::size_t count = std::max(size_class <= kLastReady ? kReady : 1, kSlab / size);
   slabs_.reserve(slabs_.size() + 1);
-  slabs_.emplace_back(
-      static_cast<std::byte*>(::operator new(count* size, std::align_val_t(alignof(Message)))));
+  slabs_.emplace_back(static_cast<std::byte*>(::operator new(count* size, std::align_val_t(alignof(Message)))));
   for (std::size_t i = 0; i < count; ++i) {
     Message* message = new (slabs_.back().get() + i * size) Message;
     message->size_class = size_class;

@@ -65,8 +65,8 @@ void Process::crecvx(long typesel, void* buffer, long length, long node, long pi
   receive_now("crecvx", selection, check_receive_buffer(*this, "crecvx", buffer, length), info);
 }
 
-long Process::csendrecv(long type, const void* out, long out_length, long node, long pid, long typesel,
-                        void* in, long in_length) {
+long Process::csendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                        long in_length) {
   const Outgoing message = check_send(*this, "csendrecv", type, out, out_length, node, pid);
   const Selection selection = check_selection(*this, "csendrecv", typesel, -1, -1);
   const ReceiveBuffer into = check_receive_buffer(*this, "csendrecv", in, in_length);
@@ -124,8 +124,8 @@ void Process::start_exchange(const Outgoing& message, const Selection& selection
   }
 }
 
-long Process::isendrecv(long type, const void* out, long out_length, long node, long pid, long typesel,
-                        void* in, long in_length) {
+long Process::isendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                        long in_length) {
   const Outgoing message = check_send(*this, "isendrecv", type, out, out_length, node, pid);
   const Selection selection = check_selection(*this, "isendrecv", typesel, -1, -1);
   const ReceiveBuffer into = check_receive_buffer(*this, "isendrecv", in, in_length);
@@ -160,8 +160,7 @@ long Process::msgmerge(long mid1, long mid2) {
   if (mid1 == -1 || mid2 == -1) return mid1 == -1 ? mid2 : mid1;
   Request* last = &known_request("msgmerge", mid1);
   Request& second = known_request("msgmerge", mid2);
-  if (last == &second)
-    fail("msgmerge", kNoSuchId, "both message ids are " + std::to_string(mid1), "give two");
+  if (last == &second) fail("msgmerge", kNoSuchId, "both message ids are " + std::to_string(mid1), "give two");
   while (last->also != nullptr) last = last->also;
   last->also = &second;
   requests_.forget_id(second);
@@ -175,17 +174,13 @@ void Process::msgignore(long mid) {
   attend();
 }
 
-void Process::cprobe(long typesel) {
-  probe("cprobe", check_selection(*this, "cprobe", typesel, -1, -1), nullptr);
-}
+void Process::cprobe(long typesel) { probe("cprobe", check_selection(*this, "cprobe", typesel, -1, -1), nullptr); }
 
 void Process::cprobex(long typesel, long node, long pid, long* info) {
   probe("cprobex", check_selection(*this, "cprobex", typesel, node, pid), info);
 }
 
-bool Process::iprobe(long typesel) {
-  return probe_once(check_selection(*this, "iprobe", typesel, -1, -1), nullptr);
-}
+bool Process::iprobe(long typesel) { return probe_once(check_selection(*this, "iprobe", typesel, -1, -1), nullptr); }
 
 bool Process::iprobex(long typesel, long node, long pid, long* info) {
   return probe_once(check_selection(*this, "iprobex", typesel, node, pid), info);
@@ -222,8 +217,8 @@ void Process::hrecv(long typesel, void* buffer, long length, long node, long pid
   leave_to(handler, request);
 }
 
-void Process::hsendrecv(long type, const void* out, long out_length, long node, long pid, long typesel,
-                        void* in, long in_length, const Handler& handler) {
+void Process::hsendrecv(long type, const void* out, long out_length, long node, long pid, long typesel, void* in,
+                        long in_length, const Handler& handler) {
   check_handler("hsendrecv", handler);
   const Outgoing message = check_send(*this, "hsendrecv", type, out, out_length, node, pid);
   const Selection selection = check_selection(*this, "hsendrecv", typesel, -1, -1);
@@ -283,8 +278,7 @@ std::size_t Process::receive_internal(const char* call, const Selection& selecti
 
 std::size_t Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
   Message* too_long = nullptr;
-  const std::size_t came =
-      receive_internal(call, {kFirstInternalType + from, from}, {data, length}, too_long);
+  const std::size_t came = receive_internal(call, {kFirstInternalType + from, from}, {data, length}, too_long);
   if (too_long != nullptr) {
     matching_.remove(too_long);
     pool_.release(too_long);
@@ -292,12 +286,10 @@ std::size_t Process::receive_internal(const char* call, int from, void* data, st
   return came;
 }
 
-std::size_t Process::receive_internal(const char* call, int from, std::vector<std::byte>& buffer,
-                                      std::size_t at) {
+std::size_t Process::receive_internal(const char* call, int from, std::vector<std::byte>& buffer, std::size_t at) {
   Message* too_long = nullptr;
   const Selection selection{kFirstInternalType + from, from};
-  const std::size_t came =
-      receive_internal(call, selection, {buffer.data() + at, buffer.size() - at}, too_long);
+  const std::size_t came = receive_internal(call, selection, {buffer.data() + at, buffer.size() - at}, too_long);
   if (too_long != nullptr) {
     buffer.resize(at + 2 * came);
     receive_internal(call, from, buffer.data() + at, came);
@@ -319,8 +311,7 @@ bool Process::reduce(const Reduction& reduction, void* x, std::size_t n) {
   return ticket.has_value();
 }
 
-bool Process::all_to_all(const void* out, std::span<const ByteRange> to, void* in,
-                         std::span<const ByteRange> from) {
+bool Process::all_to_all(const void* out, std::span<const ByteRange> to, void* in, std::span<const ByteRange> from) {
   const std::optional<Ticket> ticket = backend_.start_all_to_all(out, to, in, from);
   if (ticket) wait_sent(*ticket);
   return ticket.has_value();

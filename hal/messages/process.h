@@ -104,8 +104,7 @@ class Process : public Progress {
   void record(EventBuffer* recorder) { ledger_.record(recorder); }
 
  private:
-  void start_exchange(const Outgoing& message, const Selection& selection, const ReceiveBuffer& into,
-                      Request& answer);
+  void start_exchange(const Outgoing& message, const Selection& selection, const ReceiveBuffer& into, Request& answer);
   Request& known_request(const char* call, long mid);
   void check_handler(const char* call, const Handler& handler) const;
   std::size_t receive_internal(const char* call, const Selection& selection, const ReceiveBuffer& into,

@@ -30,8 +30,7 @@ Request& Progress::checked(const char* call, Request* request) const {
   return *request;
 }
 
-void Progress::receive_now(const char* call, const Selection& selection, const ReceiveBuffer& into,
-                           long* info) {
+void Progress::receive_now(const char* call, const Selection& selection, const ReceiveBuffer& into, long* info) {
   attend();
   if (receive_soon(selection, into, info)) return;
   Request& request = checked(call, requests_.acquire(call));
@@ -85,9 +84,8 @@ void Progress::mark_too_long(Request& request, const Envelope& envelope) {
 
 void Progress::fail_too_long(const Request& request) const {
   fail(request.call, kMessageTooLong,
-       "a message of " + bytes_text(request.envelope.length) + ", type " +
-           std::to_string(request.envelope.type) + ", from " +
-           rank_name(request.envelope.from, backend_.host()) + " does not fit a receive of " +
+       "a message of " + bytes_text(request.envelope.length) + ", type " + std::to_string(request.envelope.type) +
+           ", from " + rank_name(request.envelope.from, backend_.host()) + " does not fit a receive of " +
            bytes_text(request.capacity),
        "receive into a longer buffer, or cprobe first and ask infocount");
 }

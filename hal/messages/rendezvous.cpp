@@ -14,9 +14,8 @@ void Rendezvous::expect(int rank, std::uint32_t number, Request& request) {
 }
 
 void Rendezvous::received(int rank, std::uint32_t number) {
-  const auto at = std::find_if(expected_.begin(), expected_.end(), [&](const Expected& each) {
-    return each.rank == rank && each.number == number;
-  });
+  const auto at = std::find_if(expected_.begin(), expected_.end(),
+                               [&](const Expected& each) { return each.rank == rank && each.number == number; });
   if (at == expected_.end()) return;  // of a send that was cancelled
   --at->request->unreceived;
   expected_.erase(at);
@@ -39,8 +38,8 @@ std::string Rendezvous::awaited(const Caller& caller, const Request& request) co
       return "for " + name(type - kFirstInternalType);
     return "for a message, typesel " + std::to_string(type);
   }
-  const auto at = std::find_if(expected_.begin(), expected_.end(),
-                               [&](const Expected& each) { return each.request == &request; });
+  const auto at =
+      std::find_if(expected_.begin(), expected_.end(), [&](const Expected& each) { return each.request == &request; });
   if (at == expected_.end()) return "for its message to leave";
   return "until " + name(at->rank) + " receives " + bytes_text(request.envelope.length) + ", type " +
          std::to_string(request.envelope.type);
@@ -54,8 +53,7 @@ void Rendezvous::report_wait(const Caller& caller, const Request& request) {
   if (std::exchange(reported_, true)) return;
   const std::chrono::duration<double> silence = std::chrono::steady_clock::now() - quiet_since_;
   const std::string me = rank_name(caller.backend().rank(), caller.backend().host());
-  std::fprintf(stderr,
-               "%s has waited %.1f s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
+  std::fprintf(stderr, "%s has waited %.1f s in %s %s (strict mode: what is longer than %zu bytes is not buffered)\n",
                me.c_str(), silence.count(), request.call, awaited(caller, request).c_str(), kBuffered);
 }
 

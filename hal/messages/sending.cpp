@@ -17,8 +17,7 @@ void Progress::send_copies(const Outgoing& message, Request* strict) {
   for (int to = message.receivers.first; to < message.receivers.last; ++to) {
     if (message.receivers.several && to == backend_.rank()) continue;
     const double begin = ledger_.begin();
-    const std::optional<Ticket> ticket =
-        backend_.send_or_start(to, message.type, message.data, message.length);
+    const std::optional<Ticket> ticket = backend_.send_or_start(to, message.type, message.data, message.length);
     const std::uint32_t number = ledger_.sent({to, message.type, message.length}, begin);
     if (strict != nullptr) rendezvous_.expect(to, number, *strict);
     if (ticket) wait_sent(*ticket);

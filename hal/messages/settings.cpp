@@ -28,8 +28,7 @@ constexpr std::array<Setting, 7> kTable = {{
      "half of the machine's memory"},
     {"MARS_NX_STRICT", "yes or no: NX messages over 100 bytes are not buffered; long waits are reported",
      "all messages are buffered"},
-    {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512",
-     "the widest the processor has"},
+    {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512", "the widest the processor has"},
 }};
 
 std::uint64_t parse_memory(const std::string& name, const std::string& text) {
@@ -89,9 +88,9 @@ bool known(std::string_view name) {
 }
 
 std::string_view nearest(std::string_view name) {
-  const auto* found = std::min_element(
-      kTable.begin(), kTable.end(),
-      [name](const Setting& a, const Setting& b) { return edits(name, a.name) < edits(name, b.name); });
+  const auto* found = std::min_element(kTable.begin(), kTable.end(), [name](const Setting& a, const Setting& b) {
+    return edits(name, a.name) < edits(name, b.name);
+  });
   return found->name;
 }
 
@@ -102,13 +101,10 @@ std::span<const Setting> settings_table() { return kTable; }
 Settings read_settings() {
   Settings settings;
   if (const char* text = std::getenv("MARS_MEMORY")) settings.memory = parse_memory("MARS_MEMORY", text);
-  if (const char* text = std::getenv("MARS_NX_MEMORY"))
-    settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
-  if (const char* text = std::getenv("MARS_NX_COLLECTIVES"))
-    settings.nx_collectives = parse_collectives(text);
+  if (const char* text = std::getenv("MARS_NX_MEMORY")) settings.nx_memory = parse_memory("MARS_NX_MEMORY", text);
+  if (const char* text = std::getenv("MARS_NX_COLLECTIVES")) settings.nx_collectives = parse_collectives(text);
   if (const char* text = std::getenv("MARS_NX_HOST")) settings.nx_host = parse_yes("MARS_NX_HOST", text);
-  if (const char* text = std::getenv("MARS_NX_STRICT"))
-    settings.nx_strict = parse_yes("MARS_NX_STRICT", text);
+  if (const char* text = std::getenv("MARS_NX_STRICT")) settings.nx_strict = parse_yes("MARS_NX_STRICT", text);
   if (const char* text = std::getenv("MARS_NX_HANDLERS")) settings.nx_handler_thread = parse_handlers(text);
   if (const char* text = std::getenv("MARS_SIMD")) settings.simd = parse_simd(text);
   return settings;
@@ -117,8 +113,7 @@ Settings read_settings() {
 // By Open MPI, by whoever speaks PMIx (srun too), PMI-1 or PMI-2 (MPICH's).
 bool started_by_mpi() {
   const std::array names = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD"};
-  return std::any_of(names.begin(), names.end(),
-                     [](const char* name) { return std::getenv(name) != nullptr; });
+  return std::any_of(names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 std::optional<std::string> take_place_text() {

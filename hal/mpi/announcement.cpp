@@ -40,8 +40,7 @@ BytesType::BytesType(std::size_t bytes) {
   const std::array counts = {chunks, rest};
   const std::array<MPI_Aint, 2> places = {0, static_cast<MPI_Aint>(bytes - static_cast<std::size_t>(rest))};
   const std::array types = {chunk, MPI_BYTE};
-  succeed(MPI_Type_create_struct(2, counts.data(), places.data(), types.data(), &type_),
-          "MPI_Type_create_struct");
+  succeed(MPI_Type_create_struct(2, counts.data(), places.data(), types.data(), &type_), "MPI_Type_create_struct");
   succeed(MPI_Type_commit(&type_), "MPI_Type_commit");
   succeed(MPI_Type_free(&chunk), "MPI_Type_free");
 }

@@ -21,8 +21,7 @@ Bells::Bells(MPI_Comm here, MPI_Comm all) {
   const int index = rank_in(here);
   void* block = nullptr;
   const MPI_Aint bytes = index == 0 ? static_cast<MPI_Aint>((count + 1) * sizeof(Bell)) : 0;
-  succeed(MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, here, &block, &window_),
-          "MPI_Win_allocate_shared");
+  succeed(MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, here, &block, &window_), "MPI_Win_allocate_shared");
   MPI_Aint size = 0;
   int unit = 0;
   succeed(MPI_Win_shared_query(window_, 0, &size, &unit, &block), "MPI_Win_shared_query");
@@ -64,8 +63,7 @@ void Bells::sleep(std::chrono::microseconds longest) {
 }
 
 void Bells::await(std::int32_t type) {
-  if (mine_->awaited.load(std::memory_order_relaxed) != type)
-    mine_->awaited.store(type, std::memory_order_relaxed);
+  if (mine_->awaited.load(std::memory_order_relaxed) != type) mine_->awaited.store(type, std::memory_order_relaxed);
 }
 
 bool Bells::claim(int id, std::int32_t type) {

@@ -25,8 +25,7 @@ void Control::look(bool waits, std::uint64_t taken) {
   MPI_Status status;
   while (succeed(MPI_Iprobe(MPI_ANY_SOURCE, 0, comm_, &there, &status), "MPI_Iprobe"), there != 0) {
     Note note{};
-    succeed(MPI_Recv(&note, sizeof note, MPI_BYTE, status.MPI_SOURCE, 0, comm_, MPI_STATUS_IGNORE),
-            "MPI_Recv");
+    succeed(MPI_Recv(&note, sizeof note, MPI_BYTE, status.MPI_SOURCE, 0, comm_, MPI_STATUS_IGNORE), "MPI_Recv");
     take(status.MPI_SOURCE, note, waits, taken);
   }
   if (watches_ && std::chrono::steady_clock::now() >= next_round_) ask_all();
@@ -34,21 +33,11 @@ void Control::look(bool waits, std::uint64_t taken) {
 
 void Control::take(int from, const Note& note, bool waits, std::uint64_t taken) {
   switch (note.what) {
-    case Note::ended:
-      ended_[static_cast<std::size_t>(from)] = note.value;
-      break;
-    case Note::kill:
-      killed_ = true;
-      break;
-    case Note::start:
-      begins_ = note.value != 0;
-      break;
-    case Note::ask:
-      send(from, {Note::answer, waits, taken});
-      break;
-    default:
-      answers_ += note.value;
-      taken_ += note.taken;
+    case Note::ended: ended_[static_cast<std::size_t>(from)] = note.value; break;
+    case Note::kill: killed_ = true; break;
+    case Note::start: begins_ = note.value != 0; break;
+    case Note::ask: send(from, {Note::answer, waits, taken}); break;
+    default: answers_ += note.value; taken_ += note.taken;
   }
 }
 

@@ -218,17 +218,15 @@ void MpiWorld::begin_all() {
 
 void MpiWorld::resize(int nodes) {
   if (backend_ != nullptr && nodes != cube_)
-    throw Failure("under MPI a job has one cube, made before its nodes begin", "",
-                  "start it without --over mpi");
+    throw Failure("under MPI a job has one cube, made before its nodes begin", "", "start it without --over mpi");
   cube_ = nodes;
 }
 
 void MpiWorld::load(const std::string& file, int node) {
-  const std::filesystem::path runs =
-      names_[static_cast<std::size_t>(rank_of_[static_cast<std::size_t>(node)])].data();
+  const std::filesystem::path runs = names_[static_cast<std::size_t>(rank_of_[static_cast<std::size_t>(node)])].data();
   if (runs.filename() != std::filesystem::path(file).filename())
-    throw Failure("node " + std::to_string(node) + " runs " + runs.string() + ", as it was started under MPI",
-                  file, "start that program on the nodes, or run without --over mpi");
+    throw Failure("node " + std::to_string(node) + " runs " + runs.string() + ", as it was started under MPI", file,
+                  "start that program on the nodes, or run without --over mpi");
   if (started_[static_cast<std::size_t>(node)])
     throw Failure("node " + std::to_string(node) + " has run its program already", file,
                   "under MPI it can once: run without --over mpi");

@@ -49,8 +49,7 @@ int highest_tag() {
 
 MPI_Comm split_by_machine(MPI_Comm comm, int key) {
   MPI_Comm machine = MPI_COMM_NULL;
-  succeed(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, key, MPI_INFO_NULL, &machine),
-          "MPI_Comm_split_type");
+  succeed(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, key, MPI_INFO_NULL, &machine), "MPI_Comm_split_type");
   return machine;
 }
 
@@ -68,8 +67,7 @@ MPI_Comm ranks_by_id(int host_rank, MPI_Comm ranks) {
   const int rank = rank_in(ranks);
   const topology::Spot mine{machine_of(ranks), topology::Machine::binding().first_core};
   std::vector<topology::Spot> spots(size_of(ranks));
-  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, spots.data(), sizeof mine, MPI_BYTE, ranks),
-          "MPI_Allgather");
+  succeed(MPI_Allgather(&mine, sizeof mine, MPI_BYTE, spots.data(), sizeof mine, MPI_BYTE, ranks), "MPI_Allgather");
   if (host_rank >= 0) spots.erase(spots.begin() + host_rank);
   std::vector<int> ids = topology::number_nodes(spots);
   if (host_rank >= 0) ids.insert(ids.begin() + host_rank, static_cast<int>(spots.size()));
@@ -133,8 +131,7 @@ void MpiBackend::meet_neighbours() {
 void MpiBackend::check_shared_space(std::size_t bytes) {
   struct statvfs space = {};
   std::uint64_t free_bytes = UINT64_MAX;
-  if (neighbourhood_.count > 1 && statvfs("/dev/shm", &space) == 0)
-    free_bytes = space.f_bavail * space.f_frsize;
+  if (neighbourhood_.count > 1 && statvfs("/dev/shm", &space) == 0) free_bytes = space.f_bavail * space.f_frsize;
   succeed(MPI_Bcast(&free_bytes, 1, MPI_UINT64_T, 0, machine_), "MPI_Bcast");
   if (bytes <= free_bytes) return;
   throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes: /dev/shm has " +
@@ -151,9 +148,9 @@ std::shared_ptr<std::byte> MpiBackend::share(std::size_t bytes) {
   MPI_Win window = MPI_WIN_NULL;
   void* block = nullptr;
   const bool leads = neighbourhood_.index == 0;
-  succeed(MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(whole) : 0, 1, MPI_INFO_NULL, machine_,
-                                  &block, &window),
-          "MPI_Win_allocate_shared");
+  succeed(
+      MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(whole) : 0, 1, MPI_INFO_NULL, machine_, &block, &window),
+      "MPI_Win_allocate_shared");
   MPI_Aint size = 0;
   int unit = 0;
   succeed(MPI_Win_shared_query(window, 0, &size, &unit, &block), "MPI_Win_shared_query");
@@ -174,8 +171,7 @@ void MpiBackend::release_window(MPI_Win window) {
 bool MpiBackend::finish() {
   switch (ending_) {
     case Ending::not_yet:
-      succeed(MPI_Ireduce_scatter_block(sent_to_.data(), &expected_, 1, MPI_INT64_T, MPI_SUM, all_,
-                                        &ending_request_),
+      succeed(MPI_Ireduce_scatter_block(sent_to_.data(), &expected_, 1, MPI_INT64_T, MPI_SUM, all_, &ending_request_),
               "MPI_Ireduce_scatter_block");
       ending_ = Ending::counting;
       return false;
@@ -190,8 +186,7 @@ bool MpiBackend::finish() {
       if (!test(ending_request_)) return false;
       ending_ = Ending::ended;
       return true;
-    case Ending::ended:
-      return true;
+    case Ending::ended: return true;
   }
   return true;
 }

@@ -37,7 +37,8 @@ std::size_t length_of(const MPI_Status& status) {
 // others that are too large for it have the highest, and travel behind their message's bytes.
 int MpiBackend::tag(int type) const {
   if (type < messages::kFirstInternalType && type <= last_tag_) return type;
-  if (messages::type_class(type) == messages::TypeClass::reserved) return last_tag_ + 1 + (type - messages::kFirstInternalType);
+  if (messages::type_class(type) == messages::TypeClass::reserved)
+    return last_tag_ + 1 + (type - messages::kFirstInternalType);
   return type <= last_tag_ ? type : wide_tag_;
 }
 
@@ -72,7 +73,7 @@ MPI_Request MpiBackend::isend_plain(int to, int tag, const void* data, std::size
 void MpiBackend::announce(int to, int type, std::size_t length) {
   const Announcement announcement = Announcement::of(length);
   messages::Message* copy = tag(type) == wide_tag_ ? with_type(type, &announcement, sizeof announcement)
-                                         : pool_.copy({rank_, type, sizeof announcement}, &announcement);
+                                                   : pool_.copy({rank_, type, sizeof announcement}, &announcement);
   release_when_sent(isend_plain(to, tag(type), copy->bytes(), copy->envelope.length), copy);
 }
 
@@ -137,8 +138,8 @@ messages::Message* MpiBackend::with_type(std::int32_t type, const void* data, st
 }
 
 bool MpiBackend::all_sent() {
-  return pending_.empty() && std::all_of(tickets_.begin(), tickets_.end(),
-                                         [this](MPI_Request& request) { return test(request); });
+  return pending_.empty() &&
+         std::all_of(tickets_.begin(), tickets_.end(), [this](MPI_Request& request) { return test(request); });
 }
 
 void MpiBackend::reclaim_some() {
@@ -282,12 +283,10 @@ bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, mess
 
 bool MpiBackend::catch_soon(int type, MPI_Status& status) {
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Irecv(caught_.bytes(), INT_MAX, MPI_BYTE, MPI_ANY_SOURCE, tag(type), all_, &request),
-          "MPI_Irecv");
+  succeed(MPI_Irecv(caught_.bytes(), INT_MAX, MPI_BYTE, MPI_ANY_SOURCE, tag(type), all_, &request), "MPI_Irecv");
   const int at_once = turns_at_once(oversubscribed_);
   int done = 0;
-  for (int turn = 0; turn < at_once && done == 0; ++turn)
-    succeed(MPI_Test(&request, &done, &status), "MPI_Test");
+  for (int turn = 0; turn < at_once && done == 0; ++turn) succeed(MPI_Test(&request, &done, &status), "MPI_Test");
   if (done != 0) return true;
   for (int turn = at_once; pause_of(turn, oversubscribed_)->count() == 0; ++turn) {
     sched_yield();

@@ -13,8 +13,7 @@ constexpr std::size_t kRetained = 64 * 1024;  // bytes whose memory stays
 }  // namespace
 
 Overflow::Overflow() {
-  void* block =
-      mmap(nullptr, kCapacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* block = mmap(nullptr, kCapacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (block != MAP_FAILED) bytes_ = static_cast<std::byte*>(block);
 }
 

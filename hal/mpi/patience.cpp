@@ -17,7 +17,7 @@ constexpr Patience kTooFewProcessors = {20, 20};
 
 constexpr unsigned long kTimerSlack = 1000;  // nanoseconds
 constexpr int kShortestSleep = 10;           // microseconds
-constexpr int kSleepsUntilLonger = 4;  // each length is slept so often before it doubles
+constexpr int kSleepsUntilLonger = 4;        // each length is slept so often before it doubles
 
 const Patience& patience(bool oversubscribed) { return oversubscribed ? kTooFewProcessors : kEnoughProcessors; }
 

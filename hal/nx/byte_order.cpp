@@ -7,13 +7,13 @@ namespace {
 template <class Number>
 void to_cube(Number array[], long n) {
   mars::nx::reorder(std::span(array, n > 0 ? static_cast<std::size_t>(n) : 0), mars::nx::kHostOrder,
-                     mars::nx::kNodeOrder);
+                    mars::nx::kNodeOrder);
 }
 
 template <class Number>
 void to_host(Number array[], long n) {
   mars::nx::reorder(std::span(array, n > 0 ? static_cast<std::size_t>(n) : 0), mars::nx::kNodeOrder,
-                     mars::nx::kHostOrder);
+                    mars::nx::kHostOrder);
 }
 
 }  // namespace

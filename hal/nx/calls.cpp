@@ -5,8 +5,8 @@
 #include "hal/nx/pid.h"
 #include "topology/hypercube.h"
 
-using mars::nx::plain;
 using mars::messages::process;
+using mars::nx::plain;
 
 extern "C" {
 
@@ -16,8 +16,7 @@ void csend(long type, const void* buf, long len, long node, long pid) {
 void crecv(long typesel, void* buf, long len) {
   plain([&] { process().crecv(typesel, buf, len); });
 }
-long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-               long rlen) {
+long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen) {
   return plain([&] { return process().csendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
 }
 long isend(long type, const void* buf, long len, long node, long pid) {
@@ -26,8 +25,7 @@ long isend(long type, const void* buf, long len, long node, long pid) {
 long irecv(long typesel, void* buf, long len) {
   return plain([&] { return process().irecv(typesel, buf, len); });
 }
-long isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-               long rlen) {
+long isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen) {
   return plain([&] { return process().isendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
 }
 void msgwait(long mid) {
@@ -55,8 +53,8 @@ void hsend(long type, const void* buf, long len, long node, long pid, nx_handler
 void hrecv(long typesel, void* buf, long len, nx_handler proc) {
   plain([&] { process().hrecv(typesel, buf, len, -1, -1, {.plain = proc}); });
 }
-void hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-               long rlen, nx_handler proc) {
+void hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen,
+               nx_handler proc) {
   plain([&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
 }
 long masktrap(long state) {

@@ -21,16 +21,11 @@ namespace {
 
 const char* remedy(int code) {
   switch (code) {
-    case EBADF:
-      return "open the file first, for reading or writing as the call needs";
-    case EINVAL:
-      return "see nx_files.h for what a call may be given";
-    case ENOSPC:
-      return "make room on the disk";
-    case ESPIPE:
-      return "use it with cread and cwrite in mode 0, or take a file";
-    default:
-      return "";
+    case EBADF: return "open the file first, for reading or writing as the call needs";
+    case EINVAL: return "see nx_files.h for what a call may be given";
+    case ENOSPC: return "make room on the disk";
+    case ESPIPE: return "use it with cread and cwrite in mode 0, or take a file";
+    default: return "";
   }
 }
 
@@ -105,15 +100,13 @@ off_t Files::move(const char* call, FilesPointer& pointer, const std::function<o
   try {
     return pointer.move(next);
   } catch (const std::system_error& failure) {
-    process_.fail(call, failure.code().value(), failure.what(),
-                  "have the file on a file system that has locks");
+    process_.fail(call, failure.code().value(), failure.what(), "have the file on a file system that has locks");
   }
 }
 
 std::vector<Files::Word> Files::agree(const char* call, const Word& mine) const {
   const messages::Backend& backend = process_.backend();
-  if (backend.rank() == backend.host())
-    process_.fail(call, EQNODE, "the host takes no part", "call it on nodes only");
+  if (backend.rank() == backend.host()) process_.fail(call, EQNODE, "the host takes no part", "call it on nodes only");
   const auto nodes = static_cast<std::size_t>(backend.nodes());
   const auto me = static_cast<std::size_t>(backend.rank());
   constexpr std::size_t kParts = sizeof(Word) / sizeof(double);
@@ -129,8 +122,8 @@ std::vector<Files::Word> Files::agree(const char* call, const Word& mine) const 
     }
     if (words[node].place != words[0].place) {
       process_.fail(call, EINVAL,
-                    name + " is at byte " + std::to_string(static_cast<off_t>(words[node].place)) +
-                        ", node 0 at " + std::to_string(static_cast<off_t>(words[0].place)),
+                    name + " is at byte " + std::to_string(static_cast<off_t>(words[node].place)) + ", node 0 at " +
+                        std::to_string(static_cast<off_t>(words[0].place)),
                     "eseek to the same place on all nodes");
     }
   }
@@ -168,10 +161,9 @@ off_t Files::claim_in_order(const char* call, Shared& file, const Transfer& what
   off_t all = nodes * length;
   if (file.record && error != 0) fail(call, error);
   if (file.record && *file.record != length) {
-    process_.fail(
-        call, EINVAL,
-        std::to_string(length) + " bytes where each is to move " + std::to_string(*file.record) + " (mode 3)",
-        "setiomode again for another length, or take mode 2");
+    process_.fail(call, EINVAL,
+                  std::to_string(length) + " bytes where each is to move " + std::to_string(*file.record) + " (mode 3)",
+                  "setiomode again for another length, or take mode 2");
   }
   if (!file.record) {
     const std::vector<Word> words =
@@ -183,9 +175,8 @@ off_t Files::claim_in_order(const char* call, Shared& file, const Transfer& what
       all += theirs;
       if (file.mode == 3 && words[node].number != words[0].number) {
         process_.fail(call, EINVAL,
-                      "node " + std::to_string(node) + " moves " + std::to_string(theirs) +
-                          " bytes, node 0 " + std::to_string(static_cast<long>(words[0].number)) +
-                          " (mode 3)",
+                      "node " + std::to_string(node) + " moves " + std::to_string(theirs) + " bytes, node 0 " +
+                          std::to_string(static_cast<long>(words[0].number)) + " (mode 3)",
                       "give all nodes the same length, or take mode 2");
       }
     }

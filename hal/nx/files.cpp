@@ -20,9 +20,7 @@ off_t place_of(const char* call, const esize_t& size) {
   return static_cast<off_t>(size.shigh) * (1L << 32) + static_cast<std::uint32_t>(size.slow);
 }
 
-esize_t esize_of(off_t place) {
-  return {static_cast<long>(place & UINT32_MAX), static_cast<long>(place >> 32)};
-}
+esize_t esize_of(off_t place) { return {static_cast<long>(place & UINT32_MAX), static_cast<long>(place >> 32)}; }
 
 esize_t seek(const char* call, int fd, const esize_t& offset, int whence) {
   return esize_of(files().seek(call, fd, place_of(call, offset), whence));

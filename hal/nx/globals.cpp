@@ -28,22 +28,20 @@ collectives::Group all_nodes() { return {0, messages::process().backend().nodes(
 // What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there
 // is none.
 std::size_t checked_count(collectives::DimensionExchange& exchange, const void* x, const void* work, long n) {
-  if (n < 0)
-    exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
-  if (n > 0 && x == nullptr)
-    exchange.spoil(EQPBUF, "the vector is a null pointer", "give a vector, or length 0");
-  if (n > 0 && work == nullptr)
-    exchange.spoil(EQPBUF, "work is a null pointer", "give one as long as the vector");
+  if (n < 0) exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
+  if (n > 0 && x == nullptr) exchange.spoil(EQPBUF, "the vector is a null pointer", "give a vector, or length 0");
+  if (n > 0 && work == nullptr) exchange.spoil(EQPBUF, "work is a null pointer", "give one as long as the vector");
   return exchange.spoilt() ? 0 : static_cast<std::size_t>(n);
 }
 
 template <class T>
 constexpr messages::Reduction::Element element_of = std::is_same_v<T, double>  ? messages::Reduction::Element::real64
-                                          : std::is_same_v<T, float> ? messages::Reduction::Element::real32
-                                                                     : messages::Reduction::Element::whole;
+                                                    : std::is_same_v<T, float> ? messages::Reduction::Element::real32
+                                                                               : messages::Reduction::Element::whole;
 
 template <class T>
-void reduce_all(const char* call, const collectives::Operation& operation, messages::Reduction::Rule rule, T* x, long n, T* work) {
+void reduce_all(const char* call, const collectives::Operation& operation, messages::Reduction::Rule rule, T* x, long n,
+                T* work) {
   collectives::DimensionExchange exchange(call, all_nodes());
   const std::size_t count = checked_count(exchange, x, work, n);
   if (!collectives::reduce_by_network(exchange, {element_of<T>, rule}, x, count))
@@ -93,8 +91,7 @@ struct Scratch {
 thread_local Scratch scratch;
 
 void check_buffer(collectives::DimensionExchange& exchange, const void* buffer, long length) {
-  if (length < 0)
-    exchange.spoil(EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
+  if (length < 0) exchange.spoil(EQLEN, "length " + std::to_string(length) + " is negative", "give a length in bytes");
   if (length > 0 && buffer == nullptr)
     exchange.spoil(EQPBUF,
                    "the buffer of " + messages::bytes_text(static_cast<std::size_t>(length)) + " is a null pointer",
@@ -122,11 +119,9 @@ void concatenate(collectives::DimensionExchange& exchange, const void* x, const 
 
 void concatenate_known(const void* x, const long* xlens, void* y) {
   collectives::DimensionExchange exchange("gcolx", all_nodes());
-  if (xlens == nullptr)
-    exchange.spoil(EQPBUF, "the lengths are a null pointer", "give the length of each node's part");
+  if (xlens == nullptr) exchange.spoil(EQPBUF, "the lengths are a null pointer", "give the length of each node's part");
   long all = 0;
-  for (int i = 0; i < exchange.count() && !exchange.spoilt(); all += xlens[i++])
-    check_buffer(exchange, y, xlens[i]);
+  for (int i = 0; i < exchange.count() && !exchange.spoilt(); all += xlens[i++]) check_buffer(exchange, y, xlens[i]);
   if (!exchange.spoilt()) check_buffer(exchange, x, xlens[exchange.position()]);
   const auto& offsets = add_up(exchange, [xlens](std::size_t i) { return xlens[i]; });
   concatenate(exchange, x, offsets, y);
@@ -137,8 +132,7 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   collectives::DimensionExchange exchange("gcol", all_nodes());
   check_buffer(exchange, x, xlen);
   check_buffer(exchange, y, ylen);
-  if (ncnt == nullptr)
-    exchange.spoil(EQPBUF, "ncnt is a null pointer", "give a place for the number of bytes");
+  if (ncnt == nullptr) exchange.spoil(EQPBUF, "ncnt is a null pointer", "give a place for the number of bytes");
   std::vector<Scratch::Part>& parts = scratch.parts;
   parts.resize(static_cast<std::size_t>(exchange.count()));
   parts[static_cast<std::size_t>(exchange.position())] = {xlen, ylen};
@@ -152,10 +146,10 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
   for (std::size_t node = 0; node < parts.size(); ++node) {
     if (all <= parts[node].capacity) continue;
     messages::process().fail("gcol", EQMSGLONG,
-                   "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
-                       std::to_string(parts[node].capacity) + " that node " + std::to_string(node) +
-                       " has room for",
-                   "give a buffer for the bytes of all nodes");
+                             "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
+                                 std::to_string(parts[node].capacity) + " that node " + std::to_string(node) +
+                                 " has room for",
+                             "give a buffer for the bytes of all nodes");
   }
   concatenate(exchange, x, offsets, y);
   *ncnt = all;
@@ -164,7 +158,7 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
 void send_to_list(long type, const void* x, long xlen, const long* nodes, long n) {
   if (n < 0)
     messages::process().fail("gsendx", EQLEN, "length " + std::to_string(n) + " is negative",
-                   "give the number of nodes");
+                             "give the number of nodes");
   if (n > 0 && nodes == nullptr)
     messages::process().fail("gsendx", EQPBUF, "the nodes are a null pointer", "give a list of nodes");
   const auto check = [&](long node) { messages::check_send(messages::process(), "gsendx", type, x, xlen, node, 0); };
@@ -189,8 +183,10 @@ using namespace mars::nx;
   long _##name(T x[], long n, T work[]) { \
     return twin([&] { call; });           \
   }
-#define REDUCTION(name, T, As, combine, rule) \
-  VECTOR_CALL(name, T, (reduce_all(#name, mars::collectives::operation<As, combine>, mars::messages::Reduction::Rule::rule, x, n, work)))
+#define REDUCTION(name, T, As, combine, rule)                                                                         \
+  VECTOR_CALL(name, T,                                                                                                \
+              (reduce_all(#name, mars::collectives::operation<As, combine>, mars::messages::Reduction::Rule::rule, x, \
+                          n, work)))
 #define TRUTHS(name, combine, rule) \
   VECTOR_CALL(name, long, (reduce_truths<combine>(#name, mars::messages::Reduction::Rule::rule, x, n, work)))
 

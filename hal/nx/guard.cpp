@@ -10,9 +10,9 @@ namespace mars::nx {
 namespace {
 
 // One list of errors: its numbers here, its names for C in nx_errno.h.
-static_assert(messages::kMessageTooLong == EQMSGLONG && messages::kBadType == EQTYPE && messages::kNoSuchNode == EQNODE &&
-              messages::kNoSuchPid == EQPID && messages::kBadLength == EQLEN && messages::kNoSuchId == EQMID && messages::kNoFreeId == EQNOMID &&
-              messages::kNullBuffer == EQPBUF);
+static_assert(messages::kMessageTooLong == EQMSGLONG && messages::kBadType == EQTYPE &&
+              messages::kNoSuchNode == EQNODE && messages::kNoSuchPid == EQPID && messages::kBadLength == EQLEN &&
+              messages::kNoSuchId == EQMID && messages::kNoFreeId == EQNOMID && messages::kNullBuffer == EQPBUF);
 
 EndProgram end_program = nullptr;
 

@@ -27,14 +27,15 @@ void relcube(const char* name);
 void setpid(long pid);
 
 /* Starts the program `file` on `node`: the file as given, or one of its name beside the host program. Under MPI,
- * which has started the nodes already, it must be the program that they run; it goes on now. What is sent to a node whose
- * program has ended is nobody's, unless the sender was loaded after that end: then the node's next program gets it. */
+ * which has started the nodes already, it must be the program that they run; it goes on now. What is sent to a node
+ * whose program has ended is nobody's, unless the sender was loaded after that end: then the node's next program gets
+ * it. */
 void load(const char* file, long node, long pid);
 
 /* Waits until the programs loaded on `node` have ended. */
 void waitall(long node, long pid);
-/* Waits until one of them has, and returns which; each end is reported once. *ccode is the exit code, or minus the number of the
- * signal of which it died. */
+/* Waits until one of them has, and returns which; each end is reported once. *ccode is the exit code, or minus the
+ * number of the signal of which it died. */
 void waitone(long node, long pid, long* cnode, long* cpid, long* ccode);
 
 /* Ends the process on a node at once; under MPI at its next NX call. killcube also throws away all messages that are on

@@ -26,8 +26,7 @@ void csend(long type, const void* buf, long len, long node, long pid);
  * the message is there for a longer receive. */
 void crecv(long typesel, void* buf, long len);
 /* Sends as csend, and waits for an answer as crecv; returns the answer's length. */
-long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-               long rlen);
+long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen);
 
 /* Start a send, a receive or both and return a message id; buffers are the call's until the id is free. A
  * process has 65,536 ids: msgwait, msgdone that was 1, and msgcancel free them; EQNOMID when none is left. A
@@ -35,8 +34,7 @@ long csendrecv(long type, const void* sbuf, long slen, long node, long pid, long
  * msgwait or msgdone, and the message goes on to the next. isendrecv is done when both are. */
 long isend(long type, const void* buf, long len, long node, long pid);
 long irecv(long typesel, void* buf, long len);
-long isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-               long rlen);
+long isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen);
 /* Waits for, or asks after (1 done, 0 not yet), what a message id stands for. */
 void msgwait(long mid);
 long msgdone(long mid);
@@ -70,8 +68,8 @@ typedef void (*nx_handler)(long type, long len, long node, long pid);
  * would have run. */
 void hsend(long type, const void* buf, long len, long node, long pid, nx_handler proc);
 void hrecv(long typesel, void* buf, long len, nx_handler proc);
-void hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-               long rlen, nx_handler proc);
+void hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen,
+               nx_handler proc);
 /* 1 holds handlers back until 0, though not their messages; returns what was before. masktrap(0) runs what is due. */
 long masktrap(long state);
 
@@ -99,12 +97,10 @@ void flick(void);     /* gives the processor away for a moment; longer the more 
 /* The twins. */
 long _csend(long type, const void* buf, long len, long node, long pid);
 long _crecv(long typesel, void* buf, long len);
-long _csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-                long rlen);
+long _csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen);
 long _isend(long type, const void* buf, long len, long node, long pid);
 long _irecv(long typesel, void* buf, long len);
-long _isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-                long rlen);
+long _isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen);
 long _msgwait(long mid);
 long _msgdone(long mid);
 long _msgcancel(long mid);
@@ -117,8 +113,8 @@ long _infotype(void);
 long _infopid(void);
 long _hsend(long type, const void* buf, long len, long node, long pid, nx_handler proc);
 long _hrecv(long typesel, void* buf, long len, nx_handler proc);
-long _hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-                long rlen, nx_handler proc);
+long _hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen,
+                nx_handler proc);
 long _masktrap(long state);
 long _mynode(void);
 long _numnodes(void);

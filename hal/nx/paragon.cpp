@@ -5,8 +5,8 @@
 #include "hal/messages/process.h"
 #include "hal/nx/guard.h"
 
-using mars::nx::plain;
 using mars::messages::process;
+using mars::nx::plain;
 using mars::nx::twin;
 
 namespace {
@@ -52,20 +52,14 @@ void hsendx(long type, const void* buf, long len, long node, long ptype, nx_xhan
   plain([&] { process().hsend(type, buf, len, node, ptype, {.extended = proc, .parameter = parameter}); });
 }
 long _hsendx(long type, const void* buf, long len, long node, long ptype, nx_xhandler proc, long parameter) {
+  return twin([&] { process().hsend(type, buf, len, node, ptype, {.extended = proc, .parameter = parameter}); });
+}
+void hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc, long parameter) {
+  plain([&] { process().hrecv(typesel, buf, len, nodesel, ptypesel, {.extended = proc, .parameter = parameter}); });
+}
+long _hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc, long parameter) {
   return twin(
-      [&] { process().hsend(type, buf, len, node, ptype, {.extended = proc, .parameter = parameter}); });
-}
-void hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc,
-            long parameter) {
-  plain([&] {
-    process().hrecv(typesel, buf, len, nodesel, ptypesel, {.extended = proc, .parameter = parameter});
-  });
-}
-long _hrecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, nx_xhandler proc,
-             long parameter) {
-  return twin([&] {
-    process().hrecv(typesel, buf, len, nodesel, ptypesel, {.extended = proc, .parameter = parameter});
-  });
+      [&] { process().hrecv(typesel, buf, len, nodesel, ptypesel, {.extended = proc, .parameter = parameter}); });
 }
 
 long msgmerge(long mid1, long mid2) {

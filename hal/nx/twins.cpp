@@ -16,8 +16,7 @@ long _csend(long type, const void* buf, long len, long node, long pid) {
 long _crecv(long typesel, void* buf, long len) {
   return twin([&] { process().crecv(typesel, buf, len); });
 }
-long _csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-                long rlen) {
+long _csendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen) {
   return twin([&] { return process().csendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
 }
 long _isend(long type, const void* buf, long len, long node, long pid) {
@@ -26,8 +25,7 @@ long _isend(long type, const void* buf, long len, long node, long pid) {
 long _irecv(long typesel, void* buf, long len) {
   return twin([&] { return process().irecv(typesel, buf, len); });
 }
-long _isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-                long rlen) {
+long _isendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen) {
   return twin([&] { return process().isendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen); });
 }
 long _msgwait(long mid) {
@@ -55,10 +53,9 @@ long _hsend(long type, const void* buf, long len, long node, long pid, nx_handle
 long _hrecv(long typesel, void* buf, long len, nx_handler proc) {
   return twin([&] { process().hrecv(typesel, buf, len, -1, -1, {.plain = proc}); });
 }
-long _hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf,
-                long rlen, nx_handler proc) {
-  return twin(
-      [&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
+long _hsendrecv(long type, const void* sbuf, long slen, long node, long pid, long typesel, void* rbuf, long rlen,
+                nx_handler proc) {
+  return twin([&] { process().hsendrecv(type, sbuf, slen, node, pid, typesel, rbuf, rlen, {.plain = proc}); });
 }
 long _masktrap(long state) {
   return twin([&] { return process().masktrap(state != 0); });

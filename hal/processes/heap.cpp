@@ -19,9 +19,7 @@ std::uint32_t class_for(std::size_t length) {
   return std::max<std::uint32_t>(kSmallestClass, std::bit_width(length - (length > 0)));
 }
 
-std::uint64_t block_size(std::uint32_t size_class) {
-  return sizeof(Block) + (std::uint64_t{1} << size_class);
-}
+std::uint64_t block_size(std::uint32_t size_class) { return sizeof(Block) + (std::uint64_t{1} << size_class); }
 
 std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
 
@@ -65,8 +63,7 @@ void Heap::release(Offset offset) {
   free_[block.size_class] = offset;
   if (block.size_class <= kLastSmall) return;
   idle_ += block.touched;
-  if (idle_ > segment_.header().limit / (2 * static_cast<std::uint64_t>(segment_.slots())))
-    hollow(block, offset);
+  if (idle_ > segment_.header().limit / (2 * static_cast<std::uint64_t>(segment_.slots()))) hollow(block, offset);
 }
 
 // New blocks of a class: one that is large, or as many as a slab holds, of which one is returned free and

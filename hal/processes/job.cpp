@@ -31,9 +31,7 @@ constexpr int kStandstill = 3;             // ticks after which nothing moves by
 
 constexpr std::array kWatched = {SIGINT, SIGTERM, SIGHUP, SIGCHLD};
 
-std::string signal_text(int signal) {
-  return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
-}
+std::string signal_text(int signal) { return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"; }
 
 }  // namespace
 
@@ -177,8 +175,8 @@ void Job::take_signals() {
 void Job::reap() {
   int status = 0;
   for (pid_t ended; (ended = waitpid(-1, &status, WNOHANG)) > 0;) {
-    const auto process = std::find_if(processes_.begin(), processes_.end(),
-                                      [&](const Process& each) { return each.id == ended; });
+    const auto process =
+        std::find_if(processes_.begin(), processes_.end(), [&](const Process& each) { return each.id == ended; });
     if (process != processes_.end()) note_end(static_cast<int>(process - processes_.begin()), status);
   }
 }
@@ -208,8 +206,7 @@ bool Job::stands_still() const {
   for (int index = 0; index < segment_.slots(); ++index) {
     const Slot& slot = segment_.slot(index);
     if (processes_[index].id == 0 || slot.waiting == Waiting::for_end) continue;
-    if (slot.life != Life::joined || slot.waiting == Waiting::no || slot.arrived != 0 || slot.seen != 0)
-      return false;
+    if (slot.life != Life::joined || slot.waiting == Waiting::no || slot.arrived != 0 || slot.seen != 0) return false;
   }
   return true;
 }

@@ -126,8 +126,7 @@ void ProcessesBackend::idle(int turn, std::chrono::microseconds longest) {
   check_running();
   const int looks = oversubscribed_ ? 0 : kLooks;
   if (turn < looks) {
-    for (int i = 0; i < kLooksATurn && slot_.arrived.load(std::memory_order_relaxed) == 0; ++i)
-      __builtin_ia32_pause();
+    for (int i = 0; i < kLooksATurn && slot_.arrived.load(std::memory_order_relaxed) == 0; ++i) __builtin_ia32_pause();
     return;
   }
   if (turn < looks + kYields) {
@@ -153,14 +152,12 @@ std::shared_ptr<std::byte> ProcessesBackend::share(std::size_t bytes) {
   Share& share = segment_.header().shares[number];
   std::uint32_t state = Share::open;
   const std::uint32_t verdict = bytes <= segment_.header().limit ? Share::granted : Share::refused;
-  if (!share.state.compare_exchange_strong(state, verdict))
-    check(state == verdict, "all nodes share the same bytes");
+  if (!share.state.compare_exchange_strong(state, verdict)) check(state == verdict, "all nodes share the same bytes");
   const std::size_t size = std::max(whole_pages(bytes), kPage);
   const Offset begin = std::exchange(next_shared_, next_shared_ + size);
-  void* block = verdict == Share::refused
-                    ? MAP_FAILED
-                    : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE,
-                           segment_.descriptor(), static_cast<off_t>(begin));
+  void* block = verdict == Share::refused ? MAP_FAILED
+                                          : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE,
+                                                 segment_.descriptor(), static_cast<off_t>(begin));
   if (block == MAP_FAILED) {
     throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes",
                   "node " + std::to_string(rank()),
@@ -184,8 +181,7 @@ void ProcessesBackend::release(int number, Offset begin, std::size_t bytes) {
 bool ProcessesBackend::finish() {
   check_running();
   const int ranks = nodes() + segment_.header().has_host;
-  if (!std::exchange(finishing_, true) && segment_.header().finished.fetch_add(1) + 1 == ranks)
-    segment_.wake_all();
+  if (!std::exchange(finishing_, true) && segment_.header().finished.fetch_add(1) + 1 == ranks) segment_.wake_all();
   return segment_.header().finished == ranks && !peek();
 }
 

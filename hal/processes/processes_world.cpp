@@ -73,9 +73,7 @@ ProcessesWorld::ProcessesWorld(const Place& place)
 }
 
 ProcessesWorld::ProcessesWorld()
-    : segment_(1, false, kAlone),
-      slot_(segment_.slot(0)),
-      backend_(std::make_unique<ProcessesBackend>(segment_, 0)) {
+    : segment_(1, false, kAlone), slot_(segment_.slot(0)), backend_(std::make_unique<ProcessesBackend>(segment_, 0)) {
   slot_.life = Life::joined;
 }
 
@@ -111,8 +109,7 @@ void ProcessesWorld::begin() {
 
 void ProcessesWorld::resize(int nodes) {
   for (int node = 0; node < segment_.nodes(); ++node)
-    if (status(node).state == State::running)
-      throw Failure("nodes run already", "", "get the cube before they begin");
+    if (status(node).state == State::running) throw Failure("nodes run already", "", "get the cube before they begin");
   segment_.header().cube = nodes;
 }
 
@@ -135,14 +132,11 @@ void ProcessesWorld::kill(int node) {
 messages::World::Status ProcessesWorld::status(int node) {
   const Slot& slot = segment_.slot(node);
   switch (slot.life.load()) {
-    case Life::none:
-      return {State::nothing, 0};
+    case Life::none: return {State::nothing, 0};
     case Life::started:
     case Life::joined:
-    case Life::left:
-      return {State::running, 0};
-    default:
-      return {State::ended, slot.code};
+    case Life::left: return {State::running, 0};
+    default: return {State::ended, slot.code};
   }
 }
 

@@ -34,14 +34,11 @@ Failure no_memory(const std::string& what) {
 
 }  // namespace
 
-Segment::Segment(int nodes, bool host, std::uint64_t limit)
-    : descriptor_(memfd_create("mars-nx", MFD_CLOEXEC)) {
+Segment::Segment(int nodes, bool host, std::uint64_t limit) : descriptor_(memfd_create("mars-nx", MFD_CLOEXEC)) {
   const int slots = nodes + host;
-  const std::size_t capacity =
-      whole_pages(std::min<std::uint64_t>(8 * limit + kLeastCapacity, kAllAddresses / slots));
+  const std::size_t capacity = whole_pages(std::min<std::uint64_t>(8 * limit + kLeastCapacity, kAllAddresses / slots));
   const std::size_t size = front_size(slots) + slots * capacity + kSharedAddresses;
-  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0)
-    throw no_memory(std::strerror(errno));
+  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0) throw no_memory(std::strerror(errno));
   mapped_ = front_size(slots);
   map();
   header().nodes = nodes;

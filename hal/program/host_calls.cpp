@@ -73,8 +73,7 @@ template <class Work>
 void on_world(const char* call, int code, Work work) try {
   work();
 } catch (const Failure& failure) {
-  fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem,
-       failure.remedy);
+  fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem, failure.remedy);
 }
 
 // "8" or "d3"; what follows told of memory and processors.
@@ -84,12 +83,10 @@ int nodes_of(const char* call, const std::string& type, int all) {
   int number = -1;
   std::from_chars(type.data() + dimension, type.data() + type.size(), number);
   if (number < !dimension || number > (dimension ? 20 : 1 << 20))
-    fail(call, EINVAL, "\"" + type + "\" is no type of a cube",
-         "give the number of nodes, as \"8\" or \"d3\"");
+    fail(call, EINVAL, "\"" + type + "\" is no type of a cube", "give the number of nodes, as \"8\" or \"d3\"");
   const int nodes = dimension ? 1 << number : number;
   if (nodes <= all) return nodes;
-  fail(call, EQNODE,
-       "a cube of " + std::to_string(nodes) + " nodes is asked for, and there are " + std::to_string(all),
+  fail(call, EQNODE, "a cube of " + std::to_string(nodes) + " nodes is asked for, and there are " + std::to_string(all),
        "start the job with more: mars-nx run --nodes " + std::to_string(nodes));
 }
 
@@ -108,8 +105,7 @@ void attach_cube(const char* call, const char* name) {
   check_host(call);
   const std::string text = check_name(call, name);
   if (!cube.held) cube = {true, text, "", {}};
-  if (text != cube.name)
-    fail(call, EINVAL, "there is no cube " + text, "the cube that is held is " + cube.name);
+  if (text != cube.name) fail(call, EINVAL, "there is no cube " + text, "the cube that is held is " + cube.name);
 }
 
 void kill_all() {
@@ -136,8 +132,7 @@ void set_pid(const char* call, long pid) {
 
 void load_nodes(const char* call, const char* file, long node, long pid) {
   check_host(call);
-  if (file == nullptr)
-    fail(call, EQPBUF, "the program's name is a null pointer", "give the path of a program");
+  if (file == nullptr) fail(call, EQPBUF, "the program's name is a null pointer", "give the path of a program");
   const Nodes nodes = check_nodes(call, node, pid);
   for (int each = nodes.first; each < nodes.last; ++each) {
     on_world(call, ENOENT, [&] { world().load(file, each); });
@@ -154,9 +149,7 @@ int ended_one(const char* call, const Nodes& nodes) {
     if (state == messages::World::State::ended) return node;
     some = true;
   }
-  if (!some)
-    fail(call, ECHILD, "nothing runs there that could end",
-         "load a program first; each end is reported once");
+  if (!some) fail(call, ECHILD, "nothing runs there that could end", "load a program first; each end is reported once");
   return -1;
 }
 
@@ -197,8 +190,7 @@ void kill_nodes(const char* call, long node, long pid, bool flush) {
 
 long list_cubes(const char* call, cubetable* table, long slots) {
   if (!cube.held) return 0;
-  if (slots > 0 && table == nullptr)
-    fail(call, EQPBUF, "the table is a null pointer", "give room for the cubes");
+  if (slots > 0 && table == nullptr) fail(call, EQPBUF, "the table is a null pointer", "give room for the cubes");
   if (slots > 0) {
     *table = {};
     cube.name.copy(table->cubename, NAMELEN - 1);

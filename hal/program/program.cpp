@@ -63,7 +63,8 @@ void leave(int code, void*) try {
 }
 
 std::unique_ptr<messages::World> connect() {
-  if (const std::optional<processes::Place> place = processes::take_place()) return std::make_unique<processes::ProcessesWorld>(*place);
+  if (const std::optional<processes::Place> place = processes::take_place())
+    return std::make_unique<processes::ProcessesWorld>(*place);
 #ifdef MARS_NX_MPI
   if (messages::started_by_mpi()) {
     const messages::Settings settings = messages::read_settings();

@@ -64,8 +64,7 @@ std::shared_ptr<std::byte> TemplateBackend::share(std::size_t bytes) {
     return {static_cast<std::byte*>(::operator new(bytes, kAlignment)),
             [](std::byte* block) { ::operator delete(block, kAlignment); }};
   } catch (const std::bad_alloc&) {
-    throw Failure("there is no memory for " + std::to_string(bytes) + " bytes", "",
-                  "use a machine with more");
+    throw Failure("there is no memory for " + std::to_string(bytes) + " bytes", "", "use a machine with more");
   }
 }
 

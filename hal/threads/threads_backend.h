@@ -48,7 +48,7 @@ class ThreadsBackend : public messages::Backend {
   // This thread's alone.
   messages::MessagePool pool_;
   messages::MessageList inbox_;  // arrived and seen
-  int shared_ = 0;     // blocks of shared memory so far
+  int shared_ = 0;               // blocks of shared memory so far
   bool finishing_ = false;
 
   std::mutex mutex_;  // of what follows

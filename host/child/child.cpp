@@ -48,12 +48,12 @@ Child::Child(const Command& command) {
   const Descriptor nothing = null_device();
   Pipe output = make_pipe(), error = make_pipe();
   // What was started in a shell's background ignores SIGINT, but not when it is we who pass it on.
-  process_.emplace(command, ProcessSetup{.streams = {{0, nothing.number()},
-                                                     {1, output.writing.number()},
-                                                     {2, error.writing.number()}},
-                                         .own_group = true,
-                                         .signal_at_our_end = SIGTERM,
-                                         .default_signals = {SIGINT, SIGTERM, SIGHUP}});
+  process_.emplace(
+      command,
+      ProcessSetup{.streams = {{0, nothing.number()}, {1, output.writing.number()}, {2, error.writing.number()}},
+                   .own_group = true,
+                   .signal_at_our_end = SIGTERM,
+                   .default_signals = {SIGINT, SIGTERM, SIGHUP}});
   relay_.emplace(process_->id());
   output_.descriptor = std::move(output.reading);
   error_.descriptor = std::move(error.reading);
@@ -135,9 +135,7 @@ void Child::end_what_is_due() {
       deadline_ = Clock::now() + kReaping;
       return;
     case Stage::killed:
-    case Stage::orphans_killed:
-      given_up_ = true;
-      process_->give_up();
+    case Stage::orphans_killed: given_up_ = true; process_->give_up();
   }
 }
 

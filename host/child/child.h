@@ -65,8 +65,8 @@ class Child {
   Stream output_;
   Stream error_;
   std::optional<Ending> ending_;  // once it has ended
-  bool orphans_ = false;       // processes that it started may still run
-  bool given_up_ = false;      // what is left does not die
+  bool orphans_ = false;          // processes that it started may still run
+  bool given_up_ = false;         // what is left does not die
   int signals_noticed_ = 0;
   enum class Stage { running, asked_to_end, killed, draining, orphans_killed } stage_ = Stage::running;
   Clock::time_point deadline_ = Clock::time_point::max();  // of the stage

@@ -24,9 +24,7 @@ ExecArguments::ExecArguments(const Command& command)
       word_pointers_(pointers_to(words_)),
       environment_pointers_(environment_.pointers()) {}
 
-void ExecArguments::execute() const {
-  execve(word_pointers_[0], word_pointers_.data(), environment_pointers_.data());
-}
+void ExecArguments::execute() const { execve(word_pointers_[0], word_pointers_.data(), environment_pointers_.data()); }
 
 void become(const Command& command, const std::string& remedy) {
   const ExecArguments arguments(command);

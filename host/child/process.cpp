@@ -22,7 +22,7 @@ namespace mars::child {
 namespace {
 
 constexpr std::chrono::seconds kLongestKill{1};  // until what the kernel holds is left
-constexpr int kFree = 10;  // descriptors from here on are nobody's streams
+constexpr int kFree = 10;                        // descriptors from here on are nobody's streams
 
 void lower_limit(int resource, std::uint64_t most) {
   rlimit now{};

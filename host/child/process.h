@@ -34,11 +34,11 @@ struct ProcessSetup {
     int descriptor;  // ours
   };
 
-  std::vector<Stream> streams{};               // all others are inherited, but those that close on exec
-  bool own_group = false;                      // it leads a process group
-  int signal_at_our_end = 0;                   // it gets when this thread ends, however it ends; 0: none
-  std::vector<int> default_signals{};          // that act on it as usual, though we may ignore them
-  std::optional<ProcessLimits> limits{};       // with these it leaves no core file either
+  std::vector<Stream> streams{};          // all others are inherited, but those that close on exec
+  bool own_group = false;                 // it leads a process group
+  int signal_at_our_end = 0;              // it gets when this thread ends, however it ends; 0: none
+  std::vector<int> default_signals{};     // that act on it as usual, though we may ignore them
+  std::optional<ProcessLimits> limits{};  // with these it leaves no core file either
 };
 
 class Process {

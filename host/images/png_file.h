@@ -18,8 +18,7 @@ struct Image {
 };
 
 // The bytes of a PNG file of these pixels, made fast rather than small.
-std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height,
-                                  std::span<const std::uint32_t> pixels);
+std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels);
 
 // Decodes an opaque PNG of any depth to 8 bits a channel. Throws Failure naming the file where it is missing,
 // torn or no PNG.

@@ -109,7 +109,7 @@ class Blocks : public TerminalPicture {
   const bool colors24_;
   std::array<std::array<char, 5>, 256> numbers_{};  // ";0" ... ";255", and how long it is
   std::string text_;
-  std::vector<Cell> cells_;  // as they stand on the screen
+  std::vector<Cell> cells_;                      // as they stand on the screen
   std::uint32_t upper_ = kNone, lower_ = kNone;  // colours as they are set
   std::uint32_t last_pixel_ = kNone, last_index_ = 0;
 };

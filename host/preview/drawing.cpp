@@ -32,8 +32,7 @@ std::uint32_t pixel_of_color(const Color& color) {
 }  // namespace
 
 Drawing::Drawing(std::uint32_t width, std::uint32_t height)
-    : image_{width, height, std::vector<std::uint32_t>(std::size_t{width} * height)},
-      closest_(image_.pixels.size()) {}
+    : image_{width, height, std::vector<std::uint32_t>(std::size_t{width} * height)}, closest_(image_.pixels.size()) {}
 
 void Drawing::begin(const wire::Camera& camera, const Color& background, double nearest, double farthest) {
   look(camera);
@@ -144,7 +143,7 @@ void Drawing::draw_dot(const Spot& spot, std::uint32_t color) {
       !(spot.y >= 0 && spot.y < static_cast<float>(image_.height)))
     return;
   color = dimmed(color, spot.closeness);
-  color += (0xffffffu - color) >> 1 & 0x7f7f7fu;  // half way to white
+  color += (0xffffffu - color) >> 1 & 0x7f7f7fu;    // half way to white
   const float closeness = spot.closeness * 1.001f;  // over its own lines
   const std::uint32_t before = (stroke_.dot - 1) / 2;
   const auto from = [&](float middle) {

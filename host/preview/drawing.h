@@ -1,5 +1,5 @@
-// Lines into a picture: projected as the renderer projects (node/geometry/scene.cpp), clipped at the near plane and at the
-// picture's edges, one pen wide, nearer ones over farther ones, farther ones dimmer. One core, no allocation in
+// Lines into a picture: projected as the renderer projects (node/geometry/scene.cpp), clipped at the near plane and at
+// the picture's edges, one pen wide, nearer ones over farther ones, farther ones dimmer. One core, no allocation in
 // steady state.
 #pragma once
 

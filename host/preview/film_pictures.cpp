@@ -9,8 +9,8 @@ namespace mars::preview {
 namespace {
 
 constexpr std::array<As, 4> kAll{As::stick, As::vertices, As::prisms, As::surface};
-constexpr double kStep = 10;     // degrees, of an arrow key
-constexpr double kZoom = 1.15;   // of a key
+constexpr double kStep = 10;    // degrees, of an arrow key
+constexpr double kZoom = 1.15;  // of a key
 
 const char* name_of(const std::optional<As>& as) {
   if (!as) return "all four";
@@ -131,15 +131,17 @@ bool FilmPictures::obey(const KeyPress& key) {
     default: break;
   }
   switch (key.character) {
-    case '1': case '2': case '3': case '4':
-      look_.as = kAll[static_cast<std::size_t>(key.character - '1')];
-      return true;
+    case '1':
+    case '2':
+    case '3':
+    case '4': look_.as = kAll[static_cast<std::size_t>(key.character - '1')]; return true;
     case '5': look_.as.reset(); return true;
     case 'c': return look_from(From::camera);
     case 'f': return look_from(From::front);
     case 's': return look_from(From::side);
     case 't': return look_from(From::top);
-    case '+': case '=': zoom_ = std::min(zoom_ * kZoom, 1000.0); return true;
+    case '+':
+    case '=': zoom_ = std::min(zoom_ * kZoom, 1000.0); return true;
     case '-': zoom_ = std::max(zoom_ / kZoom, 0.001); return true;
     case 'g': look_.ground = !look_.ground; return true;
     default: return false;
@@ -148,8 +150,8 @@ bool FilmPictures::obey(const KeyPress& key) {
 
 std::string FilmPictures::state() const {
   constexpr std::array<const char*, 4> from{"camera", "front", "side", "top"};
-  std::string text = std::string(name_of(look_.as)) + ", " +
-                     (orbit_ ? "turned" : from[static_cast<std::size_t>(look_.from)]);
+  std::string text =
+      std::string(name_of(look_.as)) + ", " + (orbit_ ? "turned" : from[static_cast<std::size_t>(look_.from)]);
   if (look_.as == As::stick && view_->sticks_of_prisms) text += ", sticks from prisms";
   return text;
 }

@@ -15,8 +15,8 @@ struct Look {
   std::optional<As> as = As::prisms;  // none: all four
   From from = From::camera;
   bool ground = true;
-  bool smooth = false;     // lines without steps, at four times the work
-  bool wait = false;       // for rendered frames
+  bool smooth = false;                // lines without steps, at four times the work
+  bool wait = false;                  // for rendered frames
   std::vector<std::uint32_t> frames;  // that will be asked for; empty: all of them
 };
 

@@ -7,9 +7,9 @@
 namespace mars::preview {
 
 struct Lines {
-  std::vector<float> points;         // x, y, z of each
-  std::vector<std::uint32_t> ends;   // two points a line
-  std::uint32_t dots = 0;            // so many points, from the first, are marked: joints, control vertices
+  std::vector<float> points;        // x, y, z of each
+  std::vector<std::uint32_t> ends;  // two points a line
+  std::uint32_t dots = 0;           // so many points, from the first, are marked: joints, control vertices
 };
 
 }  // namespace mars::preview

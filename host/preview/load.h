@@ -10,7 +10,7 @@ namespace mars::preview {
 
 struct Previewed {
   film::CompiledFilm film;  // for the renderer
-  View view;          // for everything else
+  View view;                // for everything else
 };
 
 // A model becomes the film of a turn around it. Throws Failure as the readers do.

@@ -19,7 +19,7 @@ class Pictures {
   virtual ~Pictures() = default;
 
   virtual std::uint32_t frames() const = 0;
-  virtual double rate() const = 0;    // frames a second
+  virtual double rate() const = 0;                 // frames a second
   virtual images::PictureSize extent() const = 0;  // the film's own
 
   // The frame at another size, of about the same shape. nullptr: it is not ready yet.

@@ -104,8 +104,9 @@ class Player {
   }
 
   std::string status(std::uint32_t now) const {
-    const std::string numbers = document::formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1,
-                                          pictures_.rate() * speed_, paused_ ? "  paused" : "", loop_ ? "" : "  once");
+    const std::string numbers =
+        document::formatted(" %u/%u  %g frames/s%s%s  ", now, pictures_.frames() - 1, pictures_.rate() * speed_,
+                            paused_ ? "  paused" : "", loop_ ? "" : "  once");
     return cut_to(numbers + pictures_.state() + (missing_ ? "  rendering ..." : "") + (help_ ? "" : "  h help  q quit"),
                   terminal_.cells().width);
   }
@@ -126,8 +127,7 @@ class Player {
   // `above`: lines above the lowest one.
   void write_line(std::size_t above, const std::string& text) {
     const std::uint32_t lines = terminal_.cells().height;
-    if (above < lines)
-      terminal_.write("\x1b[" + std::to_string(lines - above) + ";1H\x1b[0m" + text + "\x1b[0m\x1b[K");
+    if (above < lines) terminal_.write("\x1b[" + std::to_string(lines - above) + ";1H\x1b[0m" + text + "\x1b[0m\x1b[K");
   }
 
   void empty() {
@@ -140,14 +140,28 @@ class Player {
   bool obey(const KeyPress& key) {
     const double at = due();
     switch (key.special == Special::none ? key.character : 0) {
-      case 'q': case '\x03': return false;
-      case ' ': go_on_from(at); paused_ = !paused_; break;
+      case 'q':
+      case '\x03': return false;
+      case ' ':
+        go_on_from(at);
+        paused_ = !paused_;
+        break;
       case '.': step(1); break;
       case ',': step(-1); break;
-      case ']': speed_ = std::min(speed_ * 2, 16.0); go_on_from(at); break;
-      case '[': speed_ = std::max(speed_ / 2, 1.0 / 64); go_on_from(at); break;
-      case 'l': go_on_from(at); loop_ = !loop_; break;
-      case 'h': case '?': help_ = !help_; break;
+      case ']':
+        speed_ = std::min(speed_ * 2, 16.0);
+        go_on_from(at);
+        break;
+      case '[':
+        speed_ = std::max(speed_ / 2, 1.0 / 64);
+        go_on_from(at);
+        break;
+      case 'l':
+        go_on_from(at);
+        loop_ = !loop_;
+        break;
+      case 'h':
+      case '?': help_ = !help_; break;
       default:
         if (key.special == Special::home) go_on_from(0);
         if (key.special == Special::end) go_on_from(pictures_.frames() - 1);

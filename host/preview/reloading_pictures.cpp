@@ -7,8 +7,8 @@ constexpr std::chrono::milliseconds kSoon{300};  // what takes no longer is not 
 
 }  // namespace
 
-ReloadingPictures::ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film, document::FileStamps read,
-                                     MakeSurface make_surface, const Look& look)
+ReloadingPictures::ReloadingPictures(std::filesystem::path path, std::unique_ptr<Previewed> film,
+                                     document::FileStamps read, MakeSurface make_surface, const Look& look)
     : film_(std::move(film)),
       make_surface_(std::move(make_surface)),
       surface_(make_surface_(film_->film)),

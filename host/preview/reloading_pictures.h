@@ -20,7 +20,9 @@ class ReloadingPictures : public Pictures {
   std::uint32_t frames() const override { return pictures_.frames(); }
   double rate() const override { return pictures_.rate(); }
   images::PictureSize extent() const override { return pictures_.extent(); }
-  SharedImage picture(std::uint32_t frame, images::PictureSize extent) override { return pictures_.picture(frame, extent); }
+  SharedImage picture(std::uint32_t frame, images::PictureSize extent) override {
+    return pictures_.picture(frame, extent);
+  }
   bool complete() const override { return pictures_.complete(); }
   bool renew() override;
   std::string trouble() const override { return reloader_.trouble(); }

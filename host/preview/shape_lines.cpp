@@ -17,8 +17,7 @@ using Point = std::array<float, 3>;
 struct PointHash {
   std::size_t operator()(const Point& point) const {
     std::size_t hash = 0;
-    for (const float coordinate : point)
-      hash = (hash ^ std::hash<float>()(coordinate)) * 0x9e3779b97f4a7c15u;
+    for (const float coordinate : point) hash = (hash ^ std::hash<float>()(coordinate)) * 0x9e3779b97f4a7c15u;
     return hash ^ hash >> 32;
   }
 };
@@ -136,7 +135,8 @@ std::vector<Lines> sticks_of(const modeler::Model& model) {
     const modeler::Joint& joint = model.joints[number];
     add_point(sticks[number], in_own(joint, {0, 0, 0}));
     sticks[number].dots = 1;
-    if (joint.parent != modeler::kNone) add_stick(sticks[joint.parent], in_own(model.joints[joint.parent], joint.place));
+    if (joint.parent != modeler::kNone)
+      add_stick(sticks[joint.parent], in_own(model.joints[joint.parent], joint.place));
   }
   for (std::size_t number = 0; number < model.joints.size(); ++number)
     if (const auto& segment = model.joints[number].segment; segment && sticks[number].ends.empty())

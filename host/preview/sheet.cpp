@@ -22,9 +22,9 @@ constexpr std::array<std::array<std::uint8_t, 5>, 10> kDigits{{{7, 5, 5, 5, 7},
                                                                {7, 1, 1, 1, 1},
                                                                {7, 5, 7, 5, 7},
                                                                {7, 5, 7, 1, 7}}};
-constexpr std::uint32_t kDot = 2;      // pixels a side, of a digit's pixel
-constexpr std::uint32_t kGap = 6;      // between pictures
-constexpr std::uint32_t kLabel = 18;   // high, beneath each picture
+constexpr std::uint32_t kDot = 2;     // pixels a side, of a digit's pixel
+constexpr std::uint32_t kGap = 6;     // between pictures
+constexpr std::uint32_t kLabel = 18;  // high, beneath each picture
 constexpr std::uint32_t kPaperPixel = 0x1a1512, kInk = 0xa8a098;
 
 void write_number(images::Image& sheet, std::uint32_t number, std::uint32_t x, std::uint32_t y) {

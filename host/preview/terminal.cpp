@@ -81,9 +81,9 @@ void Terminal::block_signals() {
 void Terminal::ask(bool colors24) {
   const std::string answer = answers(kQuestions);
   graphics_ = answer.find("\x1b_Gi=31;OK") != std::string::npos ? Graphics::kitty
-              : has_sixel(answer)                             ? Graphics::sixel
-              : colors24                                      ? Graphics::blocks
-                                                              : Graphics::blocks256;
+              : has_sixel(answer)                               ? Graphics::sixel
+              : colors24                                        ? Graphics::blocks
+                                                                : Graphics::blocks256;
   write("\x1b[2J");  // what a terminal showed of a question it did not understand
 }
 

@@ -68,8 +68,8 @@ class Terminal {
   int output_ = -1;   // standard output's terminal, never waited for by the system
   bool entered_ = false;
   bool stop_ = false, continued_ = false, resized_ = false;  // what signals ask for, until it is obeyed
-  int ended_by_ = 0;  // as in TerminalEvents; nothing is played any more
-  std::string unread_;  // of a key that is not complete
+  int ended_by_ = 0;                                         // as in TerminalEvents; nothing is played any more
+  std::string unread_;                                       // of a key that is not complete
 };
 
 }  // namespace mars::preview

@@ -22,16 +22,17 @@ constexpr int kOutput = 3;  // of ffmpeg
 child::Command command(const std::string& program, bool gif, images::PictureSize extent, double rate) {
   std::array<char, 40> number{};
   std::to_chars(number.data(), number.data() + number.size() - 1, rate);
-  std::vector<std::string> words{program, "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb0", "-s",
-                                 std::to_string(extent.width) + "x" + std::to_string(extent.height), "-r",
-                                 number.data(), "-i", "-"};
+  std::vector<std::string> words{
+      program,    "-v",          "error", "-y", "-f",
+      "rawvideo", "-pix_fmt",    "rgb0",  "-s", std::to_string(extent.width) + "x" + std::to_string(extent.height),
+      "-r",       number.data(), "-i",    "-"};
   const std::vector<std::string> ending =
       gif ? std::vector<std::string>{"-filter_complex",
-                                     "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none",
-                                     "-f", "gif"}
+                                     "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none", "-f",
+                                     "gif"}
           // What every player takes: even sides, colours at half the resolution, the index in front.
-          : std::vector<std::string>{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags",
-                                     "+faststart", "-f", "mp4"};
+          : std::vector<std::string>{
+                "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"};
   words.insert(words.end(), ending.begin(), ending.end());
   words.push_back("/proc/self/fd/" + std::to_string(kOutput));
   return {{}, words};
@@ -55,11 +56,9 @@ void Video::start(images::PictureSize extent, double rate) {
   input_ = child::Descriptor(ends[0]);
   const child::Descriptor its_input(ends[1]);
   // MARS ignores SIGXFSZ; ffmpeg, which would cut the video short without a word, must die of it.
-  const child::ProcessSetup setup{.streams = {{0, its_input.number()},
-                                       {1, errors_.number()},
-                                       {2, errors_.number()},
-                                       {kOutput, output_.number()}},
-                           .default_signals = {SIGXFSZ}};
+  const child::ProcessSetup setup{
+      .streams = {{0, its_input.number()}, {1, errors_.number()}, {2, errors_.number()}, {kOutput, output_.number()}},
+      .default_signals = {SIGXFSZ}};
   process_.emplace(command(program->string(), path_.extension() == ".gif", extent, rate), setup);
 }
 

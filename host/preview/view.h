@@ -49,9 +49,9 @@ struct View {
   std::vector<Color> colors;
   std::vector<wire::Camera> cameras;
   std::vector<wire::Change> changes;
-  wire::Track camera{};  // numbers of `cameras`
-  Ball whole;            // holds every segment at every frame
-  Ball subject;          // likewise what moves, or everything where nothing does
+  wire::Track camera{};           // numbers of `cameras`
+  Ball whole;                     // holds every segment at every frame
+  Ball subject;                   // likewise what moves, or everything where nothing does
   bool sticks_of_prisms = false;  // a .mars file knows no joints: each stick is its prism's long axis
 
   // The number that a track has at `frame`.

@@ -13,7 +13,7 @@
 namespace mars::preview {
 namespace {
 
-constexpr double kFov = 30;     // vertical, degrees
+constexpr double kFov = 30;  // vertical, degrees
 constexpr double kMargin = 1.08;
 constexpr double kNearPlane = 1e-9, kFarPlane = 1e12;  // that a compiled film allows
 
@@ -33,9 +33,9 @@ std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model
   std::vector<animator::MaterialMotion> materials;
   for (const std::string& name : names) {
     const wire::Material& m = modeler::kDefaultMaterial;
-    materials.push_back({name, animator::constant(glm::dvec3(m.color[0], m.color[1], m.color[2])), animator::constant(double(m.ambient)),
-                         animator::constant(double(m.diffuse)), animator::constant(double(m.specular)), animator::constant(double(m.exponent)),
-                         m.sides});
+    materials.push_back({name, animator::constant(glm::dvec3(m.color[0], m.color[1], m.color[2])),
+                         animator::constant(double(m.ambient)), animator::constant(double(m.diffuse)),
+                         animator::constant(double(m.specular)), animator::constant(double(m.exponent)), m.sides});
   }
   return materials;
 }
@@ -87,7 +87,8 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   film.source = source;
   film.frames = kFrames;
   film.background = {0.12, 0.14, 0.20};
-  film.lights.push_back({true, animator::constant(glm::dvec3(0, 0, 1)), animator::constant(glm::dvec3(1)), animator::constant(1.2)});
+  film.lights.push_back(
+      {true, animator::constant(glm::dvec3(0, 0, 1)), animator::constant(glm::dvec3(1)), animator::constant(1.2)});
   film.materials = lent_materials(model);
   animator::Actor actor;
   actor.name = "model";
@@ -118,7 +119,8 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   return film;
 }
 
-film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size, const wire::Camera* camera) {
+film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size,
+                           const wire::Camera* camera) {
   film::CompiledFilm seen = film;
   const wire::FilmView view = seen.view();
   std::byte* const block = reinterpret_cast<std::byte*>(seen.lines.data());

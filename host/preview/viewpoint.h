@@ -35,6 +35,7 @@ wire::Camera camera_of(const Orbit& orbit);
 animator::Film turntable(modeler::Model model, const std::string& source);
 
 // The film at another size and, if there is a camera, seen by it through all frames.
-film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size, const wire::Camera* camera);
+film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint32_t, 2> size,
+                           const wire::Camera* camera);
 
 }  // namespace mars::preview

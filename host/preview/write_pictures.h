@@ -12,11 +12,11 @@
 namespace mars::preview {
 
 struct WriteWishes {
-  std::filesystem::path file;      // .png, .gif or .mp4
-  std::optional<film::FrameSet> frames;  // none: all, or for a sheet kSheetFrames at most
-  std::uint32_t every = 1;         // of these, each so manieth
-  std::uint32_t columns = 0;       // of a sheet; 0: about as many as rows
-  std::optional<images::PictureSize> extent;    // of each picture; none: the film's, smaller on a sheet and in a GIF
+  std::filesystem::path file;                 // .png, .gif or .mp4
+  std::optional<film::FrameSet> frames;       // none: all, or for a sheet kSheetFrames at most
+  std::uint32_t every = 1;                    // of these, each so manieth
+  std::uint32_t columns = 0;                  // of a sheet; 0: about as many as rows
+  std::optional<images::PictureSize> extent;  // of each picture; none: the film's, smaller on a sheet and in a GIF
 };
 
 inline constexpr std::uint32_t kSheetFrames = 12;

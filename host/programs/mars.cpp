@@ -85,8 +85,7 @@ int print_verdict(const sinks::Verdict& verdict) {
     return options::kFailed;
   }
   std::cout << verdict.expected << " frames, all there";
-  std::cout << (verdict.compared ? " and whole\n"
-                                 : "; frames.json has no pixel hashes, so pixels were not compared\n");
+  std::cout << (verdict.compared ? " and whole\n" : "; frames.json has no pixel hashes, so pixels were not compared\n");
   std::cout << "pixels " << verdict.hash << '\n';
   return 0;
 }
@@ -110,12 +109,12 @@ void add_render(CLI::App& app, options::RenderOptions& options) {
 void add_compile(CLI::App& app, options::RenderOptions& options, std::string& output) {
   CLI::App* command = app.add_subcommand("compile", "Compute a film's motion once, to a .mars file");
   options::add_render_options(*command, options, options::Program::compile);
-  command->add_option("-o,--output", output, "The compiled film. Example: -o film.mars")
-      ->required()
-      ->type_name("FILE");
+  command->add_option("-o,--output", output, "The compiled film. Example: -o film.mars")->required()->type_name("FILE");
   command->callback([&] {
     document::refuse_same_file(options.film, output);
-    film::save_film(job::load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }), output);
+    film::save_film(
+        job::load_film_of(options, [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }),
+        output);
   });
 }
 
@@ -126,16 +125,16 @@ void add_info(CLI::App& app, std::string& film) {
 }
 
 void add_verify(CLI::App& app, Verifying& verifying, int& code) {
-  CLI::App* command =
-      app.add_subcommand("verify", "Check every frame of a folder; print one hash of all pixels");
+  CLI::App* command = app.add_subcommand("verify", "Check every frame of a folder; print one hash of all pixels");
   command->add_option("DIR", verifying.folder, "The folder given to mars render with -o. Example: build/demo")
       ->required();
   command->add_flag("--missing", verifying.missing,
                     "Print only the missing or wrong frames, in the form of --frames; nothing if there are none. "
                     "Example: --missing");
-  command->footer("To render the missing frames:\n"
-                  "  missing=$(mars verify DIR --missing)\n"
-                  "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
+  command->footer(
+      "To render the missing frames:\n"
+      "  missing=$(mars verify DIR --missing)\n"
+      "  [ -z \"$missing\" ] || mars render FILM -o DIR --frames \"$missing\"\n");
   command->callback([&] {
     const sinks::Verdict verdict = sinks::verify_folder(verifying.folder);
     if (verifying.missing)
@@ -146,11 +145,11 @@ void add_verify(CLI::App& app, Verifying& verifying, int& code) {
 }
 
 void add_doctor(CLI::App& app, doctor::DoctorOptions& options, int& code) {
-  CLI::App* command = app.add_subcommand(
-      "doctor", "Check whether films can be rendered here, and print remedies");
-  command->add_option("--nodes", options.nodes,
-                      "Check for N nodes and show where each is placed; default: as mars render. "
-                      "Example: --nodes 4")
+  CLI::App* command = app.add_subcommand("doctor", "Check whether films can be rendered here, and print remedies");
+  command
+      ->add_option("--nodes", options.nodes,
+                   "Check for N nodes and show where each is placed; default: as mars render. "
+                   "Example: --nodes 4")
       ->check(CLI::Range(1, 1 << 20).description(""))
       ->type_name("N");
   command->add_flag("--this-machine", options.this_machine)->group("");  // asked by itself, on other machines

@@ -4,8 +4,7 @@
 
 int main(int argc, char** argv) {
   using namespace mars;
-  constexpr const char* kPurpose =
-      "The host of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node";
+  constexpr const char* kPurpose = "The host of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node";
   options::RenderOptions options;
   if (const auto code =
           options::read_render_options(options::Program::host, "mars-host", kPurpose, options, argc, argv)) {

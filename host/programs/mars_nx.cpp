@@ -73,12 +73,15 @@ int run_processes(const nx_jobs::NxRun& job, const nx_jobs::NxPrograms& programs
   processes::JobPlan plan;
   plan.nodes = job.nodes;
   plan.host = !programs.host.empty();
-  if (plan.host) plan.begin = programs.node.empty() ? processes::JobPlan::Begin::never : processes::JobPlan::Begin::later;
+  if (plan.host)
+    plan.begin = programs.node.empty() ? processes::JobPlan::Begin::never : processes::JobPlan::Begin::later;
   plan.limit = limit;
   plan.become = [&](const processes::Place& place, const std::string& file) {
     const bool host = plan.host && place.index == job.nodes;
     processes::leave_place(place);
-    const std::filesystem::path& program = host ? programs.host : file.empty() ? programs.node : std::filesystem::path(file);
+    const std::filesystem::path& program = host           ? programs.host
+                                           : file.empty() ? programs.node
+                                                          : std::filesystem::path(file);
     return become_program(program, job.arguments, plan.host ? host : place.index == 0);
   };
   plan.report = [](const std::string& line) { std::cerr << "mars-nx: " << line << std::endl; };
@@ -108,8 +111,7 @@ void add_run(CLI::App& app, nx_jobs::NxRun& options, int& code) {
           "Slurm job, else processes. Example: --over mpi")
       ->type_name("auto|processes|mpi");
   command
-      ->add_option("--hostfile", options.hostfile,
-                   "Open MPI's file of the machines to use. Example: --hostfile hosts")
+      ->add_option("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
       ->type_name("FILE");
   command->footer("Environment variables:\n" + messages::settings_text() + "\n" + kStarts);
   command->callback([&] { code = nx_jobs::run_nx(options, run_processes); });
@@ -117,8 +119,8 @@ void add_run(CLI::App& app, nx_jobs::NxRun& options, int& code) {
 
 // What follows -- is not ours.
 std::vector<std::string> take_arguments(std::vector<const char*>& words) {
-  const auto at = std::find_if(words.begin(), words.end(),
-                               [](const char* word) { return std::string_view(word) == "--"; });
+  const auto at =
+      std::find_if(words.begin(), words.end(), [](const char* word) { return std::string_view(word) == "--"; });
   if (at == words.end()) return {};
   std::vector<std::string> arguments(at + 1, words.end());
   words.erase(at, words.end());

@@ -6,8 +6,7 @@
 
 int main(int argc, char** argv) {
   using namespace mars;
-  constexpr const char* kPurpose =
-      "Host and nodes in one program, by rank: mpirun -n 5 mars-ranks FILM -o DIR";
+  constexpr const char* kPurpose = "Host and nodes in one program, by rank: mpirun -n 5 mars-ranks FILM -o DIR";
   options::RenderOptions options;
   if (const auto code =
           options::read_render_options(options::Program::ranks, "mars-ranks", kPurpose, options, argc, argv)) {

@@ -22,8 +22,9 @@ int main(int argc, char** argv) {
   try {
     if (options.nodes == 0) options.nodes = static_cast<std::uint32_t>(topology::Machine::here().processors());
     programs::check_memory_limit(options.nodes);
-    threads::run_threads(static_cast<int>(options.nodes), [&] { session::run_session(job::job_of(options, "threads")); },
-                     [&] { programs::run_node_job(options.nodes); });
+    threads::run_threads(
+        static_cast<int>(options.nodes), [&] { session::run_session(job::job_of(options, "threads")); },
+        [&] { programs::run_node_job(options.nodes); });
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "mars: " << reason_of(failure) << '\n';

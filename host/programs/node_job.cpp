@@ -25,7 +25,8 @@ std::string host_name() {
 // Binds the calling thread to its share of the machine, unless its launcher has, or there is none.
 void bind(const topology::Machine& machine, const messages::Neighbourhood& here) {
   if (here.placed) return;
-  if (const auto place = machine.place(here.index, here.count, kCoresForHost, here.machine)) machine.bind_thread(*place);
+  if (const auto place = machine.place(here.index, here.count, kCoresForHost, here.machine))
+    machine.bind_thread(*place);
 }
 
 }  // namespace

@@ -33,15 +33,16 @@ void SurfaceFrames::aim(images::PictureSize extent, const std::optional<wire::Ca
   failure_ = nullptr;
   cancellation_.emplace();
   const wire::Camera* by = camera ? &*camera : nullptr;
-  renderer_ = std::thread([this, film = preview::as_seen(film_, {extent.width, extent.height}, by), frames = std::move(frames)] {
-    try {
-      render(film, frames);
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      failure_ = std::current_exception();
-      changed_.notify_all();
-    }
-  });
+  renderer_ = std::thread(
+      [this, film = preview::as_seen(film_, {extent.width, extent.height}, by), frames = std::move(frames)] {
+        try {
+          render(film, frames);
+        } catch (...) {
+          const std::lock_guard lock(mutex_);
+          failure_ = std::current_exception();
+          changed_.notify_all();
+        }
+      });
 }
 
 // A farm takes ascending frames: those from the middle of a film on, then those before.

@@ -21,7 +21,8 @@ class SurfaceFrames : public preview::SurfaceSource {
   explicit SurfaceFrames(const film::CompiledFilm& film) : film_(film) {}
   ~SurfaceFrames() override { stop(); }
 
-  void aim(images::PictureSize extent, const std::optional<wire::Camera>& camera, std::vector<std::uint32_t> frames) override;
+  void aim(images::PictureSize extent, const std::optional<wire::Camera>& camera,
+           std::vector<std::uint32_t> frames) override;
   preview::SharedImage frame(std::uint32_t number) override;
   preview::SharedImage wait_for(std::uint32_t number) override;
 

@@ -6,7 +6,8 @@
 namespace mars::geometry {
 namespace {
 
-constexpr int kMostBatches = static_cast<int>((wire::kMeshletTriangles + shape::kBatchTriangles - 1) / shape::kBatchTriangles);
+constexpr int kMostBatches =
+    static_cast<int>((wire::kMeshletTriangles + shape::kBatchTriangles - 1) / shape::kBatchTriangles);
 static_assert(wire::kMeshSlack >= simd::kVectorSlack);
 
 const float (*vectors(const std::array<float, 3>* first))[3] { return reinterpret_cast<const float(*)[3]>(first); }
@@ -32,7 +33,8 @@ shape::EyeMap eye_map(const shape::EyeMatrix& matrix) {
   return map;
 }
 
-bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection, float width, float height) {
+bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection,
+            float width, float height) {
   float corners[8][3];
   for (int k = 0; k < 8; ++k) {
     const auto along = [&](std::size_t axis) { return (k >> axis & 1 ? meshlet.high : meshlet.low)[axis]; };
@@ -42,7 +44,8 @@ bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const 
 }
 
 MeshletPlacer::MeshletPlacer(simd::InstructionSet set)
-    : shape::Surface(set, static_cast<int>(wire::kMeshletVertices), static_cast<int>(wire::kMeshletTriangles), kMostBatches) {}
+    : shape::Surface(set, static_cast<int>(wire::kMeshletVertices), static_cast<int>(wire::kMeshletTriangles),
+                     kMostBatches) {}
 
 void MeshletPlacer::place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet,
                           const shape::Projection& projection) {

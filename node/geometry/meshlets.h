@@ -10,14 +10,16 @@ namespace mars::geometry {
 shape::EyeMap eye_map(const shape::EyeMatrix& matrix);
 
 // Whether the meshlet surely leaves no mark on a picture of width x height: its box lies outside.
-bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection, float width, float height);
+bool unseen(const shape::EyeMatrix& matrix, const wire::Meshlet& meshlet, const shape::Projection& projection,
+            float width, float height);
 
 class MeshletPlacer : public shape::Surface {
  public:
   explicit MeshletPlacer(simd::InstructionSet set);
 
   // Becomes the surface of `meshlet`, until the next call.
-  void place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet, const shape::Projection& projection);
+  void place(const shape::EyeMap& map, const wire::FilmView& film, const wire::Meshlet& meshlet,
+             const shape::Projection& projection);
 };
 
 }  // namespace mars::geometry

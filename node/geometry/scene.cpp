@@ -14,8 +14,8 @@ EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
   for (std::size_t r = 0; r < 3; ++r) {
     const auto& row = world_to_eye.m[r];
     const double offset = out.point ? row[3] : 0.0;
-    out.vector[r] = static_cast<float>(row[0] * light.vector[0] + row[1] * light.vector[1] + row[2] * light.vector[2] +
-                                       offset);
+    out.vector[r] =
+        static_cast<float>(row[0] * light.vector[0] + row[1] * light.vector[1] + row[2] * light.vector[2] + offset);
   }
   return out;
 }

@@ -29,7 +29,9 @@ class DepthExchange::Plan {
   // Needed lines that `node` is home of.
   geometry::LineRange lines_of(int node) const { return geometry::overlap(needs_.homes[index(node)], needs_.lines); }
   // Those that must travel; none on one machine, where word that they are written is enough.
-  geometry::LineRange travelling(int from, int to) const { return share_a_machine(from, to) ? geometry::LineRange{} : lines_of(from); }
+  geometry::LineRange travelling(int from, int to) const {
+    return share_a_machine(from, to) ? geometry::LineRange{} : lines_of(from);
+  }
 
  private:
   std::size_t index(int node) const { return static_cast<std::size_t>(node - needs_.group.first); }

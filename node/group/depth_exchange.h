@@ -18,9 +18,9 @@ namespace mars::group {
 // What the group's nodes know of each other, all of them the same.
 struct DepthNeeds {
   collectives::Group group;
-  std::span<const geometry::LineRange> homes;           // of the group's nodes
-  geometry::LineRange lines;                            // that inbetweens may touch
-  std::span<const std::uint8_t> contributes;  // 1: the node draws inbetweens; of all the group's nodes
+  std::span<const geometry::LineRange> homes;  // of the group's nodes
+  geometry::LineRange lines;                   // that inbetweens may touch
+  std::span<const std::uint8_t> contributes;   // 1: the node draws inbetweens; of all the group's nodes
 };
 
 class DepthExchange {

@@ -27,7 +27,8 @@ long bytes_of(std::span<T> items) {
 TriangleExchange::TriangleExchange(int nodes, std::size_t lines)
     : pending_(2 * static_cast<std::size_t>(nodes)), parcels_(static_cast<std::size_t>(nodes)), home_of_(lines) {}
 
-void TriangleExchange::send_triangles(const collectives::Group& group, const raster::Polygons& own, std::span<const geometry::LineRange> homes,
+void TriangleExchange::send_triangles(const collectives::Group& group, const raster::Polygons& own,
+                                      std::span<const geometry::LineRange> homes,
                                       std::span<const std::uint32_t> line_counts, raster::Arena& arena) {
   const auto self = static_cast<std::size_t>(mynode() - group.first);
   if (homes.size() == 1) return;
@@ -37,7 +38,8 @@ void TriangleExchange::send_triangles(const collectives::Group& group, const ras
     const auto counts = on_home(line_counts);
     const std::size_t boxes = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     // As many triangles as so many edge boxes can have; less is filled.
-    parcels_[home] = {arena.take<geometry::Triangle>(boxes), arena.take<raster::UnsortedEdgeBox>(boxes), 0, boxes, shading::kNoTriangle};
+    parcels_[home] = {arena.take<geometry::Triangle>(boxes), arena.take<raster::UnsortedEdgeBox>(boxes), 0, boxes,
+                      shading::kNoTriangle};
   }
   fill_parcels(own, static_cast<std::uint32_t>(self));
   for (std::size_t i = 1; i < homes.size(); ++i) {
@@ -63,14 +65,17 @@ void TriangleExchange::fill_parcels(const raster::Polygons& own, std::uint32_t s
   });
 }
 
-raster::Polygons TriangleExchange::receive_triangles(const collectives::Group& group, int number, raster::Arena& arena) {
+raster::Polygons TriangleExchange::receive_triangles(const collectives::Group& group, int number,
+                                                     raster::Arena& arena) {
   const int self = static_cast<int>(mynode()) - group.first;
   const int node = group.first + (self + group.count - number) % group.count;
   cprobe(wire::triangles_from(node));
-  const auto triangles = arena.take<geometry::Triangle>(static_cast<std::size_t>(infocount()) / sizeof(geometry::Triangle));
+  const auto triangles =
+      arena.take<geometry::Triangle>(static_cast<std::size_t>(infocount()) / sizeof(geometry::Triangle));
   crecv(wire::triangles_from(node), triangles.data(), bytes_of(triangles));
   cprobe(wire::edge_boxes_from(node));
-  const auto boxes = arena.take<raster::UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(raster::UnsortedEdgeBox));
+  const auto boxes =
+      arena.take<raster::UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(raster::UnsortedEdgeBox));
   crecv(wire::edge_boxes_from(node), boxes.data(), bytes_of(boxes));
   const auto stationary =
       std::partition_point(boxes.begin(), boxes.end(), [](const raster::UnsortedEdgeBox& c) { return c.moving == 1; });

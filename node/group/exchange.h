@@ -21,8 +21,9 @@ class TriangleExchange {
 
   // Begins to send to every other node of the group those of `own` triangles that have edge boxes on its lines,
   // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
-  void send_triangles(const collectives::Group& group, const raster::Polygons& own, std::span<const geometry::LineRange> homes,
-                      std::span<const std::uint32_t> line_counts, raster::Arena& arena);
+  void send_triangles(const collectives::Group& group, const raster::Polygons& own,
+                      std::span<const geometry::LineRange> homes, std::span<const std::uint32_t> line_counts,
+                      raster::Arena& arena);
   // What another node, the `number`th of count - 1, sends; it lies in `arena`.
   raster::Polygons receive_triangles(const collectives::Group& group, int number, raster::Arena& arena);
   void finish();
@@ -32,9 +33,10 @@ class TriangleExchange {
   struct Parcel {
     std::span<geometry::Triangle> triangles;
     std::span<raster::UnsortedEdgeBox> boxes;
-    std::size_t triangle_count = 0;   // filled from the front
-    std::size_t box_count = 0;        // not filled yet, from the back
-    std::uint32_t met = shading::kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
+    std::size_t triangle_count = 0;  // filled from the front
+    std::size_t box_count = 0;       // not filled yet, from the back
+    std::uint32_t met =
+        shading::kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
   };
 
   void fill_parcels(const raster::Polygons& own, std::uint32_t self);

@@ -12,7 +12,8 @@ GroupSums::GroupSums(std::size_t lines, std::size_t nodes)
   own_bytes_.reserve(nodes);
 }
 
-void GroupSums::add_up(const collectives::Group& group, std::span<const std::uint32_t> line_counts, std::uint64_t own_bytes) {
+void GroupSums::add_up(const collectives::Group& group, std::span<const std::uint32_t> line_counts,
+                       std::uint64_t own_bytes) {
   const std::size_t lines = line_counts.size();
   const auto sums = std::span(sent_).first(lines + static_cast<std::size_t>(group.count));
   const auto totals = sums.first(lines), bytes = sums.subspan(lines);

@@ -14,8 +14,8 @@ class Outbox {
 
   // An empty buffer (StripBuffer::clear); waits until the strip last sent from it is gone.
   raster::StripBuffer& begin(bool constant);
-  // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it. Sends nothing
-  // where the host has said stop: it takes no more strips.
+  // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it. Sends
+  // nothing where the host has said stop: it takes no more strips.
   void send(wire::Strip& header);
   bool stopped() const { return stopped_; }
 

@@ -37,7 +37,7 @@ std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group)
 struct FrameLoad {
   collectives::Group group;
   std::span<const std::uint64_t> ebc;          // of all nodes (mapping.h)
-  std::span<const geometry::LineRange> homes;            // of the group's nodes
+  std::span<const geometry::LineRange> homes;  // of the group's nodes
   std::span<const std::uint64_t> own_bytes;    // of the group's nodes
   std::span<const std::uint32_t> line_counts;  // edge boxes a line of the node's own triangles
   std::uint64_t triangles;                     // of its own

@@ -1,5 +1,5 @@
-// Triangles on their way to set-ups: classified sixteen at a time, and where the set-ups go. Plain structs only: kernels
-// of several instruction sets share them (kernels.h).
+// Triangles on their way to set-ups: classified sixteen at a time, and where the set-ups go. Plain structs only:
+// kernels of several instruction sets share them (kernels.h).
 #pragma once
 
 #include <cstdint>
@@ -27,12 +27,13 @@ inline constexpr std::int32_t kMostExtent = 96;  // pixels; larger triangles are
 // undecided, where they are larger than kMostExtent or may have been turned over; or dropped: turned away or
 // between samples.
 struct Classified {
-  std::uint32_t decided;    // one bit a triangle
+  std::uint32_t decided;  // one bit a triangle
   std::uint32_t undecided;
-  std::uint32_t faces;      // the side from which a, b, c run counter-clockwise is turned to the eye
+  std::uint32_t faces;  // the side from which a, b, c run counter-clockwise is turned to the eye
   alignas(64) std::int32_t first_row[shape::kBatchTriangles];
   alignas(64) std::int32_t last_row[shape::kBatchTriangles];
-  alignas(64) std::uint32_t columns[kMostExtent][shape::kBatchTriangles];  // of row first_row + r at [r]: first | last << 16, or 0
+  alignas(64) std::uint32_t
+      columns[kMostExtent][shape::kBatchTriangles];  // of row first_row + r at [r]: first | last << 16, or 0
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
   alignas(64) float x1[shape::kBatchTriangles];
   alignas(64) float y1[shape::kBatchTriangles];

@@ -31,6 +31,8 @@ Czb::Czb(std::span<const std::int32_t> machines, int groups, std::int32_t width,
   depth_ = reinterpret_cast<float*>(block.data());
 }
 
-std::span<float> Czb::lines(const geometry::LineRange& lines) { return {depth_ + lines.first * width_, lines.count() * width_}; }
+std::span<float> Czb::lines(const geometry::LineRange& lines) {
+  return {depth_ + lines.first * width_, lines.count() * width_};
+}
 
 }  // namespace mars::raster

@@ -20,8 +20,8 @@ extern const RasterKernels raster_kernels;
 }
 
 const RasterKernels& raster_kernels(simd::InstructionSet set) {
-  static constexpr const RasterKernels* kTables[] = {&sse2::raster_kernels, &sse4::raster_kernels, &avx2::raster_kernels,
-                                                  &avx512::raster_kernels};
+  static constexpr const RasterKernels* kTables[] = {&sse2::raster_kernels, &sse4::raster_kernels,
+                                                     &avx2::raster_kernels, &avx512::raster_kernels};
   return *kTables[static_cast<std::size_t>(set)];
 }
 

@@ -23,7 +23,8 @@ bool LineBoxes::any_stationary() const {
   return false;
 }
 
-LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc, const geometry::Triangle* first, Arena& arena)
+LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc,
+                       const geometry::Triangle* first, Arena& arena)
     : lines_(lines),
       first_(first),
       boxes_(arena.take<EdgeBox>(ebc[lines.last] - ebc[lines.first])),
@@ -48,12 +49,10 @@ void LineFiller::add(const Polygons& polygons) {
     }
   };
   EdgeBox* const boxes = boxes_.data();
-  for_each(polygons.stationary, [boxes, next = stationary_.data()](std::uint32_t line, const EdgeBox& box) {
-    boxes[next[line]++] = box;
-  });
-  for_each(polygons.moving, [boxes, last = moving_.data()](std::uint32_t line, const EdgeBox& box) {
-    boxes[--last[line]] = box;
-  });
+  for_each(polygons.stationary,
+           [boxes, next = stationary_.data()](std::uint32_t line, const EdgeBox& box) { boxes[next[line]++] = box; });
+  for_each(polygons.moving,
+           [boxes, last = moving_.data()](std::uint32_t line, const EdgeBox& box) { boxes[--last[line]] = box; });
 }
 
 LineBoxes LineFiller::finish() const {
@@ -104,8 +103,8 @@ void ZBuffer::draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& 
 void ZBuffer::draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line,
                    StripBuffer::Layer& out) {
   if (boxes.empty()) return;
-  const shading::Extent extent = kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
-                                      depth(), ids());
+  const shading::Extent extent =
+      kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth(), ids());
   out.added(shading_kernels_.shade(shading, ids(), line, extent, out.next_run(), out.next_pixel()));
   std::fill(ids() + extent.first, ids() + extent.last, shading::kNoTriangle);
 }

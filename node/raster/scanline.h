@@ -39,7 +39,8 @@ struct LineBoxes {
 class LineFiller {
  public:
   // Boxes will name triangles by their distance from `first`. Takes its arrays from `arena`.
-  LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc, const geometry::Triangle* first, Arena& arena);
+  LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc, const geometry::Triangle* first,
+             Arena& arena);
 
   void add(const Polygons& polygons);
   // check()s that the boxes are exactly those that EBC counted.
@@ -61,11 +62,11 @@ class ZBuffer {
 
   // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB).
   // CZB of `czb_lines` goes to `czb`.
-  void draw_keyframe(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading, const geometry::LineRange& czb_lines,
-                     Czb& czb, StripBuffer& out);
+  void draw_keyframe(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+                     const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out);
   // Draws moving parts of these lines against `czb`, whose `czb_lines` have all of them, and each other.
-  void draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading, const geometry::LineRange& czb_lines,
-                      Czb& czb, StripBuffer& out);
+  void draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+                      const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out);
 
  private:
   // Samples, as many as kernels take at a time.
@@ -76,7 +77,8 @@ class ZBuffer {
     std::uint32_t samples[simd::kVectorSlack];
   };
 
-  void draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
+  void draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line,
+            StripBuffer::Layer& out);
 
   float* depth() { return depths_.front().samples; }
   std::uint32_t* ids() { return ids_.front().samples; }

@@ -17,7 +17,8 @@ constexpr float kSlack = 1.001f;
 // Counts the edge boxes and stores them if the triangle fits too; whether there were any and they were stored.
 bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
   const std::int32_t first = outline.first_row, last = std::max(first, outline.last_row);
-  const bool fits = out.bytes_left() >= sizeof(geometry::Triangle) + static_cast<std::size_t>(last - first) * sizeof(UnsortedEdgeBox);
+  const bool fits =
+      out.bytes_left() >= sizeof(geometry::Triangle) + static_cast<std::size_t>(last - first) * sizeof(UnsortedEdgeBox);
   const auto number = static_cast<std::uint32_t>(out.next - out.first);
   std::uint32_t boxes = 0;
   for (std::int32_t row = first; row < last; ++row) {
@@ -38,7 +39,8 @@ bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
 // Memory that a batch does not exceed in a picture of so many lines.
 std::size_t most_bytes(const Classified& e, std::int32_t height) {
   const std::int32_t rows = e.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
-  return shape::kBatchTriangles * (sizeof(geometry::Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
+  return shape::kBatchTriangles *
+         (sizeof(geometry::Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
 }
 
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
@@ -87,8 +89,12 @@ struct FewVertices {
   alignas(64) float values[kFew][shape::kValues];
 
   shape::Vertices view() {
-    return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, values, places[0],
-            places[1], flags};
+    return {{numbers[0], numbers[1], numbers[2]},
+            {numbers[3], numbers[4], numbers[5]},
+            values,
+            places[0],
+            places[1],
+            flags};
   }
 };
 
@@ -120,7 +126,8 @@ void SetUp::add(const shape::Surface& surface, const PatchIdentity& identity, Se
   const ClassifyTask task{width_, height_, identity.one_sided, identity.mirrored};
   for (const shape::Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
     kernels_.classify(task, v, triangles, batch, classified_);
-    if (out.bytes_left() < most_bytes(classified_, height_)) classified_.undecided |= std::exchange(classified_.decided, 0u);
+    if (out.bytes_left() < most_bytes(classified_, height_))
+      classified_.undecided |= std::exchange(classified_.decided, 0u);
     if ((classified_.decided | classified_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
   }
 }
@@ -150,7 +157,8 @@ void SetUp::add_plainly(const shape::Surface& surface, const PatchIdentity& iden
     add_one(surface.vertices(), surface.triangles()[k], identity, out);
 }
 
-void SetUp::add_one(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity, SetUps& out) const {
+void SetUp::add_one(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity,
+                    SetUps& out) const {
   const int outside = v.outside[corners.a] + v.outside[corners.b] + v.outside[corners.c];
   if (outside == 0)
     add_whole(v, corners, std::nullopt, identity, out);

@@ -41,7 +41,8 @@ class SetUp {
   void add_plainly(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out) const;
 
  private:
-  void add_one(const shape::Vertices& vertices, const shape::Corner3& corners, const PatchIdentity& identity, SetUps& out) const;
+  void add_one(const shape::Vertices& vertices, const shape::Corner3& corners, const PatchIdentity& identity,
+               SetUps& out) const;
   void add_clipped(const shape::Vertices& vertices, const shape::Corner3& corners, const PatchIdentity& identity,
                    SetUps& out) const;
   // `faces`: whether its outside by the order of its vertices is turned to the eye, where that is known already.

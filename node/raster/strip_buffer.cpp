@@ -18,7 +18,8 @@ constexpr std::size_t most_bytes_of_line(std::size_t width) {
   return 2 * (sizeof(std::uint32_t) + sizeof(wire::Run)) * ((width + 2) / 2);
 }
 
-static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide) <= wire::kMaxStripBytes, "any line fits an empty strip");
+static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide) <= wire::kMaxStripBytes,
+              "any line fits an empty strip");
 
 // `items` to `at`, which they may overlap; returns what comes behind them.
 template <typename T>
@@ -48,8 +49,8 @@ void StripBuffer::clear(bool constant) {
 }
 
 std::size_t StripBuffer::bytes() const {
-  return sizeof(wire::Strip) + constant_.pixels().size_bytes() + moving_.pixels().size_bytes() + constant_.runs().size_bytes() +
-         moving_.runs().size_bytes();
+  return sizeof(wire::Strip) + constant_.pixels().size_bytes() + moving_.pixels().size_bytes() +
+         constant_.runs().size_bytes() + moving_.runs().size_bytes();
 }
 
 std::uint32_t StripBuffer::lines_that_fit() const {

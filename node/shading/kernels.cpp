@@ -20,8 +20,8 @@ extern const ShadingKernels shading_kernels;
 }
 
 const ShadingKernels& shading_kernels(simd::InstructionSet set) {
-  static constexpr const ShadingKernels* kTables[] = {&sse2::shading_kernels, &sse4::shading_kernels, &avx2::shading_kernels,
-                                                  &avx512::shading_kernels};
+  static constexpr const ShadingKernels* kTables[] = {&sse2::shading_kernels, &sse4::shading_kernels,
+                                                      &avx2::shading_kernels, &avx512::shading_kernels};
   return *kTables[static_cast<std::size_t>(set)];
 }
 

@@ -44,9 +44,9 @@ class Dicer : public Surface {
   Rates rates_{};
   Rates triangulated_{};  // what the triangles are for
   bool flat_in_v_ = false;
-  int columns_ = 0;       // of the inside grid; 0 for a strip
+  int columns_ = 0;  // of the inside grid; 0 for a strip
   int rows_ = 0;
-  int side_at_[4] = {};   // first vertex of each side, in the direction of u or v
+  int side_at_[4] = {};  // first vertex of each side, in the direction of u or v
 };
 
 }  // namespace mars::shape

@@ -21,7 +21,7 @@ extern const ShapeKernels shape_kernels;
 
 const ShapeKernels& shape_kernels(simd::InstructionSet set) {
   static constexpr const ShapeKernels* kTables[] = {&sse2::shape_kernels, &sse4::shape_kernels, &avx2::shape_kernels,
-                                                  &avx512::shape_kernels};
+                                                    &avx512::shape_kernels};
   return *kTables[static_cast<std::size_t>(set)];
 }
 

@@ -53,8 +53,8 @@ struct Fineness {
   float v;
 };
 
-// From a mesh's own space to eye space. Normals go by the cofactors of the places' linear part, which is where the cross
-// product of two moved vectors points: the inverse's transpose but for its length, and turned where that mirrors.
+// From a mesh's own space to eye space. Normals go by the cofactors of the places' linear part, which is where the
+// cross product of two moved vectors points: the inverse's transpose but for its length, and turned where that mirrors.
 struct EyeMap {
   float place[3][4];
   float normal[3][3];

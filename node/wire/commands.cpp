@@ -11,7 +11,8 @@ namespace {
 
 void require(bool holds, const char* command, const char* rule) {
   if (!holds)
-    throw Failure(std::string("the host's command ") + command + " does not make sense: " + rule, "", "please report it");
+    throw Failure(std::string("the host's command ") + command + " does not make sense: " + rule, "",
+                  "please report it");
 }
 
 // A struct and `count` items behind it, and nothing else.
@@ -36,7 +37,8 @@ bool is_group_of(const Render& render, int node, int nodes, int groups) {
 
 bool ascend_within(std::span<const std::uint32_t> frames, const Interval& interval) {
   const bool ascend = std::adjacent_find(frames.begin(), frames.end(), std::greater_equal<>()) == frames.end();
-  return ascend && frames.front() >= interval.first_frame && frames.back() - interval.first_frame < interval.frame_count;
+  return ascend && frames.front() >= interval.first_frame &&
+         frames.back() - interval.first_frame < interval.frame_count;
 }
 
 }  // namespace
@@ -54,7 +56,8 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   require(load.traced <= 1, kName, "whether to trace");
   for (std::int32_t node = 0; node < nodes; ++node) {
     const std::int32_t machine = machines[static_cast<std::size_t>(node)];
-    require(machine >= 0 && machine <= node && machines[static_cast<std::size_t>(machine)] == machine, kName, "machines");
+    require(machine >= 0 && machine <= node && machines[static_cast<std::size_t>(machine)] == machine, kName,
+            "machines");
   }
   return {load, machines};
 }

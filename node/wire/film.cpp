@@ -236,8 +236,8 @@ void FilmView::check_all(const std::string& where) const {
   for (const Interval& interval : intervals_) {
     require(interval.first_frame == next && interval.frame_count > 0, where, "its intervals leave a gap");
     next += interval.frame_count;
-    const bool inside = interval.first_moving <= moving_.size() &&
-                        interval.moving_count <= moving_.size() - interval.first_moving;
+    const bool inside =
+        interval.first_moving <= moving_.size() && interval.moving_count <= moving_.size() - interval.first_moving;
     require(inside, where, "an interval has no such moving segments");
     const auto list = moving(interval);
     const bool ascending = std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
@@ -286,9 +286,7 @@ const Material& FilmView::material_at(const Segment& segment, std::uint32_t fram
   return materials_[value_at(segment.look, frame)];
 }
 
-const Camera& FilmView::camera_at(std::uint32_t frame) const {
-  return cameras_[value_at(settings_->camera, frame)];
-}
+const Camera& FilmView::camera_at(std::uint32_t frame) const { return cameras_[value_at(settings_->camera, frame)]; }
 
 std::uint64_t FilmView::patch_instances() const {
   std::uint64_t patches = 0;

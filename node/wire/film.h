@@ -37,7 +37,7 @@ struct FilmData {
   std::vector<Change> changes;
   std::vector<Interval> intervals;  // in order, covering every frame once
   std::vector<std::uint32_t> moving;
-  std::vector<char> names;          // zero-ended strings: "actor/joint"
+  std::vector<char> names;  // zero-ended strings: "actor/joint"
 };
 
 // The block, little-endian, every section aligned to 64 bytes. check()s that changes can be counted.

@@ -11,7 +11,7 @@ namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
 inline constexpr std::uint32_t kFilmVersion = 2;
-inline constexpr std::uint32_t kMaxSide = 16384;  // pixels
+inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
 
 // A bicubic Bezier patch: point (i, j) is points[4 * j + i], i along u, j along v, in the unit cube.
@@ -44,7 +44,7 @@ struct Track {
 // first_vertex, counter-clockwise seen from outside. Meshlets that meet have vertices at the same places, bit for bit.
 struct Meshlet {
   std::uint32_t first_vertex;
-  std::uint32_t vertex_count;    // 1..kMeshletVertices
+  std::uint32_t vertex_count;  // 1..kMeshletVertices
   std::uint32_t first_triangle;
   std::uint32_t triangle_count;  // 1..kMeshletTriangles
   std::array<float, 3> low;      // of the box round its vertices
@@ -119,13 +119,13 @@ struct Interval {
 };
 
 struct FilmSettings {
-  std::uint32_t width;   // pixels, 1..kMaxSide
+  std::uint32_t width;  // pixels, 1..kMaxSide
   std::uint32_t height;
   std::uint32_t frames;  // 1..kMostFrames
   std::uint32_t dice;    // 0: adaptive; N: every patch N x N quads
   std::array<float, 3> background;
-  float rate;            // frames a second
-  Track camera;          // indices into cameras
+  float rate;    // frames a second
+  Track camera;  // indices into cameras
 };
 
 }  // namespace mars::wire

@@ -1,9 +1,9 @@
 // What crosses the wire between host and node: message types and their bodies, plain little-endian structs
 // followed by arrays where said. The node owns this page; the host includes it and nothing else of the
 // firmware. A node boots, sends Hello and then only obeys. Hello and Load begin with a stamp that tells versions apart
-// (stamp.h). Stop may come while nodes draw: each then finishes the keyframes it was given, for the others of its group wait
-// for it, draws no more inbetweens, sends no more strips and ends. Both sides check a message's size, counts and ranges before they use anything of it: the node's in
-// commands.h, the host's in host/render/farm/node_inbox.h.
+// (stamp.h). Stop may come while nodes draw: each then finishes the keyframes it was given, for the others of its group
+// wait for it, draws no more inbetweens, sends no more strips and ends. Both sides check a message's size, counts and
+// ranges before they use anything of it: the node's in commands.h, the host's in host/render/farm/node_inbox.h.
 //
 //   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
@@ -53,12 +53,12 @@ struct Hello {
   WireStamp stamp;
   std::array<char, 64> host;  // name of its machine
   std::int32_t node;
-  std::int32_t machine;       // lowest node id on the same machine
-  std::int32_t rank;          // its number for whoever started it (MPI's)
+  std::int32_t machine;              // lowest node id on the same machine
+  std::int32_t rank;                 // its number for whoever started it (MPI's)
   std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
-  std::uint64_t memory;       // bytes it may use for one frame's triangles and edge boxes
-  std::array<char, 64> binding;  // processors it is bound to, as hwloc lists them; "" if free
-  std::array<char, 16> simd;  // widest instruction set its kernels use
+  std::uint64_t memory;              // bytes it may use for one frame's triangles and edge boxes
+  std::array<char, 64> binding;      // processors it is bound to, as hwloc lists them; "" if free
+  std::array<char, 16> simd;         // widest instruction set its kernels use
 };
 
 static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version has it");
@@ -76,11 +76,11 @@ inline constexpr std::int32_t kMaxCredits = 4;
 struct Load {
   WireStamp stamp;
   std::uint64_t film_bytes;
-  std::uint64_t memory;   // bytes for one frame's triangles and edge boxes, the same on every node
-  std::int32_t credits;   // strips a node may have on the way to the host, 1..kMaxCredits
+  std::uint64_t memory;  // bytes for one frame's triangles and edge boxes, the same on every node
+  std::int32_t credits;  // strips a node may have on the way to the host, 1..kMaxCredits
   Mapping mapping;
-  std::int32_t groups;     // that the nodes form side by side (collectives::group_of), for all Render commands
-  std::uint32_t traced;   // 1: the node records what it does and sends it as Trace
+  std::int32_t groups;   // that the nodes form side by side (collectives::group_of), for all Render commands
+  std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
 };
 
 // Frames of one interval for one group: the first is rendered by all its nodes as the keyframe, the others go
@@ -121,23 +121,23 @@ enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, dept
 
 // What one node did so far for one frame; the frame's last strip has it all.
 struct WorkCounts {
-  std::uint64_t patches;          // diced, and meshlets
+  std::uint64_t patches;  // diced, and meshlets
   std::uint64_t vertices;
-  std::uint64_t triangles;        // made from its own patches, touching a sample
-  std::uint64_t edge_boxes_diced; // of those triangles
-  std::uint64_t edge_boxes;       // drawn on its own lines
-  std::uint64_t pixels;           // shaded
+  std::uint64_t triangles;         // made from its own patches, touching a sample
+  std::uint64_t edge_boxes_diced;  // of those triangles
+  std::uint64_t edge_boxes;        // drawn on its own lines
+  std::uint64_t pixels;            // shaded
   std::uint64_t bytes_to_nodes;
-  std::uint64_t bytes_to_host;    // in strips
-  std::uint64_t memory;           // bytes of the frame's arena in use at the peak
-  std::uint32_t passes;           // over line ranges; 1 unless memory was short
-  std::uint32_t credits_waited;   // strips that had to wait for credit
+  std::uint64_t bytes_to_host;   // in strips
+  std::uint64_t memory;          // bytes of the frame's arena in use at the peak
+  std::uint32_t passes;          // over line ranges; 1 unless memory was short
+  std::uint32_t credits_waited;  // strips that had to wait for credit
 };
 
 enum class FrameKind : std::uint32_t { keyframe, inbetween };
 
-// Bytes of a strip, header and all, at most: few enough to stay in a core's cache on their way, and the host puts them in
-// place while the node draws on.
+// Bytes of a strip, header and all, at most: few enough to stay in a core's cache on their way, and the host puts them
+// in place while the node draws on.
 inline constexpr std::size_t kMaxStripBytes = std::size_t{768} << 10;
 
 // A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
@@ -148,15 +148,15 @@ struct Strip {
   std::uint32_t interval;
   FrameKind kind;
   std::int32_t node;
-  std::uint32_t number;           // of the strips that this node sends for this frame, from 0
-  std::uint32_t last;             // 1 if this is the last of them; a frame is whole when all nodes' last came
-  std::uint32_t first_line;       // it is of the node's home lines [first_line, last_line)
+  std::uint32_t number;      // of the strips that this node sends for this frame, from 0
+  std::uint32_t last;        // 1 if this is the last of them; a frame is whole when all nodes' last came
+  std::uint32_t first_line;  // it is of the node's home lines [first_line, last_line)
   std::uint32_t last_line;
   std::uint32_t constant_runs;
   std::uint32_t moving_runs;
   std::uint64_t pixels;
-  std::uint64_t edge_box_total;   // EBC's last entry (keyframes)
-  double load_ratio;              // max / average load of the mapping (keyframes; 1 for an inbetween)
+  std::uint64_t edge_box_total;  // EBC's last entry (keyframes)
+  double load_ratio;             // max / average load of the mapping (keyframes; 1 for an inbetween)
   PhaseTimes times;
   WorkCounts work;
 };

@@ -49,8 +49,7 @@ void check_stamp(std::span<const std::byte> message, const std::string& sender, 
   if (stamp.byte_order != own.byte_order)
     refuse("runs " + version_of(stamp) + " with bytes in another order", "use machines of one byte order");
   if (stamp.wire != own.wire || stamp.release != own.release) refuse("runs " + version_of(stamp), same);
-  if (stamp.sizes != own.sizes)
-    refuse("runs " + version_of(stamp) + " built with messages of other sizes", same);
+  if (stamp.sizes != own.sizes) refuse("runs " + version_of(stamp) + " built with messages of other sizes", same);
 }
 
 }  // namespace mars::wire

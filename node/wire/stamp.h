@@ -1,5 +1,5 @@
-// The first 16 bytes of the first message either way (Hello from a node, Load from the host). They never change, whatever
-// a later version sends behind them, so that every version can tell which other one it has met:
+// The first 16 bytes of the first message either way (Hello from a node, Load from the host). They never change,
+// whatever a later version sends behind them, so that every version can tell which other one it has met:
 //
 //   bytes 0-3     "MARS"
 //         4-7     kByteOrder as the sender stores it

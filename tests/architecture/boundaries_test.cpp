@@ -65,7 +65,9 @@ TEST(Boundaries, PngInOneHostFile) {
   EXPECT_TRUE(begins(*files.begin(), "host/"));
 }
 
-TEST(Boundaries, AssimpInItsHostFolder) { expect_within(files_including(std::regex("^assimp/")), "host/content/importer/"); }
+TEST(Boundaries, AssimpInItsHostFolder) {
+  expect_within(files_including(std::regex("^assimp/")), "host/content/importer/");
+}
 
 TEST(Boundaries, GetenvInOneSettingsFile) {
   Files files;
@@ -125,7 +127,8 @@ TEST(Boundaries, HostAndNodeShareTheWire) {
   for (const Source& source : sources()) {
     if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;
     for (const std::string& include : source.includes) {
-      EXPECT_TRUE(!begins(include, "node/") || begins(include, "node/wire/") || begins(include, "node/shape/")) << source.path << " includes " << include;
+      EXPECT_TRUE(!begins(include, "node/") || begins(include, "node/wire/") || begins(include, "node/shape/"))
+          << source.path << " includes " << include;
       EXPECT_FALSE(is_transport(include)) << source.path << " includes " << include;
     }
   }
@@ -151,8 +154,10 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
       return std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
     });
   };
-  const std::string document = "host/content/document/", modeler = "host/content/modeler/", animator = "host/content/animator/";
-  const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/", child = "host/child/";
+  const std::string document = "host/content/document/", modeler = "host/content/modeler/",
+                    animator = "host/content/animator/";
+  const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
+                    child = "host/child/";
   below(child, {child});
   below(document, {document});
   below(modeler, {document, modeler});
@@ -217,10 +222,18 @@ TEST(Boundaries, OnePlaceStartsProcesses) {
 // Kernels are compiled for several CPUs: what they share with others must be plain, or the linker might take a wide
 // CPU's copy of an inline function for all.
 TEST(Boundaries, KernelsIncludeLittle) {
-  const Files plain = {"node/geometry/eye_light.h", "node/geometry/triangle.h", "node/raster/classified.h",
-                       "node/raster/edge_box.h",    "node/raster/kernels.h",    "node/shading/kernels.h",
-                       "node/shading/shading.h",    "node/shape/kernels.h",     "node/shape/vertices.h",
-                       "node/simd/vector_slack.h",  "node/simd/vectors.h",      "node/wire/film_parts.h",
+  const Files plain = {"node/geometry/eye_light.h",
+                       "node/geometry/triangle.h",
+                       "node/raster/classified.h",
+                       "node/raster/edge_box.h",
+                       "node/raster/kernels.h",
+                       "node/shading/kernels.h",
+                       "node/shading/shading.h",
+                       "node/shape/kernels.h",
+                       "node/shape/vertices.h",
+                       "node/simd/vector_slack.h",
+                       "node/simd/vectors.h",
+                       "node/wire/film_parts.h",
                        "node/wire/run.h"};
   const Files standard = {"array", "bit", "cstddef", "cstdint", "cstring"};
   const std::regex kernels("^node/(\\w+/)+kernels/"), functions("^node/\\w+/kernels/functions\\.h$");

@@ -42,8 +42,7 @@ Graph graph_of(std::string (*vertex_of)(const std::string& file)) {
   for (const Source& source : sources()) {
     std::set<std::string>& others = graph[vertex_of(source.path)];
     for (const std::string& include : source.includes)
-      if (const auto target = target_of(source, include);
-          target && vertex_of(*target) != vertex_of(source.path))
+      if (const auto target = target_of(source, include); target && vertex_of(*target) != vertex_of(source.path))
         others.insert(vertex_of(*target));
   }
   return graph;

@@ -14,8 +14,8 @@ namespace {
 
 // The text without comments, literals and preprocessor lines.
 std::string bare(const std::string& text) {
-  static const std::regex other(R"re(//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)re"                  // comments
-                                R"re(|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)')re"             // literals
+  static const std::regex other(R"re(//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)re"         // comments
+                                R"re(|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)')re"  // literals
                                 R"re(|(?:^|\n)\s*#[^\n]*)re");
   std::string left;
   std::size_t at = 0;
@@ -83,8 +83,8 @@ struct Declared;
 }  // namespace mars::host
 namespace mars { union Four {}; }
 )x";
-  EXPECT_EQ(types_of(text), (std::vector<std::string>{"mars::host::One", "mars::host::Two", "mars::host::Three",
-                                                      "mars::Four"}));
+  EXPECT_EQ(types_of(text),
+            (std::vector<std::string>{"mars::host::One", "mars::host::Two", "mars::host::Three", "mars::Four"}));
 }
 
 TEST(Names, EveryTypeHasANameOfItsOwn) {

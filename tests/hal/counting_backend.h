@@ -43,8 +43,7 @@ class Counts {
     Sent sum;
     for (const auto& [key, sent] : sent_) {
       const auto& [from, to, type] = key;
-      if (which.from.value_or(from) != from || which.to.value_or(to) != to ||
-          which.type.value_or(type) != type) {
+      if (which.from.value_or(from) != from || which.to.value_or(to) != to || which.type.value_or(type) != type) {
         continue;
       }
       sum.messages += sent.messages;

@@ -66,7 +66,8 @@ class Machines {
 
 class MachinesBackend : public CountingBackend {
  public:
-  MachinesBackend(Backend& inner, Counts& counts, Machines& machines) : CountingBackend(inner, counts), machines_(machines) {}
+  MachinesBackend(Backend& inner, Counts& counts, Machines& machines)
+      : CountingBackend(inner, counts), machines_(machines) {}
 
   Neighbourhood neighbourhood() override { return machines_.of(rank(), nodes()); }
   std::shared_ptr<std::byte> share(std::size_t bytes) override {

@@ -54,26 +54,21 @@ TEST(MpiFaults, NoNode) { expect_fault(run_ranks(1, "host"), kNeed + "1 hosts an
 TEST(MpiFaults, NoNodeByRank) { expect_fault(run_ranks(1, "node_throws"), kNeed + "1 hosts and 0 nodes"); }
 
 TEST(MpiFaults, HostMayBeAnyRank) {
-  for (const std::string job : {"1 " FAULTY_JOB " host : -n 3 " FAULTY_JOB " node",
-                                "2 " FAULTY_JOB " node : -n 1 " FAULTY_JOB " host"}) {
+  for (const std::string job :
+       {"1 " FAULTY_JOB " host : -n 3 " FAULTY_JOB " node", "2 " FAULTY_JOB " node : -n 1 " FAULTY_JOB " host"}) {
     const Outcome outcome = run_job(job);
     EXPECT_EQ(outcome.code, 0) << outcome.output;
   }
 }
 
-TEST(MpiFaults, ANodeThrows) {
-  expect_fault(run_ranks(4, "node_throws"), "mars: node 1: a fault on purpose");
-}
+TEST(MpiFaults, ANodeThrows) { expect_fault(run_ranks(4, "node_throws"), "mars: node 1: a fault on purpose"); }
 TEST(MpiFaults, ANodeThrowsSharingMemory) {
   expect_fault(run_ranks(4, "node_throws_sharing_memory"), "mars: node 1: a fault on purpose");
 }
-TEST(MpiFaults, TheHostThrows) {
-  expect_fault(run_ranks(4, "host_throws"), "mars: the host: a fault on purpose");
-}
+TEST(MpiFaults, TheHostThrows) { expect_fault(run_ranks(4, "host_throws"), "mars: the host: a fault on purpose"); }
 TEST(MpiFaults, AMessageIsTooLong) {
-  expect_fault(
-      run_ranks(3, "message_too_long"),
-      "mars: node 1, crecv: a message of 200 bytes, type 1, from node 0 does not fit a receive of 100 bytes");
+  expect_fault(run_ranks(3, "message_too_long"),
+               "mars: node 1, crecv: a message of 200 bytes, type 1, from node 0 does not fit a receive of 100 bytes");
 }
 TEST(MpiFaults, TheMachineCannotShareThatMuch) {
   const Outcome outcome = run_ranks(3, "too_much_shared_memory");

@@ -69,6 +69,4 @@ int measure_all(int, char**) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, measure_all);
-}
+int main(int argc, char** argv) { return mars::mpi::run_mpi(argc, argv, mars::mpi::Role::by_rank, measure_all); }

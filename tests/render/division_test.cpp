@@ -52,7 +52,8 @@ struct Cluster {
   std::uint32_t groups = 1;
 };
 
-void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& out, std::vector<std::uint32_t> frames = {}) {
+void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& out,
+                 std::vector<std::uint32_t> frames = {}) {
   messages::Machines machines(cluster.nodes_each);
   RunOptions options;
   options.nodes = cluster.nodes;
@@ -138,7 +139,7 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
   std::map<std::pair<int, int>, std::uint64_t> triangles, boxes;
   for (const raster::PlainTriangle& t : reference.triangles) {
     const auto covered = raster::plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
-                                           static_cast<std::int32_t>(film_.settings.height));
+                                                  static_cast<std::int32_t>(film_.settings.height));
     const int from = static_cast<int>(t.record.patch) % nodes;
     for (int to = 0; to < nodes; ++to) {
       const Strip& home = homes[static_cast<std::size_t>(to)];
@@ -156,7 +157,8 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
       const auto bytes = [&](long type) { return counted.counts.sent({.from = from, .to = to, .type = type}).bytes; };
       const auto expected = triangles[{from, to}], expected_boxes = boxes[{from, to}];
       EXPECT_EQ(bytes(wire::triangles_from(from)), expected * sizeof(geometry::Triangle)) << from << " to " << to;
-      EXPECT_EQ(bytes(wire::edge_boxes_from(from)), expected_boxes * sizeof(raster::UnsortedEdgeBox)) << from << " to " << to;
+      EXPECT_EQ(bytes(wire::edge_boxes_from(from)), expected_boxes * sizeof(raster::UnsortedEdgeBox))
+          << from << " to " << to;
       most = std::max(most, expected);
     }
   EXPECT_TRUE(nodes == 1 || most > 100);
@@ -180,7 +182,8 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   EXPECT_EQ(contributors.size(), std::min<std::size_t>(nodes, kFrames - 1)) << "round robin";
   // All triangles that nodes gave each other are the keyframe's: one message for each pair.
   std::uint64_t triangles = 0;
-  for (int from = 0; from < nodes; ++from) triangles += counted.counts.sent({.from = from, .to = {}, .type = wire::triangles_from(from)}).messages;
+  for (int from = 0; from < nodes; ++from)
+    triangles += counted.counts.sent({.from = from, .to = {}, .type = wire::triangles_from(from)}).messages;
   EXPECT_EQ(triangles, static_cast<std::uint64_t>(nodes * (nodes - 1)));
 }
 
@@ -203,7 +206,8 @@ TEST_P(Division, BytesReportedAreBytesSent) {
         sent -= loading.counts.sent({.from = from, .to = to, .type = {}}).bytes;
       }
       EXPECT_EQ(to_nodes, sent) << "node " << from << ", " << nodes_each << " a machine";
-      EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = wire::kStrip}).bytes) << "node " << from;
+      EXPECT_EQ(to_host, counted.counts.sent({.from = from, .to = nodes, .type = wire::kStrip}).bytes)
+          << "node " << from;
     }
   }
 }

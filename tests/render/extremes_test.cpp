@@ -19,7 +19,8 @@ struct Body {
   wire::Matrix matrix;
 };
 
-wire::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vector<Body>& bodies, const wire::Camera& camera) {
+wire::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vector<Body>& bodies,
+                     const wire::Camera& camera) {
   FilmMaker maker(width, height, 1);
   const std::uint32_t material = maker.add_material(kClay);
   for (const Body& body : bodies) maker.add_segment(maker.add_shape(body.patches), material, {body.matrix});
@@ -50,7 +51,8 @@ TEST(Extremes, WhatIsBehindTheEyeIsNotSeen) {
 TEST(Extremes, FromWithinABodyItIsAllRound) {
   for (const auto& patches : {modeler::make_sphere(), modeler::make_box(), modeler::make_cylinder()})
     for (const Vec3& at : {Vec3{0, 10, 0}, Vec3{10, 0, 3}, Vec3{-1, -4, 10}})
-      EXPECT_EQ(covered(scene(160, 90, {{patches, centred({0.1, 0.2, -0.1}, 6)}}, looking({0, 0, 0}, at, 100, 0.01))), 1);
+      EXPECT_EQ(covered(scene(160, 90, {{patches, centred({0.1, 0.2, -0.1}, 6)}}, looking({0, 0, 0}, at, 100, 0.01))),
+                1);
 }
 
 TEST(Extremes, NearAndFarCut) {
@@ -66,13 +68,15 @@ TEST(Extremes, NearAndFarCut) {
 }
 
 TEST(Extremes, APatchFarLargerThanTheScreenCoversHalfOfIt) {
-  const auto ground = scene(320, 240, {{modeler::make_box(), centred({0, 0, -1e5 - 1}, 2e5)}}, looking({0, 0, 0}, {0, 10, 0}, 40, 0.1, 1e9));
+  const auto ground = scene(320, 240, {{modeler::make_box(), centred({0, 0, -1e5 - 1}, 2e5)}},
+                            looking({0, 0, 0}, {0, 10, 0}, 40, 0.1, 1e9));
   EXPECT_NEAR(covered(ground), 0.5, 0.01);
 }
 
 TEST(Extremes, ScaleChangesNothingToSpeakOf) {
   const auto at_scale = [](double s) {
-    return covered(scene(300, 300, {{modeler::make_sphere(), centred({0, 8 * s, 0}, 4 * s)}}, looking({0, 0, 0}, {0, s, 0}, 40, s * 0.01, s * 1000)));
+    return covered(scene(300, 300, {{modeler::make_sphere(), centred({0, 8 * s, 0}, 4 * s)}},
+                         looking({0, 0, 0}, {0, s, 0}, 40, s * 0.01, s * 1000)));
   };
   const double normal = at_scale(1);
   EXPECT_NEAR(normal, 3.14159 * std::pow(2 / std::sqrt(60.0) / (2 * std::tan(0.349066)), 2), 0.002);
@@ -81,7 +85,8 @@ TEST(Extremes, ScaleChangesNothingToSpeakOf) {
 
 TEST(Extremes, PatchesFarSmallerThanAPixel) {
   std::vector<Body> dust;
-  for (int i = 0; i < 400; ++i) dust.push_back({modeler::make_sphere(), centred({(i % 20 - 9.5) * 0.02, 10, (i / 20 - 9.5) * 0.02}, 0.03)});
+  for (int i = 0; i < 400; ++i)
+    dust.push_back({modeler::make_sphere(), centred({(i % 20 - 9.5) * 0.02, 10, (i / 20 - 9.5) * 0.02}, 0.03)});
   const double shown = covered(scene(64, 64, dust, kAhead));
   EXPECT_GT(shown, 0.001);
   EXPECT_LT(shown, 0.01);

@@ -30,7 +30,8 @@ class MemorySink : public sinks::Sink {
 
 void write_png(const std::string& path, const wire::FilmSettings& settings, const Pixels& pixels) {
   const auto bytes = images::encode_png(settings.width, settings.height, pixels);
-  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 Pixels difference(const Pixels& a, const Pixels& b) {

@@ -20,7 +20,7 @@ struct RunOptions {
   farm::PlanRequest work;  // no frames: all of the film
   farm::FarmOptions farm;
   std::uint32_t block = 16;
-  std::string simd;  // "" for the widest
+  std::string simd;                  // "" for the widest
   std::uint64_t memory = 256 << 20;  // bytes a node offers
   threads::WrapBackend wrap;
   std::function<void()> around_node;  // called on each node's thread before it runs

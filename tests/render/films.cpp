@@ -19,9 +19,11 @@ Vec3 unit(const Vec3& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-// A flat ball, which one meshlet does not hold, and a smooth one that moves, is squeezed, and is seen from outside only.
+// A flat ball, which one meshlet does not hold, and a smooth one that moves, is squeezed, and is seen from outside
+// only.
 void add_meshes(FilmMaker& maker, std::uint32_t still_material, std::uint32_t moving_material, std::uint32_t frames) {
-  maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(9, 0))), still_material, {placed({0.4, -4, 0.2}, 1.7, 0.2)});
+  maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(9, 0))), still_material,
+                    {placed({0.4, -4, 0.2}, 1.7, 0.2)});
   std::vector<wire::Matrix> motion;
   for (std::uint32_t f = 0; f < frames; ++f) {
     motion.push_back(placed({-3.4 + 0.19 * f, -3.6, 0.4 + 0.05 * f}, 2, 0.21 * f));
@@ -32,12 +34,13 @@ void add_meshes(FilmMaker& maker, std::uint32_t still_material, std::uint32_t mo
 
 void add_crowd(FilmMaker& maker, bool moving) {
   const std::uint32_t frames = moving ? maker.film.settings.frames : 1;
-  const std::uint32_t shapes[] = {maker.add_shape(modeler::make_teapot(1.077)), maker.add_shape(modeler::make_sphere()),
-                                  maker.add_shape(modeler::make_torus(0.15)),   maker.add_shape(modeler::make_box()),
-                                  maker.add_shape(modeler::make_cone(0)),       maker.add_shape(modeler::make_cylinder())};
-  const std::uint32_t materials[] = {
-      maker.add_material(kClay), maker.add_material({{0.2f, 0.6f, 0.3f}, 0.2f, 0.7f, 0.1f, 2.5f, 2}),
-      maker.add_material({{0.3f, 0.4f, 0.9f}, 0.1f, 0.6f, 0.9f, 200, 1})};
+  const std::uint32_t shapes[] = {
+      maker.add_shape(modeler::make_teapot(1.077)), maker.add_shape(modeler::make_sphere()),
+      maker.add_shape(modeler::make_torus(0.15)),   maker.add_shape(modeler::make_box()),
+      maker.add_shape(modeler::make_cone(0)),       maker.add_shape(modeler::make_cylinder())};
+  const std::uint32_t materials[] = {maker.add_material(kClay),
+                                     maker.add_material({{0.2f, 0.6f, 0.3f}, 0.2f, 0.7f, 0.1f, 2.5f, 2}),
+                                     maker.add_material({{0.3f, 0.4f, 0.9f}, 0.1f, 0.6f, 0.9f, 200, 1})};
   maker.add_segment(shapes[3], materials[1], {placed({-6, -6, -12}, 12)});  // ground: the upper side of a box
   for (std::uint32_t i = 0; i < 9; ++i) {
     const Vec3 place{(i % 3) * 2.2 - 3, (i / 3) * 2.2 - 3, 0.1 * i};
@@ -51,7 +54,8 @@ void add_crowd(FilmMaker& maker, bool moving) {
 
 void add_lights(FilmMaker& maker) {
   const double l = std::sqrt(0.4 * 0.4 + 0.7 * 0.7 + 0.8 * 0.8);
-  maker.add_light({0, {static_cast<float>(-0.4 / l), static_cast<float>(-0.7 / l), static_cast<float>(0.8 / l)}, {1, 1, 1}});
+  maker.add_light(
+      {0, {static_cast<float>(-0.4 / l), static_cast<float>(-0.7 / l), static_cast<float>(0.8 / l)}, {1, 1, 1}});
   maker.add_light({1, {3, -2, 5}, {0.3f, 0.3f, 0.5f}});
 }
 
@@ -77,7 +81,8 @@ modeler::Mesh mesh_ball(std::uint32_t rows, double crease) {
   const std::uint32_t around = 2 * rows;
   const auto add = [&](double polar, double turn) {
     const double out = 0.5 * std::sin(polar);
-    mesh.vertices.push_back({static_cast<float>(0.5 + out * std::cos(turn)), static_cast<float>(0.5 + out * std::sin(turn)),
+    mesh.vertices.push_back({static_cast<float>(0.5 + out * std::cos(turn)),
+                             static_cast<float>(0.5 + out * std::sin(turn)),
                              static_cast<float>(0.5 - 0.5 * std::cos(polar))});
   };
   for (std::uint32_t row = 0; row <= rows; ++row)
@@ -203,7 +208,7 @@ wire::FilmData ties(std::uint32_t width, std::uint32_t height) {
   FilmMaker maker(width, height, 3);
   const std::uint32_t box = maker.add_shape(modeler::make_box());
   const std::uint32_t materials[] = {maker.add_material(kClay), maker.add_material({{0, 0.7f, 0}, 0.3f, 0.6f, 0, 1, 2}),
-                                 maker.add_material({{0, 0, 0.9f}, 0.3f, 0.6f, 0, 1, 2})};
+                                     maker.add_material({{0, 0, 0.9f}, 0.3f, 0.6f, 0, 1, 2})};
   const wire::Matrix here = placed({-0.5, -0.5, -0.5}, 1, 0.4), apart = placed({0.2, -0.5, -0.5}, 1, 0.4);
   maker.add_segment(box, materials[0], {apart, here, here});
   maker.add_segment(box, materials[1], {here});

@@ -18,14 +18,10 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  return {{"crowd", crowd(320, 180, 7, 7)},
-          {"short-intervals", crowd(193, 127, 9, 2)},
-          {"flight", flight(240, 135, 5)},
-          {"ties", ties(160, 120)},
-          {"one-pixel", crowd(1, 1, 3, 3)},
-          {"one-line", crowd(301, 1, 3, 3)},
-          {"one-column", crowd(1, 203, 3, 3)},
-          {"one-frame", crowd(128, 96, 1, 1)},
+  return {{"crowd", crowd(320, 180, 7, 7)},    {"short-intervals", crowd(193, 127, 9, 2)},
+          {"flight", flight(240, 135, 5)},     {"ties", ties(160, 120)},
+          {"one-pixel", crowd(1, 1, 3, 3)},    {"one-line", crowd(301, 1, 3, 3)},
+          {"one-column", crowd(1, 203, 3, 3)}, {"one-frame", crowd(128, 96, 1, 1)},
           {"nothing", nothing(64, 48, 3)}};
 }
 
@@ -74,7 +70,9 @@ TEST_P(Identity, AnyMachines) {
     RunOptions options;
     options.nodes = nodes;
     options.work.groups = groups;
-    options.wrap = [&](messages::Backend& inner) { return std::make_unique<messages::MachinesBackend>(inner, counts, machines); };
+    options.wrap = [&](messages::Backend& inner) {
+      return std::make_unique<messages::MachinesBackend>(inner, counts, machines);
+    };
     expect_as_from_scratch(options, std::to_string(nodes_each) + "-a-machine");
   }
 }

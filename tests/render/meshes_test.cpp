@@ -38,9 +38,12 @@ modeler::Meshlets diced(const std::vector<wire::Patch>& patches, const wire::Mat
     dicer.dice(shape::to_eye(shape::eye_matrix(kAsItIs, matrix), patch), projection, kRate);
     const shape::Vertices& v = dicer.vertices();
     const auto count = static_cast<std::uint32_t>(dicer.vertex_count());
-    wire::Meshlet meshlet{static_cast<std::uint32_t>(out.places.size()), count,
-                          static_cast<std::uint32_t>(out.triangles.size()), dicer.triangles().count,
-                          {100, 100, 100}, {-100, -100, -100}};
+    wire::Meshlet meshlet{static_cast<std::uint32_t>(out.places.size()),
+                          count,
+                          static_cast<std::uint32_t>(out.triangles.size()),
+                          dicer.triangles().count,
+                          {100, 100, 100},
+                          {-100, -100, -100}};
     for (std::uint32_t k = 0; k < count; ++k) {
       out.places.push_back({v.place[0][k], v.place[1][k], v.place[2][k]});
       out.normals.push_back({v.normal[0][k], v.normal[1][k], v.normal[2][k]});
@@ -66,11 +69,12 @@ int difference(std::uint32_t a, std::uint32_t b) {
   return most;
 }
 
-// Places are the same bits, so the same samples show the same triangles; only normals, which meshes normalise once more,
-// may round otherwise.
+// Places are the same bits, so the same samples show the same triangles; only normals, which meshes normalise once
+// more, may round otherwise.
 TEST(Meshes, ADicedSphereIsThePatchesSphere) {
   const auto sphere = modeler::make_sphere();
-  for (const wire::Matrix& matrix : {placed({-0.9, -1, -6}, 2, 0.3), placed({-8, -8, -17}, 16), placed({0.5, 0.2, -3}, 0.1)}) {
+  for (const wire::Matrix& matrix :
+       {placed({-0.9, -1, -6}, 2, 0.3), placed({-8, -8, -17}, 16), placed({0.5, 0.2, -3}, 0.1)}) {
     FilmMaker patches(kWidth, kHeight, 1), mesh(kWidth, kHeight, 1);
     patches.film.settings.dice = kRate;
     patches.add_segment(patches.add_shape(sphere), patches.add_material(kClay), {matrix});
@@ -88,8 +92,8 @@ TEST(Meshes, ADicedSphereIsThePatchesSphere) {
   }
 }
 
-// From outside nothing of a closed body's inside is seen, so leaving it away changes no pixel: a crack would show it, or
-// the background.
+// From outside nothing of a closed body's inside is seen, so leaving it away changes no pixel: a crack would show it,
+// or the background.
 TEST(Meshes, AClosedBodyHasNoHole) {
   for (const std::uint32_t rows : {1u, 7u, 60u, 200u})
     for (const double size : {0.02, 0.7, 3.0, 5.4}) {

@@ -42,7 +42,7 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
   const shape::EyeMatrix matrix = scene.matrix(segment);
   const std::uint32_t material = scene.material(segment);
   raster::PatchIdentity identity{scene.first_patch(segment), material, shape::mirrors(matrix),
-                               film.materials()[material].sides == 1, scene.moves(segment)};
+                                 film.materials()[material].sides == 1, scene.moves(segment)};
   const auto add = [&](const shape::Surface& surface) {
     const auto made = raster::plain_set_up(surface, scene.projection(), identity);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
@@ -65,10 +65,12 @@ void draw(Reference& reference, std::size_t number, std::int32_t width, std::int
   const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const auto sample = [](std::int32_t place) { return (place - 128) / 256; };
   for (std::int32_t row = std::max(sample(top) - 1, 0); row <= std::min(sample(bottom) + 1, height - 1); ++row)
-    for (std::int32_t column = std::max(sample(left) - 1, 0); column <= std::min(sample(right) + 1, width - 1); ++column) {
+    for (std::int32_t column = std::max(sample(left) - 1, 0); column <= std::min(sample(right) + 1, width - 1);
+         ++column) {
       const std::int32_t x = 256 * column + 128, y = 256 * row + 128;
       if (!raster::covers(t, column, row)) continue;
-      ReferenceSample& here = reference.samples[static_cast<std::size_t>(row) * reference.width + static_cast<std::size_t>(column)];
+      ReferenceSample& here =
+          reference.samples[static_cast<std::size_t>(row) * reference.width + static_cast<std::size_t>(column)];
       const float depth = value_at(record, shape::kDepth, x, y);
       const bool nearer = depth > here.depth || (here.triangle && depth == here.depth &&
                                                  order(reference, number) < order(reference, *here.triangle));
@@ -100,14 +102,15 @@ Reference draw_reference(const wire::FilmView& film, std::uint32_t frame) {
   return reference;
 }
 
-Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference,
-                      std::uint32_t column, std::uint32_t row) {
+Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference, std::uint32_t column,
+                      std::uint32_t row) {
   geometry::Scene scene(film);
   scene.set_frame(frame);
   const ReferenceSample& sample = reference.at(column, row);
   const Triangle& t = reference.triangles[*sample.triangle].record;
   const auto x = static_cast<std::int32_t>(256 * column + 128), y = static_cast<std::int32_t>(256 * row + 128);
-  const Vec n = unit({value_at(t, shape::kNormalX, x, y), value_at(t, shape::kNormalY, x, y), value_at(t, shape::kNormalZ, x, y)});
+  const Vec n = unit(
+      {value_at(t, shape::kNormalX, x, y), value_at(t, shape::kNormalY, x, y), value_at(t, shape::kNormalZ, x, y)});
   const shape::Projection& p = scene.projection();
   const double dx = (column + 0.5 - p.center[0]) / p.scale, dy = (row + 0.5 - p.center[1]) / p.scale;
   const Vec eye = unit({-dx, dy, 1});
@@ -123,7 +126,8 @@ Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Ref
     const double mirrored = 2 * facing * dot(n, eye) - dot(to, eye);
     const double highlight = mirrored > 0 ? std::pow(std::min(mirrored, 1.0), m.exponent) : 0;
     for (int c = 0; c < 3; ++c)
-      color.channel[c] += (m.diffuse * m.color[static_cast<std::size_t>(c)] * facing + m.specular * highlight) * light.color[c];
+      color.channel[c] +=
+          (m.diffuse * m.color[static_cast<std::size_t>(c)] * facing + m.specular * highlight) * light.color[c];
   }
   for (double& channel : color.channel) channel = 255 * std::clamp(channel, 0.0, 1.0);
   return color;

@@ -33,7 +33,7 @@ Reference draw_reference(const wire::FilmView& film, std::uint32_t frame);
 struct Color {
   double channel[3];
 };
-Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference,
-                      std::uint32_t column, std::uint32_t row);
+Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference, std::uint32_t column,
+                      std::uint32_t row);
 
 }  // namespace mars::test

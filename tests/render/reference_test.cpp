@@ -31,7 +31,8 @@ void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int no
       if (!shown) continue;
       ++covered;
       const Color color = shade_reference(view, frame, reference, column, row);
-      for (int c = 0; c < 3; ++c) wrong_color += std::abs(color.channel[c] - static_cast<double>(pixel >> (8 * c) & 255)) > 1.0;
+      for (int c = 0; c < 3; ++c)
+        wrong_color += std::abs(color.channel[c] - static_cast<double>(pixel >> (8 * c) & 255)) > 1.0;
     }
   EXPECT_GT(covered, 0);
   EXPECT_EQ(wrong_coverage, 0);
@@ -142,8 +143,8 @@ int holes(const Pixels& pixels, std::uint32_t size) {
 }
 
 TEST(Closed, NoBackgroundInsideTheOutlineAtAnyDicing) {
-  const std::vector<wire::Patch> bodies[] = {modeler::make_sphere(), modeler::make_cylinder(), modeler::make_cone(0), modeler::make_cone(0.5),
-                                             modeler::make_box()};
+  const std::vector<wire::Patch> bodies[] = {modeler::make_sphere(), modeler::make_cylinder(), modeler::make_cone(0),
+                                             modeler::make_cone(0.5), modeler::make_box()};
   for (const auto& patches : bodies)
     for (const std::uint32_t dice : {0u, 1u, 2u, 3u, 5u, 8u, 13u, 64u})
       for (const double turn : {0.0, 0.4, 1.9})
@@ -169,12 +170,14 @@ TEST(Closed, NoTriangleIsLitFromBehind) {
       const double angle = 0.26 * i;
       film.cameras = {looking({4 * std::sin(angle), -4 * std::cos(angle), 2.5}, {0, 0, 0}, 40)};
       // A light at the eye lights every normal that is turned to the eye.
-      film.lights = {{1, {static_cast<float>(4 * std::sin(angle)), static_cast<float>(-4 * std::cos(angle)), 2.5f}, {1, 1, 1}}};
+      film.lights = {
+          {1, {static_cast<float>(4 * std::sin(angle)), static_cast<float>(-4 * std::cos(angle)), 2.5f}, {1, 1, 1}}};
       const Pixels pixels = draw_body(film);
       int dark = 0;
       for (std::size_t k = 240; k + 240 < pixels.size(); ++k) {
-        const bool inside = pixels[k - 1] != kBackground && pixels[k + 1] != kBackground && pixels[k - 240] != kBackground &&
-                            pixels[k + 240] != kBackground && pixels[k] != kBackground;
+        const bool inside = pixels[k - 1] != kBackground && pixels[k + 1] != kBackground &&
+                            pixels[k - 240] != kBackground && pixels[k + 240] != kBackground &&
+                            pixels[k] != kBackground;
         const auto level = [&](std::size_t at) { return static_cast<int>(pixels[at] >> 8 & 255); };
         dark += inside && level(k) < level(k - 1) / 2 && level(k) < level(k + 1) / 2;
       }

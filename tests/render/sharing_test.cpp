@@ -44,7 +44,9 @@ struct Nodes {
   std::uint32_t groups = 1;
 };
 
-void PrintTo(const Nodes& n, std::ostream* out) { *out << n.count << " nodes, " << n.each << " a machine, " << n.groups << " groups"; }
+void PrintTo(const Nodes& n, std::ostream* out) {
+  *out << n.count << " nodes, " << n.each << " a machine, " << n.groups << " groups";
+}
 
 void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = 0,
          std::uint64_t memory = 256 << 20) {
@@ -53,7 +55,9 @@ void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slo
   options.nodes = nodes.count;
   options.work.groups = nodes.groups;
   options.memory = memory;
-  options.wrap = [&](messages::Backend& inner) { return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type); };
+  options.wrap = [&](messages::Backend& inner) {
+    return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type);
+  };
   out.film = run_film(FilmBlock(data).bytes(), options);
   out.shared = machines.shared();
 }
@@ -107,7 +111,8 @@ TEST(Sharing, ASlowNodeIsWaitedFor) {
   for (const int each : {4, 2})
     for (int slow = 0; slow < 4; ++slow)
       for (const long type : {long{wire::kStrip}, wire::triangles_from(slow), wire::depth_lines_from(slow)}) {
-        SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " + std::to_string(type));
+        SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " +
+                     std::to_string(type));
         SharedRun rendered;
         run(data, {4, each}, rendered, slow, type);
         expect_pictures(rendered, data, expected);

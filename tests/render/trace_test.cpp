@@ -18,8 +18,8 @@
 namespace mars::test {
 namespace {
 
-using trace::Trace;
 using nlohmann::json;
+using trace::Trace;
 using Kind = messages::Event::Kind;
 
 constexpr std::uint32_t kFrames = 9, kInterval = 3;
@@ -43,7 +43,8 @@ class Tracing : public testing::TestWithParam<Case> {
     options.wrap = messages::counting(counts_);
     traced_ = run_film(block_.bytes(), options);
     options.farm.trace = nullptr;
-    options.work.groups = static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
+    options.work.groups =
+        static_cast<std::uint32_t>(GetParam().nodes);  // of one node, which give each other nothing else
     options.work.frames = {0};
     options.wrap = messages::counting(loading_);
     run_film(block_.bytes(), options);
@@ -85,10 +86,13 @@ TEST_P(Tracing, PhasesAddUpToTheReport) {
   for (const wire::Strip& strip : traced_.report.strips) {
     ++frames;
     passes = std::max(passes, strip.work.passes);
-    const auto of = [&](wire::Phase phase) { return spans[{strip.node, static_cast<int>(strip.frame), static_cast<int>(phase)}]; };
+    const auto of = [&](wire::Phase phase) {
+      return spans[{strip.node, static_cast<int>(strip.frame), static_cast<int>(phase)}];
+    };
     for (std::size_t phase = 0; phase < node::kPhaseTimes.size(); ++phase) {
       const auto [count, seconds] = of(static_cast<wire::Phase>(phase));
-      EXPECT_NEAR(seconds, strip.times.*node::kPhaseTimes[phase], 1e-12) << "phase " << phase << " of frame " << strip.frame;
+      EXPECT_NEAR(seconds, strip.times.*node::kPhaseTimes[phase], 1e-12)
+          << "phase " << phase << " of frame " << strip.frame;
       const bool gives_depth = strip.kind == wire::FrameKind::keyframe && host() > 1;
       const bool expected = static_cast<wire::Phase>(phase) != wire::Phase::depth || gives_depth;
       EXPECT_EQ(count > 0, expected) << "phase " << phase << " of frame " << strip.frame << " on node " << strip.node;

@@ -17,8 +17,7 @@ namespace {
 // The seats of `n` nodes whose ids begin at `first_id` on machine number `machine`.
 std::vector<Location> locations(const Machine& description, int machine, int n, int first_id) {
   std::vector<Location> nodes;
-  for (int k = 0; k < n; ++k)
-    nodes.push_back({machine, description.seat(*description.place(k, n, 0, first_id))});
+  for (int k = 0; k < n; ++k) nodes.push_back({machine, description.seat(*description.place(k, n, 0, first_id))});
   return nodes;
 }
 
@@ -38,19 +37,19 @@ struct Known {
 
 // Machines as people have them; hwloc's words for them from their data sheets.
 const Known kKnown[] = {
-    {"pack:1 l3:1 l2:4 core:1 pu:2", 4, "L3 L3"},                                // a laptop
-    {"pack:1 l3:2 l2:8 core:1 pu:2", 16, "L3 L3 L3 numa"},                       // a desktop of two chiplets
-    {"pack:1 l3:2 l2:8 core:1 pu:2", 2, "numa"},                                 // its nodes have a chiplet each
-    {"pack:1 l3:2 l2:8 core:1 pu:2", 6, "L3 L3 numa"},                           //
-    {"l2:32 core:2 pu:4", 64, "L2 numa numa numa numa numa"},                    // Xeon Phi: cores in pairs
-    {"pack:2 numa:1 l3:1 l2:10 core:1 pu:2", 16, "L3 L3 L3 machine"},                   // two Xeons
-    {"pack:2 numa:1 l3:1 l2:10 core:1 pu:2", 20, "L3 machine machine machine machine"},  // ids 8 to 11 on both
-    {"numa:4 l2:1 core:12 pu:1", 32, "L2 L2 L2 machine machine"},                // A64FX: four groups
+    {"pack:1 l3:1 l2:4 core:1 pu:2", 4, "L3 L3"},                      // a laptop
+    {"pack:1 l3:2 l2:8 core:1 pu:2", 16, "L3 L3 L3 numa"},             // a desktop of two chiplets
+    {"pack:1 l3:2 l2:8 core:1 pu:2", 2, "numa"},                       // its nodes have a chiplet each
+    {"pack:1 l3:2 l2:8 core:1 pu:2", 6, "L3 L3 numa"},                 //
+    {"l2:32 core:2 pu:4", 64, "L2 numa numa numa numa numa"},          // Xeon Phi: cores in pairs
+    {"pack:2 numa:1 l3:1 l2:10 core:1 pu:2", 16, "L3 L3 L3 machine"},  // two Xeons
+    {"pack:2 numa:1 l3:1 l2:10 core:1 pu:2", 20, "L3 machine machine machine machine"},     // ids 8 to 11 on both
+    {"numa:4 l2:1 core:12 pu:1", 32, "L2 L2 L2 machine machine"},                           // A64FX: four groups
     {"pack:2 numa:4 l3:2 l2:8 core:1 pu:2", 128, "L3 L3 L3 numa package package machine"},  // EPYC, NPS4
     {"pack:2 numa:4 l3:2 l2:8 core:1 pu:2", 32, "L3 numa package package machine"},
-    {"pack:1 numa:4 l3:2 l2:3 core:1 pu:2", 16, "L3 numa package package"},      // EPYC of chiplets of three cores
-    {"numa:1 l3:1 l2:64 core:1 pu:1", 64, "L3 L3 L3 L3 L3 L3"},                  // Graviton
-    {"pu:4", 4, "numa numa"},                                                    // a virtual machine
+    {"pack:1 numa:4 l3:2 l2:3 core:1 pu:2", 16, "L3 numa package package"},  // EPYC of chiplets of three cores
+    {"numa:1 l3:1 l2:64 core:1 pu:1", 64, "L3 L3 L3 L3 L3 L3"},              // Graviton
+    {"pu:4", 4, "numa numa"},                                                // a virtual machine
     {"pu:1", 1, ""},
 };
 

@@ -8,7 +8,8 @@ void place_by_matrices(const Actor& actor, const modeler::Model& model, std::uin
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
     if (!model.joints[joint].segment) continue;
     const Channel<modeler::Axes>& held = actor.matrices[joint];
-    state.segments[joint] = modeler::t_matrix(held[stretch_at(held, frame).from].value, model.joints[joint].segment->sbb);
+    state.segments[joint] =
+        modeler::t_matrix(held[stretch_at(held, frame).from].value, model.joints[joint].segment->sbb);
   }
 }
 
@@ -22,7 +23,8 @@ void place_by_keys(const Actor& actor, const modeler::Model& model, std::uint32_
     state.pose.push_back(JointMotion(joint, actor.motion.pose[number]).pose_at(frame));
     state.joints.push_back(figure.frame_of(number));
     if (joint.segment)
-      state.segments[number] = modeler::t_matrix(modeler::segment_frame(figure.frame_of(number), joint), joint.segment->sbb);
+      state.segments[number] =
+          modeler::t_matrix(modeler::segment_frame(figure.frame_of(number), joint), joint.segment->sbb);
   }
 }
 

@@ -50,8 +50,7 @@ bool better(const modeler::Joint& joint, const glm::dvec3& a, const glm::dvec3& 
 // and how far that lies along x gives b.
 class Unturned {
  public:
-  Unturned(const modeler::Joint& joint, const glm::dmat3& turn)
-      : x_(joint.x_axis), y_(joint.y_axis), turn_(turn) {
+  Unturned(const modeler::Joint& joint, const glm::dmat3& turn) : x_(joint.x_axis), y_(joint.y_axis), turn_(turn) {
     const glm::dvec3 across = glm::cross(x_, y_);
     const double sine_of_axes = glm::length(across), cosine_of_axes = glm::dot(x_, y_);
     z_ = across / sine_of_axes;
@@ -72,7 +71,8 @@ class Unturned {
   }
 
   glm::dvec3 with_first(double first, double second) const {
-    const glm::dmat3 rest = modeler::rotation_by_degrees(y_, -second) * modeler::rotation_by_degrees(x_, -first) * turn_;
+    const glm::dmat3 rest =
+        modeler::rotation_by_degrees(y_, -second) * modeler::rotation_by_degrees(x_, -first) * turn_;
     return {first, second, angle_about(z_, y_, rest * y_)};
   }
 

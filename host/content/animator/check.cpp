@@ -26,8 +26,9 @@ std::string words_of(const Film& film, const WorstExcess& worst) {
   } else {
     const modeler::Limits& limits = joint.limits[worst.axis];
     text += "turns " + rounded_text(worst.angle) + " degrees about " + "xyz"[worst.axis] + " between keys, ";
-    text += limits.free() ? "outside its limits " + document::shown(limits.lower) + " to " + document::shown(limits.upper)
-                          : "where it is locked at " + document::shown(limits.lower);
+    text += limits.free()
+                ? "outside its limits " + document::shown(limits.lower) + " to " + document::shown(limits.upper)
+                : "where it is locked at " + document::shown(limits.lower);
   }
   return text + ", in frame " + std::to_string(worst.frame);
 }
@@ -36,8 +37,8 @@ std::string words_of(const Film& film, const WorstExcess& worst) {
 std::string remedy_of(const Film& film, const WorstExcess& worst, const std::string& program) {
   const Actor& actor = film.actors[worst.actor];
   const modeler::Joint& joint = film.models[actor.model].joints[worst.joint];
-  return " (mend it with: " + program + "key " + document::shell_word(actor.name) + " " + document::shell_word(joint.name) + " --frame " +
-         std::to_string(worst.frame) + " --clamp)";
+  return " (mend it with: " + program + "key " + document::shell_word(actor.name) + " " +
+         document::shell_word(joint.name) + " --frame " + std::to_string(worst.frame) + " --clamp)";
 }
 
 std::string line_of(const Film& film, const LimitsLeft& left) {
@@ -82,8 +83,8 @@ void find_jumps(const Film& film, const Actor& actor, std::vector<std::string>& 
   for (std::size_t i = 0; i + 1 < place.size(); ++i) {
     const double way = glm::length(place[i + 1].value - place[i].value);
     if (place[i + 1].frame != place[i].frame + 1 || way <= size || size == 0) continue;
-    lines.push_back("actor '" + actor.name + "': jumps " + document::shown(std::round(way * 1000) / 1000) + " from frame " +
-                    std::to_string(place[i].frame) + " to the next, farther than it is long");
+    lines.push_back("actor '" + actor.name + "': jumps " + document::shown(std::round(way * 1000) / 1000) +
+                    " from frame " + std::to_string(place[i].frame) + " to the next, farther than it is long");
   }
 }
 
@@ -101,8 +102,7 @@ Findings check_film(const Film& film) {
     if (const std::uint32_t last = last_key(actor.motion); last > film.frames)
       lines.push_back(name + "has keys up to frame " + std::to_string(last) + ", behind the film's last, " +
                       std::to_string(film.frames - 1) + " (give the film more frames, or delete them)");
-    if (keyed(actor) && !moves(actor))
-      lines.push_back(name + "has keys that are all the same: it never moves");
+    if (keyed(actor) && !moves(actor)) lines.push_back(name + "has keys that are all the same: it never moves");
     find_jumps(film, actor, lines);
   }
   findings.trouble = !lines.empty();

@@ -16,8 +16,8 @@ struct Findings {
 };
 Findings check_film(const Film& film);
 
-// Lines to print when the film is rendered or compiled: one a joint that leaves its limits so far that it is seen, with what to
-// type, ten at most and one that counts the others. Quick, however long the film is (worst_excesses()).
+// Lines to print when the film is rendered or compiled: one a joint that leaves its limits so far that it is seen, with
+// what to type, ten at most and one that counts the others. Quick, however long the film is (worst_excesses()).
 std::vector<std::string> warnings_of(const Film& film);
 
 }  // namespace mars::animator

@@ -89,10 +89,8 @@ Ease swinging(double anticipation, double overshoot) {
         (too_far() ? most : least) = ease.*control;
       }
     };
-    if (anticipation > 0)
-      settle(&Ease::y1, 0, -10, [&] { return swing_of(ease).lowest < -anticipation; });
-    if (overshoot > 0)
-      settle(&Ease::y2, 1, 10, [&] { return swing_of(ease).highest > 1 + overshoot; });
+    if (anticipation > 0) settle(&Ease::y1, 0, -10, [&] { return swing_of(ease).lowest < -anticipation; });
+    if (overshoot > 0) settle(&Ease::y2, 1, 10, [&] { return swing_of(ease).highest > 1 + overshoot; });
   }
   return ease;
 }

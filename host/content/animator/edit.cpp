@@ -90,7 +90,7 @@ document::Json& actor_of(document::Json& film, const std::string& actor) {
   }
   throw Failure("is no actor of the film", "'" + actor + "'",
                 document::did_you_mean(actor, std::vector<std::string_view>(names.begin(), names.end()),
-                             "name one of its actors, or add it to the film"));
+                                       "name one of its actors, or add it to the film"));
 }
 
 void put_keys(document::Json& film, const std::string& actor, std::span<const ActorKey> keys) {
@@ -108,7 +108,8 @@ void put_keys(document::Json& film, const std::string& actor, std::span<const Ac
   object["keys"] = std::move(list);
 }
 
-void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like) {
+void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last,
+                const ActorKey& like) {
   document::Json& object = actor_of(film, actor);
   Tracks tracks = tracks_of(object);
   const auto clear = [&](const std::string& part) {
@@ -126,8 +127,6 @@ double rounded(double value) {
   return document::rounded_to(value, 9);
 }
 
-glm::dvec3 rounded(const glm::dvec3& value) {
-  return {rounded(value.x), rounded(value.y), rounded(value.z)};
-}
+glm::dvec3 rounded(const glm::dvec3& value) { return {rounded(value.x), rounded(value.y), rounded(value.z)}; }
 
 }  // namespace mars::animator

@@ -29,7 +29,8 @@ void put_keys(document::Json& film, const std::string& actor, std::span<const Ac
 
 // Takes out what the actor's keys of frames `first` to `last` hold of the same kinds as `like`: place, turn, and its
 // joints' poses.
-void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last, const ActorKey& like);
+void clear_keys(document::Json& film, const std::string& actor, std::uint32_t first, std::uint32_t last,
+                const ActorKey& like);
 
 // The film's own object for the actor.
 document::Json& actor_of(document::Json& film, const std::string& actor);

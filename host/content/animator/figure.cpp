@@ -48,8 +48,8 @@ std::optional<std::string> broken_limit(const modeler::Joint& joint, const glm::
     const modeler::Limits& limits = joint.limits[axis];
     if (pose[axis] >= limits.lower && pose[axis] <= limits.upper) continue;
     if (!limits.free())
-      return freedoms_text(joint) + "; its " + "xyz"[axis] + " axis is locked at " + document::shown(limits.lower) + ", not " +
-             document::shown(pose[axis]);
+      return freedoms_text(joint) + "; its " + "xyz"[axis] + " axis is locked at " + document::shown(limits.lower) +
+             ", not " + document::shown(pose[axis]);
     return "turns " + document::shown(pose[axis]) + " degrees about " + "xyz"[axis] + ", outside its limits " +
            document::shown(limits.lower) + " to " + document::shown(limits.upper);
   }

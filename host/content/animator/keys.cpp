@@ -118,7 +118,8 @@ void remap(Track& track, const std::string& thing, Map map) {
 }
 
 Ease rounded(const Ease& ease) {
-  return {animator::rounded(ease.x1), animator::rounded(ease.y1), animator::rounded(ease.x2), animator::rounded(ease.y2)};
+  return {animator::rounded(ease.x1), animator::rounded(ease.y1), animator::rounded(ease.x2),
+          animator::rounded(ease.y2)};
 }
 
 // Puts a key of `value` on the way between two others; the way stays as it is, where its ease can be split.
@@ -188,38 +189,37 @@ Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& cho
 }
 
 Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease) {
-  return change_tracks(film, meaning, choice, words_of(range),
-                       [&](const Chosen&, const std::string&, Track& track) {
-                         bool any = false;
-                         for (TrackKey& key : track)
-                           if (range.holds(key.frame)) {
-                             key.ease = ease;
-                             any = true;
-                           }
-                         return any;
-                       });
+  return change_tracks(film, meaning, choice, words_of(range), [&](const Chosen&, const std::string&, Track& track) {
+    bool any = false;
+    for (TrackKey& key : track)
+      if (range.holds(key.frame)) {
+        key.ease = ease;
+        any = true;
+      }
+    return any;
+  });
 }
 
-Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames) {
+Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+             std::uint32_t frames) {
   Remarks none;
-  return change_tracks(
-      film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
-        const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
-        if (moves_there) {
-          const KeyedPart& part = one.thing.part(name);
-          document::Json value = part.value_at(frame);
-          if (part.joint)
-            value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
-          split_way(track, frame, std::move(value));
-        }
-        remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });
-        if (moves_there) {
-          TrackKey end = *key_at(track, frame);
-          end.frame = frame_from(std::int64_t{frame} + frames, one.thing.name);
-          put_key(track, end);
-        }
-        return true;
-      });
+  return change_tracks(film, meaning, choice, "to hold", [&](const Chosen& one, const std::string& name, Track& track) {
+    const bool moves_there = track.front().frame <= frame && frame < track.back().frame;
+    if (moves_there) {
+      const KeyedPart& part = one.thing.part(name);
+      document::Json value = part.value_at(frame);
+      if (part.joint)
+        value = written(within_limits(one.thing.name, *part.joint, vector_of(value), Beyond::refused, none));
+      split_way(track, frame, std::move(value));
+    }
+    remap(track, one.thing.name, [&](std::uint32_t f) { return std::int64_t{f} + (f > frame ? frames : 0); });
+    if (moves_there) {
+      TrackKey end = *key_at(track, frame);
+      end.frame = frame_from(std::int64_t{frame} + frames, one.thing.name);
+      put_key(track, end);
+    }
+    return true;
+  });
 }
 
 Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor) {

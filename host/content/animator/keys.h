@@ -41,7 +41,8 @@ Remarks delete_keys(document::Json& film, const Film& meaning, const Choice& cho
 // The ease from the keys in the range, each to the next.
 Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, const Ease& ease);
 // From `frame` on all stands still for so many frames; what follows is that much later.
-Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame, std::uint32_t frames);
+Remarks hold(document::Json& film, const Film& meaning, const Choice& choice, std::uint32_t frame,
+             std::uint32_t frames);
 // The range takes `factor` times as long, to whole frames; what follows is that much later or earlier.
 Remarks stretch(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, double factor);
 // Keys at `frame` and later are `by` frames later or, if none are passed, earlier.

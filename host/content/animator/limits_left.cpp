@@ -61,8 +61,8 @@ Excess excess_at(const modeler::Joint& joint, const glm::dvec3& pose, const glm:
   return {axis, pose[axis], excess[axis]};
 }
 
-void count_frames(const Film& film, std::size_t actor, std::size_t number, const modeler::Joint& joint, const Poses& poses,
-                  std::vector<LimitsLeft>& left) {
+void count_frames(const Film& film, std::size_t actor, std::size_t number, const modeler::Joint& joint,
+                  const Poses& poses, std::vector<LimitsLeft>& left) {
   JointMotion motion(joint, poses);
   LimitsLeft all{{actor, number, 0, 0, 0, 0}, 0, 0, 0};
   for (std::uint32_t frame = poses.front().frame; frame <= last_frame(film, poses); ++frame) {
@@ -92,8 +92,8 @@ double most_straying(const glm::dvec3& from, const glm::dvec3& to, double degree
   // Else the numbers of the second pose are whole turns away from where the turn ends.
   if (std::max(std::abs(from.x - to.x), std::abs(from.z - to.z)) + degrees * secant >= 360)
     return std::numeric_limits<double>::infinity();
-  const double bend = std::max({secant * (0.5 + tangent), 0.5 + tangent,
-                                (tangent + tangent * tangent + secant * secant) / 2});
+  const double bend =
+      std::max({secant * (0.5 + tangent), 0.5 + tangent, (tangent + tangent * tangent + secant * secant) / 2});
   return degrees * degrees * modeler::kDegree / 8 * bend;
 }
 
@@ -137,9 +137,7 @@ class Search {
   }
 
   // Never goes back: what lies between two frames lies between them on the way, too.
-  static bool steady(const Ease& ease) {
-    return std::min(ease.y1, ease.y2) >= 0 && std::max(ease.y1, ease.y2) <= 1;
-  }
+  static bool steady(const Ease& ease) { return std::min(ease.y1, ease.y2) >= 0 && std::max(ease.y1, ease.y2) <= 1; }
 
   bool cannot_exceed(double ends, const glm::dvec3& from, const glm::dvec3& to, double degrees) const {
     return ends + most_straying(from, to, degrees) <= std::max(kExcessSeen, worst_.excess.outside + kPrecision);
@@ -174,15 +172,15 @@ class Search {
 
 std::vector<LimitsLeft> limits_left(const Film& film) {
   std::vector<LimitsLeft> left;
-  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const modeler::Joint& joint, const Poses& poses) {
-    count_frames(film, actor, number, joint, poses, left);
-  });
+  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const modeler::Joint& joint,
+                                    const Poses& poses) { count_frames(film, actor, number, joint, poses, left); });
   return left;
 }
 
 std::vector<WorstExcess> worst_excesses(const Film& film) {
   std::vector<WorstExcess> worst;
-  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const modeler::Joint& joint, const Poses& poses) {
+  for_each_that_may_leave(film, [&](std::size_t actor, std::size_t number, const modeler::Joint& joint,
+                                    const Poses& poses) {
     if (const auto found = Search(joint, poses, last_frame(film, poses)).worst())
       worst.push_back({actor, number, found->frame, found->excess.axis, found->excess.angle, found->excess.outside});
   });

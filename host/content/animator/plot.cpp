@@ -76,12 +76,13 @@ std::string bands_of(const Panel& panel, const document::Json& value) {
     const modeler::Limits& limits = panel.part->joint->limits[axis];
     const double bottom = std::clamp(limits.lower, low, high), top = std::clamp(limits.upper, low, high);
     const std::string color = kColors[axis];
-    text += "set object rectangle from graph 0, first " + document::shown(bottom) + " to graph 1, first " + document::shown(top) +
-            " fillcolor rgb \"" + color + "\" fillstyle transparent solid 0.07 noborder behind\n";
+    text += "set object rectangle from graph 0, first " + document::shown(bottom) + " to graph 1, first " +
+            document::shown(top) + " fillcolor rgb \"" + color +
+            "\" fillstyle transparent solid 0.07 noborder behind\n";
     for (const double limit : {limits.lower, limits.upper})
       if (limit > low && limit < high)
-        text += "set arrow from graph 0, first " + document::shown(limit) + " to graph 1, first " + document::shown(limit) +
-                " nohead dashtype 2 linecolor rgb \"" + color + "\"\n";
+        text += "set arrow from graph 0, first " + document::shown(limit) + " to graph 1, first " +
+                document::shown(limit) + " nohead dashtype 2 linecolor rgb \"" + color + "\"\n";
   }
   return text;
 }

@@ -49,7 +49,7 @@ bool has_part(const Thing& thing, const std::string& name) {
 
 // What the part is to be: its numbers at the frame, those wished for exchanged.
 document::Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond,
-            Remarks& remarks) {
+                      Remarks& remarks) {
   document::Json value = part.value_at(frame);
   if (!value.is_array()) return written(*wish.numbers[0]);
   glm::dvec3 numbers = vector_of(value);
@@ -78,8 +78,8 @@ Wish Wish::read(const std::string& text, const Thing& thing) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) refuse_wish(text);
   Wish wish{text.substr(0, equals), {}};
-  const bool with_axis = wish.part.size() > 2 && wish.part[wish.part.size() - 2] == '.' &&
-                         wish.part.back() >= 'x' && wish.part.back() <= 'z' && !has_part(thing, wish.part);
+  const bool with_axis = wish.part.size() > 2 && wish.part[wish.part.size() - 2] == '.' && wish.part.back() >= 'x' &&
+                         wish.part.back() <= 'z' && !has_part(thing, wish.part);
   const std::size_t axis = with_axis ? std::size_t(wish.part.back() - 'x') : 0;
   if (with_axis) wish.part.resize(wish.part.size() - 2);
   const std::string typed = wish.part;

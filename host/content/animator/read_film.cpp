@@ -28,15 +28,15 @@ constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose",
 constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
 
 constexpr document::Keys kKeys[] = {{"film", kFilmNames},
-                          {"camera", kCameraNames},
-                          {"camera_key", kCameraKeyNames},
-                          {"light", kLightNames},
-                          {"light_key", kLightKeyNames},
-                          {"film_material", kFilmMaterialNames},
-                          {"material_key", kMaterialKeyNames},
-                          {"actor", kActorNames},
-                          {"actor_key", kActorKeyNames},
-                          {"matrices_key", kMatricesNames}};
+                                    {"camera", kCameraNames},
+                                    {"camera_key", kCameraKeyNames},
+                                    {"light", kLightNames},
+                                    {"light_key", kLightKeyNames},
+                                    {"film_material", kFilmMaterialNames},
+                                    {"material_key", kMaterialKeyNames},
+                                    {"actor", kActorNames},
+                                    {"actor_key", kActorKeyNames},
+                                    {"matrices_key", kMatricesNames}};
 enum KeySet {
   kFilm,
   kCamera,
@@ -82,7 +82,8 @@ void read_size(const document::Element& element, Film& film) {
 std::uint32_t read_dice(const document::Element& element) {
   constexpr std::string_view adaptive[] = {"adaptive"};
   if (element.kind() == document::Kind::number) return document::read_count(element, 1, 256);
-  if (element.kind() == document::Kind::text) return static_cast<std::uint32_t>(document::read_choice(element, adaptive));
+  if (element.kind() == document::Kind::text)
+    return static_cast<std::uint32_t>(document::read_choice(element, adaptive));
   element.refuse(std::string("is ") + document::name_of(element.kind()),
                  "write \"adaptive\" or a number of quads a side");
 }
@@ -255,8 +256,7 @@ class ActorReader {
       const glm::dvec3 pose = document::read_vector(item, kDegrees);
       const modeler::Joint& joint = model_of(actor).joints[number];
       if (const auto broken = broken_limit(joint, pose))
-        item.refuse("joint '" + joint.name + "' " + *broken,
-                    "keep it within the limits, or widen them in its model");
+        item.refuse("joint '" + joint.name + "' " + *broken, "keep it within the limits, or widen them in its model");
       actor.motion.pose[number].push_back({frame, pose, ease});
     }
   }
@@ -316,7 +316,8 @@ class ActorReader {
   std::unordered_set<std::string> names_;
 };
 
-modeler::Model read_film_model(const document::Element& element, const Film& film, const std::filesystem::path& folder) {
+modeler::Model read_film_model(const document::Element& element, const Film& film,
+                               const std::filesystem::path& folder) {
   std::vector<std::string_view> materials;
   for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
   if (element.kind() == document::Kind::text) {

@@ -46,8 +46,7 @@ template <typename Value, typename Read>
 void settle(Channel<Value>& channel, const document::Fields& fields, std::string_view key, const Value& otherwise,
             Read read) {
   const auto element = fields.find(key);
-  if (element && !channel.empty())
-    element->refuse("is also set by keys", "take it out here, or out of every key");
+  if (element && !channel.empty()) element->refuse("is also set by keys", "take it out here, or out of every key");
   if (channel.empty()) channel = constant(element ? read(*element) : otherwise);
 }
 

@@ -77,7 +77,8 @@ std::string typed_part(const std::string& part) {
 
 std::string wish_for(const std::string& part, const glm::dvec3& change, const glm::dvec3& pose) {
   const auto number = [](double value) { return document::shown(std::round(value * 100) / 100); };
-  if (const int axis = only_axis(change); axis < 3) return typed_part(part) + "." + "xyz"[axis] + "=" + number(pose[axis]);
+  if (const int axis = only_axis(change); axis < 3)
+    return typed_part(part) + "." + "xyz"[axis] + "=" + number(pose[axis]);
   return typed_part(part) + "=" + number(pose.x) + "," + number(pose.y) + "," + number(pose.z);
 }
 
@@ -86,8 +87,7 @@ std::string way_round(const Thing& thing, const std::string& part, const Way& wa
   const glm::dvec3 change = way.change();
   const int pieces = static_cast<int>(largest(change) / 180) + 1;
   const std::uint32_t frames = way.to.frame - way.from.frame;
-  if (frames < static_cast<std::uint32_t>(pieces))
-    return "there are too few frames between the two to go round";
+  if (frames < static_cast<std::uint32_t>(pieces)) return "there are too few frames between the two to go round";
   const std::string pose = "pose " + document::shell_word(thing.json->at("name").get<std::string>()) + " ";
   std::string text = "to go round, also ";
   for (int i = 1; i < pieces; ++i) {
@@ -100,7 +100,8 @@ std::string way_round(const Thing& thing, const std::string& part, const Way& wa
 }
 
 bool same_orientation(const modeler::Joint& joint, const document::Json& a, const document::Json& b) {
-  return turn_between(modeler::orientation(joint, vector_of(a)), modeler::orientation(joint, vector_of(b))).angle < kNothing * modeler::kDegree;
+  return turn_between(modeler::orientation(joint, vector_of(a)), modeler::orientation(joint, vector_of(b))).angle <
+         kNothing * modeler::kDegree;
 }
 
 // Whether the way went as it goes now: between the same keys, or as a part of a way that went so.

@@ -28,7 +28,8 @@ KeyedPart direction(const Channel<glm::dvec3>& channel) {
           [&channel](std::uint32_t frame) { return written(rounded(direction_at(channel, frame))); }};
 }
 
-KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Channel<glm::dvec3>& poses, bool limited) {
+KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Channel<glm::dvec3>& poses,
+                  bool limited) {
   const auto motion = std::make_shared<JointMotion>(joint, poses);
   const modeler::Joint* turns = joint.freedoms() > 1 ? &joint : nullptr;
   return {name, limited ? &joint : nullptr, turns, [motion, &poses](std::uint32_t frame) {
@@ -85,14 +86,12 @@ Chosen whole(Thing thing) {
 std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
   std::vector<Chosen> all = {whole(camera_of(film, meaning))};
   if (const auto lights = film.find("lights"); lights != film.end())
-    for (std::size_t i = 0; i < lights->size(); ++i)
-      all.push_back(whole(light_of((*lights)[i], meaning.lights[i], i)));
+    for (std::size_t i = 0; i < lights->size(); ++i) all.push_back(whole(light_of((*lights)[i], meaning.lights[i], i)));
   for (const MaterialMotion& material : meaning.materials)
     all.push_back(whole(material_of(film["materials"][material.name], material)));
   for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
     const Actor& actor = meaning.actors[i];
-    if (actor.matrices.empty())
-      all.push_back(whole(actor_of(film["actors"][i], actor, meaning.models[actor.model])));
+    if (actor.matrices.empty()) all.push_back(whole(actor_of(film["actors"][i], actor, meaning.models[actor.model])));
   }
   return all;
 }
@@ -133,8 +132,9 @@ std::string part_named(const Thing& thing, const std::string& name) {
   for (const KeyedPart& part : thing.parts) names.push_back(part.name[0] == '/' ? part.name.substr(1) : part.name);
   throw Failure("has no part '" + name + "'", thing.name,
                 document::did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
-                             thing.name == "camera" ? "its parts are: eye, at, up, fov"
-                                                    : "its parts are place, turn and the joints of its model"));
+                                       thing.name == "camera"
+                                           ? "its parts are: eye, at, up, fov"
+                                           : "its parts are place, turn and the joints of its model"));
 }
 
 std::vector<Chosen> choose(document::Json& film, const Film& meaning, const Choice& choice) {

@@ -15,8 +15,8 @@ namespace mars::animator {
 // A part of a thing that can change: "place", "eye"; a joint's pose is "/" and its name.
 struct KeyedPart {
   std::string name;
-  const modeler::Joint* joint;                                // whose limits bound it; null: no joint
-  const modeler::Joint* turns;                                // by the smallest turn from key to key; null: straight on
+  const modeler::Joint* joint;  // whose limits bound it; null: no joint
+  const modeler::Joint* turns;  // by the smallest turn from key to key; null: straight on
   std::function<document::Json(std::uint32_t frame)> value_at;  // as a film file writes it; read_film's own on a key
 };
 

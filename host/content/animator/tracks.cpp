@@ -63,7 +63,7 @@ class Composer {
     // The last key of all its parts: its ease rules once others follow.
     const auto agrees = [&](const auto& each) { return each.second->ease == held.begin()->second->ease; };
     return held.empty() || (old.contains("ease") && !std::ranges::all_of(held, agrees)) ? ease_of(old)
-                                                                                       : held.begin()->second->ease;
+                                                                                        : held.begin()->second->ease;
   }
 
   const Tracks& tracks_;
@@ -95,8 +95,7 @@ Tracks tracks_of(const document::Json& thing) {
         tracks[item.key()].push_back({frame, item.value(), ease});
         continue;
       }
-      for (const auto& joint : item.value().items())
-        tracks["/" + joint.key()].push_back({frame, joint.value(), ease});
+      for (const auto& joint : item.value().items()) tracks["/" + joint.key()].push_back({frame, joint.value(), ease});
     }
   }
   return tracks;

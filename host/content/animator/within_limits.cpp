@@ -11,8 +11,9 @@ namespace {
 // "-170 degrees about y is beyond its limits -150 to 0".
 std::string beyond_limits(const modeler::Limits& limits, int axis, double angle) {
   const std::string text = document::shown(angle) + " degrees about " + "xyz"[axis];
-  return limits.free() ? text + " is beyond its limits " + document::shown(limits.lower) + " to " + document::shown(limits.upper)
-                       : text + ", where it is locked at " + document::shown(limits.lower);
+  return limits.free()
+             ? text + " is beyond its limits " + document::shown(limits.lower) + " to " + document::shown(limits.upper)
+             : text + ", where it is locked at " + document::shown(limits.lower);
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ document::Json written(double number) {
   return number;
 }
 
-document::Json written(const glm::dvec3& v) { return document::Json::array({written(v.x), written(v.y), written(v.z)}); }
+document::Json written(const glm::dvec3& v) {
+  return document::Json::array({written(v.x), written(v.y), written(v.z)});
+}
 
 document::Json written(const Ease& ease) {
   for (const auto& [name, known] : kNamed)

@@ -15,9 +15,7 @@ struct Checksum::State {
 Checksum::Checksum() : state_(std::make_unique<State>()) { XXH3_128bits_reset(state_->xxh); }
 Checksum::~Checksum() = default;
 
-void Checksum::add(std::span<const std::byte> bytes) {
-  XXH3_128bits_update(state_->xxh, bytes.data(), bytes.size());
-}
+void Checksum::add(std::span<const std::byte> bytes) { XXH3_128bits_update(state_->xxh, bytes.data(), bytes.size()); }
 
 std::string Checksum::digits() const {
   const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);

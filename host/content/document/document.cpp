@@ -56,7 +56,7 @@ constexpr std::array kMistakes = {
     Mistake{"missing closing quote", "it ends within a text", kCutShort},
     Mistake{"UTF-8", "a text is not UTF-8", "save the file as UTF-8"},
     Mistake{"control character", "a text holds the end of a line, or another control character",
-          "end each text in the line where it begins"},
+            "end each text in the line where it begins"},
     Mistake{"surrogate", "a text holds half a character", kEscapes},
     Mistake{"backslash", "a text holds a wrong escape", kEscapes},
     Mistake{"'\\u'", "a text holds a wrong escape", kEscapes},
@@ -67,7 +67,8 @@ constexpr std::array kMistakes = {
 // The problem and the remedy.
 std::pair<std::string, const char*> complaint(const std::string& token, std::string_view message) {
   for (const Mistake& mistake : kMistakes)
-    if (message.find(mistake.words) != message.npos) return {std::string("is not JSON: ") + mistake.problem, mistake.remedy};
+    if (message.find(mistake.words) != message.npos)
+      return {std::string("is not JSON: ") + mistake.problem, mistake.remedy};
   if (token.find('/') != token.npos) return {"is not JSON", "JSON has no comments: take them out"};
   return {"is not JSON", "write plain JSON: keys and texts in double quotes, no trailing commas, no NaN"};
 }
@@ -84,12 +85,8 @@ class Builder {
 
   bool null() { return add(Kind::null), true; }
   bool boolean(bool value) { return add(Kind::boolean).boolean = value, true; }
-  bool number_integer(std::int64_t value) {
-    return add(Kind::number).number = static_cast<double>(value), true;
-  }
-  bool number_unsigned(std::uint64_t value) {
-    return add(Kind::number).number = static_cast<double>(value), true;
-  }
+  bool number_integer(std::int64_t value) { return add(Kind::number).number = static_cast<double>(value), true; }
+  bool number_unsigned(std::uint64_t value) { return add(Kind::number).number = static_cast<double>(value), true; }
   bool number_float(double value, const std::string&) { return add(Kind::number).number = value, true; }
   bool string(std::string& value) {
     require_sound(value, "text");
@@ -163,8 +160,7 @@ class Builder {
 
   Node& add(Kind kind) {
     auto& nodes = document_.nodes_;
-    if (nodes.size() >= kMaxElements)
-      fail("has more than 60 million values", "spread it over several model files");
+    if (nodes.size() >= kMaxElements) fail("has more than 60 million values", "spread it over several model files");
     if (!open_.empty()) ++nodes[open_.back()].count;
     Node node{};
     node.key = std::exchange(key_, 0);
@@ -191,18 +187,13 @@ class Builder {
 
   void refuse_double_keys(std::uint32_t object) {
     const auto& nodes = document_.nodes_;
-    const auto key_of = [&](std::uint32_t child) {
-      return std::string_view(&document_.texts_[nodes[child].key]);
-    };
+    const auto key_of = [&](std::uint32_t child) { return std::string_view(&document_.texts_[nodes[child].key]); };
     children_.clear();
-    for (std::uint32_t child = object + 1; child < nodes.size(); child = nodes[child].end)
-      children_.push_back(child);
-    std::sort(children_.begin(), children_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(key_of(a), a) < std::pair(key_of(b), b);
-    });
-    const auto twice =
-        std::adjacent_find(children_.begin(), children_.end(),
-                           [&](std::uint32_t a, std::uint32_t b) { return key_of(a) == key_of(b); });
+    for (std::uint32_t child = object + 1; child < nodes.size(); child = nodes[child].end) children_.push_back(child);
+    std::sort(children_.begin(), children_.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return std::pair(key_of(a), a) < std::pair(key_of(b), b); });
+    const auto twice = std::adjacent_find(children_.begin(), children_.end(),
+                                          [&](std::uint32_t a, std::uint32_t b) { return key_of(a) == key_of(b); });
     if (twice == children_.end()) return;
     document_.nodes_[object].end = static_cast<std::uint32_t>(nodes.size());
     Element(&document_, twice[1])

@@ -120,5 +120,4 @@ Document read_document(const std::filesystem::path& path);
 // One that `name` names: where it cannot be read, the failure names the place of `name`, too.
 Document read_document(const Element& name, const std::filesystem::path& path);
 
-
 }  // namespace mars::document

@@ -23,8 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     now[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        now[j] = std::min(now[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, now);
@@ -89,8 +88,7 @@ double read_number(const Element& element, Range range) {
   require_kind(element, Kind::number);
   const double number = element.number();
   if (!(number >= range.lowest && number <= range.highest))
-    element.refuse("is " + shown(number),
-                   "write a number from " + shown(range.lowest) + " to " + shown(range.highest));
+    element.refuse("is " + shown(number), "write a number from " + shown(range.lowest) + " to " + shown(range.highest));
   return number;
 }
 
@@ -134,8 +132,7 @@ std::size_t read_choice(const Element& element, std::span<const std::string_view
   const std::string wanted = read_text(element);
   const auto at = std::find(choices.begin(), choices.end(), wanted);
   if (at == choices.end())
-    element.refuse("is " + in_quotes(wanted),
-                   did_you_mean(wanted, choices, "choose one of: " + listed(choices)));
+    element.refuse("is " + in_quotes(wanted), did_you_mean(wanted, choices, "choose one of: " + listed(choices)));
   return static_cast<std::size_t>(at - choices.begin());
 }
 
@@ -146,7 +143,8 @@ Fields::Fields(const Element& object, const Keys& keys) : object_(object), keys_
   require_kind(object, Kind::object);
   for (const Element child : object) {
     if (std::find(keys.names.begin(), keys.names.end(), child.key()) != keys.names.end()) continue;
-    child.refuse((std::string_view(keys.of).ends_with("_key") ? "does not belong to " : "is no key of ") + with_article(keys.of),
+    child.refuse((std::string_view(keys.of).ends_with("_key") ? "does not belong to " : "is no key of ") +
+                     with_article(keys.of),
                  did_you_mean(child.key(), keys.names, "its keys are: " + listed(keys.names)));
   }
 }

@@ -57,13 +57,11 @@ class Fields {
 
   // The key's value, or `otherwise` if it is not there.
   double number(std::string_view key, double otherwise, Range range = {}) const;
-  std::uint32_t count(std::string_view key, std::uint32_t otherwise, std::uint32_t lowest,
-                      std::uint32_t highest) const;
+  std::uint32_t count(std::string_view key, std::uint32_t otherwise, std::uint32_t lowest, std::uint32_t highest) const;
   glm::dvec3 vector(std::string_view key, const glm::dvec3& otherwise, Range range = {}) const;
   glm::dvec3 color(std::string_view key, const glm::dvec3& otherwise) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
-  std::size_t choice(std::string_view key, std::size_t otherwise,
-                     std::span<const std::string_view> choices) const;
+  std::size_t choice(std::string_view key, std::size_t otherwise, std::span<const std::string_view> choices) const;
 
  private:
   Element object_;

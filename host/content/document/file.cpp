@@ -21,16 +21,12 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 const char* remedy_for(int error) {
   switch (error) {
-    case ELOOP:
-      return "its links lead in a circle: replace it";
+    case ELOOP: return "its links lead in a circle: replace it";
     case EMFILE:
-    case ENFILE:
-      return "let more files be open at once (ulimit -n)";
+    case ENFILE: return "let more files be open at once (ulimit -n)";
     case EACCES:
-    case EPERM:
-      return "check its permissions";
-    default:
-      return "check the disk";
+    case EPERM: return "check its permissions";
+    default: return "check the disk";
   }
 }
 
@@ -53,7 +49,7 @@ class RegularFile {
 
   // Refuses what is no regular file.
   std::uintmax_t size() const {
-    struct stat status{};
+    struct stat status {};
     if (number_ < 0 && error_ != ENXIO) fail_to_read(path_, error_);
     if (number_ >= 0 && fstat(number_, &status) != 0) fail_to_read(path_, errno);
     if (S_ISDIR(status.st_mode)) throw Failure("is a directory, not a file", path_.string(), "name a file in it");

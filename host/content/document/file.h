@@ -1,5 +1,6 @@
 // A whole file into memory, for every reader. What cannot be read is one Failure that names the file, at once: pipes
-// and devices, which nobody may ever fill or which never end, are neither waited for nor read. (whole_file.h writes them, recorded_reads.h knows which were read.)
+// and devices, which nobody may ever fill or which never end, are neither waited for nor read. (whole_file.h writes
+// them, recorded_reads.h knows which were read.)
 #pragma once
 
 #include <cstdint>

@@ -83,8 +83,7 @@ std::string laid_out(const Json& json) try {
   throw Failure("a name that was given is not UTF-8", "", "type it in a terminal that writes UTF-8");
 }
 
-void write_json(const std::filesystem::path& path, const Json& json,
-                const std::function<void(const Element&)>& check) {
+void write_json(const std::filesystem::path& path, const Json& json, const std::function<void(const Element&)>& check) {
   const std::string text = laid_out(json);
   const Document document(text, path.string());
   check(document.root());

@@ -12,10 +12,15 @@ std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec
 thread_local RecordedReads* RecordedReads::innermost_ = nullptr;
 
 FileStamp stamp_of(const std::filesystem::path& path) {
-  struct stat status{};
+  struct stat status {};
   if (stat(path.c_str(), &status) != 0) return {};
-  return {true,           status.st_dev,  status.st_ino,
-          status.st_mode, status.st_size, nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
+  return {true,
+          status.st_dev,
+          status.st_ino,
+          status.st_mode,
+          status.st_size,
+          nanoseconds(status.st_mtim),
+          nanoseconds(status.st_ctim)};
 }
 
 void RecordedReads::record(const std::filesystem::path& path) {

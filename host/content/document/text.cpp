@@ -48,8 +48,6 @@ std::string formatted(const char* format, ...) {
 
 std::string shown(double number) { return formatted("%.9g", number); }
 
-double rounded_to(double number, int digits) {
-  return std::strtod(formatted("%.*g", digits, number).c_str(), nullptr);
-}
+double rounded_to(double number, int digits) { return std::strtod(formatted("%.*g", digits, number).c_str(), nullptr); }
 
 }  // namespace mars::document

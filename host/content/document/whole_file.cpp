@@ -67,32 +67,22 @@ class Descriptor {
 const char* remedy_for(int error) {
   switch (error) {
     case ENOSPC:
-    case EDQUOT:
-      return "free some space or choose a folder on another disk";
-    case EFBIG:
-      return "raise ulimit -f, which says how large files may grow";
+    case EDQUOT: return "free some space or choose a folder on another disk";
+    case EFBIG: return "raise ulimit -f, which says how large files may grow";
     case EACCES:
     case EPERM:
-    case EROFS:
-      return "choose a folder you may write to, or change its permissions";
-    case ENOENT:
-      return "check the name";
+    case EROFS: return "choose a folder you may write to, or change its permissions";
+    case ENOENT: return "check the name";
     case ENOTDIR:
     case EISDIR:
-    case EEXIST:
-      return "something of another kind has this name: choose another";
-    case ENOTEMPTY:
-      return "it is a folder with something in it: move that away, or choose another name";
-    case ELOOP:
-      return "its links lead in a circle: replace them, or choose another name";
+    case EEXIST: return "something of another kind has this name: choose another";
+    case ENOTEMPTY: return "it is a folder with something in it: move that away, or choose another name";
+    case ELOOP: return "its links lead in a circle: replace them, or choose another name";
     case EMFILE:
-    case ENFILE:
-      return "let more files be open at once (ulimit -n)";
+    case ENFILE: return "let more files be open at once (ulimit -n)";
     case EIO:
-    case ESTALE:
-      return "see whether its disk can still be used, and start again";
-    default:
-      return "";
+    case ESTALE: return "see whether its disk can still be used, and start again";
+    default: return "";
   }
 }
 
@@ -126,7 +116,7 @@ class Part {
 
  private:
   std::optional<mode_t> mode_of_replaced() const {
-    struct stat old{};
+    struct stat old {};
     if (lstat(replaced_.c_str(), &old) != 0 || S_ISLNK(old.st_mode)) return std::nullopt;
     if (S_ISDIR(old.st_mode)) fail_file("write", target_, EISDIR);
     if (!S_ISREG(old.st_mode))

@@ -33,12 +33,10 @@ class TrackWriter {
 
   wire::Track write(std::vector<wire::Change>& changes) const { return append_changes(changes, changes_); }
 
-  static wire::Track append_changes(std::vector<wire::Change>& changes,
-                                    const std::vector<wire::Change>& more) {
+  static wire::Track append_changes(std::vector<wire::Change>& changes, const std::vector<wire::Change>& more) {
     if (changes.size() + more.size() > std::numeric_limits<std::uint32_t>::max())
       throw Failure("changes too often", "", "make the film shorter, or move fewer segments");
-    const wire::Track track{static_cast<std::uint32_t>(changes.size()),
-                            static_cast<std::uint32_t>(more.size())};
+    const wire::Track track{static_cast<std::uint32_t>(changes.size()), static_cast<std::uint32_t>(more.size())};
     changes.insert(changes.end(), more.begin(), more.end());
     return track;
   }
@@ -50,12 +48,11 @@ class TrackWriter {
 
 std::array<float, 3> floats(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
 
-std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size,
-                                          const std::string& source) {
+std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size, const std::string& source) {
   for (const std::uint32_t side : size)
     if (side < 1 || side > wire::kMaxSide)
-      throw Failure("cannot be " + std::to_string(size[0]) + "x" + std::to_string(size[1]) + " pixels",
-                    source, "each side must have 1 to 16384 pixels");
+      throw Failure("cannot be " + std::to_string(size[0]) + "x" + std::to_string(size[1]) + " pixels", source,
+                    "each side must have 1 to 16384 pixels");
   return size;
 }
 
@@ -84,16 +81,13 @@ class Compiler {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what, const std::string& element,
-                         const std::string& remedy) const {
+  [[noreturn]] void fail(const std::string& what, const std::string& element, const std::string& remedy) const {
     throw Failure(what, film_.source.empty() ? element : film_.source + ": " + element, remedy);
   }
 
   void add_settings() {
-    const auto size =
-        checked_size(options_.size.value_or(std::array{film_.width, film_.height}), film_.source);
-    data_.settings = {size[0],           size[1], film_.frames, film_.dice, floats(film_.background),
-                      float(film_.rate), {}};
+    const auto size = checked_size(options_.size.value_or(std::array{film_.width, film_.height}), film_.source);
+    data_.settings = {size[0], size[1], film_.frames, film_.dice, floats(film_.background), float(film_.rate), {}};
   }
 
   wire::Camera camera_at(std::uint32_t frame) const {
@@ -219,8 +213,7 @@ class Compiler {
       instances_ += data_.shapes[data_.segments.back().shape].size();
     }
     joints_ += model.joints.size();
-    if (instances_ > std::numeric_limits<std::uint32_t>::max() ||
-        joints_ > std::numeric_limits<std::uint32_t>::max())
+    if (instances_ > std::numeric_limits<std::uint32_t>::max() || joints_ > std::numeric_limits<std::uint32_t>::max())
       fail("have more than 4294967295 patches and pieces of meshes", "actors", "use fewer actors");
   }
 
@@ -295,8 +288,7 @@ void check_camera(const animator::Film& film) { Compiler(film, {}).check_camera(
 CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& options) {
   if (!is_compiled_film(path)) return compile(animator::read_film(path), options);
   if (options.cutting)
-    throw Failure("is compiled, its intervals are cut", path.string(),
-                  "choose --intervals with the film file itself");
+    throw Failure("is compiled, its intervals are cut", path.string(), "choose --intervals with the film file itself");
   CompiledFilm film = load_compiled_film(path);
   if (options.size) resize(film, *options.size);
   return film;

@@ -20,7 +20,8 @@ struct CompileOptions {
 
 CompiledFilm compile(const animator::Film& film, const CompileOptions& options = {});
 
-// Throws as compile() does where the camera sees nothing in some frame: it looks at its own place, or along its up vector.
+// Throws as compile() does where the camera sees nothing in some frame: it looks at its own place, or along its up
+// vector.
 void check_camera(const animator::Film& film);
 
 // A film file or a .mars file, known by its content. The intervals of a .mars file are cut for good.

@@ -18,12 +18,14 @@ std::string polygons_of(const wire::FilmView& film) {
       triangles += meshlet.triangle_count;
   }
   const auto line = [](const char* what, std::uint64_t rendered, std::size_t stored) {
-    return document::formatted("%-11s %llu, %zu of them stored\n", what, static_cast<unsigned long long>(rendered), stored);
+    return document::formatted("%-11s %llu, %zu of them stored\n", what, static_cast<unsigned long long>(rendered),
+                               stored);
   };
   std::string text = line("patches", patches, film.patches().size());
   if (!film.meshlets().empty())
     text += line("triangles", triangles, film.mesh_triangles().size()) +
-            document::formatted("pieces      %zu, of up to %u triangles\n", film.meshlets().size(), wire::kMeshletTriangles);
+            document::formatted("pieces      %zu, of up to %u triangles\n", film.meshlets().size(),
+                                wire::kMeshletTriangles);
   return text;
 }
 
@@ -47,7 +49,7 @@ std::string describe(const CompiledFilm& film) {
   std::string text = film.source + "\n";
   text += document::formatted("size        %u x %u\n", settings.width, settings.height);
   text += document::formatted("frames      %u at %g a second, %.2f seconds\n", settings.frames, settings.rate,
-                    settings.frames / settings.rate);
+                              settings.frames / settings.rate);
   text += settings.dice == 0 ? "dicing      adaptive\n"
                              : document::formatted("dicing      %u x %u\n", settings.dice, settings.dice);
   text += document::formatted("actors      %u with %u joints\n", film.actors, film.joints);

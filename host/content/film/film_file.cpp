@@ -37,8 +37,7 @@ std::array<char, 32> checksum_over(const Header& header, std::span<const std::by
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
-  throw Failure("is no sound compiled film: " + what, path.string(),
-                "compile the film again with `mars compile`");
+  throw Failure("is no sound compiled film: " + what, path.string(), "compile the film again with `mars compile`");
 }
 
 }  // namespace
@@ -68,8 +67,7 @@ CompiledFilm load_compiled_film(const std::filesystem::path& path) {
   if (header.version != wire::kFilmVersion)
     refuse(path, "it has version " + std::to_string(header.version) + ", this program reads " +
                      std::to_string(wire::kFilmVersion));
-  if (header.block_bytes != bytes.size() - sizeof header ||
-      header.block_bytes % sizeof(CompiledFilm::Line) != 0)
+  if (header.block_bytes != bytes.size() - sizeof header || header.block_bytes % sizeof(CompiledFilm::Line) != 0)
     refuse(path, bytes.size() - sizeof header < header.block_bytes ? "it is cut short" : "its size is wrong");
   CompiledFilm film;
   film.lines.resize(header.block_bytes / sizeof(CompiledFilm::Line));

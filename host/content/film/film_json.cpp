@@ -10,8 +10,7 @@ namespace {
 
 animator::Film meaning_of(const std::filesystem::path& path) {
   if (is_compiled_film(path))
-    throw Failure("is compiled: it has matrices, no keys", path.string(),
-                  "name the film file that it was made from");
+    throw Failure("is compiled: it has matrices, no keys", path.string(), "name the film file that it was made from");
   return animator::read_film(path);
 }
 
@@ -22,7 +21,8 @@ FilmFile open_film(const std::filesystem::path& path) {
   return {document::read_json(path), std::move(film)};
 }
 
-void change_film(const std::filesystem::path& path, const std::function<void(document::Json&, const animator::Film&)>& change) {
+void change_film(const std::filesystem::path& path,
+                 const std::function<void(document::Json&, const animator::Film&)>& change) {
   meaning_of(path);  // refuses a file of another kind by its name
   document::change_json(
       path, [&](document::Json& json) { change(json, animator::read_film(path)); },

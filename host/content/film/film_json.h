@@ -19,6 +19,7 @@ FilmFile open_film(const std::filesystem::path& path);
 
 // Changes the film file; it stays as it was where `change` fails or the result is no film. Of several at a time no
 // change is lost (change_json()).
-void change_film(const std::filesystem::path& path, const std::function<void(document::Json& json, const animator::Film& film)>& change);
+void change_film(const std::filesystem::path& path,
+                 const std::function<void(document::Json& json, const animator::Film& film)>& change);
 
 }  // namespace mars::film

@@ -94,9 +94,8 @@ class Cutter {
     visit_changes([&](std::uint32_t, std::uint32_t frame) { ++by_frame.starts[frame + 2]; });
     std::partial_sum(by_frame.starts.begin(), by_frame.starts.end(), by_frame.starts.begin());
     by_frame.segments.resize(by_frame.starts.back());
-    visit_changes([&](std::uint32_t segment, std::uint32_t frame) {
-      by_frame.segments[by_frame.starts[frame + 1]++] = segment;
-    });
+    visit_changes(
+        [&](std::uint32_t segment, std::uint32_t frame) { by_frame.segments[by_frame.starts[frame + 1]++] = segment; });
     by_frame.starts.pop_back();
     return by_frame;
   }
@@ -118,8 +117,7 @@ class Cutter {
     std::vector<Frames> movers(starts.size());
     visit_changes([&](std::uint32_t segment, std::uint32_t frame) {
       Frames& list = movers[interval_of[frame]];
-      if (frame != starts[interval_of[frame]] && (list.empty() || list.back() != segment))
-        list.push_back(segment);
+      if (frame != starts[interval_of[frame]] && (list.empty() || list.back() != segment)) list.push_back(segment);
     });
     return movers;
   }

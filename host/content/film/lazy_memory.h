@@ -22,7 +22,7 @@ struct LazyMemory {
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < kMapped) return static_cast<T*>(::operator new(bytes, std::align_val_t{alignof(T)}));
+    if (bytes < kMapped) return static_cast<T*>(::operator new (bytes, std::align_val_t{alignof(T)}));
     void* pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (pages == MAP_FAILED) throw std::bad_alloc();
     madvise(pages, bytes, MADV_HUGEPAGE);
@@ -32,7 +32,7 @@ struct LazyMemory {
   void deallocate(T* items, std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     if (bytes < kMapped)
-      ::operator delete(items, std::align_val_t{alignof(T)});
+      ::operator delete (items, std::align_val_t{alignof(T)});
     else
       munmap(items, bytes);
   }

@@ -18,8 +18,8 @@
 namespace mars::film {
 namespace {
 
-constexpr double kFarthestMatrix = 1e12;              // as node/wire/film.h allows
-constexpr std::size_t kWorthAThread = 20'000;          // matrices
+constexpr double kFarthestMatrix = 1e12;                        // as node/wire/film.h allows
+constexpr std::size_t kWorthAThread = 20'000;                   // matrices
 constexpr std::size_t kCapacityBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
 constexpr std::size_t kBytesEach = sizeof(wire::Matrix) + 3 * sizeof(wire::Change);  // with lists on the way
 
@@ -58,11 +58,12 @@ struct Share {
   std::size_t first_segment = 0, segments = 0;
   std::vector<std::size_t> most;  // matrices of each segment
   std::size_t first_matrix = 0, first_change = 0;
-  std::size_t matrices = 0;               // written
-  std::vector<std::uint32_t> changes;     // written, of each segment
+  std::size_t matrices = 0;            // written
+  std::vector<std::uint32_t> changes;  // written, of each segment
 };
 
-std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const modeler::Model& model, std::uint32_t frames) {
+std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const modeler::Model& model,
+                                          std::uint32_t frames) {
   std::vector<std::size_t> most;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
     if (!model.joints[joint].segment) continue;
@@ -73,7 +74,8 @@ std::vector<std::size_t> most_of_matrices(const animator::Actor& actor, const mo
 }
 
 // A joint moves where it is turned or its parent moves.
-std::vector<std::size_t> most_of_motion(const animator::Actor& actor, const modeler::Model& model, std::uint32_t frames) {
+std::vector<std::size_t> most_of_motion(const animator::Actor& actor, const modeler::Model& model,
+                                        std::uint32_t frames) {
   Runs root;
   add_runs(actor.motion.place, frames, root);
   add_runs(actor.motion.turn, frames, root);
@@ -150,8 +152,7 @@ class MotionWriter {
     const std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - data_.changes.size();
     if (needed <= here && most_matrices_ <= most) return;
     throw Failure("moves so much that it needs " + std::to_string(most_matrices_) + " T-matrices, " +
-                      gigabytes(needed) + " of memory" +
-                      (needed > here ? ", where there are " + gigabytes(here) : ""),
+                      gigabytes(needed) + " of memory" + (needed > here ? ", where there are " + gigabytes(here) : ""),
                   film_.source.empty() ? "actors" : film_.source + ": actors",
                   "make the film shorter, or move fewer segments at a time");
   }

@@ -99,8 +99,9 @@ std::string reason_of(const child::Ending& ending, bool too_late, const ApartLim
 std::string run_apart(const std::function<std::string()>& work, const ApartLimits& limits, const std::string& where,
                       const std::string& remedy) {
   child::Pipe pipe = child::make_pipe();
-  child::Process process([&] { return answered(work, pipe.writing); },
-                  {.signal_at_our_end = SIGKILL, .limits = child::ProcessLimits{limits.processor_time, limits.memory}});
+  child::Process process(
+      [&] { return answered(work, pipe.writing); },
+      {.signal_at_our_end = SIGKILL, .limits = child::ProcessLimits{limits.processor_time, limits.memory}});
   pipe.writing.close();
   const std::optional<std::string> answer = read_within(limits.time, pipe.reading);
   if (!answer) process.send(SIGKILL);

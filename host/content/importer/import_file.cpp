@@ -63,9 +63,9 @@ std::vector<std::string> read_of(const MeshFile& file) {
     colors += part.color.has_value();
   }
   const bool joined = vertices < file.vertices;
-  std::vector<std::string> read = {
-      document::counted(vertices, "vertex", "vertices") + (joined ? " of the file's " + std::to_string(file.vertices) : ""),
-      document::counted(faces, "face", "faces")};
+  std::vector<std::string> read = {document::counted(vertices, "vertex", "vertices") +
+                                       (joined ? " of the file's " + std::to_string(file.vertices) : ""),
+                                   document::counted(faces, "face", "faces")};
   if (!file.parts[0].mesh.normals.empty()) read.push_back("normals");
   if (colors > 0) read.push_back(document::counted(colors, "colour", "colours"));
   return read;
@@ -73,8 +73,8 @@ std::vector<std::string> read_of(const MeshFile& file) {
 
 // Of the first joint, whether it has a colour or not.
 std::string set_look(const ImportOptions& options) {
-  return "mars model set " + document::shell_word(options.to.string()) + " " + document::shell_word(options.joint) + " --material " +
-         material_name(0);
+  return "mars model set " + document::shell_word(options.to.string()) + " " + document::shell_word(options.joint) +
+         " --material " + material_name(0);
 }
 
 Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
@@ -113,7 +113,8 @@ std::string run(const ImportOptions& options, FileKind kind, char up) {
 }
 
 bool is_utf8(const std::string& text) {
-  return document::Json::parse(document::Json(text).dump(-1, ' ', false, document::Json::error_handler_t::replace)) == text;
+  return document::Json::parse(document::Json(text).dump(-1, ' ', false, document::Json::error_handler_t::replace)) ==
+         text;
 }
 
 // `given` is the name that a person gave; "": the joint is named as the file.

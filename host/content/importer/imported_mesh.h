@@ -32,9 +32,9 @@ struct MeshPart {
 struct MeshFile {
   std::vector<MeshPart> parts;  // at least one, in the file's order
   modeler::Box bounds;
-  glm::dvec3 extent;                  // of the faces; 0 where they are flat
-  std::size_t vertices = 0;           // in the file, before those that agree in place and normal are joined
-  std::vector<std::string> not_read;  // "19 bones", ...
+  glm::dvec3 extent;                              // of the faces; 0 where they are flat
+  std::size_t vertices = 0;                       // in the file, before those that agree in place and normal are joined
+  std::vector<std::string> not_read;              // "19 bones", ...
   std::vector<std::filesystem::path> companions;  // files that were read besides: materials, buffers
 };
 

@@ -19,7 +19,8 @@ constexpr double kLongestNormal = 1e6;
 modeler::Mesh::Place unit_normal(const glm::dvec3& normal, const glm::dvec3& extent) {
   const glm::dvec3 n = normal * extent;
   const double length = glm::length(n);
-  return length > 0 ? modeler::Mesh::Place{float(n.x / length), float(n.y / length), float(n.z / length)} : modeler::Mesh::Place{};
+  return length > 0 ? modeler::Mesh::Place{float(n.x / length), float(n.y / length), float(n.z / length)}
+                    : modeler::Mesh::Place{};
 }
 
 // A face that cannot be drawn as it stands is added in triangles.

@@ -28,22 +28,14 @@ class Numbers {
   std::optional<double> next(PlyType type) {
     if (format_ == PlyFormat::text) return next_word();
     switch (type) {
-      case PlyType::int8:
-        return next_of<std::int8_t>();
-      case PlyType::uint8:
-        return next_of<std::uint8_t>();
-      case PlyType::int16:
-        return next_of<std::int16_t>();
-      case PlyType::uint16:
-        return next_of<std::uint16_t>();
-      case PlyType::int32:
-        return next_of<std::int32_t>();
-      case PlyType::uint32:
-        return next_of<std::uint32_t>();
-      case PlyType::float32:
-        return next_of<float>();
-      case PlyType::float64:
-        return next_of<double>();
+      case PlyType::int8: return next_of<std::int8_t>();
+      case PlyType::uint8: return next_of<std::uint8_t>();
+      case PlyType::int16: return next_of<std::int16_t>();
+      case PlyType::uint16: return next_of<std::uint16_t>();
+      case PlyType::int32: return next_of<std::int32_t>();
+      case PlyType::uint32: return next_of<std::uint32_t>();
+      case PlyType::float32: return next_of<float>();
+      case PlyType::float64: return next_of<double>();
     }
     return std::nullopt;
   }
@@ -91,11 +83,13 @@ class BodyReader {
       : path_(path), header_(header), numbers_(body, header.format) {}
 
   PlyFile read() {
-    for (const std::string& texture : header_.textures) file_.not_read.push_back("texture " + document::printable(texture));
+    for (const std::string& texture : header_.textures)
+      file_.not_read.push_back("texture " + document::printable(texture));
     for (const PlyElement& element : header_.elements) read_element(element);
     const std::size_t left = numbers_.left();
     if (left > 0 && header_.format == PlyFormat::text) fail_ply(path_, "goes on after all that its header promises");
-    if (left > 0) file_.not_read.push_back(document::counted(left, "byte", "bytes") + " after all that the header promises");
+    if (left > 0)
+      file_.not_read.push_back(document::counted(left, "byte", "bytes") + " after all that the header promises");
     check_corners();
     return std::move(file_);
   }
@@ -175,16 +169,17 @@ class BodyReader {
   }
 
   [[noreturn]] void fail_short(const PlyElement& element, std::uint64_t rows) {
-    const std::string row = "row of element '" + document::printable(element.name) + "'", rows_of = "rows" + row.substr(3);
+    const std::string row = "row of element '" + document::printable(element.name) + "'",
+                      rows_of = "rows" + row.substr(3);
     const bool vertices = element.name == "vertex", faces = element.name == "face";
     fail_ply(path_, "promises " +
                         document::counted(element.count,
-                                vertices ? "vertex"
-                                : faces  ? "face"
-                                         : row,
-                                vertices ? "vertices"
-                                : faces  ? "faces"
-                                         : rows_of) +
+                                          vertices ? "vertex"
+                                          : faces  ? "face"
+                                                   : row,
+                                          vertices ? "vertices"
+                                          : faces  ? "faces"
+                                                   : rows_of) +
                         ", " + document::counted(rows, "was read", "were read"));
   }
 

@@ -59,7 +59,8 @@ Promised promised_by_obj(const std::filesystem::path& path, std::string_view tex
       promised.not_read.push_back("colours of " + document::printable(name) + " (no such file beside the mesh)");
   }
   if (surfaces > 0)
-    promised.not_read.push_back(document::counted(surfaces, "free-form curve or surface", "free-form curves or surfaces"));
+    promised.not_read.push_back(
+        document::counted(surfaces, "free-form curve or surface", "free-form curves or surfaces"));
   return promised;
 }
 
@@ -156,7 +157,8 @@ Promised promised_by_gltf(const std::filesystem::path& path, std::string_view by
     for (const Tree& primitive : at(meshes[mesh], "primitives"))
       *promised.faces += triangles_of(primitive, at(tree, "accessors"));
   if (placed.size() < meshes.size())
-    promised.not_read.push_back(document::counted(meshes.size() - placed.size(), "mesh", "meshes") + " outside the scene");
+    promised.not_read.push_back(document::counted(meshes.size() - placed.size(), "mesh", "meshes") +
+                                " outside the scene");
   return promised;
 }
 

@@ -283,8 +283,7 @@ Net left_hand() {
     add_loft(net, {.rings = rings, .around = 8, .frame = {root, front, side, axis}});
   };
   for (const Finger& f : fingers) add_finger(f.root, {0, -1, 0}, {1, 0, 0}, f.axis, f.length, f.thickness);
-  add_finger({0.030, -0.008, -0.038}, {-0.45, -0.80, -0.35}, {0.55, -0.60, 0.55}, {-0.62, 0.18, 0.72}, 0.062,
-             0.0118);
+  add_finger({0.030, -0.008, -0.038}, {-0.45, -0.80, -0.35}, {0.55, -0.60, 0.55}, {-0.62, 0.18, 0.72}, 0.062, 0.0118);
   return net;
 }
 
@@ -310,36 +309,21 @@ Net lofted(const Loft& loft) {
 
 std::vector<wire::Patch> make_body(BodyPart part) {
   switch (part) {
-    case BodyPart::head:
-      return fill_cube(head());
-    case BodyPart::hair:
-      return fill_cube(lofted({.rings = kHair}));
-    case BodyPart::neck:
-      return fill_cube(lofted({.rings = kNeck}));
-    case BodyPart::torso:
-      return fill_cube(lofted({.rings = kTorso, .around = 20, .swellings = kChest}));
-    case BodyPart::abdomen:
-      return fill_cube(lofted({.rings = kAbdomen}));
-    case BodyPart::pelvis:
-      return fill_cube(lofted({.rings = kPelvis}));
-    case BodyPart::upper_arm:
-      return fill_cube(lofted({.rings = kUpperArm, .around = 8}));
-    case BodyPart::sleeve:
-      return fill_cube(lofted({.rings = kSleeve, .around = 8}));
-    case BodyPart::forearm:
-      return fill_cube(lofted({.rings = kForearm, .around = 8}));
-    case BodyPart::left_hand:
-      return fill_cube(left_hand());
-    case BodyPart::right_hand:
-      return mirrored(fill_cube(left_hand()));
-    case BodyPart::thigh:
-      return fill_cube(lofted({.rings = kThigh, .around = 8}));
-    case BodyPart::shin:
-      return fill_cube(lofted({.rings = kShin, .around = 8}));
-    case BodyPart::foot:
-      return fill_cube(lofted({.rings = kFoot, .frame = kLengthwise}));
-    case BodyPart::toes:
-      return fill_cube(lofted({.rings = kToes, .frame = kLengthwise}));
+    case BodyPart::head: return fill_cube(head());
+    case BodyPart::hair: return fill_cube(lofted({.rings = kHair}));
+    case BodyPart::neck: return fill_cube(lofted({.rings = kNeck}));
+    case BodyPart::torso: return fill_cube(lofted({.rings = kTorso, .around = 20, .swellings = kChest}));
+    case BodyPart::abdomen: return fill_cube(lofted({.rings = kAbdomen}));
+    case BodyPart::pelvis: return fill_cube(lofted({.rings = kPelvis}));
+    case BodyPart::upper_arm: return fill_cube(lofted({.rings = kUpperArm, .around = 8}));
+    case BodyPart::sleeve: return fill_cube(lofted({.rings = kSleeve, .around = 8}));
+    case BodyPart::forearm: return fill_cube(lofted({.rings = kForearm, .around = 8}));
+    case BodyPart::left_hand: return fill_cube(left_hand());
+    case BodyPart::right_hand: return mirrored(fill_cube(left_hand()));
+    case BodyPart::thigh: return fill_cube(lofted({.rings = kThigh, .around = 8}));
+    case BodyPart::shin: return fill_cube(lofted({.rings = kShin, .around = 8}));
+    case BodyPart::foot: return fill_cube(lofted({.rings = kFoot, .frame = kLengthwise}));
+    case BodyPart::toes: return fill_cube(lofted({.rings = kToes, .frame = kLengthwise}));
   }
   return {};
 }

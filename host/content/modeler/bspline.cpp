@@ -107,8 +107,7 @@ Net bezier_patches(const PointGrid& points, const SplineDirection& u, const Spli
     for (std::size_t left = 0; left + (u.periodic ? 0 : 1) < width; left += 3) {
       auto& patch = net.emplace_back();
       for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t i = 0; i < 4; ++i)
-          patch[4 * j + i] = columns[(left + i) % width][(row + j) % height];
+        for (std::size_t i = 0; i < 4; ++i) patch[4 * j + i] = columns[(left + i) % width][(row + j) % height];
     }
   return net;
 }

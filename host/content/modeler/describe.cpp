@@ -32,7 +32,8 @@ std::string turns_of(const Joint& joint) {
     if (!limits.free() && limits.lower == 0) continue;
     text += text.empty() ? "" : ", ";
     text += "xyz"[axis];
-    text += limits.free() ? " " + document::shown(limits.lower) + ".." + document::shown(limits.upper) : " at " + document::shown(limits.lower);
+    text += limits.free() ? " " + document::shown(limits.lower) + ".." + document::shown(limits.upper)
+                          : " at " + document::shown(limits.lower);
   }
   return all_round ? "free" : text.empty() ? "fixed" : text;
 }
@@ -134,7 +135,8 @@ std::string head_of(const Model& model) {
   if (stored_faces > 0) text += "faces     " + document::formatted("%zu, %zu of them stored\n", faces, stored_faces);
   if (const auto bounds = rest_bounds(model))
     text += "at rest   " + size_text(bounds->max - bounds->min) +
-            document::formatted(", z from %.4g to %.4g\n", without_rounding(bounds->min.z), without_rounding(bounds->max.z));
+            document::formatted(", z from %.4g to %.4g\n", without_rounding(bounds->min.z),
+                                without_rounding(bounds->max.z));
   return text;
 }
 

@@ -46,8 +46,7 @@ document::Json* find_joint(document::Json& model, const std::string& name) {
 
 [[noreturn]] void no_such_joint(document::Json& model, const std::string& name) {
   const std::vector<std::string> names = names_of(joints_of(model));
-  throw Failure("is not in the model", joint_of(name),
-                near(name, names, "mars model show lists the joints"));
+  throw Failure("is not in the model", joint_of(name), near(name, names, "mars model show lists the joints"));
 }
 
 document::Json& joint_named(document::Json& model, const std::string& name) {
@@ -203,9 +202,7 @@ void rename_joint(document::Json& model, const std::string& from, const std::str
   rename_limb(model, from, to);
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  return "'" + document::joined(names, "', '") + "'";
-}
+std::string listed(const std::vector<std::string>& names) { return "'" + document::joined(names, "', '") + "'"; }
 
 std::vector<std::string> children_of(const document::Json& joints, const std::string& name) {
   std::vector<std::string> children;
@@ -228,8 +225,7 @@ document::Json& materials_of(document::Json& model) {
 
 void require_known_material(document::Json& model, const std::string& name) {
   if (model.contains("materials") && model["materials"].contains(name)) return;
-  throw Failure("is not in the model", material_of(name),
-                near(name, materials_known(model), "add it: mars model add"));
+  throw Failure("is not in the model", material_of(name), near(name, materials_known(model), "add it: mars model add"));
 }
 
 void change_material(document::Json& material, const MaterialChange& change) {
@@ -259,7 +255,9 @@ void put_in_order(document::Json& joint) { put_in_order(joint, kJointOrder); }
 
 document::Json empty_model() { return {{"joints", document::Json::array()}}; }
 
-document::Json derived_model(const std::string& from) { return {{"from", from}, {"proportions", document::Json::object()}}; }
+document::Json derived_model(const std::string& from) {
+  return {{"from", from}, {"proportions", document::Json::object()}};
+}
 
 void add_joint(document::Json& model, const std::string& name, const JointChange& change) {
   refuse_known(model, name);

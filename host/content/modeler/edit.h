@@ -18,15 +18,15 @@ enum class Freedom { as_it_was, fixed, free };
 
 // Of one joint; what is not there stays as it was.
 struct JointChange {
-  std::vector<std::string> reset;     // of kResets, to their defaults
+  std::vector<std::string> reset;  // of kResets, to their defaults
   std::optional<std::string> name;
   std::optional<std::string> parent;
   std::optional<glm::dvec3> place;
   std::optional<glm::dvec3> x_axis;
   std::optional<glm::dvec3> y_axis;
   Freedom freedom = Freedom::as_it_was;
-  std::vector<std::pair<char, Limits>> limits;  // of x, y or z; after `freedom`
-  std::optional<std::string> shape;             // another one loses the options of that before
+  std::vector<std::pair<char, Limits>> limits;                       // of x, y or z; after `freedom`
+  std::optional<std::string> shape;                                  // another one loses the options of that before
   std::vector<std::pair<std::string, std::vector<double>>> options;  // of the shape: top, ...
   std::optional<Box> sbb;
   std::optional<std::string> material;

@@ -40,9 +40,9 @@ void require_limb(const std::string& joint, const std::string& limb) {
   const std::vector<std::string> known = all_limbs();
   if (std::ranges::count(known, limb) != 0) return;
   const std::vector<std::string_view> names(known.begin(), known.end());
-  throw Failure(
-      "cannot be '" + limb + "', which is no limb", "joint '" + joint + "'",
-      document::did_you_mean(limb, names, "write pelvis, head, left.hip and the like: docs/model-format.md names them"));
+  throw Failure("cannot be '" + limb + "', which is no limb", "joint '" + joint + "'",
+                document::did_you_mean(limb, names,
+                                       "write pelvis, head, left.hip and the like: docs/model-format.md names them"));
 }
 
 }  // namespace

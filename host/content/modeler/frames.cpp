@@ -79,8 +79,7 @@ wire::Matrix t_matrix(const Axes& frame, const Box& sbb) {
   const glm::dvec3 origin = frame.turn * sbb.min + frame.place;
   wire::Matrix matrix;
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      matrix.m[row][column] = frame.turn[column][row] * extent[column];
+    for (int column = 0; column < 3; ++column) matrix.m[row][column] = frame.turn[column][row] * extent[column];
     matrix.m[row][3] = origin[row];
   }
   return matrix;
@@ -90,8 +89,7 @@ std::vector<Axes> rest_frames(const Model& model) {
   std::vector<Axes> frames;
   for (const Joint& joint : model.joints) {
     const Axes parent = joint.parent == kNone ? Axes{} : frames[joint.parent];
-    frames.push_back(
-        {parent.turn * orientation(joint, joint.rest()), parent.turn * joint.place + parent.place});
+    frames.push_back({parent.turn * orientation(joint, joint.rest()), parent.turn * joint.place + parent.place});
   }
   return frames;
 }

@@ -17,8 +17,7 @@ glm::dvec3 Joint::rest() const {
 }
 
 int Joint::freedoms() const {
-  return static_cast<int>(
-      std::count_if(limits.begin(), limits.end(), [](const Limits& l) { return l.free(); }));
+  return static_cast<int>(std::count_if(limits.begin(), limits.end(), [](const Limits& l) { return l.free(); }));
 }
 
 }  // namespace mars::modeler

@@ -41,8 +41,7 @@ class LimbReader {
     const auto element = fields.find(key);
     if (!element) return kNone;
     const std::string name = document::read_text(*element);
-    const auto found =
-        std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.name == name; });
+    const auto found = std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.name == name; });
     if (found == joints_.end()) {
       std::vector<std::string_view> names;
       for (const Joint& joint : joints_) names.push_back(joint.name);

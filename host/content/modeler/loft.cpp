@@ -46,8 +46,8 @@ std::vector<glm::dvec3> control_points(const Ring& ring, const Loft& loft) {
     const double forward = reach * front * ((front > 0 ? ring.front : ring.back) + out);
     const double sideways = reach * side * (ring.width + out);
     const double up = ring.at + ring.tilt * (ring.middle + forward);
-    points.push_back(loft.frame.origin + (ring.middle + forward) * loft.frame.front +
-                     sideways * loft.frame.side + up * loft.frame.axis);
+    points.push_back(loft.frame.origin + (ring.middle + forward) * loft.frame.front + sideways * loft.frame.side +
+                     up * loft.frame.axis);
   }
   return points;
 }

@@ -37,8 +37,8 @@ std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::uint32_
 // Whether the normals given at the face's corners point to its inside, by the order of its corners.
 bool turned_inside(const Mesh& mesh, std::span<const std::uint32_t> face);
 
-// The face in triangles between its own corners, which are numbered from 0: two fewer than it has corners. It need not be
-// convex. None where its outline crosses itself.
+// The face in triangles between its own corners, which are numbered from 0: two fewer than it has corners. It need not
+// be convex. None where its outline crosses itself.
 std::optional<std::vector<Mesh::Triangle>> split(const Mesh& mesh, std::span<const std::uint32_t> face);
 
 }  // namespace mars::modeler

@@ -91,9 +91,8 @@ class Smoother {
         edges.push_back({{low, high}, from, to, static_cast<std::uint32_t>(face)});
       }
     }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return std::pair(a.key(), a.from) < std::pair(b.key(), b.from);
-    });
+    std::sort(edges.begin(), edges.end(),
+              [](const Edge& a, const Edge& b) { return std::pair(a.key(), a.from) < std::pair(b.key(), b.from); });
     return edges;
   }
 

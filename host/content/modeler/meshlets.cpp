@@ -75,8 +75,12 @@ class Cutter {
   wire::Meshlet& now() { return out_.meshlets.back(); }
 
   void begin() {
-    out_.meshlets.push_back({static_cast<std::uint32_t>(out_.places.size()), 0,
-                             static_cast<std::uint32_t>(out_.triangles.size()), 0, {2, 2, 2}, {-1, -1, -1}});
+    out_.meshlets.push_back({static_cast<std::uint32_t>(out_.places.size()),
+                             0,
+                             static_cast<std::uint32_t>(out_.triangles.size()),
+                             0,
+                             {2, 2, 2},
+                             {-1, -1, -1}});
     ++number_;
   }
 

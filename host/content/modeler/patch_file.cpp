@@ -81,8 +81,7 @@ Points read_points(Words& words, const glm::dmat3& placing) {
       points.push_back(placed(words, placing * glm::dvec3(x, y, z)));
     }
   }
-  if (!words.at_end())
-    words.fail("goes on after its last patch", "check the number of patches in its first line");
+  if (!words.at_end()) words.fail("goes on after its last patch", "check the number of patches in its first line");
   return points;
 }
 

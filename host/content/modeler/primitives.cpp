@@ -20,8 +20,7 @@ constexpr double kDiagonal = 0.70710678118654752440;  // sin 45 degrees
 // Control points of a unit circle from (1, 0) on, counter-clockwise; its quarters are the same numbers.
 std::array<Flat, 3 * kArcs> circle() {
   constexpr double d = kDiagonal, h = kHandle;
-  std::array<Flat, 3 * kArcs> points{
-      {{1, 0}, {1, h}, {d + h * d, d - h * d}, {d, d}, {d - h * d, d + h * d}, {h, 1}}};
+  std::array<Flat, 3 * kArcs> points{{{1, 0}, {1, h}, {d + h * d, d - h * d}, {d, d}, {d - h * d, d + h * d}, {h, 1}}};
   for (std::size_t i = 6; i < points.size(); ++i) points[i] = {-points[i - 6].y, points[i - 6].x};
   return points;
 }
@@ -85,8 +84,7 @@ std::vector<Pulled> pulled_ring() {
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     const Flat &wall = walls[quarter], &out = ring[6 * quarter];
     for (std::size_t k = 0; k < 3; ++k)
-      points.push_back(
-          {out, out.x == 0 ? Flat{wall.x * kThirds[k], wall.y} : Flat{wall.x, wall.y * kThirds[k]}});
+      points.push_back({out, out.x == 0 ? Flat{wall.x * kThirds[k], wall.y} : Flat{wall.x, wall.y * kThirds[k]}});
     for (std::size_t k = 0; k < 6; ++k) points.push_back({ring[6 * quarter + k], wall});
   }
   return points;
@@ -105,8 +103,7 @@ std::vector<Pulled> pulled_profile() {
 std::array<float, 3> rounded_point(const std::array<double, 3>& edge, const std::array<double, 3>& out,
                                    const std::array<double, 3>& wall) {
   std::array<float, 3> point;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    point[axis] = placed(rounded_at(wall[axis], 2 * edge[axis], out[axis]));
+  for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = placed(rounded_at(wall[axis], 2 * edge[axis], out[axis]));
   return point;
 }
 

@@ -67,7 +67,8 @@ void keep_ground(Model& model, double ground) {
 
 // One number, or one for each axis.
 glm::dvec3 read_factors(const document::Element& element) {
-  return element.kind() == document::Kind::list ? document::read_vector(element, kFactors) : glm::dvec3(document::read_number(element, kFactors));
+  return element.kind() == document::Kind::list ? document::read_vector(element, kFactors)
+                                                : glm::dvec3(document::read_number(element, kFactors));
 }
 
 document::Json written(const glm::dvec3& factors) {
@@ -140,7 +141,8 @@ Proportions read_proportions(const document::Element& element) {
       proportions.joints.push_back({std::string(item.key()), branch, read_factors(item)});
   }
   if (const auto scale = fields.find("scale")) proportions.scale = read_factors(*scale);
-  if (const auto height = fields.find("height")) proportions.height = document::read_number(*height, {1e-6, document::kFarthest});
+  if (const auto height = fields.find("height"))
+    proportions.height = document::read_number(*height, {1e-6, document::kFarthest});
   if (const auto ground = fields.find("ground")) {
     document::require_kind(*ground, document::Kind::boolean);
     proportions.ground = ground->boolean();

@@ -18,8 +18,7 @@ PointGrid read_points(const document::Element& element) {
   for (const document::Element item : element) {
     document::require_kind(item, document::Kind::list);
     if (!rows.empty() && item.size() != rows[0].size())
-      item.refuse("has " + std::to_string(item.size()) + " points, the first row has " +
-                      std::to_string(rows[0].size()),
+      item.refuse("has " + std::to_string(item.size()) + " points, the first row has " + std::to_string(rows[0].size()),
                   "give every row as many points");
     auto& row = rows.emplace_back();
     row.reserve(item.size());
@@ -57,10 +56,9 @@ void check_times(const document::Element& element, const SplineDirection& direct
     const std::size_t most = static_cast<std::size_t>(direction.degree) + (at_end ? 1 : 0);
     const std::size_t often = times(direction, i++);
     if (often <= most) continue;
-    item.refuse(
-        "stands " + std::to_string(often) + " times" + (at_end ? "" : ", the surface would tear there"),
-        "at degree " + std::to_string(direction.degree) + " write it at most " + std::to_string(most) +
-            " times" + (direction.periodic ? ", the first and the last counting as one" : ""));
+    item.refuse("stands " + std::to_string(often) + " times" + (at_end ? "" : ", the surface would tear there"),
+                "at degree " + std::to_string(direction.degree) + " write it at most " + std::to_string(most) +
+                    " times" + (direction.periodic ? ", the first and the last counting as one" : ""));
   }
 }
 
@@ -95,8 +93,7 @@ SplineDirection read_direction(const document::Fields& surface, std::string_view
     ends = static_cast<Ends>(fields.choice("ends", 0, kEnds));
     knots = fields.find("knots");
     if (const auto given = fields.find("ends"); given && knots && ends != Ends::periodic)
-      given->refuse("stands beside knots, which say themselves how the surface ends",
-                    "take out ends, or the knots");
+      given->refuse("stands beside knots, which say themselves how the surface ends", "take out ends, or the knots");
   }
   if (points <= degree)
     surface.required("points").refuse("has " + std::to_string(points) + " points along " + std::string(key) +

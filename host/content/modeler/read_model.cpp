@@ -19,25 +19,23 @@ namespace mars::modeler {
 namespace {
 
 constexpr std::string_view kModelNames[] = {"joints", "shapes", "materials", "limbs", "from", "proportions"};
-constexpr std::string_view kJointNames[] = {"name",   "parent", "place",  "x_axis",
-                                            "y_axis", "limits", "segment"};
+constexpr std::string_view kJointNames[] = {"name", "parent", "place", "x_axis", "y_axis", "limits", "segment"};
 constexpr std::string_view kLimitsNames[] = {"x", "y", "z"};
 constexpr std::string_view kSurfaceNames[] = {"bspline", "mesh"};
-constexpr std::string_view kSegmentNames[] = {"shape", "sbb",  "material", "ends", "top",
-                                              "rim",   "tube", "edge",     "lid"};
+constexpr std::string_view kSegmentNames[] = {"shape", "sbb", "material", "ends", "top", "rim", "tube", "edge", "lid"};
 
 const document::Keys kKeys[] = {{"model", kModelNames},
-                          {"joint", kJointNames},
-                          {"limits", kLimitsNames},
-                          {"segment", kSegmentNames},
-                          {"material", kMaterialKeys},
-                          {"surface", kSurfaceNames},
-                          kBSplineKeys,
-                          kDirectionKeys,
-                          kMeshKeys,
-                          limb_keys()[0],
-                          limb_keys()[1],
-                          proportions_keys()[0]};
+                                {"joint", kJointNames},
+                                {"limits", kLimitsNames},
+                                {"segment", kSegmentNames},
+                                {"material", kMaterialKeys},
+                                {"surface", kSurfaceNames},
+                                kBSplineKeys,
+                                kDirectionKeys,
+                                kMeshKeys,
+                                limb_keys()[0],
+                                limb_keys()[1],
+                                proportions_keys()[0]};
 constexpr const document::Keys& kModel = kKeys[0];
 constexpr const document::Keys& kJoint = kKeys[1];
 constexpr const document::Keys& kLimits = kKeys[2];
@@ -108,7 +106,8 @@ class ModelReader {
   Model derive(const document::Fields& fields, const document::Element& from) {
     for (const std::string_view key : {"joints", "shapes", "limbs"})
       if (const auto other = fields.find(key))
-        other->refuse("stands beside from", "a derived model has those of " + document::read_text(from) + ": take it out");
+        other->refuse("stands beside from",
+                      "a derived model has those of " + document::read_text(from) + ": take it out");
     model_ = read_source(from);
     if (const auto materials = fields.find("materials")) replace_materials(*materials);
     try {
@@ -200,8 +199,7 @@ class ModelReader {
   static void refuse_other_options(const document::Fields& fields, std::string_view own, const std::string& shape) {
     for (const LibraryShape& other : shape_library())
       if (const auto option = fields.find(other.option.key); option && other.option.key != own)
-        option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape,
-                       "take it out");
+        option->refuse("belongs to the shape " + std::string(other.name) + ", not to " + shape, "take it out");
   }
 
   static Box read_box(const document::Element& element) {
@@ -242,7 +240,8 @@ class ModelReader {
       limits[axis].lower = document::read_number(*bound, kDegrees);
       limits[axis].upper = document::read_number(*++bound, kDegrees);
       if (limits[axis].lower > limits[axis].upper)
-        range->refuse("has its lower limit above its upper", "write the lower first, degrees: \"" + std::string(kLimitsNames[axis]) + "\": [-30, 30]");
+        range->refuse("has its lower limit above its upper",
+                      "write the lower first, degrees: \"" + std::string(kLimitsNames[axis]) + "\": [-30, 30]");
     }
     return limits;
   }
@@ -309,8 +308,7 @@ class ModelReader {
     for (std::size_t first = 0; first < joints.size(); ++first) {
       for (std::size_t at = first; at != kNone && state[at] != State::placed; at = joints[at].parent) {
         if (state[at] == State::waiting)
-          elements[at].refuse("joint '" + joints[at].name + "' is its own ancestor",
-                              "break the cycle of parents");
+          elements[at].refuse("joint '" + joints[at].name + "' is its own ancestor", "break the cycle of parents");
         state[at] = State::waiting;
         chain.push_back(at);
       }
@@ -343,10 +341,8 @@ std::span<const document::Keys> model_keys() { return kKeys; }
 
 std::string checked_name(const document::Element& element, std::string_view name) {
   if (name.empty()) element.refuse("has an empty name", "write a name");
-  if (name.size() > 100)
-    element.refuse("has a name of " + std::to_string(name.size()) + " bytes", "at most 100 bytes");
-  if (name.find('/') != std::string_view::npos)
-    element.refuse("has a name with '/'", "use '-' or '_' instead");
+  if (name.size() > 100) element.refuse("has a name of " + std::to_string(name.size()) + " bytes", "at most 100 bytes");
+  if (name.find('/') != std::string_view::npos) element.refuse("has a name with '/'", "use '-' or '_' instead");
   return std::string(name);
 }
 

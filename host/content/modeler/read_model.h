@@ -27,7 +27,6 @@ std::string checked_name(const document::Element& element, std::string_view name
 // What the objects of a model file may hold, as docs/schema/model.schema.json names them.
 std::span<const document::Keys> model_keys();
 
-inline constexpr std::string_view kMaterialKeys[] = {"color",    "ambient",  "diffuse",
-                                                     "specular", "exponent", "sides"};
+inline constexpr std::string_view kMaterialKeys[] = {"color", "ambient", "diffuse", "specular", "exponent", "sides"};
 
 }  // namespace mars::modeler

@@ -6,9 +6,7 @@ namespace mars::compositor {
 
 namespace {
 
-std::uint32_t blocks_over(std::uint32_t pixels, std::uint32_t block) {
-  return pixels / block + (pixels % block != 0);
-}
+std::uint32_t blocks_over(std::uint32_t pixels, std::uint32_t block) { return pixels / block + (pixels % block != 0); }
 
 // Bits [first, 64) of a word.
 std::uint64_t bits_from(std::uint32_t first) { return ~std::uint64_t{0} << first; }

@@ -72,8 +72,7 @@ const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint3
 
 }  // namespace
 
-Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block,
-                       std::uint32_t background)
+Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t background)
     : width_(width),
       height_(height),
       plain_(background),
@@ -177,18 +176,16 @@ void Compositor::check_runs(std::span<const wire::Run> runs, std::size_t pixels)
   std::size_t counted = 0;
   for (const wire::Run& run : runs) {
     if (run.count == 0 || run.line >= height_ || std::uint32_t{run.first} + run.count > width_) {
-      throw Failure("a strip draws outside the picture: " + std::to_string(run.count) +
-                        " pixels from column " + std::to_string(run.first) + " of line " +
-                        std::to_string(run.line),
+      throw Failure("a strip draws outside the picture: " + std::to_string(run.count) + " pixels from column " +
+                        std::to_string(run.first) + " of line " + std::to_string(run.line),
                     "a picture of " + std::to_string(width_) + "x" + std::to_string(height_) + " pixels",
                     "run host and nodes of the same version");
     }
     counted += run.count;
   }
   if (counted != pixels) {
-    throw Failure(
-        "a strip has " + std::to_string(pixels) + " pixels where its runs count " + std::to_string(counted),
-        "", "run host and nodes of the same version");
+    throw Failure("a strip has " + std::to_string(pixels) + " pixels where its runs count " + std::to_string(counted),
+                  "", "run host and nodes of the same version");
   }
 }
 

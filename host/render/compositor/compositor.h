@@ -40,8 +40,7 @@ class Compositor {
   // another background the blocks in which either has CFB.
   void begin_frame(Frame& frame) const;
   // Part of the MFB goes over it.
-  void paste_moving(Frame& frame, std::span<const wire::Run> runs,
-                    std::span<const std::uint32_t> pixels) const;
+  void paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) const;
   // It is frame `number`; its `changed` says which blocks differ from the frame this compositor finished before.
   void finish_frame(Frame& frame, std::uint32_t number);
 

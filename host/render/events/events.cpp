@@ -8,9 +8,7 @@ using nlohmann::json;
 
 namespace {
 
-json kind_json(const Progress::Kind& kind) {
-  return {{"done", kind.done}, {"of", kind.of}, {"seconds", kind.seconds}};
-}
+json kind_json(const Progress::Kind& kind) { return {{"done", kind.done}, {"of", kind.of}, {"seconds", kind.seconds}}; }
 
 Progress::Kind read_kind(const json& from) { return {from.at("done"), from.at("of"), from.at("seconds")}; }
 
@@ -23,8 +21,11 @@ json to_json(const Warning& warning) { return {{"event", "warning"}, {"text", wa
 json to_json(const Booted& booted) {
   json nodes = json::array();
   for (const Booted::Node& node : booted.nodes) {
-    nodes.push_back(
-        {{"node", node.node}, {"host", node.host}, {"rank", node.rank}, {"binding", node.binding}, {"simd", node.simd}});
+    nodes.push_back({{"node", node.node},
+                     {"host", node.host},
+                     {"rank", node.rank},
+                     {"binding", node.binding},
+                     {"simd", node.simd}});
   }
   return {{"event", "booted"}, {"backend", booted.backend}, {"machines", booted.machines}, {"nodes", nodes}};
 }
@@ -56,7 +57,11 @@ json to_json(const Fault& fault) {
 }
 
 json to_json(const Done& done) {
-  return {{"event", "done"}, {"frames", done.frames}, {"seconds", done.seconds}, {"folder", done.folder}, {"trace_lacks", done.trace_lacks}};
+  return {{"event", "done"},
+          {"frames", done.frames},
+          {"seconds", done.seconds},
+          {"folder", done.folder},
+          {"trace_lacks", done.trace_lacks}};
 }
 
 Booted read_booted(const json& from) {
@@ -68,8 +73,7 @@ Booted read_booted(const json& from) {
 }
 
 Progress read_progress(const json& from) {
-  return {from.at("interval"), from.at("intervals"), read_kind(from.at("keyframes")),
-          read_kind(from.at("inbetweens"))};
+  return {from.at("interval"), from.at("intervals"), read_kind(from.at("keyframes")), read_kind(from.at("inbetweens"))};
 }
 
 FrameTaken read_frame(const json& from) {
@@ -84,7 +88,9 @@ Fault read_fault(const json& from) {
   return fault;
 }
 
-Done read_done(const json& from) { return {from.at("frames"), from.at("seconds"), from.at("folder"), from.value("trace_lacks", std::uint64_t{0})}; }
+Done read_done(const json& from) {
+  return {from.at("frames"), from.at("seconds"), from.at("folder"), from.value("trace_lacks", std::uint64_t{0})};
+}
 
 std::optional<Event> read_known(const json& from) {
   const std::string name = from.at("event");

@@ -42,7 +42,7 @@ struct Booted {
     std::int32_t node = 0;
     std::string host;
     std::int32_t rank = 0;  // its number for what started it (MPI's)
-    std::string binding;  // "" if free
+    std::string binding;    // "" if free
     std::string simd;
 
     bool operator==(const Node&) const = default;
@@ -80,7 +80,7 @@ struct Fault {
 struct Done {
   std::uint32_t frames = 0;
   double seconds = 0;
-  std::string folder;  // "" without a sink
+  std::string folder;             // "" without a sink
   std::uint64_t trace_lacks = 0;  // events left out of the trace
 
   bool operator==(const Done&) const = default;

@@ -75,11 +75,11 @@ bool Assembly::begin(Parts& parts, const compositor::Compositor& compositor, sin
   return true;
 }
 
-std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks, StripStore& store) {
+std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& compositor, sinks::SinkPool& sinks,
+                                                StripStore& store) {
   const auto ready = std::find_if(waiting_.begin(), waiting_.end(), [&](std::uint32_t number) {
     Parts& parts = parts_.at(number);
-    return (number == keyframe_ || background_there()) &&
-           (parts.picture != nullptr || begin(parts, compositor, sinks));
+    return (number == keyframe_ || background_there()) && (parts.picture != nullptr || begin(parts, compositor, sinks));
   });
   if (ready == waiting_.end()) return std::nullopt;
   const std::uint32_t number = *ready;
@@ -100,7 +100,8 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   return pasted;
 }
 
-void Assembly::paste_strip(const StripMessage& strip, compositor::Frame& picture, compositor::Compositor& compositor) const {
+void Assembly::paste_strip(const StripMessage& strip, compositor::Frame& picture,
+                           compositor::Compositor& compositor) const {
   if (alone_) {
     compositor.paste_moving(picture, strip.runs(), strip.pixels());
   } else {

@@ -56,7 +56,7 @@ class Assembly {
     std::int32_t contributors_left = 0;
     std::vector<std::int32_t> contributors;  // whose last strip has come
     std::vector<StripMessage> strips;        // to be pasted
-    compositor::Frame* picture = nullptr;                // where they go; begun
+    compositor::Frame* picture = nullptr;    // where they go; begun
   };
 
   bool is_contributor(const Parts& parts, std::int32_t node) const;
@@ -67,12 +67,12 @@ class Assembly {
   collectives::Group group_;
   std::uint32_t interval_;
   std::uint32_t keyframe_;
-  bool alone_;  // the keyframe has no inbetweens: nobody needs its saved background
-  std::vector<bool> drew_keyframe_;       // by node of the group: its last strip has come
-  std::map<std::uint32_t, Parts> parts_;  // of frames that are not finished
-  std::deque<std::uint32_t> waiting_;     // those with strips to be pasted, as they came
-  std::size_t not_begun_;                 // those without a picture
-  compositor::Frame* prepared_ = nullptr;             // begun for one of these
+  bool alone_;                             // the keyframe has no inbetweens: nobody needs its saved background
+  std::vector<bool> drew_keyframe_;        // by node of the group: its last strip has come
+  std::map<std::uint32_t, Parts> parts_;   // of frames that are not finished
+  std::deque<std::uint32_t> waiting_;      // those with strips to be pasted, as they came
+  std::size_t not_begun_;                  // those without a picture
+  compositor::Frame* prepared_ = nullptr;  // begun for one of these
 };
 
 }  // namespace mars::farm

@@ -179,7 +179,8 @@ void Farm::receive_strip() {
   StripMessage strip = inbox_.receive_strip(store_);
   const wire::Strip& header = strip.header();
   span.set_value(header.frame);
-  const auto wanting = std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
+  const auto wanting =
+      std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
   if (wanting == groups_.end())
     inbox_.refuse(header.node, "a strip of frame " + std::to_string(header.frame) + " that it was not asked for");
   if (options_.each_frame && header.last == 1) report_.strips.push_back(header);

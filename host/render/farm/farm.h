@@ -1,6 +1,6 @@
-// The host's side of a rendering: greets the nodes, sends the film, gives tasks to groups of nodes, composes their strips to
-// frames, hands these to the sinks and gives credit back: a strip's when it was pasted, of a frame's last when a sink has
-// the frame. So a node never has more strips in the host's memory than it has credits.
+// The host's side of a rendering: greets the nodes, sends the film, gives tasks to groups of nodes, composes their
+// strips to frames, hands these to the sinks and gives credit back: a strip's when it was pasted, of a frame's last
+// when a sink has the frame. So a node never has more strips in the host's memory than it has credits.
 #pragma once
 
 #include <array>
@@ -21,18 +21,18 @@ namespace mars::farm {
 
 struct FarmOptions {
   wire::Mapping mapping = wire::Mapping::greedy;
-  std::uint64_t memory = 0;                       // bytes for a frame on a node; 0: as the node with the least offers
-  std::int32_t credits = wire::kMaxCredits;       // strips a node may have on the way
-  bool each_frame = false;                        // report what is known of each frame, which grows with the film
-  trace::Trace* trace = nullptr;                         // to be filled; none: nothing is recorded
-  const Cancellation* cancellation = nullptr;     // none: nobody cancels
+  std::uint64_t memory = 0;                    // bytes for a frame on a node; 0: as the node with the least offers
+  std::int32_t credits = wire::kMaxCredits;    // strips a node may have on the way
+  bool each_frame = false;                     // report what is known of each frame, which grows with the film
+  trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded
+  const Cancellation* cancellation = nullptr;  // none: nobody cancels
 };
 
 struct FinishedFrame {
   std::uint32_t number;
   std::uint32_t interval;
   wire::FrameKind kind;
-  double seconds;  // since the first command, when its last strip had come and it was composed
+  double seconds;    // since the first command, when its last strip had come and it was composed
   double given = 0;  // likewise, when its task was given to a group
 };
 

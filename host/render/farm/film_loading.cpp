@@ -11,7 +11,8 @@ namespace mars::farm {
 namespace {
 
 std::uint64_t least_memory(std::span<const wire::Hello> hellos) {
-  return std::min_element(hellos.begin(), hellos.end(), [](const auto& a, const auto& b) { return a.memory < b.memory; })
+  return std::min_element(hellos.begin(), hellos.end(),
+                          [](const auto& a, const auto& b) { return a.memory < b.memory; })
       ->memory;
 }
 

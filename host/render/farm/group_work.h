@@ -1,5 +1,5 @@
-// What one group of nodes was given, and the frames that come of it. A group's tasks are composed one after another, so it
-// needs one saved background at most.
+// What one group of nodes was given, and the frames that come of it. A group's tasks are composed one after another, so
+// it needs one saved background at most.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// The host's memory for one rendering, shared out before it begins: buffers of the sinks, saved backgrounds, and strips that
-// nodes have on the way, which their credits bound. The film and what a file format needs while it is written come on top.
+// The host's memory for one rendering, shared out before it begins: buffers of the sinks, saved backgrounds, and strips
+// that nodes have on the way, which their credits bound. The film and what a file format needs while it is written come
+// on top.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// What nodes send, received and checked before anything of it is used: sizes against structs and counts, counts and ranges
-// against the picture and the job. A node that sends what it must not is a NodeFailure that names it and its machine.
+// What nodes send, received and checked before anything of it is used: sizes against structs and counts, counts and
+// ranges against the picture and the job. A node that sends what it must not is a NodeFailure that names it and its
+// machine.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Who draws what, decided once before a rendering: the frames asked for, cut into tasks of one interval each, and the
-// machine's nodes, cut into groups. Each group takes one task after another, whichever is next; within its group a task says
-// by itself who draws which frame (contributor_of_inbetween).
+// machine's nodes, cut into groups. Each group takes one task after another, whichever is next; within its group a task
+// says by itself who draws which frame (contributor_of_inbetween).
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ Plan make_plan(const wire::FilmView& film, const PlanRequest& request, int nodes
 
 std::vector<Task> make_tasks(const wire::FilmView& film, std::span<const std::uint32_t> frames, bool coherence);
 
-// `nodes` nodes as `groups` groups of about equal size, side by side. 0 groups: one for every four tasks, so that what one
-// task takes longer than another evens out; with fewer than eight tasks one group of all nodes, as in the thesis.
+// `nodes` nodes as `groups` groups of about equal size, side by side. 0 groups: one for every four tasks, so that what
+// one task takes longer than another evens out; with fewer than eight tasks one group of all nodes, as in the thesis.
 std::vector<collectives::Group> make_groups(int nodes, int groups, std::size_t tasks);
 
 }  // namespace mars::farm

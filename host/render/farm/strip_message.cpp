@@ -6,7 +6,8 @@
 namespace mars::farm {
 
 StripBytes StripStore::take(std::size_t size) {
-  const auto fits = std::find_if(spare_.rbegin(), spare_.rend(), [&](const StripBytes& s) { return s.capacity >= size; });
+  const auto fits =
+      std::find_if(spare_.rbegin(), spare_.rend(), [&](const StripBytes& s) { return s.capacity >= size; });
   // Where none fits, one that is too small makes way: there are no more than were in use at once.
   StripBytes bytes;
   if (!spare_.empty()) {
@@ -30,7 +31,8 @@ std::optional<StripMessage> StripMessage::read(StripBytes bytes) {
   const wire::Strip& strip = message.header();
   const std::uint64_t rest = message.bytes_.size - sizeof strip;
   const std::uint64_t run_bytes = (std::uint64_t{strip.constant_runs} + strip.moving_runs) * sizeof(wire::Run);
-  const bool fits = strip.pixels <= rest / sizeof(std::uint32_t) && rest == strip.pixels * sizeof(std::uint32_t) + run_bytes;
+  const bool fits =
+      strip.pixels <= rest / sizeof(std::uint32_t) && rest == strip.pixels * sizeof(std::uint32_t) + run_bytes;
   const bool inbetween = strip.kind == wire::FrameKind::inbetween && strip.constant_runs == 0;
   if (!fits || !(inbetween || strip.kind == wire::FrameKind::keyframe)) return std::nullopt;
   std::uint64_t moving_pixels = 0;

@@ -13,14 +13,9 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json node_json(const wire::Hello& hello) {
-  return {{"node", hello.node},
-          {"machine", hello.machine},
-          {"host", hello.host.data()},
-          {"rank", hello.rank},
-          {"binding", hello.binding.data()},
-          {"seat", hello.seat},
-          {"simd", hello.simd.data()},
-          {"memory", hello.memory}};
+  return {{"node", hello.node},        {"machine", hello.machine},        {"host", hello.host.data()},
+          {"rank", hello.rank},        {"binding", hello.binding.data()}, {"seat", hello.seat},
+          {"simd", hello.simd.data()}, {"memory", hello.memory}};
 }
 
 ordered_json memory_json(const farm::HostMemory& memory) {
@@ -34,15 +29,13 @@ ordered_json dimensions_json(const std::vector<wire::Hello>& hellos) {
   std::vector<topology::Location> nodes;
   for (const wire::Hello& hello : hellos) nodes.push_back({hello.machine, hello.seat});
   ordered_json texts = ordered_json::array();
-  for (const topology::Closeness closeness : topology::dimensions(nodes))
-    texts.push_back(topology::text_of(closeness));
+  for (const topology::Closeness closeness : topology::dimensions(nodes)) texts.push_back(topology::text_of(closeness));
   return texts;
 }
 
 ordered_json seconds_json(const wire::PhaseTimes& times) {
-  return {{"dice", times.dice},         {"sum", times.sum},      {"map", times.map},
-          {"exchange", times.exchange}, {"fill", times.fill},    {"scanline", times.scanline},
-          {"depth", times.depth},       {"credit", times.credit}};
+  return {{"dice", times.dice}, {"sum", times.sum},           {"map", times.map},     {"exchange", times.exchange},
+          {"fill", times.fill}, {"scanline", times.scanline}, {"depth", times.depth}, {"credit", times.credit}};
 }
 
 ordered_json work_json(const wire::WorkCounts& work) {

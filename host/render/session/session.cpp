@@ -32,8 +32,14 @@ class Destination {
       return;
     }
     const wire::FilmSettings& settings = film.view().settings();
-    folder_.emplace(job.folder, sinks::Manifest{job.film, document::checksum_of(film.block()), settings.width, settings.height,
-                                         settings.rate, settings.frames, frames, {}});
+    folder_.emplace(job.folder, sinks::Manifest{job.film,
+                                                document::checksum_of(film.block()),
+                                                settings.width,
+                                                settings.height,
+                                                settings.rate,
+                                                settings.frames,
+                                                frames,
+                                                {}});
     sink_ = std::make_unique<sinks::PngSink>(*folder_);
   }
 
@@ -56,11 +62,11 @@ std::uint32_t sink_threads(const topology::Machine& machine) {
 farm::HostMemory memory_for(const topology::Machine& machine, const wire::FilmSettings& film, const farm::Plan& plan) {
   const std::uint64_t budget = topology::memory_share(machine.memory(), topology::memory_limit(), 1);
   return farm::share_host_memory(budget, film, static_cast<std::uint32_t>(numnodes()),
-                           static_cast<std::uint32_t>(plan.groups.size()), sink_threads(machine));
+                                 static_cast<std::uint32_t>(plan.groups.size()), sink_threads(machine));
 }
 
 sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::FilmSettings& film, std::uint32_t block,
-                           std::uint32_t frames) {
+                                  std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(machine), frames);
   return {film.width, film.height, block, frames, threads, farm::pixel_of(film.background)};
 }
@@ -101,14 +107,16 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
 
   if (!job.report.empty()) document::check_can_write(job.report);  // likewise early
   Destination destination(job, film, request.frames);
-  reporter.report(events::Loaded{load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
+  reporter.report(events::Loaded{
+      load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
   sinks::SinkPool pool(destination.sink(), pool_shape(machine, settings, job.block, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), pool,
-                                        reporter.listener(view.intervals().size()));
+                                                    reporter.listener(view.intervals().size()));
   destination.finish();
   if (!job.report.empty()) {
-    const report::ReportHead head{job.film,       document::checksum_of(film.block()), job.backend, job.arguments,
-                          settings.width, settings.height,           memory};
+    const report::ReportHead head{
+        job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
+        memory};
     document::write_whole_file(job.report, report::report_text(head, report));
   }
   if (trace) trace::write_trace(job.trace, {job.film, job.backend}, *trace);

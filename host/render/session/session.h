@@ -22,18 +22,18 @@ struct RenderJob {
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::greedy;
   bool coherence = true;
-  std::uint32_t block = 16;  // side of the compositor's blocks, pixels
-  std::uint32_t groups = 0;  // as in PlanRequest
-  std::string report;        // file for the measurements; "": none
-  std::string trace;         // file for a picture of the run; "": none
-  std::string backend;       // its name: mpi or threads
+  std::uint32_t block = 16;            // side of the compositor's blocks, pixels
+  std::uint32_t groups = 0;            // as in PlanRequest
+  std::string report;                  // file for the measurements; "": none
+  std::string trace;                   // file for a picture of the run; "": none
+  std::string backend;                 // its name: mpi or threads
   std::vector<std::string> arguments;  // all this, as it was given to the host
   // The command that does it again with so many nodes; of all frames, or of one.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };
 
-// The calling HAL process is the host. Reports events on standard output. A failure is reported as a fault event, and thrown
-// for the caller, which ends the run.
+// The calling HAL process is the host. Reports events on standard output. A failure is reported as a fault event, and
+// thrown for the caller, which ends the run.
 void run_session(const RenderJob& job);
 
 }  // namespace mars::session

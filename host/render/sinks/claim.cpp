@@ -49,7 +49,8 @@ std::string film_text(const std::string& film) {
   std::size_t from = film.size() - std::min(film.size(), kLongestShown);
   while (from < film.size() && (static_cast<unsigned char>(film[from]) & 0xc0) == 0x80) ++from;  // within a letter
   std::string text = (from > 0 ? "..." : "") + film.substr(from);
-  std::ranges::replace_if(text, [](unsigned char c) { return std::iscntrl(c); }, '?');
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::iscntrl(c); }, '?');
   return text;
 }
 
@@ -68,8 +69,8 @@ std::string time_text(std::int64_t when) {
 // "another run, process 4711 on host n1, renders frames 0-99 of film.json into this folder since 12:01:33"
 std::string description(const Claim& claim, const std::string& which = "") {
   return "another run, process " + std::to_string(claim.process.number) + " on host " + claim.process.host +
-         ", renders " + frames_text(claim.manifest.frames) + " of " + which + film_text(claim.manifest.film) + " into this folder since " +
-         time_text(claim.since);
+         ", renders " + frames_text(claim.manifest.frames) + " of " + which + film_text(claim.manifest.film) +
+         " into this folder since " + time_text(claim.since);
 }
 
 }  // namespace

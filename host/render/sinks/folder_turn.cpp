@@ -25,7 +25,7 @@ constexpr double kLongestSilence = 60;  // seconds
 // When a file was last changed, in seconds by the clock of the machine that keeps it. Opening it makes NFS ask that
 // machine, and not answer from what it remembers.
 std::optional<double> time_of(const fs::path& file) {
-  struct stat status{};
+  struct stat status {};
   const int opened = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   const int failed = opened < 0 ? lstat(file.c_str(), &status) : fstat(opened, &status);
   if (opened >= 0) close(opened);

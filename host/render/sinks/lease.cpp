@@ -23,11 +23,9 @@ double seconds_since_boot() {
 }
 
 Lease::Lease(std::filesystem::path file, Clock clock, std::chrono::milliseconds interval)
-    : file_(std::move(file)),
-      clock_(std::move(clock)),
-      interval_(interval),
-      renewed_(clock_()),
-      thread_([this] { renew_until_stopped(); }) {}
+    : file_(std::move(file)), clock_(std::move(clock)), interval_(interval), renewed_(clock_()), thread_([this] {
+        renew_until_stopped();
+      }) {}
 
 Lease::~Lease() {
   {

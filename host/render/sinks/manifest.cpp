@@ -58,7 +58,8 @@ json hashes_json(const std::vector<std::string>& hashes) {
 std::vector<std::string> hashes_of(const json& list, std::size_t frames) {
   if (list.size() != frames)
     throw Failure("pixel_hashes has " + std::to_string(list.size()) + " entries for " + std::to_string(frames) +
-                      " frames", "", "");
+                      " frames",
+                  "", "");
   std::vector<std::string> hashes;
   for (const json& hash : list) {
     if (!hash.is_null() && !is_checksum(hash)) refuse_value("pixel_hashes", hash, "32 hexadecimal digits or null");

@@ -33,9 +33,7 @@ std::string shown_key(std::string_view key) { return shown(json(std::string(key)
 
 }  // namespace
 
-json parse_record(const std::string& text) try {
-  return json::parse(text);
-} catch (const json::parse_error& error) {
+json parse_record(const std::string& text) try { return json::parse(text); } catch (const json::parse_error& error) {
   throw Failure("byte " + std::to_string(error.byte) + " is no JSON, or the end is missing", "", "");
 }
 
@@ -64,8 +62,7 @@ const json& Record::list(std::string_view key) const {
 std::uint64_t Record::whole_number(std::string_view key, std::uint64_t lowest, std::uint64_t highest) const {
   const json& number = value(key);
   const bool whole = number.is_number_unsigned() || (number.is_number_integer() && number.get<std::int64_t>() >= 0);
-  const bool fits = whole && number.get<std::uint64_t>() >= lowest &&
-                    number.get<std::uint64_t>() <= highest;
+  const bool fits = whole && number.get<std::uint64_t>() >= lowest && number.get<std::uint64_t>() <= highest;
   if (!fits)
     refuse_value(key, number, "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest));
   return number.get<std::uint64_t>();

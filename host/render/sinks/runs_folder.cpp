@@ -25,7 +25,8 @@ constexpr const char* kRunsName = ".runs";
 // Letters, digits and dashes only: a run's name ends at the first dot.
 std::string run_name(const ProcessName& self) {
   std::string host = self.host;
-  std::ranges::replace_if(host, [](unsigned char c) { return !std::isalnum(c); }, '-');
+  std::ranges::replace_if(
+      host, [](unsigned char c) { return !std::isalnum(c); }, '-');
   return host + "-" + std::to_string(self.number) + "-" + document::unique_word();
 }
 
@@ -56,7 +57,7 @@ bool RunsFolder::exists() const {
 
 void RunsFolder::make() const {
   if (mkdir(path_.c_str(), 0777) == 0) {
-    struct stat frames{};
+    struct stat frames {};
     if (stat(frames_.c_str(), &frames) == 0) chmod(path_.c_str(), frames.st_mode & 07777);
     return;
   }

@@ -22,9 +22,9 @@ class SinkPool {
   struct Shape {
     std::uint32_t width;  // pixels
     std::uint32_t height;
-    std::uint32_t block;    // side of a flag's block in pixels
-    std::uint32_t frames;   // buffers at most, at least 1
-    std::uint32_t threads;  // at least 1
+    std::uint32_t block;           // side of a flag's block in pixels
+    std::uint32_t frames;          // buffers at most, at least 1
+    std::uint32_t threads;         // at least 1
     std::uint32_t background = 0;  // the pixel that new buffers show
   };
 

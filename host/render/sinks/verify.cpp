@@ -27,8 +27,7 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
   try {
     const images::Image image = images::read_png(file);
     if (image.width != manifest.width || image.height != manifest.height) {
-      return size_text(image.width, image.height) + " pixels instead of " +
-             size_text(manifest.width, manifest.height);
+      return size_text(image.width, image.height) + " pixels instead of " + size_text(manifest.width, manifest.height);
     }
     if (expected && expected->empty()) return "its run ended before it recorded the pixels";
     if (expected && pixel_hash(image.pixels) != *expected) return "other pixels than were rendered";

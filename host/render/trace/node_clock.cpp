@@ -20,8 +20,6 @@ double NodeClock::to_host(double time) const {
   return time + first_->offset + part * (last_->offset - first_->offset);
 }
 
-double NodeClock::error() const {
-  return std::max(first_ ? first_->error : 0, last_ ? last_->error : 0);
-}
+double NodeClock::error() const { return std::max(first_ ? first_->error : 0, last_ ? last_->error : 0); }
 
 }  // namespace mars::trace

@@ -71,7 +71,8 @@ std::vector<TimelineItem> timeline_of(const Trace& trace) {
   items.reserve(trace.records().size());
   const auto nanoseconds = [&](int rank, double time) { return std::llround(trace.since_begin(rank, time) * 1e9); };
   for (const Trace::Record& record : trace.records())
-    items.push_back({nanoseconds(record.rank, record.event.begin), nanoseconds(record.rank, record.event.end), record, 0});
+    items.push_back(
+        {nanoseconds(record.rank, record.event.begin), nanoseconds(record.rank, record.event.end), record, 0});
   std::stable_sort(items.begin(), items.end(), [](const TimelineItem& a, const TimelineItem& b) {
     return std::tie(a.begin, b.end) < std::tie(b.begin, a.end);
   });

@@ -73,8 +73,8 @@ class Trace {
   std::size_t most_;
   std::vector<Record> records_;
   std::vector<wire::Hello> nodes_;
-  std::vector<NodeClock> clocks_;     // by rank; the host's has no reading
-  std::vector<std::uint64_t> lost_;   // by rank
+  std::vector<NodeClock> clocks_;    // by rank; the host's has no reading
+  std::vector<std::uint64_t> lost_;  // by rank
   int credits_ = 0;
   double begin_ = 0;
   std::uint64_t beyond_bound_ = 0;

@@ -35,7 +35,8 @@ std::string text_of(const ordered_json& value) {
 
 std::string message_name(std::int32_t type) {
   if (type >= messages::kFirstInternalType) return "sums";
-  if (type >= wire::triangles_from(0)) return kNodeMessageNames.at(static_cast<std::size_t>(type - wire::triangles_from(0)) % 3);
+  if (type >= wire::triangles_from(0))
+    return kNodeMessageNames.at(static_cast<std::size_t>(type - wire::triangles_from(0)) % 3);
   const auto index = static_cast<std::size_t>(type);
   return index < kMessageNames.size() ? kMessageNames[index] : "type " + std::to_string(type);
 }
@@ -127,8 +128,8 @@ void Writer::names() {
 
 int Writer::thread_of(const Trace::Record& record) const {
   const messages::Event& event = record.event;
-  const bool of_sink = event.kind == Kind::span && record.rank == trace_.host() &&
-                       event.what == static_cast<int>(HostSpan::write);
+  const bool of_sink =
+      event.kind == Kind::span && record.rank == trace_.host() && event.what == static_cast<int>(HostSpan::write);
   return of_sink ? kFirstSinkThread + event.peer : kMainThread;
 }
 
@@ -214,7 +215,8 @@ void Writer::write(const TraceHead& head) {
   if (const auto& first = trace_.first_beyond())
     instant("the trace is full: " + std::to_string(trace_.beyond_bound()) + " later events are left out",
             trace_.since_begin(first->rank, first->event.begin));
-  if (trace_.fault()) instant("failed: " + trace_.fault()->reason, trace_.since_begin(trace_.host(), trace_.fault()->time));
+  if (trace_.fault())
+    instant("failed: " + trace_.fault()->reason, trace_.since_begin(trace_.host(), trace_.fault()->time));
   put("\n]}\n");
   flush();
 }

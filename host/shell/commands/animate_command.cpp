@@ -85,13 +85,14 @@ class Command {
     return *this;
   }
   Command& to(const char* help) {
-    app_->add_option("--to", words_.to, help)->required()->type_name("FRAME")->check(
-        CLI::Range(0u, wire::kMostFrames).description(""));
+    app_->add_option("--to", words_.to, help)
+        ->required()
+        ->type_name("FRAME")
+        ->check(CLI::Range(0u, wire::kMostFrames).description(""));
     return *this;
   }
   Command& clamp() {
-    app_->add_flag("--clamp", words_.clamp,
-                   "Clamp angles to the limits of their joints. Example: --clamp");
+    app_->add_flag("--clamp", words_.clamp, "Clamp angles to the limits of their joints. Example: --clamp");
     return *this;
   }
   Command& lengthen() {
@@ -129,8 +130,9 @@ void require_thing(const Words& words) {
 void add_pose(CLI::App& animate, Words& words) {
   Command command(animate, words, "pose", "Set an actor's joints, place or turn, or the camera, at a frame");
   command.thing(kThing)
-      .parts("PART=NUMBERS", "One axis or all three: degrees, or a place; other parts stay as they are. "
-                             "Example: elbow.y=90 place=2,0,0 turn.z=45")
+      .parts("PART=NUMBERS",
+             "One axis or all three: degrees, or a place; other parts stay as they are. "
+             "Example: elbow.y=90 place=2,0,0 turn.z=45")
       .frame(kOneFrame, "FRAME")
       .ease(kEase)
       .clamp()
@@ -139,21 +141,26 @@ void add_pose(CLI::App& animate, Words& words) {
   command.app()->get_option("PART=NUMBERS")->required();
   command.runs([&words] {
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, animator::read_frame(words.frame), animator::read_typed_ease(words.ease),
-                  words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
+      return animator::pose(json, film, words.thing, words.parts, animator::read_frame(words.frame),
+                            animator::read_typed_ease(words.ease),
+                            words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
     });
   });
 }
 
 void add_key(CLI::App& animate, Words& words) {
   Command command(animate, words, "key", "Make keys of the pose at a frame");
-  command.thing(kThing).parts("PART", kParts).all().frame(kOneFrame, "FRAME").ease(
-      "From this key to the next; without it the film moves as before. Example: --ease both");
+  command.thing(kThing)
+      .parts("PART", kParts)
+      .all()
+      .frame(kOneFrame, "FRAME")
+      .ease("From this key to the next; without it the film moves as before. Example: --ease both");
   command.clamp().lengthen().runs([&words] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame), animator::read_typed_ease(words.ease),
-                       words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
+      return animator::make_keys(json, film, words.choice(), animator::read_frame(words.frame),
+                                 animator::read_typed_ease(words.ease),
+                                 words.clamp ? animator::Beyond::clamped : animator::Beyond::refused);
     });
   });
 }
@@ -164,7 +171,8 @@ void add_displacing(CLI::App& animate, Words& words, const char* name, const cha
   command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, keep] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return (keep ? animator::copy_keys : animator::move_keys)(json, film, words.choice(), animator::read_frame_range(words.frame), words.to);
+      return (keep ? animator::copy_keys : animator::move_keys)(json, film, words.choice(),
+                                                                animator::read_frame_range(words.frame), words.to);
     });
   });
 }
@@ -181,12 +189,15 @@ void add_delete(CLI::App& animate, Words& words) {
 
 animator::Remarks retime(const Words& words, CLI::App& command, document::Json& json, const animator::Film& film) {
   const animator::FrameRange range = animator::read_frame_range(words.frame);
-  if (command.count("--hold")) return animator::hold(json, film, words.choice(), animator::read_frame(words.frame), words.hold);
-  if (command.count("--shift")) return animator::shift(json, film, words.choice(), animator::read_frame(words.frame), words.shift);
+  if (command.count("--hold"))
+    return animator::hold(json, film, words.choice(), animator::read_frame(words.frame), words.hold);
+  if (command.count("--shift"))
+    return animator::shift(json, film, words.choice(), animator::read_frame(words.frame), words.shift);
   if (command.count("--stretch")) return animator::stretch(json, film, words.choice(), range, words.stretch);
-  if (command.count("--ease")) return animator::ease_keys(json, film, words.choice(), range, *animator::read_typed_ease(words.ease));
+  if (command.count("--ease"))
+    return animator::ease_keys(json, film, words.choice(), range, *animator::read_typed_ease(words.ease));
   return animator::ease_keys(json, film, words.choice(), range,
-                   animator::swinging(words.anticipation / 100, words.overshoot / 100));
+                             animator::swinging(words.anticipation / 100, words.overshoot / 100));
 }
 
 void add_time(CLI::App& animate, Words& words) {
@@ -229,13 +240,15 @@ void add_list(CLI::App& animate, Words& words) {
   command.app()->add_option("-f,--frame", words.frame, kRange)->type_name("RANGE");
   command.runs([&words] {
     film::FilmFile file = film::open_film(words.film);
-    const animator::FrameRange range = words.frame.empty() ? animator::FrameRange{0, wire::kMostFrames} : animator::read_frame_range(words.frame);
+    const animator::FrameRange range =
+        words.frame.empty() ? animator::FrameRange{0, wire::kMostFrames} : animator::read_frame_range(words.frame);
     std::cout << animator::keys_table(file.json, file.film, {words.thing.empty(), words.thing, words.parts}, range);
   });
 }
 
 void add_check(CLI::App& animate, Words& words, int& code) {
-  Command command(animate, words, "check", "Report errors: limits broken between keys, keys after the last frame and more");
+  Command command(animate, words, "check",
+                  "Report errors: limits broken between keys, keys after the last frame and more");
   command.runs([&words, &code] {
     const animator::Findings findings = animator::check_film(film::open_film(words.film).film);
     for (const std::string& line : findings.lines) std::cout << line << '\n';
@@ -260,7 +273,7 @@ void add_animate(CLI::App& app, int& code) {
   add_list(*animate, *words);
   add_check(*animate, *words, code);
   add_motion(*animate, words->film);
-  animate->footer(kFooter);  // last, or each of its commands would have it
+  animate->footer(kFooter);                      // last, or each of its commands would have it
   animate->parse_complete_callback([words] {});  // keeps what was typed
 }
 

@@ -40,9 +40,7 @@ struct Words {
   bool fixed = false, free = false, branch = false, no_ground = false;
 };
 
-std::optional<std::string> given(const std::string& word) {
-  return word.empty() ? std::nullopt : std::optional(word);
-}
+std::optional<std::string> given(const std::string& word) { return word.empty() ? std::nullopt : std::optional(word); }
 
 std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
   if (numbers.empty()) return std::nullopt;
@@ -166,7 +164,9 @@ void run_scale(const Words& words) {
   if (proportions.joints.empty()) proportions.scale = factors;
   proportions.height = words.height;
   proportions.ground = !words.no_ground;
-  modeler::change_model(words.file, [&](document::Json& model) { modeler::scale_model(model, modeler::load_own_model(words.file), proportions); });
+  modeler::change_model(words.file, [&](document::Json& model) {
+    modeler::scale_model(model, modeler::load_own_model(words.file), proportions);
+  });
 }
 
 void run_show(const Words& words) { std::cout << modeler::describe_model(modeler::load_own_model(words.file)); }
@@ -220,7 +220,8 @@ void add_limits(CLI::App& app, Words& words) {
 
 void add_joint_options(CLI::App& app, Words& words) {
   app.add_option("--parent", words.parent, "Its parent joint. Example: --parent body")->type_name("JOINT");
-  add_numbers(app, "--place", words.place, 3, "X Y Z", "Its place in the parent's frame. Example: --place 0.4 0.1 -0.1");
+  add_numbers(app, "--place", words.place, 3, "X Y Z",
+              "Its place in the parent's frame. Example: --place 0.4 0.1 -0.1");
   add_numbers(app, "--x-axis", words.x_axis, 3, "X Y Z", "Its x axis, in the parent's frame. Example: --x-axis 1 1 0");
   add_numbers(app, "--y-axis", words.y_axis, 3, "X Y Z",
               "Its y axis; if not perpendicular to x, the segment is sheared. Example: --y-axis 0.5 1 0");
@@ -265,8 +266,7 @@ constexpr Verb kVerbs[] = {
     {"new", "Make a model of one joint, or one that differs from another by proportions", run_new,
      [](CLI::App& app, Words& words) {
        app.add_option("JOINT", words.joint, "The joint's name; default: body. Example: body");
-       app.add_option("--from", words.from,
-                      "Another model file, relative to the new one. Example: --from human.json")
+       app.add_option("--from", words.from, "Another model file, relative to the new one. Example: --from human.json")
            ->type_name("MODEL");
        add_joint_options(app, words);
        add_look_options(app, words);
@@ -284,11 +284,11 @@ constexpr Verb kVerbs[] = {
        app.add_option("--name", words.name, "Another name for the joint, else for the material. Example: --name paw")
            ->type_name("NAME");
        add_joint_options(app, words);
-       add_several(
-           app, "--reset", words.resets, "WHAT",
-           "Back to its default: parent, place, axes, limits, segment, sbb, material or limb. "
-           "Example: --reset axes")
-           ->check(CLI::IsMember(std::vector<std::string>(std::begin(modeler::kResets), std::end(modeler::kResets))).description(""));
+       add_several(app, "--reset", words.resets, "WHAT",
+                   "Back to its default: parent, place, axes, limits, segment, sbb, material or limb. "
+                   "Example: --reset axes")
+           ->check(CLI::IsMember(std::vector<std::string>(std::begin(modeler::kResets), std::end(modeler::kResets)))
+                       .description(""));
        add_look_options(app, words);
      }},
     {"scale", "Make all, or some joints, larger or smaller along their own axes", run_scale,
@@ -300,7 +300,8 @@ constexpr Verb kVerbs[] = {
                    "Only these joints; * stands for any text. Example: --joint '*-thigh'");
        add_several(app, "--branch", words.branches, "PATTERN",
                    "Only these joints and all below them. Example: --branch head");
-       app.add_option("--height", words.height, "Then scale all joints alike to this height at rest. Example: --height 1.2")
+       app.add_option("--height", words.height,
+                      "Then scale all joints alike to this height at rest. Example: --height 1.2")
            ->type_name("LENGTH");
        app.add_flag("--no-ground", words.no_ground,
                     "Do not keep the lowest point at rest at its height. Example: --no-ground");

@@ -35,11 +35,12 @@ std::string grown(document::Json& film, std::uint32_t last, bool lengthen) {
 }
 
 // All its values at once, or none.
-void require_all(const motion::Action& action, const motion::Parameter& parameter, const std::vector<std::string>& values) {
+void require_all(const motion::Action& action, const motion::Parameter& parameter,
+                 const std::vector<std::string>& values) {
   if (values.empty() || values.size() == parameter.count()) return;
   const std::string name = "--" + std::string(parameter.name);
-  throw Failure(name + " has " + std::to_string(values.size()) + " of its " +
-                    std::to_string(parameter.count()) + " numbers",
+  throw Failure(name + " has " + std::to_string(values.size()) + " of its " + std::to_string(parameter.count()) +
+                    " numbers",
                 std::string(action.name), "write " + name + " " + std::string(parameter.example));
 }
 
@@ -53,9 +54,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
     const std::string name = "--" + std::string(parameter.name);
     std::string help(parameter.meaning);
     help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
-    command
-        ->add_option(name, typed->values[i],
-                     help + ". Example: " + name + " " + std::string(parameter.example))
+    command->add_option(name, typed->values[i], help + ". Example: " + name + " " + std::string(parameter.example))
         ->expected(1, static_cast<int>(parameter.count()))
         ->type_name(std::string(parameter.value));
   }
@@ -65,8 +64,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
                        "The frame at which it begins; default: the actor's last key. Example: --at 24")
           ->type_name("FRAME")
           ->check(CLI::Range(0u, wire::kMostFrames).description(""));
-  command->add_flag("--lengthen", typed->lengthen,
-                    "Give the film as many frames as this needs. Example: --lengthen");
+  command->add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
   command->callback([&film, &action, typed, at] {
     motion::Wishes::Values values;
     for (std::size_t i = 0; i < typed->values.size(); ++i) {
@@ -77,7 +75,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
     std::string note;
     film::change_film(film, [&](document::Json& json, const animator::Film&) {
       done = motion::perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
-                     motion::Wishes(values, std::string(action.name)));
+                             motion::Wishes(values, std::string(action.name)));
       note = grown(json, done.last, typed->lengthen);
     });
     std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report)
@@ -89,10 +87,8 @@ void add_script(CLI::App& animate, const std::string& film) {
   CLI::App* command = animate.add_subcommand("script", "Run a script: actions of several actors at their times");
   const auto script = std::make_shared<std::string>();
   const auto lengthen = std::make_shared<bool>(false);
-  command->add_option("SCRIPT", *script, "The script; its form: docs/motion.md. Example: cubes.script")
-      ->required();
-  command->add_flag("--lengthen", *lengthen,
-                    "Give the film as many frames as the script needs. Example: --lengthen");
+  command->add_option("SCRIPT", *script, "The script; its form: docs/motion.md. Example: cubes.script")->required();
+  command->add_flag("--lengthen", *lengthen, "Give the film as many frames as the script needs. Example: --lengthen");
   command->callback([&film, script, lengthen] {
     motion::Played played;
     std::string note;

@@ -42,20 +42,25 @@ std::function<void(const std::string&)> taking(const char* name, Take take) {
 void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
   preview::WriteWishes& write = wishes->write;
   command
-      .add_option_function<std::string>("-o,--output", taking("--output", [wishes](const std::string& text) {
-                                          preview::check_kind(text);
-                                          wishes->write.file = text;
-                                        }),
-                                        "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
-                                        "frame or a contact sheet. Example: -o sheet.png")
+      .add_option_function<std::string>(
+          "-o,--output",
+          taking("--output",
+                 [wishes](const std::string& text) {
+                   preview::check_kind(text);
+                   wishes->write.file = text;
+                 }),
+          "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
+          "frame or a contact sheet. Example: -o sheet.png")
       ->type_name("FILE");
   command
-      .add_option_function<std::string>(
-          "--size", taking("--size", [wishes](const std::string& text) {
-            const images::PictureSize size = images::read_picture_size(text);
-            wishes->write.extent = images::PictureSize{size.width, size.height};
-          }),
-          "Pixels of each picture that is written; default: the film's own; on a sheet 320x180, in a GIF at most 960x540. Example: --size 480x270")
+      .add_option_function<std::string>("--size",
+                                        taking("--size",
+                                               [wishes](const std::string& text) {
+                                                 const images::PictureSize size = images::read_picture_size(text);
+                                                 wishes->write.extent = images::PictureSize{size.width, size.height};
+                                               }),
+                                        "Pixels of each picture that is written; default: the film's own; on a sheet "
+                                        "320x180, in a GIF at most 960x540. Example: --size 480x270")
       ->type_name("WxH");
   command
       .add_option_function<std::string>(
@@ -87,10 +92,11 @@ void add_choice(CLI::App& command, const char* name, const std::vector<std::stri
 }
 
 void add_graphics(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
-  add_choice(command, "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
-             [wishes](std::size_t number) { wishes->graphics = static_cast<preview::Graphics>(number); },
-             "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
-             "default: asked of the terminal. Example: --graphics blocks");
+  add_choice(
+      command, "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
+      [wishes](std::size_t number) { wishes->graphics = static_cast<preview::Graphics>(number); },
+      "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
+      "default: asked of the terminal. Example: --graphics blocks");
 }
 
 // Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
@@ -118,7 +124,8 @@ void preview(Wishes& wishes, const MakeSurface& make_surface) {
   if (!wishes.write.file.empty()) return write_preview(wishes, *film, make_surface);
   std::optional<preview::ReloadingPictures> pictures;
   play_in_terminal(wishes, [&](preview::Terminal& terminal) {
-    wishes.look.smooth = terminal.graphics() >= preview::Graphics::blocks;  // few pixels: they cost little, and need it most
+    wishes.look.smooth =
+        terminal.graphics() >= preview::Graphics::blocks;  // few pixels: they cost little, and need it most
     pictures.emplace(wishes.source, std::move(film), reads.stamps(), make_surface, wishes.look);
     return preview::play(*pictures, terminal);
   });
@@ -140,14 +147,16 @@ void add_preview(CLI::App& app, const MakeSurface& make_surface) {
       ->add_option("FILM", wishes->source,
                    "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")
       ->required();
-  add_choice(*command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
-             [wishes](std::size_t number) {
-               wishes->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
-             },
-             "How models are shown first; default: prisms. Example: --as stick");
-  add_choice(*command, "--view", {"camera", "front", "side", "top"},
-             [wishes](std::size_t number) { wishes->look.from = static_cast<preview::From>(number); },
-             "Where it is seen from first; default: the film's camera. Example: --view side");
+  add_choice(
+      *command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
+      [wishes](std::size_t number) {
+        wishes->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
+      },
+      "How models are shown first; default: prisms. Example: --as stick");
+  add_choice(
+      *command, "--view", {"camera", "front", "side", "top"},
+      [wishes](std::size_t number) { wishes->look.from = static_cast<preview::From>(number); },
+      "Where it is seen from first; default: the film's camera. Example: --view side");
   add_graphics(*command, wishes);
   add_output(*command, wishes);
   command->callback([wishes, make_surface] { preview(*wishes, make_surface); });
@@ -156,7 +165,8 @@ void add_preview(CLI::App& app, const MakeSurface& make_surface) {
 void add_play(CLI::App& app) {
   const auto wishes = std::make_shared<Wishes>();
   CLI::App* command = app.add_subcommand("play", "Play rendered frames in the terminal");
-  command->add_option("DIR", wishes->source, "The folder given to mars render with -o. Example: build/demo")->required();
+  command->add_option("DIR", wishes->source, "The folder given to mars render with -o. Example: build/demo")
+      ->required();
   add_graphics(*command, wishes);
   add_output(*command, wishes);
   command->callback([wishes] { play_folder(*wishes); });

@@ -12,8 +12,8 @@ namespace {
 using State = Finding::State;
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
-constexpr std::uint64_t kLittleMemory = 256 * kMiB;    // for a node's frame
-constexpr std::uint64_t kLittleShared = 64 * kMiB;     // what containers get unasked
+constexpr std::uint64_t kLittleMemory = 256 * kMiB;  // for a node's frame
+constexpr std::uint64_t kLittleShared = 64 * kMiB;   // what containers get unasked
 constexpr std::uint64_t kLeastShared = 16 * kMiB;
 constexpr std::uint64_t kSharedByANode = 4 * kMiB;     // Open MPI's segment for messages
 constexpr std::uint64_t kLittleTemporary = 16 * kMiB;  // free
@@ -46,8 +46,7 @@ Finding check_mpi(const Facts& facts) {
   const std::string name = launch::name_of(mpi);
   const std::string load = "(module load " + std::string(mpi == launch::Mpi::mpich ? "mpich" : "openmpi") + ")";
   if (!facts.programs.mpirun) {
-    const std::string remedy =
-        "install " + name + " (Debian: " + launch::package_of(mpi) + "), or load it " + load;
+    const std::string remedy = "install " + name + " (Debian: " + launch::package_of(mpi) + "), or load it " + load;
     if (several_machines(facts) || !facts.programs.threads)
       return {State::trouble, about, "mpirun was not found", remedy};
     return {State::note, about, "mpirun was not found: nodes are threads of one process",
@@ -73,14 +72,15 @@ Finding check_programs(const Facts& facts) {
   const char* about = "programs";
   const launch::Programs& programs = facts.programs;
   std::vector<std::string> lacking;
-  for (const auto& [name, there] : {std::pair{"mars-host", programs.host.has_value()},
-                                    std::pair{"mars-node", programs.node.has_value()},
-                                    std::pair{"mars-threads", programs.threads.has_value()}}) {
+  for (const auto& [name, there] :
+       {std::pair{"mars-host", programs.host.has_value()}, std::pair{"mars-node", programs.node.has_value()},
+        std::pair{"mars-threads", programs.threads.has_value()}}) {
     if (!there) lacking.emplace_back(name);
   }
   if (!lacking.empty()) {
     const bool needed = programs.mpirun || !programs.threads;
-    return {needed ? State::trouble : State::note, about, "not beside mars or in the PATH: " + document::joined(lacking),
+    return {needed ? State::trouble : State::note, about,
+            "not beside mars or in the PATH: " + document::joined(lacking),
             "build MARS where MPI is installed, and keep its programs in one folder"};
   }
   if (!facts.lacking.empty()) {
@@ -105,28 +105,29 @@ Finding check_processors(const Facts& facts) {
             found + "; the machine has " + std::to_string(facts.machine_processors) + " processors",
             facts.slurm ? "" : "MARS uses what it is given: see taskset -p $$, or the container's --cpuset-cpus"};
   }
-  if (facts.simd == "sse2")
-    return {State::note, "processors", found + " only: renders, but slower than with AVX2", ""};
+  if (facts.simd == "sse2") return {State::note, "processors", found + " only: renders, but slower than with AVX2", ""};
   return {State::good, "processors", found, ""};
 }
 
 Finding check_nodes(const Facts& facts) {
   const char* about = "slots";
   const std::uint32_t cores = facts.surroundings.cores;
-  if (facts.slurm && facts.slurm->tasks != 0 && !several_machines(facts) &&
-      facts.slurm->tasks < facts.nodes + 1) {
+  if (facts.slurm && facts.slurm->tasks != 0 && !several_machines(facts) && facts.slurm->tasks < facts.nodes + 1) {
     return {State::note, about,
             "the job has " + document::counted(facts.slurm->tasks, "task") + ", the host and " +
                 document::counted(facts.nodes, "node") + " want " + std::to_string(facts.nodes + 1),
-            "ask for one task more than nodes (sbatch -n " + std::to_string(facts.nodes + 1) +
-                "), or use --nodes " + std::to_string(std::max(1u, facts.slurm->tasks - 1))};
+            "ask for one task more than nodes (sbatch -n " + std::to_string(facts.nodes + 1) + "), or use --nodes " +
+                std::to_string(std::max(1u, facts.slurm->tasks - 1))};
   }
   if (facts.nodes > cores) {
     return {State::note, about,
-            document::counted(facts.nodes, "node") + " on " + document::counted(cores, "core") + ": they take turns, bound to none",
+            document::counted(facts.nodes, "node") + " on " + document::counted(cores, "core") +
+                ": they take turns, bound to none",
             "--nodes " + std::to_string(cores) + " gives each a core of its own"};
   }
-  return {State::good, about, document::counted(facts.nodes, "node") + " on " + document::counted(cores, "core") + ": each bound to its own",
+  return {State::good, about,
+          document::counted(facts.nodes, "node") + " on " + document::counted(cores, "core") +
+              ": each bound to its own",
           ""};
 }
 
@@ -138,8 +139,8 @@ Finding check_memory(const Facts& facts) {
   const auto [addresses, data] = facts.limit.each;
   if (addresses != 0) found += ", " + bytes_text(addresses) + " of addresses a process (ulimit -v)";
   if (data != 0) found += ", " + bytes_text(data) + " a process (ulimit -d)";
-  const std::uint64_t share = facts.memory_setting.value_or(
-      topology::memory_share(facts.memory, facts.limit, static_cast<int>(facts.nodes)));
+  const std::uint64_t share =
+      facts.memory_setting.value_or(topology::memory_share(facts.memory, facts.limit, static_cast<int>(facts.nodes)));
   found += "; for a node's frame " + bytes_text(share) + (facts.memory_setting ? " (MARS_MEMORY)" : "");
   if (share >= kLittleMemory) return {State::good, about, found, ""};
   return {State::note, about, found,
@@ -149,8 +150,7 @@ Finding check_memory(const Facts& facts) {
 
 Finding check_shared(const Facts& facts) {
   const char* about = "/dev/shm";
-  const char* remedy =
-      "enlarge it: mount -o remount,size=1G /dev/shm, or start the container with --shm-size=1g";
+  const char* remedy = "enlarge it: mount -o remount,size=1G /dev/shm, or start the container with --shm-size=1g";
   if (!facts.shared) return {State::trouble, about, "is not there", "mount a tmpfs at /dev/shm"};
   const Space& space = *facts.shared;
   const std::string found = bytes_text(space.total) + ", " + bytes_text(space.left) + " free";
@@ -161,11 +161,12 @@ Finding check_shared(const Facts& facts) {
   return {State::good, about, found, ""};
 }
 
-// Open MPI's mpirun waits for ever where it lacks files. What it needs was measured with 4.1: 36, 40, 64 and 96 for 1, 2,
-// 8 and 16 nodes on one machine.
+// Open MPI's mpirun waits for ever where it lacks files. What it needs was measured with 4.1: 36, 40, 64 and 96 for 1,
+// 2, 8 and 16 nodes on one machine.
 Finding check_open_files(const Facts& facts) {
   const std::uint64_t needed = 40 + 4 * std::uint64_t{facts.nodes};
-  if (facts.open_files >= needed) return {State::good, "open files", "enough for " + document::counted(facts.nodes, "node"), ""};
+  if (facts.open_files >= needed)
+    return {State::good, "open files", "enough for " + document::counted(facts.nodes, "node"), ""};
   return {State::trouble, "open files",
           "a process may have " + std::to_string(facts.open_files) + ", mpirun needs about " + std::to_string(needed) +
               " for " + document::counted(facts.nodes, "node"),
@@ -258,9 +259,9 @@ Finding check_start(const launch::Trial& trial) {
   }
   const events::Booted& booted = trial.booted;
   return {State::good, "a start",
-          document::counted(booted.nodes.size(), "node") + " on " + document::counted(booted.machines, "machine") + " (" +
-              booted.backend + ") booted in " + document::formatted("%.1f", trial.boot_seconds) + " s, rendered " +
-              document::counted(trial.frames, "frame"),
+          document::counted(booted.nodes.size(), "node") + " on " + document::counted(booted.machines, "machine") +
+              " (" + booted.backend + ") booted in " + document::formatted("%.1f", trial.boot_seconds) +
+              " s, rendered " + document::counted(trial.frames, "frame"),
           ""};
 }
 

@@ -25,13 +25,13 @@ std::uint32_t least_processors(const std::string& text) {
 
 // A doctor on every machine of the job, with as many processors as it gives.
 child::Command ask_all(const std::filesystem::path& srun, const SlurmJob& job, std::uint32_t nodes_each,
-                const std::filesystem::path& self) {
+                       const std::filesystem::path& self) {
   const std::string machines = std::to_string(job.machines);
   const std::string given = child::own_environment().value("SLURM_JOB_CPUS_PER_NODE").value_or("1");
   return {{},
           {srun.string(), "--overlap", "--mpi=none", "--nodes=" + machines, "--ntasks=" + machines,
-           "--ntasks-per-node=1", "--cpus-per-task=" + std::to_string(least_processors(given)), self.string(),
-           "doctor", "--this-machine", "--nodes", std::to_string(nodes_each)}};
+           "--ntasks-per-node=1", "--cpus-per-task=" + std::to_string(least_processors(given)), self.string(), "doctor",
+           "--this-machine", "--nodes", std::to_string(nodes_each)}};
 }
 
 struct Answers {
@@ -66,8 +66,8 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
     std::vector<std::string> names;
     for (const MachineFindings& machine : answers.machines) names.push_back(machine.host);
     findings.push_back({Finding::State::trouble, "machines",
-                        std::to_string(names.size()) + " of " + std::to_string(machines) +
-                            " answered" + (names.empty() ? "" : ": " + host_list(names)),
+                        std::to_string(names.size()) + " of " + std::to_string(machines) + " answered" +
+                            (names.empty() ? "" : ": " + host_list(names)),
                         "srun must reach every machine of the job, and MARS be under the same path on each" +
                             (answers.complaints.empty() ? "" : "; it says:\n" + answers.complaints)});
   }
@@ -76,7 +76,7 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
 
 // None where there is nothing to start, which the checks report.
 std::optional<launch::Trial> try_to_start(const DoctorOptions& options, const launch::Programs& programs,
-                                  const std::filesystem::path& self) {
+                                          const std::filesystem::path& self) {
   if (!programs.threads && !(programs.mpirun && programs.host && programs.node)) return std::nullopt;
   options::RenderOptions render;
   render.nodes = options.nodes;

@@ -23,9 +23,7 @@ std::string padded(std::string text, std::size_t column) {
   return text;
 }
 
-const char* word_of(State state) {
-  return state == State::good ? "ok" : state == State::note ? "note" : "TROUBLE";
-}
+const char* word_of(State state) { return state == State::good ? "ok" : state == State::note ? "note" : "TROUBLE"; }
 
 std::string text_of(const Finding& finding) {
   std::string line = padded(std::string(kStateColumn, ' ') + word_of(finding.state), kAboutColumn);

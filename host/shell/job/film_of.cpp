@@ -19,7 +19,8 @@ constexpr const char* kTrial = R"({
 
 constexpr const char* kNoActors = ": has no actors: every frame shows the background alone (give the film actors)";
 
-film::CompiledFilm load_with_warnings(const std::string& path, const film::CompileOptions& compiling, const Warn& warn) {
+film::CompiledFilm load_with_warnings(const std::string& path, const film::CompileOptions& compiling,
+                                      const Warn& warn) {
   if (film::is_compiled_film(path)) {
     film::CompiledFilm film = film::load_film(path, compiling);
     if (film.actors == 0) warn(path + kNoActors);
@@ -37,7 +38,8 @@ film::CompiledFilm load_film_of(const options::RenderOptions& options, const War
   film::CompileOptions compiling;
   if (options.intervals == options::Intervals::keyframes) compiling.cutting = animator::Cutting::keyframes;
   if (options.size) compiling.size = {options.size->width, options.size->height};
-  if (options.film == options::kTrialFilm) return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
+  if (options.film == options::kTrialFilm)
+    return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
   return load_with_warnings(options.film, compiling, warn);
 }
 

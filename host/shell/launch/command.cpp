@@ -74,8 +74,9 @@ const Variables kKeepalive = {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
                               {"OMPI_MCA_oob_tcp_keepalive_probes", "3"}};
 
 // What makes mpirun look for other machines, beside a hostfile of ours and Slurm.
-constexpr std::array kOtherMachines = {"PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS", "LSB_DJOB_HOSTFILE", "LSB_MCPU_HOSTS",
-                                       "OMPI_MCA_orte_default_hostfile", "HYDRA_HOST_FILE"};
+constexpr std::array kOtherMachines = {"PBS_NODEFILE",      "PE_HOSTFILE",    "LSB_HOSTS",
+                                       "LSB_DJOB_HOSTFILE", "LSB_MCPU_HOSTS", "OMPI_MCA_orte_default_hostfile",
+                                       "HYDRA_HOST_FILE"};
 
 bool on_this_machine_alone(const options::RenderOptions& options, const Surroundings& surroundings) {
   return options.hostfile.empty() && surroundings.tasks == 0 &&
@@ -125,8 +126,12 @@ std::string shell_text(const child::Command& command) {
 }
 
 Programs find_programs(const fs::path& self, const std::string& path) {
-  return {find_mpirun(our_mpi(), path), find_ours("mars-host", self, path), find_ours("mars-node", self, path),
-          find_ours("mars-threads", self, path), our_mpi(), find_loopback(self)};
+  return {find_mpirun(our_mpi(), path),
+          find_ours("mars-host", self, path),
+          find_ours("mars-node", self, path),
+          find_ours("mars-threads", self, path),
+          our_mpi(),
+          find_loopback(self)};
 }
 
 Surroundings look_around(const std::string& path, Ask ask) {
@@ -210,7 +215,9 @@ std::uint32_t default_nodes(const options::RenderOptions& options, const Surroun
 
 options::Backend choose_backend(options::Backend asked, const Programs& programs) {
   const bool mpi = programs.mpirun && programs.host && programs.node;
-  const options::Backend backend = asked != options::Backend::automatic ? asked : mpi ? options::Backend::mpi : options::Backend::threads;
+  const options::Backend backend = asked != options::Backend::automatic ? asked
+                                   : mpi                                ? options::Backend::mpi
+                                                                        : options::Backend::threads;
   if (backend == options::Backend::mpi && !programs.mpirun) {
     throw Failure("mpirun was not found", "",
                   std::string("install ") + name_of(programs.mpi) + " (Debian: " + package_of(programs.mpi) +
@@ -232,7 +239,8 @@ namespace {
 constexpr std::uint64_t kLeastForMpi = std::uint64_t{400} << 20;
 
 // Takes over the environment, goes round over the hosts by itself, and finds a batch system's hosts.
-child::Command mpich_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+child::Command mpich_start(const options::RenderOptions& options, const Programs& programs,
+                           const Surroundings& surroundings) {
   child::Command command{{}, {programs.mpirun->string(), "-bind-to", "none"}};
   if (on_this_machine_alone(options, surroundings)) {
     add_settings(command, {{"UCX_TLS", "sm,self"}}, surroundings);
@@ -246,7 +254,8 @@ child::Command mpich_start(const options::RenderOptions& options, const Programs
   return command;
 }
 
-child::Command open_mpi_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+child::Command open_mpi_start(const options::RenderOptions& options, const Programs& programs,
+                              const Surroundings& surroundings) {
   child::Command command;
   const auto add = [&](const Variables& settings) { add_settings(command, settings, surroundings); };
   // As root Open MPI starts as root only with two settings; as the only user of a container there is nobody else to be.
@@ -268,33 +277,34 @@ child::Command open_mpi_start(const options::RenderOptions& options, const Progr
     add(kKeepalive);
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
-  if (!options.hostfile.empty()) command.words.insert(command.words.end(), {"--hostfile", options::word_of_file(options.hostfile)});
+  if (!options.hostfile.empty())
+    command.words.insert(command.words.end(), {"--hostfile", options::word_of_file(options.hostfile)});
   const std::uint32_t slots = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
   // A hostfile has its own slots; what is more than these goes round over its hosts.
   if (!options.hostfile.empty() || options.nodes + 1 > slots) command.words.emplace_back("--oversubscribe");
-  for (const std::string& name : surroundings.settings)
-    command.words.insert(command.words.end(), {"-x", name});
+  for (const std::string& name : surroundings.settings) command.words.insert(command.words.end(), {"-x", name});
   return command;
 }
 
 }  // namespace
 
-child::Command mpi_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+child::Command mpi_start(const options::RenderOptions& options, const Programs& programs,
+                         const Surroundings& surroundings) {
   if (surroundings.address_limit != 0 && surroundings.address_limit < kLeastForMpi)
     throw Failure("the limit of " + std::to_string(surroundings.address_limit >> 10) +
                       " kB of addresses a process is too small for MPI",
                   "ulimit -v", "raise it to " + std::to_string(kLeastForMpi >> 10) + " or more: ulimit -v unlimited");
   return programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
-                                      : open_mpi_start(options, programs, surroundings);
+                                    : open_mpi_start(options, programs, surroundings);
 }
 
-child::Command mpi_command(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings) {
+child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,
+                           const Surroundings& surroundings) {
   child::Command command = mpi_start(options, programs, surroundings);
   // Nodes bind themselves, each by its place on its machine.
   command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
   add_arguments(command, options::Program::host, options);
-  command.words.insert(command.words.end(),
-                       {":", "-n", std::to_string(options.nodes), programs.node->string()});
+  command.words.insert(command.words.end(), {":", "-n", std::to_string(options.nodes), programs.node->string()});
   return command;
 }
 

@@ -50,11 +50,11 @@ struct Surroundings {
   std::uint32_t processors = 1;
   std::uint32_t tasks = 0;  // that the batch system lets this job run on all its hosts; 0: there is none
   bool root = false;
-  bool copies_forbidden = false;      // processes may not read each other's memory, as in some containers
-  bool no_remote_shell = false;       // neither ssh nor rsh is in the PATH
-  std::vector<std::string> settings;  // MARS_* variables that are set, for nodes on other machines
-  std::uint64_t address_limit = 0;    // bytes of addresses that a process may have: ulimit -v; 0: no limit
-  child::Environment environment{{}};        // what it sets of MPI's settings counts
+  bool copies_forbidden = false;       // processes may not read each other's memory, as in some containers
+  bool no_remote_shell = false;        // neither ssh nor rsh is in the PATH
+  std::vector<std::string> settings;   // MARS_* variables that are set, for nodes on other machines
+  std::uint64_t address_limit = 0;     // bytes of addresses that a process may have: ulimit -v; 0: no limit
+  child::Environment environment{{}};  // what it sets of MPI's settings counts
 };
 
 // Whether programs and processes are started to find facts: none may be while a job is waited for (Child).
@@ -83,10 +83,12 @@ options::Backend choose_backend(options::Backend asked, const Programs& programs
 
 // mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'. Throws Failure
 // where the memory limit is too small for any MPI.
-child::Command mpi_start(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
+child::Command mpi_start(const options::RenderOptions& options, const Programs& programs,
+                         const Surroundings& surroundings);
 
 // mpirun with one host and options.nodes nodes; one process of as many threads. `options.nodes` is settled.
-child::Command mpi_command(const options::RenderOptions& options, const Programs& programs, const Surroundings& surroundings);
+child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,
+                           const Surroundings& surroundings);
 child::Command threads_command(const options::RenderOptions& options, const Programs& programs);
 
 }  // namespace mars::launch

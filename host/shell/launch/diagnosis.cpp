@@ -24,7 +24,8 @@ constexpr std::size_t kShownWords = 40;  // lines of what is not understood
 std::string join(const std::deque<std::string>& lines, std::size_t most) {
   std::string text;
   const auto skipped = lines.size() - std::min(most, lines.size());
-  for (auto line = lines.begin() + static_cast<std::ptrdiff_t>(skipped); line != lines.end(); ++line) text += *line + "\n";
+  for (auto line = lines.begin() + static_cast<std::ptrdiff_t>(skipped); line != lines.end(); ++line)
+    text += *line + "\n";
   return text;
 }
 
@@ -43,8 +44,7 @@ std::string remedy_for(int signal) {
 
 Failure failure_from(const events::Fault& fault) {
   const std::string again = fault.replay.empty() ? "" : "to see it again: " + fault.replay;
-  const std::string remedy =
-      fault.remedy.empty() || again.empty() ? fault.remedy + again : fault.remedy + "; " + again;
+  const std::string remedy = fault.remedy.empty() || again.empty() ? fault.remedy + again : fault.remedy + "; " + again;
   return Failure(fault.problem, fault.where, remedy);
 }
 
@@ -65,7 +65,8 @@ std::optional<Failure> lost_rank(const std::string& line, const std::optional<ev
     const auto machine = words.word();
     if (!machine || !words.skip(" exited on signal ")) continue;
     const int signal = static_cast<int>(words.number().value_or(0));
-    return Failure(killed_by(who_is(static_cast<int>(*rank), booted), signal), "machine " + *machine, remedy_for(signal));
+    return Failure(killed_by(who_is(static_cast<int>(*rank), booted), signal), "machine " + *machine,
+                   remedy_for(signal));
   }
   return std::nullopt;
 }
@@ -105,7 +106,8 @@ std::string machines_of(const events::Booted& booted) {
 // started; and a rank's "connect() to 10.77.0.14:1028 failed", which alone names the machine then.
 std::optional<std::string> machine_lost(const std::string& line, const std::optional<events::Booted>& booted) {
   TextReader daemon(line);
-  if (daemon.find("lost communication with a remote daemon") && daemon.find("Remote daemon: ") && daemon.find(" on node "))
+  if (daemon.find("lost communication with a remote daemon") && daemon.find("Remote daemon: ") &&
+      daemon.find(" on node "))
     return daemon.word();
   if (!booted) return std::nullopt;
   TextReader connection(line);
@@ -135,9 +137,8 @@ Failure unknown(const Remains& remains) {
   if (remains.ending.signal != 0) {
     return Failure(killed_by(program, remains.ending.signal), "", remedy_for(remains.ending.signal));
   }
-  const std::string how = remains.ending.code == 0
-                              ? " ended before all frames were there"
-                              : " ended with exit code " + std::to_string(remains.ending.code);
+  const std::string how = remains.ending.code == 0 ? " ended before all frames were there"
+                                                   : " ended with exit code " + std::to_string(remains.ending.code);
   const std::string words = join(remains.last_words, kShownWords);
   return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
 }
@@ -154,17 +155,15 @@ Failure with_advice(const Failure& failure, const Advice& advice) {
 
 Failure stopped(const Remains& remains, const options::RenderOptions& options) {
   return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
-                     std::to_string(remains.progress.done()) + " of " +
-                     std::to_string(remains.progress.of()) + " frames",
+                     std::to_string(remains.progress.done()) + " of " + std::to_string(remains.progress.of()) +
+                     " frames",
                  options.folder, "");
 }
 
 Failure diagnose(const Remains& remains, const options::RenderOptions& options, const Advice& advice) {
   if (remains.passed_on != 0) return stopped(remains, options);
   if (remains.fault) return failure_from(*remains.fault);
-  const auto advised = [&](const Failure& failure) {
-    return remains.booted ? failure : with_advice(failure, advice);
-  };
+  const auto advised = [&](const Failure& failure) { return remains.booted ? failure : with_advice(failure, advice); };
   if (const auto own = own_words(remains.last_words)) return advised(*own);
   const std::string words = on_one_line(join(remains.last_words, remains.last_words.size()));
   if (const auto lost = lost_rank(words, remains.booted)) return advised(*lost);

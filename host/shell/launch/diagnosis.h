@@ -15,7 +15,7 @@
 namespace mars::launch {
 
 struct Remains {
-  std::optional<events::Booted> booted;        // once all nodes were there
+  std::optional<events::Booted> booted;  // once all nodes were there
   std::optional<events::Fault> fault;
   child::Ending ending;
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none

@@ -31,8 +31,7 @@ std::string left_text(const events::Progress& progress) {
   if (!left) return "";
   std::string text = ", " + clock_text(left->keyframes + left->inbetweens) + " left";
   if (progress.keyframes.of == 0 || progress.inbetweens.of == 0) return text;
-  return text + " (keyframes " + clock_text(left->keyframes) + ", inbetweens " +
-         clock_text(left->inbetweens) + ")";
+  return text + " (keyframes " + clock_text(left->keyframes) + ", inbetweens " + clock_text(left->inbetweens) + ")";
 }
 
 }  // namespace
@@ -52,8 +51,8 @@ std::string progress_text(const events::Progress& progress) {
 }
 
 std::string booted_text(const events::Booted& booted) {
-  std::string text = document::counted(booted.nodes.size(), "node") + " on " + document::counted(booted.machines, "machine") +
-                     " (" + booted.backend + ")";
+  std::string text = document::counted(booted.nodes.size(), "node") + " on " +
+                     document::counted(booted.machines, "machine") + " (" + booted.backend + ")";
   std::string simd;
   for (const events::Booted::Node& node : booted.nodes) {
     if (simd.find(node.simd) == std::string::npos) simd += (simd.empty() ? "" : ", ") + node.simd;
@@ -66,7 +65,8 @@ std::string done_text(const events::Done& done) {
   if (!done.folder.empty()) text += " in " + done.folder;
   text += ", " + one_decimal(done.seconds) + " seconds";
   if (done.seconds > 0) text += ", " + one_decimal(done.frames / done.seconds) + " frames/s";
-  if (done.trace_lacks > 0) text += "\nthe trace was full: it lacks " + document::counted(done.trace_lacks, "later event");
+  if (done.trace_lacks > 0)
+    text += "\nthe trace was full: it lacks " + document::counted(done.trace_lacks, "later event");
   return text;
 }
 

@@ -19,8 +19,8 @@ namespace mars::launch {
 
 namespace {
 
-constexpr std::size_t kLastWords = 400;  // lines: each rank may report the same loss in a dozen of its own
-constexpr std::size_t kLongestWords = 4096;  // bytes of such a line
+constexpr std::size_t kLastWords = 400;         // lines: each rank may report the same loss in a dozen of its own
+constexpr std::size_t kLongestWords = 4096;     // bytes of such a line
 constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kSlowLoad{3};    // of compiling the film, until a person learns what takes so long
 constexpr std::chrono::seconds kLongestTrial{30};
@@ -74,7 +74,8 @@ class Run {
     if (!event) return take_error(line);  // the words of an mpirun
     if (const auto* loading = std::get_if<events::Loading>(&*event)) begin_loading(*loading);
     if (const auto* loaded = std::get_if<events::Loaded>(&*event)) end_loading(*loaded);
-    if (const auto* warning = std::get_if<events::Warning>(&*event)) std::cerr << "mars: warning: " << warning->text << '\n';
+    if (const auto* warning = std::get_if<events::Warning>(&*event))
+      std::cerr << "mars: warning: " << warning->text << '\n';
     if (const auto* booted = std::get_if<events::Booted>(&*event)) {
       display_.print(booted_text(*booted));
       remains_.booted = *booted;

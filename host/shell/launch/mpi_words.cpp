@@ -51,8 +51,7 @@ constexpr std::array kTable = {
              kOpenPorts},
     MpiWords{"lost communication with a remote daemon", "a machine was lost",
              "check whether it still runs; render the missing frames with --frames"},
-    MpiWords{"unable to complete a TCP connection", "two machines cannot reach each other",
-             kOpenPorts},
+    MpiWords{"unable to complete a TCP connection", "two machines cannot reach each other", kOpenPorts},
     MpiWords{"Read -1, expected", "the system forbids processes to copy from each other's memory",
              "export OMPI_MCA_btl_vader_single_copy_mechanism=none, or give the container "
              "--cap-add=SYS_PTRACE"},
@@ -65,9 +64,8 @@ std::span<const MpiWords> mpi_words() { return kTable; }
 
 std::optional<Failure> meaning_of(const std::string& text) {
   const std::string line = on_one_line(text);
-  const auto* known = std::find_if(kTable.begin(), kTable.end(), [&](const MpiWords& each) {
-    return line.find(each.words) != std::string::npos;
-  });
+  const auto* known = std::find_if(kTable.begin(), kTable.end(),
+                                   [&](const MpiWords& each) { return line.find(each.words) != std::string::npos; });
   if (known == kTable.end()) return std::nullopt;
   return Failure(known->problem, "", known->remedy);
 }

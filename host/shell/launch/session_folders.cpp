@@ -37,7 +37,9 @@ bool lock_own(int folder) {
          fstat(folder, &found) == 0 && found.st_nlink > 0;
 }
 
-int open_folder(const fs::path& path, int more) { return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | more); }
+int open_folder(const fs::path& path, int more) {
+  return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | more);
+}
 
 void remove_if_ended(const fs::path& path) {
   const int folder = open_folder(path, O_CLOEXEC);

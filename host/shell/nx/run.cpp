@@ -67,8 +67,7 @@ child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::u
   starters.loopback = launch::find_loopback(fs::read_symlink("/proc/self/exe"));
   starters.mpirun = launch::find_mpirun(starters.mpi, path);
   if (!starters.mpirun)
-    throw Failure("mpirun was not found", "",
-                  "install Open MPI (Debian: openmpi-bin), or use --over processes");
+    throw Failure("mpirun was not found", "", "install Open MPI (Debian: openmpi-bin), or use --over processes");
   options::RenderOptions start;
   start.hostfile = job.hostfile;
   start.backend = options::Backend::mpi;

@@ -14,10 +14,10 @@ inline constexpr int kMostNxNodes = 1 << 12;
 enum class Over { automatic, processes, mpi };  // what carries the messages
 
 struct NxRun {
-  int nodes = 0;  // 0: one a processor, or the slots of the hostfile or the batch system
+  int nodes = 0;      // 0: one a processor, or the slots of the hostfile or the batch system
   bool host = false;  // the first program is the host, also where it is the only one
   Over over = Over::automatic;
-  std::string hostfile;  // Open MPI's; "": none
+  std::string hostfile;                // Open MPI's; "": none
   std::vector<std::string> words;      // the programs, and arguments after two of them
   std::vector<std::string> arguments;  // of every program
 };

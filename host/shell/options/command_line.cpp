@@ -40,8 +40,7 @@ std::string lines_of(const CLI::App& command, const std::string& name) {
                      each->get_type_size() == 0 ? "" : each->get_type_name(),
                      each->get_required() ? "required" : "optional", each->get_description()});
   }
-  for (const CLI::App* each : commands_in(command))
-    text += lines_of(*each, name + " " + each->get_name());
+  for (const CLI::App* each : commands_in(command)) text += lines_of(*each, name + " " + each->get_name());
   return text;
 }
 
@@ -93,7 +92,8 @@ class Help : public CLI::Formatter {
     const std::string text = option->get_description();
     const std::size_t example = text.find("Example: ");
     if (example == std::string::npos) return wrapped(text, 0, text_columns());
-    return wrapped(text.substr(0, example), 0, text_columns()) + "\n" + wrapped(text.substr(example), 0, text_columns());
+    return wrapped(text.substr(0, example), 0, text_columns()) + "\n" +
+           wrapped(text.substr(example), 0, text_columns());
   }
 
   // "X Y Z" shows how many words follow.

@@ -49,7 +49,9 @@ void read(const std::string& text, std::string& value) { value = text; }
 
 void read(const std::string& text, film::FrameSet& value) { value = film::FrameSet(text); }
 
-void read(const std::string& text, std::optional<images::PictureSize>& value) { value = images::read_picture_size(text); }
+void read(const std::string& text, std::optional<images::PictureSize>& value) {
+  value = images::read_picture_size(text);
+}
 
 // A number of at least one.
 struct Count {
@@ -98,8 +100,7 @@ void as_usage(const std::string& name, Check check) {
 template <typename Read>
 void add_reader(CLI::App& app, const char* names, const char* type, const char* help, Read read_text) {
   app.add_option_function<std::string>(
-         names, [names, read_text](const std::string& text) { as_usage(names, [&] { read_text(text); }); },
-         help)
+         names, [names, read_text](const std::string& text) { as_usage(names, [&] { read_text(text); }); }, help)
       ->type_name(type);
 }
 
@@ -110,8 +111,7 @@ std::string first_name(const char* names) {
 }
 
 template <typename Value>
-Entry option(unsigned programs, const char* names, const char* type, Value RenderOptions::*member,
-             const char* help) {
+Entry option(unsigned programs, const char* names, const char* type, Value RenderOptions::*member, const char* help) {
   return {programs,
           [=](CLI::App& app, RenderOptions& options) {
             add_reader(app, names, type, help,
@@ -137,8 +137,7 @@ Entry number(unsigned programs, const char* names, const Count& count, const cha
 }
 
 Entry flag(unsigned programs, const char* names, bool RenderOptions::*member, const char* help) {
-  return {programs,
-          [=](CLI::App& app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
+  return {programs, [=](CLI::App& app, RenderOptions& options) { app.add_flag(names, options.*member, help); },
           [=](const RenderOptions& options) -> Arguments {
             if (!(options.*member)) return {};
             return {first_name(names)};
@@ -159,8 +158,7 @@ Entry film(unsigned programs) {
 // The table: every option once, in the order of the help.
 std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
-  constexpr unsigned all =
-      bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads);
+  constexpr unsigned all = bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads);
   constexpr unsigned compiles = all | bit(Program::compile);
   constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads);
   constexpr unsigned person = bit(Program::mars);
@@ -191,9 +189,9 @@ std::vector<Entry> table() {
            "Render every frame from scratch: same pictures, slower. Example: --no-coherence"),
       number(all, "--block", {&RenderOptions::block, false, wire::kMaxSide},
              "Side of the compositor's blocks in pixels: same pictures. Example: --block 32"),
-      number(
-          all, "--groups", {&RenderOptions::groups, true, many},
-          "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: --groups 1"),
+      number(all, "--groups", {&RenderOptions::groups, true, many},
+             "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: "
+             "--groups 1"),
       option(all, "--sink", "png|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
@@ -204,9 +202,7 @@ std::vector<Entry> table() {
   };
 }
 
-bool takes(Program program, const Entry& entry) {
-  return (entry.programs & static_cast<unsigned>(program)) != 0;
-}
+bool takes(Program program, const Entry& entry) { return (entry.programs & static_cast<unsigned>(program)) != 0; }
 
 // What no single option can check.
 // Names that options had before, by their names now.
@@ -247,8 +243,8 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program) 
   });
 }
 
-std::optional<int> read_render_options(Program program, const char* name, const char* purpose,
-                                       RenderOptions& options, int argc, const char* const* argv) {
+std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,
+                                       int argc, const char* const* argv) {
   CLI::App app(purpose, name);
   add_render_options(app, options, program);
   return read_command_line(app, argc, argv);

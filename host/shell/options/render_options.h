@@ -37,7 +37,7 @@ struct RenderOptions {
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
-  std::uint32_t groups = 0;    // intervals rendered at a time; 0: chosen by the schedule
+  std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the schedule
   SinkKind sink = SinkKind::png;
   std::string report;  // file for the measurements; "": none
   std::string trace;   // file for a picture of the run; "": none
@@ -55,8 +55,8 @@ void add_render_options(CLI::App& app, RenderOptions& options, Program program);
 
 // Reads the whole command line of a program that does nothing but render; `purpose` heads its help. As
 // read_command_line.
-std::optional<int> read_render_options(Program program, const char* name, const char* purpose,
-                                       RenderOptions& options, int argc, const char* const* argv);
+std::optional<int> read_render_options(Program program, const char* name, const char* purpose, RenderOptions& options,
+                                       int argc, const char* const* argv);
 
 // A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes
 // a colon for the end of a program's arguments.

@@ -105,8 +105,8 @@ Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may
 
 }  // namespace
 
-void classify(const ClassifyTask& task, const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch,
-             Classified& out) {
+void classify(const ClassifyTask& task, const shape::Vertices& v, const shape::Triangles& triangles,
+              const shape::Batch& batch, Classified& out) {
   out.decided = out.undecided = out.faces = 0;
   const std::uint32_t count = batch.last - batch.first;
   for (std::uint32_t lane = 0; lane < count; lane += kLanes) {
@@ -130,8 +130,7 @@ void classify(const ClassifyTask& task, const shape::Vertices& v, const shape::T
     const Ints last_row = hn::Min(sample_after(bottom), constant(task.height));
     const Ints first_column = hn::Max(sample_after(left), hn::Zero(kInts));
     const Ints last_column = hn::Min(sample_after(right), constant(task.width));
-    const Mask touches =
-        hn::And(left_over, hn::And(hn::Lt(first_row, last_row), hn::Lt(first_column, last_column)));
+    const Mask touches = hn::And(left_over, hn::And(hn::Lt(first_row, last_row), hn::Lt(first_column, last_column)));
     out.undecided |= bits(hn::AndNot(sure, touches)) << lane;
     const Mask may = hn::And(touches, sure);
     if (hn::AllFalse(kInts, may)) continue;

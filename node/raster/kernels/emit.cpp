@@ -20,7 +20,8 @@ Float4 load(const float* four) {
 // An edge box in two moves: columns are first | last << 16.
 void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_moving, UnsortedEdgeBox* out) {
   const std::uint32_t words[] = {number, columns, line_and_moving};
-  static_assert(offsetof(UnsortedEdgeBox, line) == 8 && offsetof(UnsortedEdgeBox, moving) == 10 && sizeof words == sizeof *out);
+  static_assert(offsetof(UnsortedEdgeBox, line) == 8 && offsetof(UnsortedEdgeBox, moving) == 10 &&
+                sizeof words == sizeof *out);
   std::memcpy(out, words, sizeof words);
 }
 
@@ -43,8 +44,8 @@ void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, cons
   out.material = identity.material;
 }
 
-void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& e, std::uint32_t lanes,
-          const PatchIdentity& identity, SetUpSpace& out) {
+void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& e,
+          std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out) {
   SetUpSpace space = out;
   for (std::uint32_t left = lanes & e.decided; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));

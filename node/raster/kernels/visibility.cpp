@@ -31,8 +31,8 @@ struct Depth {
 
 // `triangle` takes over those of the samples marked by `tied` that it precedes.
 template <typename Tag>
-[[gnu::noinline]] void settle(Tag floats, hn::Mask<Tag> tied, const geometry::Triangle* triangles, std::uint32_t triangle,
-                              std::uint32_t* ids) {
+[[gnu::noinline]] void settle(Tag floats, hn::Mask<Tag> tied, const geometry::Triangle* triangles,
+                              std::uint32_t triangle, std::uint32_t* ids) {
   constexpr int kStep = static_cast<int>(hn::MaxLanes(Tag()));
   float marks[kStep];
   hn::StoreU(hn::IfThenElseZero(tied, hn::Set(floats, 1.0f)), floats, marks);
@@ -68,7 +68,7 @@ void draw_samples(Tag floats, const Depth& plane, float dx, int count, const geo
 }  // namespace
 
 shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
-            float* __restrict depth, std::uint32_t* __restrict ids) {
+                     float* __restrict depth, std::uint32_t* __restrict ids) {
   shading::Extent extent{0xffffffffu, 0};
   const std::int32_t y = static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset;
   for (std::uint32_t b = 0; b < count; ++b) {

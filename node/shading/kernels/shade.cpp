@@ -68,8 +68,8 @@ std::uint32_t find(bool something, const std::uint32_t* ids, std::uint32_t colum
 
 // Adds `count` samples from `column` on, none of them a gap, and as many as fit. Whether neighbours show
 // the same triangle is not asked: the answer costs more than the planes of a sample.
-void interpolate(const geometry::Triangle* triangles, const std::uint32_t* ids, std::uint32_t line, std::uint32_t column,
-                 std::uint32_t count, Block& block) {
+void interpolate(const geometry::Triangle* triangles, const std::uint32_t* ids, std::uint32_t line,
+                 std::uint32_t column, std::uint32_t count, Block& block) {
   Places sample = {static_cast<std::int32_t>(column) * shape::kSubpixels + shape::kSampleOffset,
                    static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset, 0, 0};
   const Places step = {shape::kSubpixels, 0, 0, 0};
@@ -196,7 +196,9 @@ class Materials {
 
  private:
   const wire::Material& material(std::uint32_t stretch) const { return materials_[block_.stretches[stretch].material]; }
-  std::uint32_t next_first() const { return last_ + 1 < block_.stretch_count ? block_.stretches[last_ + 1].first : ~0u; }
+  std::uint32_t next_first() const {
+    return last_ + 1 < block_.stretch_count ? block_.stretches[last_ + 1].first : ~0u;
+  }
   // The vector's samples from a stretch's first on.
   hn::Mask<FloatTag> since(std::uint32_t stretch) const {
     return hn::Not(hn::FirstN(kFloats, block_.stretches[stretch].first - at_));

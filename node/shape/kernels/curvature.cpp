@@ -57,8 +57,8 @@ Fineness estimate_curvature(const CurvatureWeights& weights, const float (*point
     const auto fineness = [&](Floats own, Floats length, Floats other_length) {
       const Floats outline = hn::Sqrt(hn::Mul(hn::Add(own, uv), shown));
       const Floats turns = hn::Add(ratio(own, length), ratio(uv, other_length));
-      const Floats shade = hn::Min(hn::Mul(turns, constant(1 / kTurn)),
-                                   hn::Mul(hn::Mul(length, pixels), constant(1 / kLeastStep)));
+      const Floats shade =
+          hn::Min(hn::Mul(turns, constant(1 / kTurn)), hn::Mul(hn::Mul(length, pixels), constant(1 / kLeastStep)));
       return hn::Max(outline, shade);
     };
     most_u = hn::Max(most_u, fineness(uu, length_u, length_v));

@@ -72,8 +72,8 @@ void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3]
       const Floats xy = hn::Add(hn::Mul(constant(m[0]), p[0]), hn::Mul(constant(m[1]), p[1]));
       const Floats place = hn::Add(hn::Add(xy, hn::Mul(constant(m[2]), p[2])), constant(m[3]));
       hn::StoreU(place, kFloats, out.place[r] + k);
-      turned[r] = hn::Add(hn::Add(hn::Mul(constant(c[0]), n[0]), hn::Mul(constant(c[1]), n[1])),
-                          hn::Mul(constant(c[2]), n[2]));
+      turned[r] =
+          hn::Add(hn::Add(hn::Mul(constant(c[0]), n[0]), hn::Mul(constant(c[1]), n[1])), hn::Mul(constant(c[2]), n[2]));
     }
     const Floats square = sum_of_squares(turned[0], turned[1], turned[2]);
     const auto missing = hn::Not(hn::Gt(square, hn::Zero(kFloats)));

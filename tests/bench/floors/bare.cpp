@@ -42,7 +42,8 @@ void shade(const Stretch& s, const wire::Material& m, const geometry::EyeLight& 
 // Triangles come from all over memory: the kernel fetches them ahead, so does its floor.
 constexpr std::ptrdiff_t kAhead = 32;
 
-void write_depths(const geometry::Triangle* triangles, const Piece* pieces, std::size_t count, float* __restrict depth) {
+void write_depths(const geometry::Triangle* triangles, const Piece* pieces, std::size_t count,
+                  float* __restrict depth) {
   const Piece* const end = pieces + count;
   for (const Piece* piece = pieces; piece != end; ++piece) {
     __builtin_prefetch(triangles + piece[end - piece > kAhead ? kAhead : 0].triangle);

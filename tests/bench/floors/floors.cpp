@@ -80,7 +80,7 @@ class Bench {
       shading::Extent extent{};
       spent.draw += seconds([&] {
         extent = raster.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
-                               depth_.data(), ids_.data());
+                             depth_.data(), ids_.data());
       });
       shading::Shaded done{};
       spent.shade += seconds([&] {
@@ -194,17 +194,19 @@ void print(const std::vector<Case>& cases, const Best& best) {
   for (const Case& one : cases) {
     const wire::WorkCounts& counts = one.work->counts();
     const double dice = ns(one, "dice"), set_up = ns(one, "make") - dice;
-    print_row(one.name, {dice / static_cast<double>(counts.vertices), set_up / static_cast<double>(one.work->classified()),
-                         set_up / static_cast<double>(counts.triangles),
-                         ns(one, "fill") / static_cast<double>(one.work->boxes().boxes.size())});
+    print_row(one.name,
+              {dice / static_cast<double>(counts.vertices), set_up / static_cast<double>(one.work->classified()),
+               set_up / static_cast<double>(counts.triangles),
+               ns(one, "fill") / static_cast<double>(one.work->boxes().boxes.size())});
   }
 }
 
 void print_counts(const Workload& work, const std::string& name) {
-  std::printf("%s: %llu vertices, %llu triangles classified, %llu emitted, %zu edge boxes, %zu visible pieces, %llu pixels\n",
-              name.c_str(), static_cast<unsigned long long>(work.counts().vertices),
-              static_cast<unsigned long long>(work.classified()), static_cast<unsigned long long>(work.counts().triangles),
-              work.boxes().boxes.size(), work.pieces().size(), static_cast<unsigned long long>(work.pixels()));
+  std::printf(
+      "%s: %llu vertices, %llu triangles classified, %llu emitted, %zu edge boxes, %zu visible pieces, %llu pixels\n",
+      name.c_str(), static_cast<unsigned long long>(work.counts().vertices),
+      static_cast<unsigned long long>(work.classified()), static_cast<unsigned long long>(work.counts().triangles),
+      work.boxes().boxes.size(), work.pieces().size(), static_cast<unsigned long long>(work.pixels()));
 }
 
 int run(int argc, char** argv) {

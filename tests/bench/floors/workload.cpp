@@ -40,7 +40,8 @@ void Workload::dice(shape::Dicer& dicer) {
     const shape::EyeMatrix matrix = scene_.matrix(s);
     for (std::uint32_t i = 0; i < shape.patch_count; ++i) {
       const shape::EyePatch patch = shape::to_eye(matrix, view_.patches()[shape.first_patch + i]);
-      if (shape::unseen(patch, scene_.projection(), static_cast<float>(width()), static_cast<float>(height()))) continue;
+      if (shape::unseen(patch, scene_.projection(), static_cast<float>(width()), static_cast<float>(height())))
+        continue;
       dicer.dice(patch, scene_.projection(), rate);
       classified_ += dicer.triangles().count;
     }
@@ -51,8 +52,8 @@ void Workload::dice(shape::Dicer& dicer) {
 void Workload::make(simd::InstructionSet set) {
   made_.clear();
   counts_ = {};
-  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {},
-                                                                   {wanted_, line_counts_}, made_, counts_);
+  const node::Tessellation own =
+      node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {}, {wanted_, line_counts_}, made_, counts_);
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
   polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};

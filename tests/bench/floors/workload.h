@@ -26,7 +26,7 @@ class Workload {
   void fill();
 
   const wire::WorkCounts& counts() const { return counts_; }  // vertices; triangles that touch a sample
-  std::uint64_t classified() const { return classified_; }        // triangles of all diced patches
+  std::uint64_t classified() const { return classified_; }    // triangles of all diced patches
   const shading::Shading& shading() const { return shading_; }
   const raster::LineBoxes& boxes() const { return boxes_; }
   std::uint32_t width() const { return static_cast<std::uint32_t>(scene_.width()); }

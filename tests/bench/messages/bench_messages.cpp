@@ -82,16 +82,19 @@ void ping_pong() {
   for (const Size& size : {Size{"8 B", 8, 2000}, Size{"1 KiB", 1024, 2000}, Size{"64 KiB", 65536, 100},
                            Size{"1 MiB", 1 << 20, 10}, Size{"8 MiB", 8 << 20, 2}}) {
     const auto length = static_cast<long>(size.bytes);
-    compare((std::string("csend, crecv ") + size.name).c_str(), size.count, 0.5, raw_meet,
-            turns([&] { csend(kType, out.data(), length, other, 0); }, [&] { crecv(kType, in.data(), length); }),
-            turns([&] { raw_send(out.data(), size.bytes, other); }, [&] { raw_receive(in.data(), size.bytes, other); }));
+    compare(
+        (std::string("csend, crecv ") + size.name).c_str(), size.count, 0.5, raw_meet,
+        turns([&] { csend(kType, out.data(), length, other, 0); }, [&] { crecv(kType, in.data(), length); }),
+        turns([&] { raw_send(out.data(), size.bytes, other); }, [&] { raw_receive(in.data(), size.bytes, other); }));
   }
 }
 
 double processor_seconds() {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -109,7 +112,8 @@ void wait_idly() {
 }
 
 void sums() {
-  for (const auto& [means, name] : {std::pair{messages::CollectiveMethod::cube, "gdsum "}, {messages::CollectiveMethod::network, "gdsum by MPI "}})
+  for (const auto& [means, name] :
+       {std::pair{messages::CollectiveMethod::cube, "gdsum "}, {messages::CollectiveMethod::network, "gdsum by MPI "}})
     for (const Size& size : {Size{"1", 1, 1000}, Size{"2160", 2160, 100}, Size{"100000", 100'000, 4}}) {
       std::vector<double> x(size.bytes), work(size.bytes);
       const int count = std::max(2, size.count / static_cast<int>(numnodes() / 2));

@@ -1,5 +1,6 @@
 // Sparse all-to-all by each route: every node has as many bytes for each of a few others. Printed: microseconds from
-// when all begin until the last has all, the best of a few rounds: bench-routes [ROUNDS [MOST-BYTES [crystal|direct|mpi]]]. Under mpirun or smpirun, the first rank is the host.
+// when all begin until the last has all, the best of a few rounds: bench-routes [ROUNDS [MOST-BYTES
+// [crystal|direct|mpi]]]. Under mpirun or smpirun, the first rank is the host.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +19,8 @@ namespace {
 constexpr long kDone = 8;
 
 // Seconds of the slowest node.
-double once(collectives::CrystalRouter& router, const std::vector<collectives::Parcel>& parcels, collectives::Route route) {
+double once(collectives::CrystalRouter& router, const std::vector<collectives::Parcel>& parcels,
+            collectives::Route route) {
   gsync();
   const double begin = dclock();
   router.exchange({0, static_cast<int>(numnodes())}, parcels, route);
@@ -31,7 +33,9 @@ struct Named {
   const char* name;
   collectives::Route route;
 };
-constexpr Named kRoutes[] = {{"crystal", collectives::Route::crystal}, {"direct", collectives::Route::direct}, {"mpi", collectives::Route::network}};
+constexpr Named kRoutes[] = {{"crystal", collectives::Route::crystal},
+                             {"direct", collectives::Route::direct},
+                             {"mpi", collectives::Route::network}};
 
 void measure(int others, std::size_t bytes, int rounds, const std::string& only) {
   const auto nodes = static_cast<int>(numnodes());
@@ -62,7 +66,8 @@ int run(int argc, char** argv) {
   }
   const std::string only = argc > 3 ? argv[3] : "";
   if (mynode() == 0)
-    std::printf("%6s%8s%10s  %s\n", "nodes", "others", "bytes", only.empty() ? "  crystal us     direct us        MPI us" : only.c_str());
+    std::printf("%6s%8s%10s  %s\n", "nodes", "others", "bytes",
+                only.empty() ? "  crystal us     direct us        MPI us" : only.c_str());
   for (const int others : {4, 16})
     for (const std::size_t bytes : {8ul, 256ul, 4096ul, 65536ul})
       if (bytes <= most) measure(others, bytes, rounds, only);

@@ -1,6 +1,6 @@
-// The messages of the three routes of a sparse all-to-all, as hal/collectives/crystal_router.cpp sends them, without what NX does
-// beside: so that smpirun can simulate a thousand nodes. Each has as many bytes for each of a few random others:
-// bench-simulated-routes.so [OTHERS BYTES [crystal|direct|mpi]].
+// The messages of the three routes of a sparse all-to-all, as hal/collectives/crystal_router.cpp sends them, without
+// what NX does beside: so that smpirun can simulate a thousand nodes. Each has as many bytes for each of a few random
+// others: bench-simulated-routes.so [OTHERS BYTES [crystal|direct|mpi]].
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -69,7 +69,8 @@ void direct(const Machine& machine, const Parcels& parcels, int bytes, std::vect
   std::vector<MPI_Request> sends(static_cast<std::size_t>(machine.nodes), MPI_REQUEST_NULL);
   for (int i = 1; i < machine.nodes; ++i) {
     const int to = (machine.rank + i) % machine.nodes;
-    MPI_Isend(out.data(), lengths[static_cast<std::size_t>(to)], MPI_BYTE, to, 2, MPI_COMM_WORLD, &sends[static_cast<std::size_t>(i)]);
+    MPI_Isend(out.data(), lengths[static_cast<std::size_t>(to)], MPI_BYTE, to, 2, MPI_COMM_WORLD,
+              &sends[static_cast<std::size_t>(i)]);
   }
   for (int i = 1; i < machine.nodes; ++i)
     MPI_Recv(in.data(), static_cast<int>(in.size()), MPI_BYTE, (machine.rank + machine.nodes - i) % machine.nodes, 2,
@@ -118,7 +119,8 @@ int main(int argc, char** argv) {
   Machine machine{};
   MPI_Comm_rank(MPI_COMM_WORLD, &machine.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &machine.nodes);
-  if (machine.rank == 0) std::printf("%6s%8s%10s%14s%14s%14s\n", "nodes", "others", "bytes", "crystal us", "direct us", "MPI us");
+  if (machine.rank == 0)
+    std::printf("%6s%8s%10s%14s%14s%14s\n", "nodes", "others", "bytes", "crystal us", "direct us", "MPI us");
   const std::string only = argc > 3 ? argv[3] : "";
   if (argc > 2)
     measure(machine, std::atoi(argv[1]), std::atoi(argv[2]), only);

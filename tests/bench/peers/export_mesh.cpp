@@ -65,8 +65,8 @@ void add_patch(const shape::Dicer& diced, MeshPatch part, Mesh& mesh) {
   part.triangles = diced.triangles().count;
   const shape::Vertices& v = diced.vertices();
   for (std::uint32_t k = 0; k < part.vertices; ++k)
-    mesh.vertices.push_back({{v.place[0][k], v.place[1][k], v.place[2][k]},
-                             {v.normal[0][k], v.normal[1][k], v.normal[2][k]}});
+    mesh.vertices.push_back(
+        {{v.place[0][k], v.place[1][k], v.place[2][k]}, {v.normal[0][k], v.normal[1][k], v.normal[2][k]}});
   const std::uint32_t first = part.first_vertex;
   for (std::uint32_t k = 0; k < part.triangles; ++k) {
     const shape::Corner3 t = diced.triangles()[k];
@@ -106,7 +106,8 @@ Square inverse(const Square& a) {
   Square out{};
   const auto at = [&](std::size_t r, std::size_t c) { return a[r % 3][c % 3]; };
   double determinant = 0;
-  for (std::size_t c = 0; c < 3; ++c) determinant += a[0][c] * (at(1, c + 1) * at(2, c + 2) - at(1, c + 2) * at(2, c + 1));
+  for (std::size_t c = 0; c < 3; ++c)
+    determinant += a[0][c] * (at(1, c + 1) * at(2, c + 2) - at(1, c + 2) * at(2, c + 1));
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 3; ++c)
       out[r][c] = (at(c + 1, r + 1) * at(c + 2, r + 2) - at(c + 1, r + 2) * at(c + 2, r + 1)) / determinant;

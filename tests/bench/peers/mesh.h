@@ -22,7 +22,7 @@ struct MeshHead {
   std::array<float, 3> to_light;  // unit
   std::array<float, 3> light;     // its colour
   float ambient, diffuse, specular;
-  std::uint32_t squarings;        // specular exponent: 2 to this
+  std::uint32_t squarings;  // specular exponent: 2 to this
   std::uint32_t looks, patches, vertices, triangles, frames;
 };
 

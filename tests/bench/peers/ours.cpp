@@ -62,7 +62,9 @@ Driver::Driver(const wire::FilmView& film, Course course, const std::string& bac
       frames_a_task_(course == Course::whole ? 1 : film.intervals()[0].frame_count),
       settings_(film.settings()),
       sink_(frames_a_task_),
-      orders_([this] { return Picture{settings_.width, settings_.height, sink_.pixels()}; }) {
+      orders_([this] {
+        return Picture{settings_.width, settings_.height, sink_.pixels()};
+      }) {
   work_.coherence = course == Course::inbetween;
   work_.groups = 1;
   work_.frames.resize(settings_.frames);
@@ -77,7 +79,8 @@ void Driver::run(std::span<const std::byte> block) {
   listener.finished = [this](const farm::FinishedFrame& frame) { finished_.push_back(frame); };
   listener.more = [this] { return more(); };
   sinks::SinkPool pool(sink_, {settings_.width, settings_.height, 16, 4, 2});
-  farm::render_film(block, farm::make_plan(wire::FilmView(block, "film"), work_, static_cast<int>(numnodes())), {}, pool, listener);
+  farm::render_film(block, farm::make_plan(wire::FilmView(block, "film"), work_, static_cast<int>(numnodes())), {},
+                    pool, listener);
   if (begun_ && left_ > 0) throw std::runtime_error("the film has too few frames for so many orders");
 }
 

@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
   try {
     if (argc != 4) throw std::runtime_error("usage: bench-ours-threads FILM whole|inbetween|latency NODES");
     const bench::Course course = bench::course_of(argv[2]);
-    threads::run_threads(std::stoi(argv[3]), [&] { bench::compete(argv[1], course, "threads"); },
-                     [] { programs::run_node_job(); });
+    threads::run_threads(
+        std::stoi(argv[3]), [&] { bench::compete(argv[1], course, "threads"); }, [] { programs::run_node_job(); });
     return 0;
   } catch (const std::exception& failure) {
     std::cerr << "bench-ours-threads: " << reason_of(failure) << '\n';

@@ -41,8 +41,8 @@ class Orders {
 };
 
 struct Competitor {
-  std::string ready;                      // one line
-  std::function<void()> render;           // the next frame
+  std::string ready;             // one line
+  std::function<void()> render;  // the next frame
   std::function<Picture()> last_picture;
 };
 

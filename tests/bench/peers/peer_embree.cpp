@@ -141,12 +141,12 @@ class Renderer {
 
   const Mesh& mesh_;
   bool inbetweens_ = false;
-  bool keeping_depth_;  // where something moves
+  bool keeping_depth_;    // where something moves
   std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
   View standing_{}, mover_{};
   std::string note_;
   std::vector<std::uint32_t> frame_;
-  std::vector<float> depth_;  // of the standing part
+  std::vector<float> depth_;         // of the standing part
   std::vector<std::uint32_t> kept_;  // the standing part's colours
   std::uint32_t background_ = 0;
   int columns_;                       // of tiles
@@ -167,8 +167,8 @@ std::uint32_t pixel_of(const std::array<float, 3>& color) {
 
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens) : mesh_(mesh),
-      keeping_depth_(mesh.first_moving_triangle() < mesh.head.triangles), number_(mesh.head.frames - 1) {
+Renderer::Renderer(const Mesh& mesh, int threads, bool inbetweens)
+    : mesh_(mesh), keeping_depth_(mesh.first_moving_triangle() < mesh.head.triangles), number_(mesh.head.frames - 1) {
   const std::size_t pixels = std::size_t{mesh.head.width} * mesh.head.height;
   background_ = pixel_of(mesh.head.background);
   frame_.assign(pixels, background_);
@@ -263,8 +263,8 @@ std::size_t Renderer::place(int left, int top, int row) const {
 // Draws what `view` has nearer than depth_, over what the frame shows; or, where it is the first, over nothing.
 void Renderer::draw_packet(const View& view, int left, int top, bool over) {
   RTCRayHit16 rays;
-  const Ints inside = (left + kColumn < static_cast<int>(mesh_.head.width)) &
-                      (top + kLine < static_cast<int>(mesh_.head.height));
+  const Ints inside =
+      (left + kColumn < static_cast<int>(mesh_.head.width)) & (top + kLine < static_cast<int>(mesh_.head.height));
   Floats limit = Floats{} + kFar;
   if (over)
     for (int k = 0; k < kPacket; ++k)

@@ -204,7 +204,7 @@ class Renderer {
   GLuint program_ = 0, drawn_ = 0, kept_ = 0;
   GLint motion_at_ = -1, own_at_ = -1;
   std::vector<Batch> batches_[2];  // what stands, what moves
-  std::uint32_t number_;  // of the last frame rendered; inbetweens are all but 0
+  std::uint32_t number_;           // of the last frame rendered; inbetweens are all but 0
   std::vector<Outline> mover_;
   Box before_{};
   std::vector<std::uint32_t> pixels_;
@@ -213,8 +213,12 @@ class Renderer {
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 Renderer::Renderer(const Mesh& mesh, bool inbetweens)
-    : mesh_(mesh), inbetweens_(inbetweens), width_(static_cast<GLsizei>(mesh.head.width)),
-      height_(static_cast<GLsizei>(mesh.head.height)), number_(mesh.head.frames - 1), mover_(outlines_of(mesh, true)),
+    : mesh_(mesh),
+      inbetweens_(inbetweens),
+      width_(static_cast<GLsizei>(mesh.head.width)),
+      height_(static_cast<GLsizei>(mesh.head.height)),
+      number_(mesh.head.frames - 1),
+      mover_(outlines_of(mesh, true)),
       pixels_(mesh.head.width * std::size_t{mesh.head.height}) {
   const MeshHead& head = mesh.head;
   program_ = link(head);
@@ -262,9 +266,11 @@ void Renderer::load() {
   glBindVertexArray(names[2]);
   glGenBuffers(2, names);
   glBindBuffer(GL_ARRAY_BUFFER, names[0]);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(),
+               GL_STATIC_DRAW);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, names[1]);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+               GL_STATIC_DRAW);
   for (GLuint k = 0; k < 2; ++k) {
     glEnableVertexAttribArray(k);
     glVertexAttribPointer(k, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), reinterpret_cast<void*>(k * 3 * sizeof(float)));
@@ -272,7 +278,8 @@ void Renderer::load() {
 }
 
 void Renderer::set_motion(const Motion& m) {
-  const float columns[12] = {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2], m[0][3], m[1][3], m[2][3]};
+  const float columns[12] = {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1],
+                             m[0][2], m[1][2], m[2][2], m[0][3], m[1][3], m[2][3]};
   glUniformMatrix4x3fv(motion_at_, 1, GL_FALSE, columns);
 }
 
@@ -311,8 +318,9 @@ void Renderer::render_inbetween() {
                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   draw(true, mesh_.motion[number_]);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
-  glReadPixels(changed.left, changed.bottom, changed.width, changed.height, GL_RGBA, GL_UNSIGNED_BYTE,
-               &pixels_[static_cast<std::size_t>(changed.bottom) * mesh_.head.width + static_cast<std::size_t>(changed.left)]);
+  glReadPixels(
+      changed.left, changed.bottom, changed.width, changed.height, GL_RGBA, GL_UNSIGNED_BYTE,
+      &pixels_[static_cast<std::size_t>(changed.bottom) * mesh_.head.width + static_cast<std::size_t>(changed.left)]);
 }
 
 Box Renderer::mover_box(const Motion& motion) const {

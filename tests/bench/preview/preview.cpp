@@ -43,9 +43,11 @@ preview::View crowd(int figures) {
                   i == 0 ? "" : ", ", i, 3 * (i / 5), 2 * (i % 5) - 4, kFrames);
     actors += text;
   }
-  const std::string json = "{\"frames\": " + std::to_string(kFrames) +
-                           ", \"size\": [960, 540], \"camera\": {\"eye\": [-11, -1, 5], \"at\": [4, 0, 1.6], \"fov\": 40},"
-                           "\"models\": {\"human\": \"models/human.json\"}, \"actors\": [" + actors + "]}";
+  const std::string json =
+      "{\"frames\": " + std::to_string(kFrames) +
+      ", \"size\": [960, 540], \"camera\": {\"eye\": [-11, -1, 5], \"at\": [4, 0, 1.6], \"fov\": 40},"
+      "\"models\": {\"human\": \"models/human.json\"}, \"actors\": [" +
+      actors + "]}";
   const animator::Film film = animator::read_film(document::Document(json, "crowd").root(), MARS_EXAMPLES);
   return preview::view_of(film::compile(film), &film);
 }
@@ -97,12 +99,14 @@ void run() {
               view.parts[1].size(), view.frames, processor_milliseconds() - begun);
   std::printf("%-10s %-8s %-9s %9s %9s %9s %10s\n", "shown as", "on", "pixels", "draw ms", "encode ms", "frames/s",
               "kB a frame");
-  const std::map<preview::As, const char*> shown{{preview::As::stick, "stick"}, {preview::As::vertices, "vertices"}, {preview::As::prisms, "prisms"}};
+  const std::map<preview::As, const char*> shown{
+      {preview::As::stick, "stick"}, {preview::As::vertices, "vertices"}, {preview::As::prisms, "prisms"}};
   const std::map<preview::Graphics, const char*> terminals{
       {preview::Graphics::kitty, "kitty"}, {preview::Graphics::sixel, "sixel"}, {preview::Graphics::blocks, "blocks"}};
   for (const auto& [as, as_name] : shown)
     for (const auto& [graphics, name] : terminals) {
-      const images::PictureSize extent = graphics == preview::Graphics::blocks ? images::PictureSize{160, 90} : images::PictureSize{960, 540};
+      const images::PictureSize extent =
+          graphics == preview::Graphics::blocks ? images::PictureSize{160, 90} : images::PictureSize{960, 540};
       const Result result = measure(view, as, extent, graphics);
       const std::string pixels = std::to_string(extent.width) + "x" + std::to_string(extent.height);
       std::printf("%-10s %-8s %-9s %9.2f %9.2f %9.0f %10.1f\n", as_name, name, pixels.c_str(), result.draw,

@@ -29,7 +29,8 @@ TEST_P(Routes, CrystalSendsOneMessageADimension) {
   const auto corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
   const auto dimensions = static_cast<unsigned>(std::countr_zero(static_cast<unsigned>(corners)));
   messages::Counts counts;
-  threads::run_threads(nodes, [] {}, [] { exchange_few(Route::crystal); }, messages::counting(counts));
+  threads::run_threads(
+      nodes, [] {}, [] { exchange_few(Route::crystal); }, messages::counting(counts));
   for (int node = 0; node < nodes; ++node) {
     const bool folded = node >= corners, folds = node + corners < nodes;
     EXPECT_EQ(counts.sent({.from = node}).messages, folded ? 1u : dimensions + (folds ? 1 : 0)) << node;
@@ -39,7 +40,8 @@ TEST_P(Routes, CrystalSendsOneMessageADimension) {
 TEST_P(Routes, DirectSendsOneMessageANode) {
   const int nodes = GetParam();
   messages::Counts counts;
-  threads::run_threads(nodes, [] {}, [] { exchange_few(Route::direct); }, messages::counting(counts));
+  threads::run_threads(
+      nodes, [] {}, [] { exchange_few(Route::direct); }, messages::counting(counts));
   for (int node = 0; node < nodes; ++node)
     EXPECT_EQ(counts.sent({.from = node}).messages, static_cast<unsigned>(nodes - 1)) << node;
 }
@@ -49,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Nodes, Routes, testing::Values(1, 2, 3, 4, 5, 7, 8, 13,
 // To agree on the route is one more exchange.
 TEST(RouteChoice, CostsOneMessageADimension) {
   messages::Counts counts;
-  threads::run_threads(64, [] {}, [] { exchange_few(Route::automatic); }, messages::counting(counts));
+  threads::run_threads(
+      64, [] {}, [] { exchange_few(Route::automatic); }, messages::counting(counts));
   EXPECT_EQ(counts.sent({}).messages, 64u * (6 + 6));
 }
 

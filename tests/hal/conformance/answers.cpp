@@ -97,7 +97,8 @@ RULE(answers_too_long, "an answer longer than the buffer is EQMSGLONG", "it stay
   expect_equal(answer[0], 6);
 }
 
-RULE(answers_that_wait_too_long, "an answer that waits already and is too long fails csendrecv, and isendrecv at its msgwait",
+RULE(answers_that_wait_too_long,
+     "an answer that waits already and is too long fails csendrecv, and isendrecv at its msgwait",
      "EQMSGLONG each time; it goes on waiting, and the questions have gone") {
   if (is_host()) return;
   char in = 'x';

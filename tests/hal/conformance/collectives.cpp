@@ -69,7 +69,8 @@ std::string part_of(long node, long scale) {
   return std::string(static_cast<std::size_t>(scale * (node * 5 % 7)), static_cast<char>('a' + node % 26));
 }
 
-RULE(gcol_in_node_order, "gcol and gcolx put the parts of all nodes together in node order, of different lengths, empty too",
+RULE(gcol_in_node_order,
+     "gcol and gcolx put the parts of all nodes together in node order, of different lengths, empty too",
      "nothing is written behind the last") {
   if (is_host()) return;
   for (const long scale : {0L, 1L, 5000L}) {

@@ -17,8 +17,7 @@ void expect_in(const std::string& text, const std::vector<std::string>& parts, c
     if (text.find(part) == std::string::npos) broken("\"" + part + "\" is not in \"" + text + "\"", at);
 }
 
-void expect_fails(int code, const std::function<void()>& call, const std::vector<std::string>& parts,
-                  const Place& at) {
+void expect_fails(int code, const std::function<void()>& call, const std::vector<std::string>& parts, const Place& at) {
   try {
     call();
   } catch (const messages::CallFailure& failure) {

@@ -45,7 +45,7 @@ void expect_errno(int code, const std::function<long()>& twin, const Place& at =
 
 // Both of an NX call: REFUSED(EQNODE, csend, (1, &x, 8, -2, 0), "no node -2"). They are called in this order, and the
 // plain one names itself.
-#define REFUSED(code, call, arguments, ...)                        \
+#define REFUSED(code, call, arguments, ...)                          \
   expect_fails(code, [&] { call arguments; }, {#call, __VA_ARGS__}); \
   expect_errno(code, [&] { return _##call arguments; })
 

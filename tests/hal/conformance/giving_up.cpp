@@ -9,7 +9,8 @@
 namespace mars::conformance {
 namespace {
 
-RULE(cancelled_receives, "msgcancel of a receive frees its id, and its message goes to the next receive that selects it",
+RULE(cancelled_receives,
+     "msgcancel of a receive frees its id, and its message goes to the next receive that selects it",
      "nothing is written to the buffer; the id is EQMID") {
   if (is_host()) return;
   long never = -7, next = 0;
@@ -66,7 +67,8 @@ RULE(cancelled_at_once, "msgcancel of a receive that is not done does not look f
   while (iprobe(52) == 1) flick();
 }
 
-RULE(cancelled_for_another, "a message that a cancelled receive gives back goes to the next posted receive that selects it",
+RULE(cancelled_for_another,
+     "a message that a cancelled receive gives back goes to the next posted receive that selects it",
      "it does not wait beside it") {
   if (is_host()) return;
   long first = 0, second = 0;

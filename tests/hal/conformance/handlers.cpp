@@ -46,7 +46,8 @@ void await_calls(std::size_t calls, const Place& at = Place::current()) {
   expect_equal(seen().calls.size(), calls, at);
 }
 
-RULE(hrecv_calls_once, "hrecv calls its handler once, with type, length, sender and pid, when the buffer holds the message",
+RULE(hrecv_calls_once,
+     "hrecv calls its handler once, with type, length, sender and pid, when the buffer holds the message",
      "not before it has come; a second message waits for a receive of its own") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(4);

@@ -113,7 +113,8 @@ RULE(a_thousand_ids, "a thousand ids at once, done in any order", "none stands f
   for (const long mid : mids) msgwait(mid);
 }
 
-RULE(info_is_of_what_was_asked, "info* tell of the message whose msgwait, msgdone that was 1, receive or probe was last",
+RULE(info_is_of_what_was_asked,
+     "info* tell of the message whose msgwait, msgdone that was 1, receive or probe was last",
      "messages that arrive meanwhile, and sends, do not change them") {
   if (is_host()) return;
   long first = 0, second = 0;

@@ -88,7 +88,8 @@ RULE(too_long_after_shorter, "a receive that is too short for the first message 
   receive_empty(72);
 }
 
-RULE(too_long_for_the_posted, "a posted receive that is too short fails at its msgwait or msgdone, and the message goes on",
+RULE(too_long_for_the_posted,
+     "a posted receive that is too short fails at its msgwait or msgdone, and the message goes on",
      "EQMSGLONG not before; its buffer stays untouched; the next receive gets the message") {
   if (is_host()) return;
   long untouched = -7, also = -7, value = 0;

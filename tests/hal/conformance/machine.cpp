@@ -47,7 +47,8 @@ void sum_in(const collectives::Group& group) {
   expect_equal(high[1], -*std::min_element(all.begin(), all.end()));
 }
 
-RULE(parts_of_the_machine_sum, "group_sum and group_high work in any run of nodes, in the order that group_sum.h promises",
+RULE(parts_of_the_machine_sum,
+     "group_sum and group_high work in any run of nodes, in the order that group_sum.h promises",
      "another order would give other bits") {
   if (is_host()) return;
   const int nodes = static_cast<int>(numnodes());

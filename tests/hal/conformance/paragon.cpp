@@ -13,7 +13,8 @@ namespace {
 
 using Info = std::array<long, 8>;
 
-RULE(crecvx_by_sender, "crecvx receives from the node it names, -1 being any", "an earlier message of another sender stays") {
+RULE(crecvx_by_sender, "crecvx receives from the node it names, -1 being any",
+     "an earlier message of another sender stays") {
   if (!is_host()) {
     send_long(80, 100 + mynode(), myhost());
     return;
@@ -30,7 +31,8 @@ RULE(crecvx_by_sender, "crecvx receives from the node it names, -1 being any", "
   }
 }
 
-RULE(irecvx_by_sender, "irecvx likewise; its array is filled when the id is done", "not before, and not by another's message") {
+RULE(irecvx_by_sender, "irecvx likewise; its array is filled when the id is done",
+     "not before, and not by another's message") {
   if (is_host()) {
     send_long(81, 1, -1);
     return;
@@ -90,7 +92,8 @@ RULE(wrong_merges, "msgmerge takes two ids in use", "EQMID for others, and for o
   msgcancel(mid);
 }
 
-RULE(ignored_ids, "msgignore frees the id, and what it stands for goes on", "the message does not wait for another receive") {
+RULE(ignored_ids, "msgignore frees the id, and what it stands for goes on",
+     "the message does not wait for another receive") {
   if (is_host()) return;
   long value = 0;
   const long mid = irecv(86, &value, sizeof value);

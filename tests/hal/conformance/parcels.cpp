@@ -15,7 +15,8 @@
 namespace mars::conformance {
 namespace {
 
-constexpr collectives::Route kRoutes[] = {collectives::Route::automatic, collectives::Route::crystal, collectives::Route::direct, collectives::Route::network};
+constexpr collectives::Route kRoutes[] = {collectives::Route::automatic, collectives::Route::crystal,
+                                          collectives::Route::direct, collectives::Route::network};
 
 std::string text_of(const collectives::Parcel& parcel) {
   return std::string(reinterpret_cast<const char*>(parcel.bytes.data()), parcel.bytes.size());
@@ -61,7 +62,8 @@ RULE(parcels_by_every_route, "parcels come by sender, and of each sender in its 
   const collectives::Group all = {0, static_cast<int>(numnodes())};
   collectives::CrystalRouter router;
   for (const collectives::Route route : kRoutes) expect_parcels(router.exchange(all, parcels, route));
-  for (const messages::CollectiveMethod means : {messages::CollectiveMethod::network, messages::CollectiveMethod::cube, messages::CollectiveMethod::automatic}) {
+  for (const messages::CollectiveMethod means :
+       {messages::CollectiveMethod::network, messages::CollectiveMethod::cube, messages::CollectiveMethod::automatic}) {
     messages::process().set_collectives(means);
     expect_parcels(router.exchange(all, parcels));
   }

@@ -55,13 +55,21 @@ void expect_folded(void (*call)(T*, long, T*), T (*of)(long, long), Fold<T> fold
 }
 
 template <class T>
-T sum(T a, T b) { return a + b; }
+T sum(T a, T b) {
+  return a + b;
+}
 template <class T>
-T product(T a, T b) { return a * b; }
+T product(T a, T b) {
+  return a * b;
+}
 template <class T>
-T high(T a, T b) { return a < b ? b : a; }
+T high(T a, T b) {
+  return a < b ? b : a;
+}
 template <class T>
-T low(T a, T b) { return b < a ? b : a; }
+T low(T a, T b) {
+  return b < a ? b : a;
+}
 
 void reduce_doubles() {
   expect_folded<double>(gdsum, value, sum);
@@ -95,17 +103,14 @@ void reduce_bits() {
   expect_folded<long>(gixor, word, [](long a, long b) { return a ^ b; });
 }
 
-RULE(reductions_of_doubles, "gdsum, gdprod, gdhigh and gdlow",
-     "no element, and no node, is left out") {
+RULE(reductions_of_doubles, "gdsum, gdprod, gdhigh and gdlow", "no element, and no node, is left out") {
   reduce_doubles();
 }
-RULE(reductions_of_floats, "gssum, gsprod, gshigh and gslow",
-     "no element, and no node, is left out") {
+RULE(reductions_of_floats, "gssum, gsprod, gshigh and gslow", "no element, and no node, is left out") {
   reduce_floats();
 }
 RULE(reductions_of_longs, "gisum, giprod, gihigh and gilow", "no element, and no node, is left out") { reduce_longs(); }
-RULE(bits, "giand, gior and gixor work bit by bit, negative numbers too",
-     "bits of different places do not mix") {
+RULE(bits, "giand, gior and gixor work bit by bit, negative numbers too", "bits of different places do not mix") {
   reduce_bits();
 }
 
@@ -137,7 +142,8 @@ RULE(truths, "gland, glor and glxor take what is not 0 for true and give 0 or 1"
   reduce_truths();
 }
 
-RULE(reductions_by_the_network, "all of them give the same where MARS_NX_COLLECTIVES=mpi has the network reduce by itself",
+RULE(reductions_by_the_network,
+     "all of them give the same where MARS_NX_COLLECTIVES=mpi has the network reduce by itself",
      "not one is another operation of the network's") {
   messages::process().set_collectives(messages::CollectiveMethod::network);
   reduce_doubles();

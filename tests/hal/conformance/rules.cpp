@@ -33,8 +33,9 @@ void run_rule(const Rule& rule) try {
   meet(expect_nothing_left);
 } catch (const std::exception& broken) {
   const messages::Backend& backend = messages::process().backend();
-  throw Failure(full_name(rule) + ": " + broken.what(),
-                messages::rank_name(backend.rank(), backend.host()) + " of " + std::to_string(backend.nodes()) + " nodes", "");
+  throw Failure(
+      full_name(rule) + ": " + broken.what(),
+      messages::rank_name(backend.rank(), backend.host()) + " of " + std::to_string(backend.nodes()) + " nodes", "");
 }
 
 }  // namespace

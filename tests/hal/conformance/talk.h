@@ -11,7 +11,7 @@ namespace mars::conformance {
 using Bytes = std::vector<unsigned char>;
 
 bool is_host();
-long next_node();      // round a ring of the nodes
+long next_node();  // round a ring of the nodes
 long previous_node();
 
 // `size` bytes that differ with `seed`.

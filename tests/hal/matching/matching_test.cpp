@@ -37,8 +37,8 @@ class Game {
 
   void play() {
     static constexpr void (Game::*kMoves[])() = {
-        &Game::arrive, &Game::arrive, &Game::arrive, &Game::post,   &Game::post,  &Game::post_handler,
-        &Game::ask,    &Game::ask,    &Game::probe,  &Game::receive, &Game::cancel, &Game::flush, &Game::mask};
+        &Game::arrive, &Game::arrive, &Game::arrive,  &Game::post,   &Game::post,  &Game::post_handler, &Game::ask,
+        &Game::ask,    &Game::probe,  &Game::receive, &Game::cancel, &Game::flush, &Game::mask};
     for (int turn = 0; turn < 300 && !testing::Test::HasFailure(); ++turn) {
       (this->*kMoves[below(std::size(kMoves))])();
       if (!lazy_) settle();
@@ -51,7 +51,9 @@ class Game {
 
   std::size_t below(std::size_t end) { return random_() % end; }
   template <class T, std::size_t n>
-  T any(const T (&all)[n]) { return all[below(n)]; }
+  T any(const T (&all)[n]) {
+    return all[below(n)];
+  }
 
   long any_typesel() {
     return any({0L, 1L, 2L, 29L, 30L, 5000L, 1'073'741'824L, -1L, 0x80000003L, 0x80000006L, -0x40000000L, 0xe0000001L});
@@ -103,7 +105,8 @@ class Game {
     const Receive receive{Receive::by_handler, ++handlers_, any_typesel(), any_node(), kRoom};
     handed_[receive.name].assign(kRoom, 0xee);
     model_.post(receive);
-    hrecvx(receive.typesel, handed_[receive.name].data(), static_cast<long>(receive.room), receive.node, -1, note, receive.name);
+    hrecvx(receive.typesel, handed_[receive.name].data(), static_cast<long>(receive.room), receive.node, -1, note,
+           receive.name);
   }
 
   std::list<Receive>::iterator any_posted() {

@@ -42,8 +42,7 @@ TEST(Typesel, AgreesWithItsTwin) {
   }
   for (const std::int64_t typesel : typesels) {
     for (const std::int32_t type : some_types()) {
-      ASSERT_EQ(selects(narrow_typesel(typesel), type), twin_selects(typesel, type))
-          << typesel << " " << type;
+      ASSERT_EQ(selects(narrow_typesel(typesel), type), twin_selects(typesel, type)) << typesel << " " << type;
     }
   }
 }

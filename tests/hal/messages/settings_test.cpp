@@ -14,9 +14,7 @@ namespace {
 // One variable of this process's environment, for a while.
 class Variable {
  public:
-  Variable(const std::string& name, const std::string& value) : name_(name) {
-    setenv(name.c_str(), value.c_str(), 1);
-  }
+  Variable(const std::string& name, const std::string& value) : name_(name) { setenv(name.c_str(), value.c_str(), 1); }
   ~Variable() { unsetenv(name_.c_str()); }
 
  private:
@@ -86,8 +84,7 @@ TEST_F(SettingsTest, ThatAreUnknownAreToldWithTheNearestName) {
   const Variable foreign("MARSH", "1");
   std::string told;
   for (const std::string& line : unknown_settings()) told += line + "\n";
-  EXPECT_NE(told.find("MARS_MEMROY means nothing to MARS (did you mean MARS_MEMORY?)"), std::string::npos)
-      << told;
+  EXPECT_NE(told.find("MARS_MEMROY means nothing to MARS (did you mean MARS_MEMORY?)"), std::string::npos) << told;
   EXPECT_NE(told.find("MARS_SIM means nothing to MARS (did you mean MARS_SIMD?)"), std::string::npos) << told;
   EXPECT_EQ(told.find("variable MARS_SIMD "), std::string::npos) << told;
   EXPECT_EQ(told.find("MARSH"), std::string::npos) << told;

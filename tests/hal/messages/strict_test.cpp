@@ -138,9 +138,9 @@ TEST(Strict, TellsWhoWaitsForWhom) {
   };
   EXPECT_THROW(run_strictly(3, end_it, head_to_head, milliseconds(100)), Failure);
   const std::string told = testing::internal::GetCapturedStderr();
-  for (const std::string line : {"s in csend until node 1 receives 200 bytes, type 7",
-                                 "s in csend until node 0 receives 200 bytes, type 7",
-                                 "s in crecv for a message, typesel 77", "node 0 has waited", "node 1 has waited", "strict mode"}) {
+  for (const std::string line :
+       {"s in csend until node 1 receives 200 bytes, type 7", "s in csend until node 0 receives 200 bytes, type 7",
+        "s in crecv for a message, typesel 77", "node 0 has waited", "node 1 has waited", "strict mode"}) {
     EXPECT_NE(told.find(line), std::string::npos) << told;
   }
   EXPECT_EQ(told.find("node 0 has"), told.rfind("node 0 has")) << "told once:\n" << told;

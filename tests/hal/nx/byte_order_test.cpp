@@ -12,17 +12,14 @@
 namespace mars::nx {
 namespace {
 
-constexpr std::endian kOther =
-    std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
+constexpr std::endian kOther = std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
 
 TEST(ByteOrder, BytesTurnRoundWhereOrdersDiffer) {
   std::array<std::uint16_t, 2> shorts{0x0102, 0xa0b0};
-  reorder(std::span<std::remove_reference_t<decltype(shorts[0])>>(shorts), std::endian::little,
-          std::endian::big);
+  reorder(std::span<std::remove_reference_t<decltype(shorts[0])>>(shorts), std::endian::little, std::endian::big);
   EXPECT_EQ(shorts, (std::array<std::uint16_t, 2>{0x0201, 0xb0a0}));
   std::array<std::uint32_t, 1> words{0x01020304};
-  reorder(std::span<std::remove_reference_t<decltype(words[0])>>(words), std::endian::big,
-          std::endian::little);
+  reorder(std::span<std::remove_reference_t<decltype(words[0])>>(words), std::endian::big, std::endian::little);
   EXPECT_EQ(words[0], 0x04030201u);
   // 1.0 is 3f f0 and six zeros.
   double one = 1;
@@ -36,8 +33,7 @@ TEST(ByteOrder, BytesTurnRoundWhereOrdersDiffer) {
 
 TEST(ByteOrder, EqualOrdersLeaveEverything) {
   std::array<float, 2> floats{1.5f, -2.25f};
-  reorder(std::span<std::remove_reference_t<decltype(floats[0])>>(floats), std::endian::big,
-          std::endian::big);
+  reorder(std::span<std::remove_reference_t<decltype(floats[0])>>(floats), std::endian::big, std::endian::big);
   EXPECT_EQ(floats, (std::array<float, 2>{1.5f, -2.25f}));
 }
 

@@ -58,8 +58,7 @@ class FilesTest : public testing::TestWithParam<int> {
   void put(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
   std::vector<std::string> entries() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
-      names.push_back(entry.path().filename());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.push_back(entry.path().filename());
     return names;
   }
 
@@ -78,9 +77,7 @@ class FilesTest : public testing::TestWithParam<int> {
 
 esize_t esize(long slow) { return {slow, 0}; }
 
-long write_text(int fd, const std::string& text) {
-  return cwrite(fd, text.data(), static_cast<long>(text.size()));
-}
+long write_text(int fd, const std::string& text) { return cwrite(fd, text.data(), static_cast<long>(text.size())); }
 
 std::string read_text(int fd, long length) {
   std::string text(static_cast<std::size_t>(length), '?');
@@ -132,8 +129,7 @@ TEST_P(FilesTest, InMode1EveryStretchIsSomebodysOwn) {
   const auto check = [&] {
     const std::string text = content();
     ASSERT_EQ(text.size(), static_cast<std::size_t>(GetParam() * kEach * 7));
-    for (std::size_t at = 0; at < text.size(); at += 7)
-      EXPECT_EQ(text.substr(at, 7), std::string(7, text[at]));
+    for (std::size_t at = 0; at < text.size(); at += 7) EXPECT_EQ(text.substr(at, 7), std::string(7, text[at]));
     for (long node = 0; node < GetParam(); ++node)
       EXPECT_EQ(std::count(text.begin(), text.end(), 'a' + node), kEach * 7);
     EXPECT_EQ(entries(), std::vector<std::string>{"shared"});

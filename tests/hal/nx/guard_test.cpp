@@ -20,9 +20,11 @@ void end_here(const std::string& reason) {
 
 void as_a_c_program(const std::function<void()>& body) {
   end_program_on_failure(end_here);
-  threads::run_threads(2, [] {}, [&body] {
-    if (mynode() == 1) body();
-  });
+  threads::run_threads(
+      2, [] {},
+      [&body] {
+        if (mynode() == 1) body();
+      });
   std::_Exit(0);
 }
 
@@ -30,7 +32,8 @@ TEST(Guard, PlainCallsEndCPrograms) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(as_a_c_program([] { csend(1, nullptr, -4, 0, 0); }), testing::ExitedWithCode(3),
               "node 1, csend: length -4 is negative");
-  EXPECT_EXIT(as_a_c_program([] { msgwait(7); }), testing::ExitedWithCode(3), "node 1, msgwait: there is no message id 7");
+  EXPECT_EXIT(as_a_c_program([] { msgwait(7); }), testing::ExitedWithCode(3),
+              "node 1, msgwait: there is no message id 7");
 }
 
 TEST(Guard, TwinsDoNotAndNxPerrorTellsThem) {
@@ -47,7 +50,8 @@ TEST(Guard, AnotherRanksEndIsNoErrno) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const auto stopped = [] {
     end_program_on_failure(end_here);
-    threads::run_threads(1, [] { throw Failure("the host is gone", "", ""); }, [] { _crecv(1, nullptr, 0); });
+    threads::run_threads(
+        1, [] { throw Failure("the host is gone", "", ""); }, [] { _crecv(1, nullptr, 0); });
   };
   EXPECT_EXIT(stopped(), testing::ExitedWithCode(3), "the host is gone");
 }

@@ -133,7 +133,8 @@ TEST(ProgressThread, StartsAndEndsAtAnyTime) {
     gsync();
     EXPECT_EQ(shared, 100 * (numnodes() - 1));
   };
-  threads::run_threads(3, [] {}, node);
+  threads::run_threads(
+      3, [] {}, node);
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ void expect(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error(what);
 }
 
-Came info() { return {static_cast<int>(infonode()), static_cast<std::int32_t>(infotype()), static_cast<std::size_t>(infocount())}; }
+Came info() {
+  return {static_cast<int>(infonode()), static_cast<std::int32_t>(infotype()), static_cast<std::size_t>(infocount())};
+}
 
 std::string text_of(const Came& came) {
   return "type " + std::to_string(came.type) + ", " + std::to_string(came.length) + " bytes, from " +
@@ -66,8 +68,8 @@ void Rank::step() {
     void (Rank::*step)();
   };
   static constexpr Weighted kSteps[] = {
-      {12, &Rank::send_next}, {10, &Rank::post}, {6, &Rank::post_handler}, {10, &Rank::probe_and_receive},
-      {10, &Rank::ask},       {4, &Rank::cancel}, {2, &Rank::flush},       {3, &Rank::mask},
+      {12, &Rank::send_next},     {10, &Rank::post},  {6, &Rank::post_handler}, {10, &Rank::probe_and_receive},
+      {10, &Rank::ask},           {4, &Rank::cancel}, {2, &Rank::flush},        {3, &Rank::mask},
       {3, &Rank::wait_for_a_send}};
   std::size_t left = below(random_, 60);
   for (const Weighted& one : kSteps) {
@@ -204,7 +206,8 @@ bool Rank::ask(Receives::iterator at) {
 }
 
 void Rank::account(const Taker& taker, const Came& came, const unsigned char* bytes) {
-  expect(messages::selects(taker.typesel, came.type), "a receive of typesel " + std::to_string(taker.typesel) + " got " + text_of(came));
+  expect(messages::selects(taker.typesel, came.type),
+         "a receive of typesel " + std::to_string(taker.typesel) + " got " + text_of(came));
   settle_before(taker, came);
   ledger_.received(taker, came, bytes);
 }
@@ -271,9 +274,7 @@ void Rank::flush() {
   flushmsg(type, node, 0);
 }
 
-void Rank::mask() {
-  set_mask(maybe(3) ? 1 : 0);
-}
+void Rank::mask() { set_mask(maybe(3) ? 1 : 0); }
 
 // Handlers that were held back may run in the call that unmasks them.
 long Rank::set_mask(long state) {

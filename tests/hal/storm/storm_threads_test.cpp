@@ -9,9 +9,7 @@ namespace {
 
 class Threads : public testing::TestWithParam<int> {};
 
-TEST_P(Threads, KeepTheRules) {
-  threads::run_threads(GetParam(), run_fixed_storms, run_fixed_storms);
-}
+TEST_P(Threads, KeepTheRules) { threads::run_threads(GetParam(), run_fixed_storms, run_fixed_storms); }
 
 TEST_P(Threads, KeepTheRulesFresh) {
   const auto rank = [] { run_fresh_storm(static_cast<std::uint32_t>(GTEST_FLAG_GET(random_seed))); };

@@ -76,9 +76,8 @@ TEST(Child, AMissingProgramIsAFailure) {
 
 TEST_F(ChildTest, SignalsToUsArePassedOn) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const Outcome outcome =
-        run("trap 'echo stopped; exit 3' INT TERM; echo ready; while :; do sleep 0.05; done",
-            [&] { kill(getpid(), signal); });
+    const Outcome outcome = run("trap 'echo stopped; exit 3' INT TERM; echo ready; while :; do sleep 0.05; done",
+                                [&] { kill(getpid(), signal); });
     EXPECT_EQ(outcome.output, (Lines{"ready", "stopped"}));
     EXPECT_EQ(outcome.ending.code, 3);
     EXPECT_EQ(outcome.passed_on, signal);
@@ -86,8 +85,7 @@ TEST_F(ChildTest, SignalsToUsArePassedOn) {
 }
 
 TEST_F(ChildTest, WhoDoesNotListenIsKilled) {
-  const Outcome once =
-      run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] { kill(getpid(), SIGTERM); });
+  const Outcome once = run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] { kill(getpid(), SIGTERM); });
   EXPECT_EQ(once.ending.signal, SIGKILL);
   EXPECT_LT(once.seconds, 12);
 }
@@ -188,8 +186,7 @@ TEST(Child, WhatItLeavesIsKilled) {
   EXPECT_LT(outcome.seconds, 10);
   std::this_thread::sleep_for(100ms);
   ASSERT_EQ(outcome.output.size(), 1u);
-  const std::string state =
-      run("grep State /proc/" + outcome.output[0] + "/status").output.empty() ? "gone" : "there";
+  const std::string state = run("grep State /proc/" + outcome.output[0] + "/status").output.empty() ? "gone" : "there";
   EXPECT_EQ(state, "gone");
 }
 

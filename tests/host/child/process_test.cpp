@@ -39,7 +39,9 @@ TEST(Process, EndsWithACodeOrASignal) {
 }
 
 TEST(Process, SaysWhyItCannotStart) {
-  EXPECT_EQ(document::failure_of([] { Process({{}, {"/no/such/program"}}, {}); }),
+  EXPECT_EQ(document::failure_of([] {
+              Process({{}, {"/no/such/program"}}, {});
+            }),
             "/no/such/program: cannot be started: No such file or directory");
 }
 

@@ -112,7 +112,9 @@ TEST(Drawing, RandomLinesPassNextToTheirPixelsMiddles) {
                   0.51 + (flat ? std::abs((by - ay) / (bx - ax)) : std::abs((bx - ax) / (by - ay))) * 0.5);
       EXPECT_TRUE(along.insert(flat ? x : y).second) << "two pixels in one column";
     }
-    if (!along.empty()) { EXPECT_EQ(*along.rbegin() - *along.begin() + 1, int(along.size())) << "a gap"; }
+    if (!along.empty()) {
+      EXPECT_EQ(*along.rbegin() - *along.begin() + 1, int(along.size())) << "a gap";
+    }
   }
 }
 

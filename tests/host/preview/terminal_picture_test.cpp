@@ -49,9 +49,7 @@ struct Screen {
       (a == 38 ? fore : back) = static_cast<std::uint32_t>(red | green << 8 | blue << 16);
   }
 
-  std::uint32_t pixel(std::uint32_t x, std::uint32_t y) const {
-    return cells.at({int(y / 2) + 1, int(x) + 1})[y % 2];
-  }
+  std::uint32_t pixel(std::uint32_t x, std::uint32_t y) const { return cells.at({int(y / 2) + 1, int(x) + 1})[y % 2]; }
 };
 
 TEST(Blocks, ShowEveryPixel) {
@@ -198,8 +196,8 @@ TEST(KeyPress, ReadsCharactersAndSequences) {
   std::string bytes = "q\x1b[A\x1bOB \x1b[3~x\x1b[1;5C";
   const std::vector<KeyPress> keys = take_keys(bytes);
   EXPECT_EQ(bytes, "");
-  const std::vector<KeyPress> should{{'q', Special::none}, {0, Special::up},      {0, Special::down},
-                                     {' ', Special::none}, {'x', Special::none}};
+  const std::vector<KeyPress> should{
+      {'q', Special::none}, {0, Special::up}, {0, Special::down}, {' ', Special::none}, {'x', Special::none}};
   EXPECT_EQ(keys, should);
 }
 

@@ -30,7 +30,10 @@ TEST(TextLines, CountCharacters) {
 }
 
 TEST(TextLines, NothingMovesTheCursor) {
-  EXPECT_EQ(cut_to("a\x1b[2J\nb\x7f\xc2\x9b" "c\x80", 99), "a?[2J?b??c?");
+  EXPECT_EQ(cut_to("a\x1b[2J\nb\x7f\xc2\x9b"
+                   "c\x80",
+                   99),
+            "a?[2J?b??c?");
   EXPECT_EQ(wrapped("\x1b\x1b", 1, 2), (Lines{"?", "?"}));
 }
 

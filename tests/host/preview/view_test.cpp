@@ -46,8 +46,8 @@ glm::dvec3 placed(const View& view, const Part& part, std::uint32_t frame, std::
 const std::vector<Part>& parts(const View& view, As as) { return view.parts[static_cast<std::size_t>(as)]; }
 
 void expect_near(const glm::dvec3& is, const glm::dvec3& should) {
-  EXPECT_LT(glm::length(is - should), 1e-5) << is.x << ' ' << is.y << ' ' << is.z << " is not " << should.x << ' '
-                                            << should.y << ' ' << should.z;
+  EXPECT_LT(glm::length(is - should), 1e-5)
+      << is.x << ' ' << is.y << ' ' << is.z << " is not " << should.x << ' ' << should.y << ' ' << should.z;
 }
 
 TEST(View, MatricesAreTheCompiledFilms) {
@@ -215,7 +215,9 @@ TEST(View, BallsHoldEverySegmentAtEveryFrame) {
       for (std::size_t corner = 0; corner < 8; ++corner) {
         const glm::dvec3 place = placed(view, part, frame, corner);
         EXPECT_LE(glm::length(place - view.whole.center), view.whole.radius);
-        if (part.motion.count > 1) { EXPECT_LE(glm::length(place - view.subject.center), view.subject.radius); }
+        if (part.motion.count > 1) {
+          EXPECT_LE(glm::length(place - view.subject.center), view.subject.radius);
+        }
       }
   EXPECT_LT(view.subject.radius, view.whole.radius);
 }

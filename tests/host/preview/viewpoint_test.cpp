@@ -78,8 +78,9 @@ TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
   const film::CompiledFilm same = as_seen(film, {64, 36}, nullptr);
   for (std::uint32_t frame = 0; frame < 3; ++frame)
     EXPECT_EQ(same.view().camera_at(frame), film.view().camera_at(frame));
-  EXPECT_EQ(std::memcmp(film.view().matrices().data(), other.view().matrices().data(),
-                        film.view().matrices().size_bytes()), 0);
+  EXPECT_EQ(
+      std::memcmp(film.view().matrices().data(), other.view().matrices().data(), film.view().matrices().size_bytes()),
+      0);
 }
 
 // Keeps what it is asked.

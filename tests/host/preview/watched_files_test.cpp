@@ -56,14 +56,13 @@ TEST(WatchedFiles, AreChangedByEveryKindOfSave) {
   for (const fs::path& path : {file, other}) write_in_place(path, "read");
   fs::create_symlink(file, link);
   WatchedFiles files(stamps_of({file, link, none}));
-  const std::vector<std::function<void()>> saves{
-      [&] { write_in_place(file, "writ"); },
-      [&] { document::write_whole_file(file, "writ"); },
-      [&] { fs::remove(file); },
-      [&] { write_in_place(file, "made"); },
-      [&] { chmod(file.c_str(), 0600); },
-      [&] { fs::remove(link), fs::create_symlink(other, link); },
-      [&] { write_in_place(none, "here"); }};
+  const std::vector<std::function<void()>> saves{[&] { write_in_place(file, "writ"); },
+                                                 [&] { document::write_whole_file(file, "writ"); },
+                                                 [&] { fs::remove(file); },
+                                                 [&] { write_in_place(file, "made"); },
+                                                 [&] { chmod(file.c_str(), 0600); },
+                                                 [&] { fs::remove(link), fs::create_symlink(other, link); },
+                                                 [&] { write_in_place(none, "here"); }};
   for (std::size_t i = 0; i < saves.size(); ++i) {
     saves[i]();
     files.changed_and_settled();

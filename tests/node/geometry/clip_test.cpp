@@ -99,8 +99,7 @@ void expect_inside(const Projection& view, const ClipPolygon& polygon) {
     const auto w = static_cast<double>(-point[2]);
     EXPECT_GE(static_cast<double>(d[0]), -1e-3 * view.near);
     EXPECT_GE(static_cast<double>(d[1]), -1e-3 * view.far);
-    for (std::size_t plane = 2; plane < 6; ++plane)
-      EXPECT_GE(static_cast<double>(d[plane]), -1e-3 * view.guard * w);
+    for (std::size_t plane = 2; plane < 6; ++plane) EXPECT_GE(static_cast<double>(d[plane]), -1e-3 * view.guard * w);
   }
 }
 
@@ -198,8 +197,7 @@ TEST(Clip, NeighboursAreCutAtTheSamePlaces) {
   for (int trial = 0; trial < 20000; ++trial) {
     const float deep = trial % 4 ? 1 : 1e8f;  // on long edges rounding tells in which direction they were cut
     const ClipVertex a = marked(random, deep, 0), b = marked(random, deep, 1);
-    ClipPolygon one = triangle(a, b, marked(random, deep, 2)),
-                other = triangle(b, a, marked(random, deep, 2));
+    ClipPolygon one = triangle(a, b, marked(random, deep, 2)), other = triangle(b, a, marked(random, deep, 2));
     if (trial % 2) std::rotate(other.vertex.begin(), other.vertex.begin() + 1, other.vertex.begin() + 3);
     clip(view, one);
     clip(view, other);
@@ -213,8 +211,8 @@ TEST(Clip, NothingIsLeftOfWhatIsOutside) {
   shape::Random random(35);
   const Projection view = narrow(0.5, 20);
   for (int trial = 0; trial < 1000; ++trial) {
-    for (const shape::Vec3& middle :
-         {shape::Vec3{0, 0, 2}, shape::Vec3{0, 0, -23}, shape::Vec3{-15, 0, -5}, shape::Vec3{15, 0, -5}, shape::Vec3{0, 15, -5}}) {
+    for (const shape::Vec3& middle : {shape::Vec3{0, 0, 2}, shape::Vec3{0, 0, -23}, shape::Vec3{-15, 0, -5},
+                                      shape::Vec3{15, 0, -5}, shape::Vec3{0, 15, -5}}) {
       ClipPolygon polygon = triangle(vertex(random, 1), vertex(random, 1), vertex(random, 1));
       for (int k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis)

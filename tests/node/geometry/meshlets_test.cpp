@@ -46,7 +46,8 @@ class OneMeshlet {
       const auto normal = cross(film.mesh_places.end()[-3], film.mesh_places.end()[-2], film.mesh_places.end()[-1]);
       film.mesh_normals.insert(film.mesh_normals.end(), 3, {float(normal[0]), float(normal[1]), float(normal[2])});
       const auto first = static_cast<std::uint8_t>(3 * t);
-      film.mesh_triangles.push_back({first, static_cast<std::uint8_t>(first + 1), static_cast<std::uint8_t>(first + 2)});
+      film.mesh_triangles.push_back(
+          {first, static_cast<std::uint8_t>(first + 1), static_cast<std::uint8_t>(first + 2)});
     }
     film.meshlets = {meshlet};
     film.shapes[1].meshlet_count = 1;
@@ -93,7 +94,8 @@ TEST(Meshlets, PlacesAreThoseOfAPatchsPointsBitForBit) {
         float expected[3];
         shape::to_eye(matrix, film.mesh_places()[k], expected);
         for (int axis = 0; axis < 3; ++axis)
-          ASSERT_EQ(std::memcmp(&placer.vertices().place[axis][k], &expected[axis], sizeof(float)), 0) << simd::name_of(set);
+          ASSERT_EQ(std::memcmp(&placer.vertices().place[axis][k], &expected[axis], sizeof(float)), 0)
+              << simd::name_of(set);
       }
     }
   }
@@ -172,7 +174,8 @@ TEST(Meshlets, OnlyTheUnseenAreDropped) {
     MeshletPlacer placer(simd::best_instruction_set(""));
     placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
     std::size_t boxes = 0;
-    for (const raster::PlainTriangle& t : raster::plain_set_up(placer, kView, identity)) boxes += raster::plain_edge_boxes(t.corners, 320, 180).size();
+    for (const raster::PlainTriangle& t : raster::plain_set_up(placer, kView, identity))
+      boxes += raster::plain_edge_boxes(t.corners, 320, 180).size();
     const bool unseen = geometry::unseen(matrix, film.meshlets()[0], kView, 320, 180);
     EXPECT_TRUE(!unseen || boxes == 0) << "trial " << trial;
     dropped += unseen;
@@ -197,10 +200,12 @@ TEST(Meshlets, AreSetUpAlikeEitherWay) {
       MeshletPlacer placer(set);
       placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
       const raster::Picture picture{kView, 320, 180};
-      const raster::Made one = raster::set_up(set, picture, placer, identity), other = raster::set_up(set, picture, placer, identity, raster::Way::plainly);
+      const raster::Made one = raster::set_up(set, picture, placer, identity),
+                         other = raster::set_up(set, picture, placer, identity, raster::Way::plainly);
       ASSERT_EQ(one.triangles.size(), other.triangles.size());
       ASSERT_EQ(one.boxes.size(), other.boxes.size());
-      EXPECT_EQ(std::memcmp(one.triangles.data(), other.triangles.data(), one.triangles.size() * sizeof one.triangles[0]), 0);
+      EXPECT_EQ(
+          std::memcmp(one.triangles.data(), other.triangles.data(), one.triangles.size() * sizeof one.triangles[0]), 0);
       EXPECT_EQ(std::memcmp(one.boxes.data(), other.boxes.data(), one.boxes.size() * sizeof one.boxes[0]), 0);
       boxes += one.edge_boxes;
     }

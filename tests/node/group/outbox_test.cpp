@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kWidth = 16;
 
-// A node alone with its host. What happens meanwhile stands in a script: each time that the node can do nothing but wait,
-// its next event comes.
+// A node alone with its host. What happens meanwhile stands in a script: each time that the node can do nothing but
+// wait, its next event comes.
 class ScriptedHost : public transport_template::TemplateBackend {
  public:
   struct Sent {
@@ -152,9 +152,7 @@ TEST_F(OutboxTest, AFailureOfTheTransportComesThrough) {
   EXPECT_EQ(host.messages.size(), 1u);
 }
 
-TEST_F(OutboxTest, FailsWhereTheMachineLacksTheMemory) {
-  EXPECT_THROW(Outbox(std::size_t{1} << 42, 1), Failure);
-}
+TEST_F(OutboxTest, FailsWhereTheMachineLacksTheMemory) { EXPECT_THROW(Outbox(std::size_t{1} << 42, 1), Failure); }
 
 }  // namespace
 }  // namespace mars::group

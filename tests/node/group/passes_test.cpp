@@ -84,7 +84,8 @@ void use(raster::Arena& arena, const Frame& frame, std::size_t n, const Pass& pa
   std::uint64_t own = 0, drawn = 0;
   for (const LineRange& part : parts) own += frame.boxes(n, part);
   for (std::size_t other = 0; other < frame.nodes(); ++other) drawn += frame.boxes(other, parts[n]);
-  arena.take_ends(std::min(own, frame.made(n).triangles) * sizeof(geometry::Triangle), own * sizeof(raster::UnsortedEdgeBox));
+  arena.take_ends(std::min(own, frame.made(n).triangles) * sizeof(geometry::Triangle),
+                  own * sizeof(raster::UnsortedEdgeBox));
   const auto take_parcel = [&](std::uint64_t boxes) {
     arena.take<geometry::Triangle>(boxes);
     arena.take<raster::UnsortedEdgeBox>(boxes);
@@ -191,7 +192,8 @@ Agreement agree(const Frame& frame, std::uint64_t memory) {
     const std::lock_guard lock(mutex);
     out.messages += counts.sent({.from = mynode()}).messages - before;
   };
-  threads::run_threads(static_cast<int>(frame.nodes()), [] {}, node, messages::counting(counts));
+  threads::run_threads(
+      static_cast<int>(frame.nodes()), [] {}, node, messages::counting(counts));
   return out;
 }
 

@@ -113,8 +113,8 @@ struct Tally {
 };
 
 // All kernels, on batches that are consecutive or not.
-void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& task, std::uint32_t count, shape::Random& random,
-                  Tally& tally) {
+void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& task, std::uint32_t count,
+                  shape::Random& random, Tally& tally) {
   std::vector<std::vector<UnsortedEdgeBox>> boxes;
   for (const Corners& t : triangles) boxes.push_back(plain_edge_boxes(t, task.width, task.height));
   Batch16 batch(triangles, random.whole(0, 1) == 1, random);
@@ -152,12 +152,8 @@ Corners random_triangle(shape::Random& random, const ClassifyTask& task) {
     t.y[k] = snapped(y + random.whole(-size / 2, size / 2));
   }
   switch (random.whole(0, 11)) {
-    case 0:
-      t.y[1] = t.y[0];
-      break;
-    case 1:
-      t.x[1] = t.x[0];
-      break;
+    case 0: t.y[1] = t.y[0]; break;
+    case 1: t.x[1] = t.x[0]; break;
     case 2:  // a sliver
       t.x[2] = (t.x[0] + t.x[1]) / 2 + random.whole(-6, 6);
       t.y[2] = (t.y[0] + t.y[1]) / 2 + random.whole(-6, 6);
@@ -166,8 +162,7 @@ Corners random_triangle(shape::Random& random, const ClassifyTask& task) {
       t.x[2] = t.x[0] + random.whole(-6, 6);
       t.y[2] = t.y[0] + random.whole(-6, 6);
       break;
-    default:
-      break;
+    default: break;
   }
   return t;
 }

@@ -13,8 +13,8 @@
 namespace mars::raster {
 namespace {
 
-using shading::Extent;
 using geometry::Triangle;
+using shading::Extent;
 
 constexpr std::uint32_t kLine = 7;
 
@@ -72,8 +72,9 @@ void draw_plainly(const Boxes& boxes, Line& line) {
     for (std::int32_t column = box.first; column < box.last; ++column) {
       const auto at = static_cast<std::size_t>(column);
       const Triangle& t = boxes.triangles[box.triangle];
-      const float row = t.at_first[shape::kDepth] +
-                        static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[shape::kDepth];
+      const float row =
+          t.at_first[shape::kDepth] +
+          static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[shape::kDepth];
       const float depth = row + static_cast<float>(256 * column + 128 - t.first_x) * t.per_x[shape::kDepth];
       const std::uint32_t shown = line.ids[at];
       const bool first = shown != shading::kNoTriangle &&
@@ -102,10 +103,9 @@ TEST(Draw, IsAPlainZBuffer) {
     for (const simd::InstructionSet set : simd::all_sets()) {
       Line line = before;
       const auto count = static_cast<std::uint32_t>(boxes.boxes.size());
-      const Extent extent = raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, line.depth.data(),
-                                          line.ids.data());
-      EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids)
-          << simd::name_of(set) << ' ' << trial;
+      const Extent extent = raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine,
+                                                     line.depth.data(), line.ids.data());
+      EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids) << simd::name_of(set) << ' ' << trial;
       EXPECT_EQ(extent.last, last);
       EXPECT_EQ(extent.first, first);
     }

@@ -13,7 +13,6 @@
 namespace mars::raster {
 namespace {
 
-
 struct Point {
   std::int32_t x, y;  // 1/256 pixel
 };
@@ -48,18 +47,12 @@ class Coverage {
 Point random_point(shape::Random& random, int kind) {
   const auto beside = [&](std::int32_t most) { return random.whole(-most, 24 * 256 + most); };
   switch (kind) {
-    case 0:
-      return {beside(600), beside(600)};
-    case 1:
-      return {random.whole(2560, 3100), random.whole(2560, 3100)};  // about two pixels
-    case 2:
-      return {256 * random.whole(-3, 27) + 128, 256 * random.whole(-3, 27) + 128};  // on samples
-    case 3:
-      return {128 * random.whole(-6, 54), 128 * random.whole(-6, 54)};
-    case 4:
-      return {random.whole(-8400000, 8400000), random.whole(-8400000, 8400000)};  // all the guard band
-    default:
-      return {random.whole(0, 1) ? 8400000 : -8400000, beside(5000)};
+    case 0: return {beside(600), beside(600)};
+    case 1: return {random.whole(2560, 3100), random.whole(2560, 3100)};                  // about two pixels
+    case 2: return {256 * random.whole(-3, 27) + 128, 256 * random.whole(-3, 27) + 128};  // on samples
+    case 3: return {128 * random.whole(-6, 54), 128 * random.whole(-6, 54)};
+    case 4: return {random.whole(-8400000, 8400000), random.whole(-8400000, 8400000)};  // all the guard band
+    default: return {random.whole(0, 1) ? 8400000 : -8400000, beside(5000)};
   }
 }
 
@@ -68,20 +61,11 @@ Corners random_triangle(shape::Random& random) {
   Point p[3];
   for (Point& corner : p) corner = random_point(random, kind);
   switch (random.whole(0, 6)) {
-    case 0:
-      p[1].y = p[0].y;
-      break;  // a horizontal edge
-    case 1:
-      p[1].x = p[0].x;
-      break;  // a vertical one
-    case 2:
-      p[2] = {p[0].x + random.whole(-2, 2), p[0].y + random.whole(-2, 2)};
-      break;  // a sliver
-    case 3:
-      p[2] = {p[0].x / 2 + p[1].x / 2 + random.whole(-1, 1), p[0].y / 2 + p[1].y / 2};
-      break;
-    default:
-      break;
+    case 0: p[1].y = p[0].y; break;                                                      // a horizontal edge
+    case 1: p[1].x = p[0].x; break;                                                      // a vertical one
+    case 2: p[2] = {p[0].x + random.whole(-2, 2), p[0].y + random.whole(-2, 2)}; break;  // a sliver
+    case 3: p[2] = {p[0].x / 2 + p[1].x / 2 + random.whole(-1, 1), p[0].y / 2 + p[1].y / 2}; break;
+    default: break;
   }
   return triangle(p[0], p[1], p[2]);
 }
@@ -94,8 +78,8 @@ TEST(Outline, ColumnsAreThoseOfAPlainTest) {
     Coverage fast(24, 24), plain(24, 24);
     fast.add(t);
     plain.add_plainly(t);
-    ASSERT_EQ(fast.count, plain.count) << "trial " << trial << ": " << t.x[0] << ',' << t.y[0] << ' '
-                                       << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2];
+    ASSERT_EQ(fast.count, plain.count) << "trial " << trial << ": " << t.x[0] << ',' << t.y[0] << ' ' << t.x[1] << ','
+                                       << t.y[1] << ' ' << t.x[2] << ',' << t.y[2];
     covered += std::count(fast.count.begin(), fast.count.end(), 1) > 0;
   }
   EXPECT_GT(covered, 10000);
@@ -132,8 +116,7 @@ TEST(Outline, FansCoverEverySampleOnce) {
     for (int k = 4; k > -4; --k) ring.push_back({far * k / 4, far});
     for (int k = 4; k > -4; --k) ring.push_back({-far, far * k / 4});
     Coverage coverage(24, 24);
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      coverage.add(triangle(middle, ring[k], ring[(k + 1) % ring.size()]));
+    for (std::size_t k = 0; k < ring.size(); ++k) coverage.add(triangle(middle, ring[k], ring[(k + 1) % ring.size()]));
     ASSERT_EQ(coverage.count, std::vector<int>(coverage.size(), 1)) << "trial " << trial;
   }
 }

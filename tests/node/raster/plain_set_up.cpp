@@ -84,8 +84,8 @@ void set_planes(const PlainVertex (&t)[3], PlainTriangle& out) {
   }
 }
 
-void add(const PlainVertex (&t)[3], std::optional<bool> known, const PatchIdentity& identity,
-         std::uint32_t index, std::vector<PlainTriangle>& out) {
+void add(const PlainVertex (&t)[3], std::optional<bool> known, const PatchIdentity& identity, std::uint32_t index,
+         std::vector<PlainTriangle>& out) {
   PlainTriangle made{};
   made.corners = {{t[0].x, t[1].x, t[2].x}, {t[0].y, t[1].y, t[2].y}};
   if (area(made.corners) == 0) return;
@@ -164,9 +164,8 @@ std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t wid
     if (begin >= last) continue;
     std::int32_t end = begin;
     while (end < last && covers(t, end, row)) ++end;
-    out.push_back({{0, static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end)},
-                   static_cast<std::uint16_t>(row),
-                   0});
+    out.push_back(
+        {{0, static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end)}, static_cast<std::uint16_t>(row), 0});
   }
   return out;
 }

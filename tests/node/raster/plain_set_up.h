@@ -15,8 +15,8 @@ namespace mars::raster {
 struct PlainTriangle {
   Corners corners;
   geometry::Triangle record;  // what a node makes of it
-  std::uint32_t index;    // in the patch's dicing; pieces of a clipped triangle share it
-  bool faces;             // the side from which its corners run counter-clockwise in space is turned to the eye
+  std::uint32_t index;        // in the patch's dicing; pieces of a clipped triangle share it
+  bool faces;                 // the side from which its corners run counter-clockwise in space is turned to the eye
 };
 
 // All that are not turned away or flat, in order, whether they cover a sample or not.

@@ -43,8 +43,8 @@ Sent random_frame(shape::Random& random, std::uint32_t senders, std::uint32_t pa
         for (std::uint32_t l = line; l < std::min(line + static_cast<std::uint32_t>(random.whole(1, 5)), kLines); ++l) {
           const auto column = static_cast<std::uint16_t>(random.whole(0, 999));
           boxes.push_back({{number - first, column, static_cast<std::uint16_t>(column + random.whole(1, 9))},
-                               static_cast<std::uint16_t>(l),
-                               patch >= moving_from});
+                           static_cast<std::uint16_t>(l),
+                           patch >= moving_from});
           ++sent.ebc[l + 1];
         }
       }
@@ -52,8 +52,7 @@ Sent random_frame(shape::Random& random, std::uint32_t senders, std::uint32_t pa
     }
     std::reverse(boxes.begin(), boxes.end());
     const std::span all(boxes);
-    sent.senders.push_back(
-        {sent.triangles.data() + first, all.last(stationary), all.first(all.size() - stationary)});
+    sent.senders.push_back({sent.triangles.data() + first, all.last(stationary), all.first(all.size() - stationary)});
   }
   for (std::size_t line = 0; line < kLines; ++line) sent.ebc[line + 1] += sent.ebc[line];
   std::shuffle(sent.senders.begin(), sent.senders.end(), std::mt19937(random.bits()));
@@ -68,8 +67,8 @@ std::multiset<Box> expected_on(const Sent& sent, std::uint32_t line, bool moving
     for (const auto& part : {sender.stationary, sender.moving})
       for (const UnsortedEdgeBox& c : part)
         if (c.line == line && (c.moving != 0) == moving)
-          boxes.emplace(static_cast<std::uint32_t>(sender.triangles - sent.triangles.data()) + c.box.triangle, c.box.first,
-                        c.box.last);
+          boxes.emplace(static_cast<std::uint32_t>(sender.triangles - sent.triangles.data()) + c.box.triangle,
+                        c.box.first, c.box.last);
   return boxes;
 }
 
@@ -98,7 +97,8 @@ TEST(LineFiller, PutsEachBoxIntoItsLine) {
     const LineBoxes filled = filler.finish();
     bool any_stationary = false;
     for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-      ASSERT_EQ(boxes_of(filled.stationary(line)), expected_on(sent, line, false)) << "trial " << trial << ", line " << line;
+      ASSERT_EQ(boxes_of(filled.stationary(line)), expected_on(sent, line, false))
+          << "trial " << trial << ", line " << line;
       ASSERT_EQ(boxes_of(filled.moving(line)), expected_on(sent, line, true)) << "trial " << trial << ", line " << line;
       any_stationary |= !filled.stationary(line).empty();
     }

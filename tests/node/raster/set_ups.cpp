@@ -40,8 +40,7 @@ class GuardedMemory {
 }  // namespace
 
 Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surface& surface,
-            const PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines,
-            std::size_t bytes) {
+            const PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines, std::size_t bytes) {
   GuardedMemory memory(bytes);
   Made made;
   made.line_counts.resize(static_cast<std::size_t>(picture.height));

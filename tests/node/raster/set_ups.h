@@ -27,7 +27,7 @@ struct Picture {
 
 // `bytes` of memory. Fails the test where anything outside it is written.
 Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surface& surface,
-            const PatchIdentity& identity, Way way = Way::at_a_time,
-            const std::vector<std::uint8_t>& wanted_lines = {}, std::size_t bytes = 1 << 24);
+            const PatchIdentity& identity, Way way = Way::at_a_time, const std::vector<std::uint8_t>& wanted_lines = {},
+            std::size_t bytes = 1 << 24);
 
 }  // namespace mars::raster

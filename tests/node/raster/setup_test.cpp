@@ -18,10 +18,10 @@
 namespace mars::raster {
 namespace {
 
+using geometry::Triangle;
 using shape::Dicer;
 using shape::EyePatch;
 using shape::Side;
-using geometry::Triangle;
 using shape::Value;
 
 constexpr std::int32_t kWidth = 640, kHeight = 480;
@@ -36,7 +36,7 @@ struct Emitted : Made {
 class SetUpTest : public testing::Test {
  protected:
   Emitted set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
-              const shape::Projection& view = kView) {
+                 const shape::Projection& view = kView) {
     dicer.dice(patch, view, rate);
     Emitted emitted{raster::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
     EXPECT_TRUE(emitted.all_stored);
@@ -55,7 +55,9 @@ class SetUpTest : public testing::Test {
 
 // A square before the eye, outside turned to it.
 EyePatch square(double size, double away) {
-  return shape::make_patch([&](int i, int j) { return shape::Vec3{size * (i / 1.5 - 1), size * (j / 1.5 - 1), -away}; });
+  return shape::make_patch([&](int i, int j) {
+    return shape::Vec3{size * (i / 1.5 - 1), size * (j / 1.5 - 1), -away};
+  });
 }
 
 double at(const Triangle& t, Value value, double dx, double dy) {
@@ -130,7 +132,7 @@ TEST_F(SetUpTest, NormalsAreTurnedToTheEye) {
         const double x = (cx[0] + dx) / 256 - kView.center[0], y = (cy[0] + dy) / 256 - kView.center[1];
         const shape::Vec3 to_eye{-x / kView.scale, y / kView.scale, 1};
         const shape::Vec3 normal{at(t, shape::kNormalX, dx, dy) * w, at(t, shape::kNormalY, dx, dy) * w,
-                          at(t, shape::kNormalZ, dx, dy) * w};
+                                 at(t, shape::kNormalZ, dx, dy) * w};
         EXPECT_NEAR(shape::length(normal), 1, 0.02);
         EXPECT_GT(shape::dot(normal, to_eye), -0.07) << "but for the sphere's rim, where facets and normals differ";
       }
@@ -232,7 +234,8 @@ struct Shortage {
 };
 
 // Counts go on, what is stored is stored whole, and nothing is written elsewhere.
-void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& all, std::size_t bytes, Way way, Shortage& out) {
+void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& all, std::size_t bytes, Way way,
+                    Shortage& out) {
   SCOPED_TRACE(std::to_string(bytes) + (way == Way::plainly ? " bytes, plainly" : " bytes, at a time"));
   const Made some = raster::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
   ASSERT_EQ(some.touching, all.touching);
@@ -247,8 +250,8 @@ void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& al
   for (const Whole& one : by_triangle(some)) {
     while (next != whole.end() && std::memcmp(&next->triangle, &one.triangle, sizeof(Triangle)) != 0) ++next;
     ASSERT_NE(next, whole.end());
-    ASSERT_TRUE(std::equal(one.boxes.begin(), one.boxes.end(), next->boxes.begin(), next->boxes.end(),
-                           same_but_for_number));
+    ASSERT_TRUE(
+        std::equal(one.boxes.begin(), one.boxes.end(), next->boxes.begin(), next->boxes.end(), same_but_for_number));
     ++next;
   }
   out.short_of_memory += !some.all_stored;
@@ -260,7 +263,8 @@ int mixed_batches(simd::InstructionSet set, const Dicer& dicer) {
   int mixed = 0;
   Classified e;
   for (std::uint32_t b = 0; b < dicer.triangles().batch_count; ++b) {
-    raster_kernels(set).classify({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(), dicer.triangles().batches[b], e);
+    raster_kernels(set).classify({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(),
+                                 dicer.triangles().batches[b], e);
     mixed += e.undecided != 0 && e.decided > (e.undecided & -e.undecided);
   }
   return mixed;
@@ -268,14 +272,17 @@ int mixed_batches(simd::InstructionSet set, const Dicer& dicer) {
 
 TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
   // A ground: large triangles near by, small ones far away, next to each other in their order too.
-  const EyePatch ground = shape::make_patch([&](int i, int j) { return shape::Vec3{0.7 * (i - 1.5), -0.1 - 0.05 * j, -0.3 - 1.2 * j}; });
+  const EyePatch ground = shape::make_patch([&](int i, int j) {
+    return shape::Vec3{0.7 * (i - 1.5), -0.1 - 0.05 * j, -0.3 - 1.2 * j};
+  });
   // A strip that grows narrow: triangles as high as the picture and low ones in one batch.
   const EyePatch wedge = shape::make_patch([](int i, int j) {
     return shape::Vec3{0.3 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.2 * (i == 1 || i == 2)};
   });
   dicer.dice(wedge, kView, 0);
   EXPECT_GT(mixed_batches(set, dicer), 0);
-  for (const EyePatch& patch : {shape::sphere_octant({0, 0, -4}, 1), ground, shape::swapped(ground), wedge, shape::turned(wedge)})
+  for (const EyePatch& patch :
+       {shape::sphere_octant({0, 0, -4}, 1), ground, shape::swapped(ground), wedge, shape::turned(wedge)})
     for (const int rate : {0, 2, 9}) {
       const Emitted all = set_up(patch, rate);
       Shortage shortage;

@@ -70,8 +70,8 @@ struct Paths {
     Classified e;
     for (std::uint32_t b = 0; b < diced.triangles().batch_count; ++b) {
       const shape::Batch& batch = diced.triangles().batches[b];
-      raster_kernels(set).classify({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(), diced.triangles(),
-                      batch, e);
+      raster_kernels(set).classify({kWidth, kHeight, identity.one_sided, identity.mirrored}, diced.vertices(),
+                                   diced.triangles(), batch, e);
       decided += std::popcount(e.decided);
       undecided += std::popcount(e.undecided);
       dropped += static_cast<int>(batch.last - batch.first) - std::popcount(e.decided | e.undecided);
@@ -138,7 +138,7 @@ using MakePatch = std::function<EyePatch(shape::Random&)>;
 
 EyePatch crumpled(shape::Random& random) {
   return shape::random_patch(random, seen_at(random.real(0, kWidth), random.real(0, kHeight), random.real(3, 8)),
-                      std::pow(10, random.real(-3, 0.5)));
+                             std::pow(10, random.real(-3, 0.5)));
 }
 
 EyePatch needle(shape::Random& random) {
@@ -180,7 +180,8 @@ EyePatch through_the_eye(shape::Random& random) {
 }
 
 EyePatch ball(shape::Random& random) {
-  return shape::sphere_octant(seen_at(random.real(0, kWidth), random.real(0, kHeight), 5), std::pow(10, random.real(-2, 0.2)));
+  return shape::sphere_octant(seen_at(random.real(0, kWidth), random.real(0, kHeight), 5),
+                              std::pow(10, random.real(-2, 0.2)));
 }
 
 // Vertices on samples, or on pixels' borders, for the rates that divide 60.
@@ -190,7 +191,7 @@ EyePatch lattice(shape::Random& random) {
   const double left = shift + half, top = random.whole(-70, 120) + half, size = 60.0 * cell;
   const bool turned = random.whole(0, 1) == 1;
   const shape::Vec3 a = seen_at(left, top + size, kScale), b = seen_at(left + size, top + size, kScale),
-             c = seen_at(left + size, top, kScale), d = seen_at(left, top, kScale);
+                    c = seen_at(left + size, top, kScale), d = seen_at(left, top, kScale);
   return turned ? bilinear({a, d, c, b}) : bilinear({a, b, c, d});
 }
 
@@ -256,8 +257,7 @@ TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
     const std::int32_t left = random.whole(-6000, 200 * 256), top = random.whole(-6000, 150 * 256);
     const bool large = random.whole(0, 1) == 1;
     const std::int32_t far = random.whole(0, 1500);
-    const std::int32_t width =
-        large ? kMostExtent * 128 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
+    const std::int32_t width = large ? kMostExtent * 128 + random.whole(-1, 1) : 4 * far + 20 + random.whole(-1, 1);
     const std::int32_t height = large ? kMostExtent * 128 + random.whole(-1, 1) : 5;
     const std::int32_t a = large ? 0 : random.whole(0, far), b = large ? random.whole(0, 300) : 0;
     const std::int32_t x[4] = {left, left + width, left + width - a, left + a},

@@ -36,7 +36,8 @@ Full fill(std::uint32_t width, std::uint32_t length) {
   }
   wire::Strip header{};
   full.bytes = buffer.finish(header).size();
-  EXPECT_EQ(full.bytes, sizeof header + header.pixels * 4 + (header.constant_runs + header.moving_runs) * sizeof(wire::Run));
+  EXPECT_EQ(full.bytes,
+            sizeof header + header.pixels * 4 + (header.constant_runs + header.moving_runs) * sizeof(wire::Run));
   EXPECT_EQ(header.work.bytes_to_host, full.bytes);
   return full;
 }

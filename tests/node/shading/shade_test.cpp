@@ -30,8 +30,7 @@ struct Scenery {
   shape::Projection view = shape::projection(640, 480, 2);
 
   Shading shading() const {
-    return {triangles.data(), materials.data(), lights.data(), static_cast<std::uint32_t>(lights.size()),
-            view};
+    return {triangles.data(), materials.data(), lights.data(), static_cast<std::uint32_t>(lights.size()), view};
   }
 };
 
@@ -51,8 +50,8 @@ Result shade(const Scenery& scenery, simd::InstructionSet set, Extent extent) {
           : 0);
   Result result{std::vector<wire::Run>(ids.size()),
                 std::vector<std::uint32_t>(shown + simd::kVectorSlack + 1, kUntouched)};
-  const Shaded done =
-      shading_kernels(set).shade(scenery.shading(), ids.data(), scenery.line, extent, result.runs.data(), result.pixels.data());
+  const Shaded done = shading_kernels(set).shade(scenery.shading(), ids.data(), scenery.line, extent,
+                                                 result.runs.data(), result.pixels.data());
   EXPECT_EQ(done.pixels, shown);
   EXPECT_EQ(result.pixels.back(), kUntouched);
   result.runs.resize(done.runs);
@@ -75,7 +74,8 @@ Triangle random_triangle(shape::Random& random, std::size_t materials) {
   Triangle t{};
   t.first_x = random.whole(0, 640 * 256);
   t.first_y = random.whole(80 * 256, 120 * 256);
-  set_plane(t, shape::kDepth, static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)), 1e-7f);
+  set_plane(t, shape::kDepth, static_cast<float>(random.real(0.1, 1)), static_cast<float>(random.real(-2e-7, 2e-7)),
+            1e-7f);
   for (const shape::Value value : {shape::kNormalX, shape::kNormalY, shape::kNormalZ})
     set_plane(t, value, static_cast<float>(random.real(-1, 1)), static_cast<float>(random.real(-4e-6, 4e-6)),
               static_cast<float>(random.real(-4e-6, 4e-6)));
@@ -133,10 +133,11 @@ shape::Vec3 phong(const Scenery& scenery, std::uint32_t column) {
   const Triangle& t = scenery.triangles[scenery.ids[column]];
   const wire::Material& m = scenery.materials[t.material];
   const double dx = 256.0 * column + 128 - t.first_x, dy = 256.0 * scenery.line + 128 - t.first_y;
-  const shape::Vec3 normal = unit({at(t, shape::kNormalX, dx, dy), at(t, shape::kNormalY, dx, dy), at(t, shape::kNormalZ, dx, dy)});
+  const shape::Vec3 normal =
+      unit({at(t, shape::kNormalX, dx, dy), at(t, shape::kNormalY, dx, dy), at(t, shape::kNormalZ, dx, dy)});
   const double w = 1 / at(t, shape::kDepth, dx, dy);
   const shape::Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
-                   -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
+                          -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
   const shape::Vec3 eye = unit(shape::Vec3{} - place);
   shape::Vec3 color;
   for (std::size_t c = 0; c < 3; ++c) color[c] = m.ambient * m.color[c];
@@ -194,8 +195,7 @@ TEST(Shade, RunsAreWhatIsWithoutGaps) {
     if (trial % 4 == 0) std::fill_n(scenery.ids.begin(), scenery.ids.size() / 2, 0u);
     const auto width = static_cast<std::int32_t>(scenery.ids.size());
     const auto first = static_cast<std::uint32_t>(random.whole(0, width));
-    const Extent extent{first,
-                        static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), width))};
+    const Extent extent{first, static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), width))};
     std::vector<wire::Run> expected;
     std::size_t pixels = 0;
     for (std::uint32_t column = extent.first; column < extent.last; ++column) {
@@ -224,8 +224,7 @@ TEST(Shade, PartsOfALineAreThePartsOfTheWhole) {
     const Result whole = shade_all(scenery);
     std::vector<std::uint32_t> pieces;
     for (std::uint32_t first = 0; first < 700;) {
-      const std::uint32_t last =
-          std::min<std::uint32_t>(700, first + static_cast<std::uint32_t>(random.whole(1, 300)));
+      const std::uint32_t last = std::min<std::uint32_t>(700, first + static_cast<std::uint32_t>(random.whole(1, 300)));
       const Result part = shade(scenery, simd::best_instruction_set(""), {first, last});
       pieces.insert(pieces.end(), part.pixels.begin(), part.pixels.end());
       first = last;

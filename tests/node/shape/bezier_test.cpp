@@ -14,7 +14,6 @@
 namespace mars::shape {
 namespace {
 
-
 const ShapeKernels& kernels = shape_kernels(simd::best_instruction_set(""));
 
 bool same_bits(const Curve& a, const Curve& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -73,11 +72,9 @@ TEST(Bezier, SharedEdgesAreOneCurveFromBothSides) {
 }
 
 // Distance of p from the segment a b.
-double distance(const std::array<double, 2>& p, const std::array<double, 2>& a,
-                const std::array<double, 2>& b) {
+double distance(const std::array<double, 2>& p, const std::array<double, 2>& a, const std::array<double, 2>& b) {
   const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
-  const double t =
-      square > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square, 0.0, 1.0) : 0.0;
+  const double t = square > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square, 0.0, 1.0) : 0.0;
   return std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
@@ -111,9 +108,8 @@ TEST(Bezier, EdgeRatesKeepTheirTolerance) {
   const double slack = 1.01;
   double worst = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    const EyePatch patch =
-        random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -3)},
-                     std::pow(10, random.real(-2, 0.7)));
+    const EyePatch patch = random_patch(random, {random.real(-2, 2), random.real(-2, 2), random.real(-20, -3)},
+                                        std::pow(10, random.real(-2, 0.7)));
     const Curve curve = edge(patch, Side::top).curve;
     const int rate = edge_rate(curve, view);
     ASSERT_GE(rate, 1);
@@ -226,9 +222,9 @@ TEST(Bezier, InsideRatesKeepOutlinesAndTurns) {
   GridError worst;
   std::uint64_t cells = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const EyePatch patch = sphere_part({random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)},
-                                       std::pow(10, random.real(-2, 0.3)), random.real(0, 6.28), random.real(-1.2, 0.3),
-                                       random.real(0.1, 0.9));
+    const EyePatch patch =
+        sphere_part({random.real(-2, 2), random.real(-2, 2), random.real(-20, -5)}, std::pow(10, random.real(-2, 0.3)),
+                    random.real(0, 6.28), random.real(-1.2, 0.3), random.real(0.1, 0.9));
     const Rates rates = shape::rates(kernels, patch, view, 0);
     cells += static_cast<std::uint64_t>(rates.u * rates.v);
     const GridError error = grid_error(patch, rates, view);
@@ -269,12 +265,9 @@ TEST(Bezier, EyeMatrixIsTheProductRoundedOnce) {
       for (std::size_t c = 0; c < 4; ++c) {
         long double exact = c == 3 ? a.m[r][3] : 0;
         for (std::size_t k = 0; k < 3; ++k) exact += static_cast<long double>(a.m[r][k]) * b.m[k][c];
-        EXPECT_NEAR(product.m[r][c], static_cast<double>(exact),
-                    std::abs(static_cast<double>(exact)) * 6.0e-8 + 1e-10);
+        EXPECT_NEAR(product.m[r][c], static_cast<double>(exact), std::abs(static_cast<double>(exact)) * 6.0e-8 + 1e-10);
       }
-    const auto column = [&](std::size_t c) {
-      return Vec3{product.m[0][c], product.m[1][c], product.m[2][c]};
-    };
+    const auto column = [&](std::size_t c) { return Vec3{product.m[0][c], product.m[1][c], product.m[2][c]}; };
     EXPECT_EQ(mirrors(product), dot(cross(column(0), column(1)), column(2)) < 0);
   }
 }
@@ -304,8 +297,7 @@ TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
     if (!shape::unseen(patch, view, 640, 480)) continue;
     ++unseen;
     for (int j = 0; j <= 12; ++j)
-      for (int i = 0; i <= 12; ++i)
-        ASSERT_FALSE(visible(view, point_at(patch, i / 12.0, j / 12.0), 640, 480));
+      for (int i = 0; i <= 12; ++i) ASSERT_FALSE(visible(view, point_at(patch, i / 12.0, j / 12.0), 640, 480));
   }
   EXPECT_GT(unseen, 5000);
   EXPECT_LT(unseen, 19000);
@@ -315,8 +307,8 @@ TEST(Bezier, UnseenPatchesHaveNoPlaceInThePicture) {
 TEST(Bezier, PatchesBesideThePictureAreUnseen) {
   Random random(18);
   const Projection view = projection(640, 480, 2, 0.5, 50);
-  for (const Vec3& middle : {Vec3{0, 0, 5}, Vec3{0, 0, -0.1}, Vec3{0, 0, -60}, Vec3{-9, 0, -10},
-                             Vec3{9, 0, -10}, Vec3{0, 7, -10}, Vec3{0, -7, -10}})
+  for (const Vec3& middle : {Vec3{0, 0, 5}, Vec3{0, 0, -0.1}, Vec3{0, 0, -60}, Vec3{-9, 0, -10}, Vec3{9, 0, -10},
+                             Vec3{0, 7, -10}, Vec3{0, -7, -10}})
     EXPECT_TRUE(shape::unseen(random_patch(random, middle, 0.3), view, 640, 480));
   EXPECT_FALSE(shape::unseen(random_patch(random, {0, 0, -10}, 0.3), view, 640, 480));
 }

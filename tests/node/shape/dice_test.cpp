@@ -13,7 +13,6 @@
 namespace mars::shape {
 namespace {
 
-
 const Projection kView = projection(640, 480, 2);
 
 // A height field over the unit square: x and y are the parameters, bends along rows and columns and how far
@@ -62,14 +61,13 @@ TEST(Dice, AnyRatesMakeADiscWithoutTJoints) {
     const EyePatch patch = random_hills(random);
     const Rates rates = shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0);
     if (*std::max_element(rates.side, rates.side + 4) > 5 || rates.u > 6 || rates.v > 6) continue;
-    const std::array<int, 6> key{rates.u,       rates.v,       rates.side[0],
-                                 rates.side[1], rates.side[2], rates.side[3]};
+    const std::array<int, 6> key{rates.u, rates.v, rates.side[0], rates.side[1], rates.side[2], rates.side[3]};
     if (!reached.insert(key).second) continue;
     dicer.dice(patch, kView, 0);
     const Mesh mesh = mesh_of(dicer);
     expect_tiled(mesh);
-    ASSERT_TRUE(sound_disc(mesh, patch, rates)) << "inside " << rates.u << " x " << rates.v << ", sides "
-                                                << key[2] << ' ' << key[3] << ' ' << key[4] << ' ' << key[5];
+    ASSERT_TRUE(sound_disc(mesh, patch, rates)) << "inside " << rates.u << " x " << rates.v << ", sides " << key[2]
+                                                << ' ' << key[3] << ' ' << key[4] << ' ' << key[5];
   }
   EXPECT_GT(reached.size(), 500u);
 }
@@ -88,7 +86,8 @@ TEST(Dice, HighAndUnequalRates) {
       dicer.dice(patch, kView, 0);
       const Mesh mesh = mesh_of(dicer);
       expect_tiled(mesh);
-      ASSERT_TRUE(sound_disc(mesh, patch, shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0)));
+      ASSERT_TRUE(
+          sound_disc(mesh, patch, shape::rates(shape_kernels(simd::best_instruction_set("")), patch, kView, 0)));
     }
 }
 
@@ -150,15 +149,13 @@ TEST(Dice, NormalsOfASphereAndItsPole) {
   Dicer dicer(simd::best_instruction_set(""));
   const EyePatch octant = sphere_octant(middle, 1);
   const EyePatch sideways = turned(swapped(octant));  // the pole on the left, the inside outside
-  for (const auto& [patch, out] :
-       {std::pair{octant, 1}, {turned(octant), 1}, {swapped(octant), -1}, {sideways, -1}})
+  for (const auto& [patch, out] : {std::pair{octant, 1}, {turned(octant), 1}, {swapped(octant), -1}, {sideways, -1}})
     for (const int rate : {0, 1, 2, 3, 16}) {
       dicer.dice(patch, kView, rate);
       double worst = 0;
       for (int k = 0; k < dicer.vertex_count(); ++k) {
         const Vec3 outward = place_of(dicer, k) - middle;
-        worst =
-            std::max(worst, turned_from(dicer, k, {out * outward[0], out * outward[1], out * outward[2]}));
+        worst = std::max(worst, turned_from(dicer, k, {out * outward[0], out * outward[1], out * outward[2]}));
       }
       EXPECT_LT(worst, kDegree) << "rate " << rate;
     }

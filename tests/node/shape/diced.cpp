@@ -5,9 +5,7 @@
 namespace mars::shape {
 namespace {
 
-Vec3 place_of(const Vertices& v, std::uint32_t k) {
-  return {v.place[0][k], v.place[1][k], v.place[2][k]};
-}
+Vec3 place_of(const Vertices& v, std::uint32_t k) { return {v.place[0][k], v.place[1][k], v.place[2][k]}; }
 
 }  // namespace
 
@@ -39,9 +37,7 @@ std::map<int, int> boundary(const Mesh& mesh) {
 
 bool sound_disc(const Mesh& mesh, const EyePatch& patch, const Rates& rates) {
   const auto next = boundary(mesh);
-  const auto corner = [&](int k) {
-    return mesh.numbers.at({patch.point[k][0], patch.point[k][1], patch.point[k][2]});
-  };
+  const auto corner = [&](int k) { return mesh.numbers.at({patch.point[k][0], patch.point[k][1], patch.point[k][2]}); };
   const int corners[] = {corner(0), corner(3), corner(15), corner(12), corner(0)};
   std::size_t steps = 0;
   for (std::size_t side = 0; side < 4; ++side) {

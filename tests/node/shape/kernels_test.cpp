@@ -17,7 +17,6 @@
 namespace mars::shape {
 namespace {
 
-
 // Bits of all kinds: NaNs, infinities, numbers.
 float garbage(Random& random) { return std::bit_cast<float>(random.bits()); }
 
@@ -34,7 +33,7 @@ struct VertexMemory {
     float* n = numbers.data();
     return {{n, n + stride, n + 2 * stride},
             {n + 3 * stride, n + 4 * stride, n + 5 * stride},
-            reinterpret_cast<float (*)[kValues]>(n + 6 * stride),
+            reinterpret_cast<float(*)[kValues]>(n + 6 * stride),
             places.data(),
             places.data() + stride,
             flags.data()};
@@ -137,7 +136,8 @@ TEST(ShapeKernels, EvaluateGivesTheSameBitsEverywhere) {
         EXPECT_TRUE(memory.guards_intact()) << simd::name_of(set) << ", trial " << trial;
         EXPECT_TRUE(memory.same(results[0])) << simd::name_of(set) << ", trial " << trial;
         for (int k = 0; k < offset; ++k) EXPECT_EQ(memory.view().place[0][k], VertexMemory::kUntouched);
-        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first)) << simd::name_of(set) << ", trial " << trial;
+        EXPECT_EQ(all, !lacks_normals(memory, offset, offset + last - first))
+            << simd::name_of(set) << ", trial " << trial;
         if (results.size() == 1) (all ? complete : incomplete) += last > first;
       }
   }
@@ -159,8 +159,7 @@ TEST(ShapeKernels, EvaluateGivesPointsAndUnitNormals) {
       const double t = static_cast<double>(k) / rate, s = 1 - t;
       Vec3 along{};
       for (std::size_t axis = 0; axis < 3; ++axis)
-        along[axis] =
-            s * s * row.slope[0][axis] + 2 * s * t * row.slope[1][axis] + t * t * row.slope[2][axis];
+        along[axis] = s * s * row.slope[0][axis] + 2 * s * t * row.slope[1][axis] + t * t * row.slope[2][axis];
       const Vec3 right = cross(along, point_at(cross_curve, t)), place = point_at(curve, t);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(memory.view().place[axis][k], place[axis], 1e-5);
@@ -226,8 +225,7 @@ TEST(ShapeKernels, ProjectSnapsToTheNearestSubpixel) {
     const Vec3 place{v.place[0][k], v.place[1][k], v.place[2][k]};
     const double w = -place[2];
     const auto [x, y] = on_screen(view, place);
-    const double dx = std::abs(x - view.center[0]) / view.guard,
-                 dy = std::abs(y - view.center[1]) / view.guard;
+    const double dx = std::abs(x - view.center[0]) / view.guard, dy = std::abs(y - view.center[1]) / view.guard;
     const bool at_border = std::abs(dx - 1) < 1e-5 || std::abs(dy - 1) < 1e-5;
     const bool expected = w >= view.near && w <= view.far && dx <= 1 && dy <= 1;
     EXPECT_TRUE(at_border || (v.outside[k] == 0) == expected) << k;

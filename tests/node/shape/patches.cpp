@@ -50,8 +50,7 @@ EyePatch sphere_octant(const Vec3& middle, double radius) {
 EyePatch cone_quarter(const Vec3& middle, double top, double height) {
   return make_patch([&](int i, int j) {
     const double radius = 1 + (top - 1) * j / 3;
-    return Vec3{middle[0] + radius * kQuarter[i][1], middle[1] + height * j / 3,
-                middle[2] + radius * kQuarter[i][0]};
+    return Vec3{middle[0] + radius * kQuarter[i][1], middle[1] + height * j / 3, middle[2] + radius * kQuarter[i][0]};
   });
 }
 
@@ -79,8 +78,7 @@ Vec3 point_at(const EyePatch& patch, double u, double v) {
   const auto across = bernstein(u), up = bernstein(v);
   Vec3 out{};
   for (std::size_t k = 0; k < 16; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      out[axis] += across[k % 4] * up[k / 4] * patch.point[k][axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) out[axis] += across[k % 4] * up[k / 4] * patch.point[k][axis];
   return out;
 }
 
@@ -92,16 +90,13 @@ std::array<double, 2> on_screen(const Projection& p, const Vec3& place) {
 std::array<std::array<float, 3>, 4> side_points(const EyePatch& patch, Side side) {
   const auto s = static_cast<std::size_t>(side);
   std::array<std::array<float, 3>, 4> points;
-  for (std::size_t i = 0; i < 4; ++i)
-    std::copy_n(patch.point[kFirst[s] + i * kStride[s]], 3, points[i].begin());
+  for (std::size_t i = 0; i < 4; ++i) std::copy_n(patch.point[kFirst[s] + i * kStride[s]], 3, points[i].begin());
   return points;
 }
 
-void set_side_points(EyePatch& patch, Side side,
-                     const std::array<std::array<float, 3>, 4>& points) {
+void set_side_points(EyePatch& patch, Side side, const std::array<std::array<float, 3>, 4>& points) {
   const auto s = static_cast<std::size_t>(side);
-  for (std::size_t i = 0; i < 4; ++i)
-    std::copy_n(points[i].begin(), 3, patch.point[kFirst[s] + i * kStride[s]]);
+  for (std::size_t i = 0; i < 4; ++i) std::copy_n(points[i].begin(), 3, patch.point[kFirst[s] + i * kStride[s]]);
 }
 
 }  // namespace mars::shape

@@ -7,7 +7,6 @@
 
 #include "node/shape/bezier.h"
 
-
 namespace mars::shape {
 
 // The same numbers on every machine.
@@ -34,8 +33,7 @@ Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
 // The eye's view on a picture: `focal` = 1 / tan(half the vertical field of view).
-Projection projection(std::int32_t width, std::int32_t height, double focal, double near = 0.1,
-                            double far = 1000);
+Projection projection(std::int32_t width, std::int32_t height, double focal, double near = 0.1, double far = 1000);
 
 // Control points place(i, j), i along u.
 template <typename Place>
@@ -73,10 +71,8 @@ std::array<double, 2> on_screen(const Projection& projection, const Vec3& place)
 
 // The four control points of a side, along u or v.
 std::array<std::array<float, 3>, 4> side_points(const EyePatch& patch, Side side);
-void set_side_points(EyePatch& patch, Side side,
-                     const std::array<std::array<float, 3>, 4>& points);
+void set_side_points(EyePatch& patch, Side side, const std::array<std::array<float, 3>, 4>& points);
 
-inline constexpr Side kSides[] = {Side::bottom, Side::right, Side::top,
-                                        Side::left};
+inline constexpr Side kSides[] = {Side::bottom, Side::right, Side::top, Side::left};
 
 }  // namespace mars::shape

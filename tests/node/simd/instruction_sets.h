@@ -9,8 +9,8 @@
 
 namespace mars::simd {
 
-inline constexpr InstructionSet kSets[] = {InstructionSet::sse2, InstructionSet::sse4,
-                                                 InstructionSet::avx2, InstructionSet::avx512};
+inline constexpr InstructionSet kSets[] = {InstructionSet::sse2, InstructionSet::sse4, InstructionSet::avx2,
+                                           InstructionSet::avx512};
 
 // Whether this CPU runs it.
 inline bool is_here(InstructionSet set) { return best_instruction_set(name_of(set)) == set; }

@@ -104,25 +104,24 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
   };
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e30}) {
     const auto b = static_cast<float>(bad);
-    defects.insert(defects.end(),
-                   {{"background", [=](FilmData& f) { f.settings.background[2] = b; }},
-                    {"rate", [=](FilmData& f) { f.settings.rate = b; }},
-                    {"patch", [=](FilmData& f) { f.patches[2].points[15][2] = b; }},
-                    {"vertex", [=](FilmData& f) { f.mesh_places[6][1] = b; }},
-                    {"normal", [=](FilmData& f) { f.mesh_normals[0][2] = b; }},
-                    {"box", [=](FilmData& f) { f.meshlets[1].low[1] = b; }},
-                    {"color", [=](FilmData& f) { f.materials[1].color[1] = b; }},
-                    {"ambient", [=](FilmData& f) { f.materials[1].ambient = b; }},
-                    {"diffuse", [=](FilmData& f) { f.materials[1].diffuse = b; }},
-                    {"specular", [=](FilmData& f) { f.materials[1].specular = b; }},
-                    {"exponent", [=](FilmData& f) { f.materials[1].exponent = b; }},
-                    {"matrix", [=](FilmData& f) { f.matrices[2].m[2][3] = bad; }},
-                    {"camera's matrix", [=](FilmData& f) { f.cameras[0].world_to_eye.m[0][0] = bad; }},
-                    {"focal", [=](FilmData& f) { f.cameras[0].focal = bad; }},
-                    {"near", [=](FilmData& f) { f.cameras[0].near = bad; }},
-                    {"far", [=](FilmData& f) { f.cameras[0].far = bad; }},
-                    {"light", [=](FilmData& f) { f.lights[1].vector[0] = b; }},
-                    {"light's colour", [=](FilmData& f) { f.lights[0].color[2] = b; }}});
+    defects.insert(defects.end(), {{"background", [=](FilmData& f) { f.settings.background[2] = b; }},
+                                   {"rate", [=](FilmData& f) { f.settings.rate = b; }},
+                                   {"patch", [=](FilmData& f) { f.patches[2].points[15][2] = b; }},
+                                   {"vertex", [=](FilmData& f) { f.mesh_places[6][1] = b; }},
+                                   {"normal", [=](FilmData& f) { f.mesh_normals[0][2] = b; }},
+                                   {"box", [=](FilmData& f) { f.meshlets[1].low[1] = b; }},
+                                   {"color", [=](FilmData& f) { f.materials[1].color[1] = b; }},
+                                   {"ambient", [=](FilmData& f) { f.materials[1].ambient = b; }},
+                                   {"diffuse", [=](FilmData& f) { f.materials[1].diffuse = b; }},
+                                   {"specular", [=](FilmData& f) { f.materials[1].specular = b; }},
+                                   {"exponent", [=](FilmData& f) { f.materials[1].exponent = b; }},
+                                   {"matrix", [=](FilmData& f) { f.matrices[2].m[2][3] = bad; }},
+                                   {"camera's matrix", [=](FilmData& f) { f.cameras[0].world_to_eye.m[0][0] = bad; }},
+                                   {"focal", [=](FilmData& f) { f.cameras[0].focal = bad; }},
+                                   {"near", [=](FilmData& f) { f.cameras[0].near = bad; }},
+                                   {"far", [=](FilmData& f) { f.cameras[0].far = bad; }},
+                                   {"light", [=](FilmData& f) { f.lights[1].vector[0] = b; }},
+                                   {"light's colour", [=](FilmData& f) { f.lights[0].color[2] = b; }}});
   }
   expect_refused(defects);
 }
@@ -134,7 +133,10 @@ TEST(FilmBlock, RefusesBrokenIndices) {
       {"a shape wraps round", [](FilmData& f) { f.shapes[1].patch_count = 0xffffffff; }},
       {"a shape begins beyond the meshlets", [](FilmData& f) { f.shapes[1].first_meshlet = 1; }},
       {"a shape ends beyond the meshlets", [](FilmData& f) { f.shapes[1].meshlet_count = 3; }},
-      {"a shape's meshlets wrap round", [](FilmData& f) { f.shapes[0] = {0, 2, 2, 0xffffffff}; }},
+      {"a shape's meshlets wrap round",
+       [](FilmData& f) {
+         f.shapes[0] = {0, 2, 2, 0xffffffff};
+       }},
       {"a meshlet begins beyond the vertices", [](FilmData& f) { f.meshlets[1].first_vertex = 5; }},
       {"a meshlet ends beyond the vertices", [](FilmData& f) { f.meshlets[1].vertex_count = 4; }},
       {"a meshlet begins beyond the triangles", [](FilmData& f) { f.meshlets[1].first_triangle = 3; }},

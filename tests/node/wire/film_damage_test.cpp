@@ -88,8 +88,7 @@ TEST(FilmDamage, DamagedHeaderIsRefused) {
     EXPECT_FALSE(taken(block)) << "byte " << at;
     EXPECT_THROW(FilmView(block, "film", true), Failure);
   }
-  for (const std::uint64_t bad :
-       {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
+  for (const std::uint64_t bad : {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
     for (std::size_t at = 16; at < 16 + 17 * 16; at += 16) {  // each section's offset
       Block block = whole;
       std::memcpy(&block[at], &bad, sizeof bad);

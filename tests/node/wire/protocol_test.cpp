@@ -10,7 +10,7 @@ namespace {
 
 std::vector<std::int32_t> contributors(const Render& render) {
   std::vector<std::int32_t> nodes;
-  for (std::uint32_t k = 0; k + 1 < render.frame_count; ++k) 
+  for (std::uint32_t k = 0; k + 1 < render.frame_count; ++k)
     nodes.push_back(render.group_first + contributor_of_inbetween(render.first_inbetween + k, render.group_count));
   return nodes;
 }

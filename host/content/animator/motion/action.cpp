@@ -22,15 +22,13 @@ constexpr Parameter kWalk[] = {
     {"turn", "DEGREES", "walk a bow of this angle to the left; default: straight on", "90"},
     {"step-length", "D", "default: 0.62 of the leg", "0.7"},
     kPace,
-    {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right",
-     "left"},
+    {"first", "SIDE", "the foot that steps first, left or right; default: the inner one of a bow, else right", "left"},
     {"arm-swing", "N", "times an ordinary walk's, 0 to 3; default: 1", "1.5"},
     {"bounce", "N", "up and down, times an ordinary walk's, 0 to 3; default: 1", "0.5"},
     {"knee-lift", "N", "of the swinging leg, times an ordinary walk's, 0 to 3; default: 1", "1.4"},
     {"lean", "DEGREES", "of the trunk, forward; default: 0", "8"}};
-constexpr Parameter kTurn[] = {{"by", "DEGREES", "to the left; default: 90", "-90"},
-                               {"to", "X Y", "to face a place of the floor", "2 -1"},
-                               kPace};
+constexpr Parameter kTurn[] = {
+    {"by", "DEGREES", "to the left; default: 90", "-90"}, {"to", "X Y", "to face a place of the floor", "2 -1"}, kPace};
 constexpr Parameter kSit[] = {
     {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
     {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
@@ -42,13 +40,11 @@ constexpr Parameter kNod[] = {{"times", "N", "default: 2", "3"},
 constexpr Parameter kWave[] = {{"hand", "SIDE", "left or right; default: right", "left"},
                                {"times", "N", "default: 3", "5"},
                                {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
-constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none",
-                              "0 360 0"};
+constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"};
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
 constexpr Parameter kThrow[] = {
     kVelocity,
-    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre",
-     "0 0 -28"},
+    {"acceleration", "X Y Z", "units a second and second; default: 0 0 -9.81, a unit being a metre", "0 0 -28"},
     kSpinning,
     {"seconds", "S", "default: 1", "1.5"}};
 constexpr Parameter kBounce[] = {
@@ -56,8 +52,7 @@ constexpr Parameter kBounce[] = {
     {"gravity", "G", "units a second and second; default: 9.81, a unit being a metre", "28"},
     {"floor", "Z", "height of the floor, which the figure's lowest point meets; default: 0", "0.5"},
     {"restitution", "N", "of the speed upward that an impact leaves, 0 to 0.99; default: 0.7", "0.8"},
-    {"friction", "N",
-     "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},
+    {"friction", "N", "of the speed along the floor and of the spin that an impact takes, 0 to 1; default: 0.1", "0.3"},
     kSpinning,
     {"seconds", "S", "default: until it lies", "3"}};
 constexpr Parameter kSpin[] = {{"axis", "AXIS", "of the world: x, y or z; default: z", "x"},

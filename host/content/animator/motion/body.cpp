@@ -41,8 +41,7 @@ void add_points(const modeler::Model& model, const Posture& posture, std::size_t
   const modeler::Shape& shape = model.shapes[joint.segment->shape];
   for (const wire::Patch& patch : shape.patches)
     for (int i = 0; i < kGrid; ++i)
-      for (int j = 0; j < kGrid; ++j)
-        add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
+      for (int j = 0; j < kGrid; ++j) add(patch_point(patch, double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
   if (shape.mesh)
     for (const modeler::Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }
@@ -70,8 +69,7 @@ Sole sole_of(const modeler::Model& model, const Posture& drawn, const glm::dmat3
              std::size_t toes) {
   std::vector<glm::dvec3> foot, front;
   for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (is_below(model, joint, ankle))
-      add_points(model, drawn, joint, is_below(model, joint, toes) ? front : foot);
+    if (is_below(model, joint, ankle)) add_points(model, drawn, joint, is_below(model, joint, toes) ? front : foot);
   const glm::dmat3 back = glm::transpose(axes);
   const glm::dvec3 origin = frame_in(model, drawn, ankle).place;
   Sole sole;
@@ -98,7 +96,8 @@ glm::dmat3 nearly_square(const glm::dmat3& axes) {
 }
 
 // The axes of a figure follow from where its hips and left ankle are, which must determine them.
-void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips, const std::array<glm::dvec3, 2>& ankles) {
+void check_legs(const std::string& actor, const std::array<glm::dvec3, 2>& hips,
+                const std::array<glm::dvec3, 2>& ankles) {
   const auto fail = [&](const std::string& problem) {
     throw Failure(problem, "actor '" + actor + "'",
                   "in its model, place the hips beside each other and the ankles below them");
@@ -122,9 +121,7 @@ glm::dmat3 canonical_turn(double a, double b, double c) {
          modeler::rotation_by_degrees({0, 0, 1}, c);
 }
 
-glm::dmat3 canonical_turn(const glm::dvec3& degrees) {
-  return canonical_turn(degrees.x, degrees.y, degrees.z);
-}
+glm::dmat3 canonical_turn(const glm::dvec3& degrees) { return canonical_turn(degrees.x, degrees.y, degrees.z); }
 
 glm::dvec3 canonical_degrees(const glm::dmat3& m) {
   return glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(std::clamp(m[2][0], -1.0, 1.0)),
@@ -133,13 +130,11 @@ glm::dvec3 canonical_degrees(const glm::dmat3& m) {
 
 double Sole::height(double pitch, double bent) const {
   const glm::dmat3 turn = canonical_turn(0, pitch, 0);
-  return -std::min(lowest(foot, turn, {0, 0, 0}),
-                   lowest(toes, turn * canonical_turn(0, bent, 0), turn * bend));
+  return -std::min(lowest(foot, turn, {0, 0, 0}), lowest(toes, turn * canonical_turn(0, bent, 0), turn * bend));
 }
 
 bool Body::planar() const {
-  return std::any_of(legs.begin(), legs.end(),
-                     [&](const Leg& leg) { return model->joints[leg.hip].freedoms() < 2; });
+  return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) { return model->joints[leg.hip].freedoms() < 2; });
 }
 
 std::vector<std::size_t> Body::joints() const {
@@ -166,8 +161,7 @@ double Body::floor_under(const Posture& posture) const {
     least = std::min(least, foot.place.z + lowest(leg.sole.foot, foot.turn * axes, {0, 0, 0}));
     if (leg.toes == modeler::kNone) continue;
     const modeler::Axes toes = frame_in(*model, posture, leg.toes);
-    for (const glm::dvec3& point : leg.sole.toes)
-      least = std::min(least, (toes.turn * axes * point + toes.place).z);
+    for (const glm::dvec3& point : leg.sole.toes) least = std::min(least, (toes.turn * axes * point + toes.place).z);
   }
   return least;
 }
@@ -189,7 +183,8 @@ Body body_of(const modeler::Model& model, const std::string& actor, const std::s
     ankles[index_of(side)] = frame_in(model, drawn, needed(body, modeler::Limb::ankle, side, command)).place;
   }
   check_legs(actor, hips, ankles);
-  if (body.pelvis == modeler::kNone) body.pelvis = model.joints[model.limbs.of(modeler::Limb::hip, modeler::Side::left)].parent;
+  if (body.pelvis == modeler::kNone)
+    body.pelvis = model.joints[model.limbs.of(modeler::Limb::hip, modeler::Side::left)].parent;
   if (body.pelvis == modeler::kNone) fail_limb(actor, command, "pelvis");
   const glm::dvec3 pelvis = frame_in(model, drawn, body.pelvis).place;
   const glm::dvec3 left = glm::normalize(hips[0] - hips[1]);
@@ -221,7 +216,8 @@ Body body_of(const modeler::Model& model, const std::string& actor, const std::s
 
 Body body_without_legs(const modeler::Model& model, const std::string& actor) {
   for (const modeler::Side side : kSides)
-    if (model.limbs.of(modeler::Limb::hip, side) == modeler::kNone || model.limbs.of(modeler::Limb::ankle, side) == modeler::kNone ||
+    if (model.limbs.of(modeler::Limb::hip, side) == modeler::kNone ||
+        model.limbs.of(modeler::Limb::ankle, side) == modeler::kNone ||
         model.joints[model.limbs.of(modeler::Limb::hip, side)].parent == modeler::kNone)
       return {&model, actor, glm::dmat3(1), model.limbs.of(modeler::Trunk::pelvis), {}, 0};
   return body_of(model, actor, "");
@@ -229,7 +225,8 @@ Body body_without_legs(const modeler::Model& model, const std::string& actor) {
 
 std::size_t needed(const Body& body, modeler::Trunk part, const std::string& command) {
   const std::size_t joint = body.find(part);
-  if (joint == modeler::kNone) fail_limb(body.name, command, std::string(modeler::kTrunkNames[static_cast<std::size_t>(part)]));
+  if (joint == modeler::kNone)
+    fail_limb(body.name, command, std::string(modeler::kTrunkNames[static_cast<std::size_t>(part)]));
   return joint;
 }
 

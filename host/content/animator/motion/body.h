@@ -14,7 +14,9 @@ namespace mars::motion {
 
 inline constexpr modeler::Side kSides[] = {modeler::Side::left, modeler::Side::right};
 constexpr std::size_t index_of(modeler::Side side) { return static_cast<std::size_t>(side); }
-constexpr modeler::Side other(modeler::Side side) { return side == modeler::Side::left ? modeler::Side::right : modeler::Side::left; }
+constexpr modeler::Side other(modeler::Side side) {
+  return side == modeler::Side::left ? modeler::Side::right : modeler::Side::left;
+}
 constexpr double sign_of(modeler::Side side) { return side == modeler::Side::left ? 1 : -1; }
 
 // Rot(x, a) Rot(y, b) Rot(z, c), degrees: about forward, left and up. Positive y nods, positive z turns left.

@@ -17,8 +17,7 @@ inline double hermite(const CurvePoint& p0, const CurvePoint& p1, double m0, dou
 }
 
 // Through all points, two at least, x ascending; inner slopes are those from neighbour to neighbour.
-inline double curve_through(std::span<const CurvePoint> points, double first_slope, double last_slope,
-                            double x) {
+inline double curve_through(std::span<const CurvePoint> points, double first_slope, double last_slope, double x) {
   const auto slope = [&](std::size_t i) {
     if (i == 0) return first_slope;
     if (i + 1 == points.size()) return last_slope;

@@ -16,9 +16,7 @@ double fall_time(double height, double up, double acceleration) {
   return (-up - std::sqrt(std::max(0.0, up * up - 2 * acceleration * height))) / acceleration;
 }
 
-double apex(const Arc& arc) {
-  return arc.launch.velocity.z * arc.launch.velocity.z / (-2 * arc.launch.acceleration.z);
-}
+double apex(const Arc& arc) { return arc.launch.velocity.z * arc.launch.velocity.z / (-2 * arc.launch.acceleration.z); }
 
 // The arc that begins where this one meets the floor.
 Arc bounced(const Arc& arc, const Floor& floor) {
@@ -64,8 +62,8 @@ void Flight::slide(const Floor& floor) {
 }
 
 const Arc& Flight::arc_at(double time) const {
-  const auto later = std::upper_bound(arcs_.begin(), arcs_.end(), time,
-                                      [](double t, const Arc& arc) { return t < arc.time; });
+  const auto later =
+      std::upper_bound(arcs_.begin(), arcs_.end(), time, [](double t, const Arc& arc) { return t < arc.time; });
   return later == arcs_.begin() ? arcs_.front() : *(later - 1);
 }
 

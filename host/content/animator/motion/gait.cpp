@@ -31,22 +31,15 @@ constexpr double kStiffRise = 0.05;    // of legs without knees, as the pelvis r
 constexpr double kStiffRoll = 0.2;     // sine of that, at most
 constexpr double kStiffLift = 0.02;    // of such legs at least, if need be round the outside
 constexpr CurvePoint kPitches[] = {{0, 50}, {0.184, 63}, {0.424, 38}, {0.688, 0}, {0.88, -19}, {1, -20}};
-constexpr CurvePoint kRises[] = {{0, 0.070},    {0.1, 0.112},  {0.28, 0.136},
-                                 {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
+constexpr CurvePoint kRises[] = {{0, 0.070}, {0.1, 0.112}, {0.28, 0.136}, {0.52, 0.093}, {0.76, 0.031}, {1, 0.017}};
 constexpr CurvePoint kBends[] = {{0, -50}, {0.2, -46}, {0.328, -18}, {0.472, -3}, {0.664, 0}, {1, 0}};
 
-glm::dvec2 ahead(double heading) {
-  return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))};
-}
+glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
 
 class Walker {
  public:
   Walker(const Body& body, const Posture& start, const Gait& gait, bool rolls)
-      : body_(body),
-        gait_(gait),
-        rolls_(rolls),
-        start_(stance_of(body, start)),
-        floor_(body.floor_under(start)) {
+      : body_(body), gait_(gait), rolls_(rolls), start_(stance_of(body, start)), floor_(body.floor_under(start)) {
     for (const modeler::Side side : kSides) {
       const Foot& foot = start_.feet[index_of(side)];
       prints_[index_of(side)] = {{foot.ankle.x, foot.ankle.y}, foot.heading};
@@ -112,8 +105,8 @@ class Walker {
     return {{place.x, place.y, floor_ + sole.height(pitch, bent)}, print.heading, pitch, bent, true};
   }
 
-  Foot standing(modeler::Side side, const Footprint& print, const Step* before, const Footprint& from,
-                const Step* next, double time) const {
+  Foot standing(modeler::Side side, const Footprint& print, const Step* before, const Footprint& from, const Step* next,
+                double time) const {
     const Sole& sole = body_.leg(side).sole;
     const double flat = kFlat * gait_.period, rise = kRise * gait_.period;
     if (before && time < before->land + flat) {
@@ -145,12 +138,11 @@ class Walker {
     const glm::dvec2 forward = ahead(foot.heading);
     const double aside = sign_of(side) * round_about(side) * std::sin(std::numbers::pi * u);
     foot.ankle += glm::dvec3(-forward.y * aside, forward.x * aside, 0);
-    foot.ankle.z =
-        floor_ +
-        std::max(rise(step, from, off, land, u) * body_.leg_length(),
-                 body_.leg(side).sole.height(foot.pitch, foot.bent) - body_.leg(side).sole.height(0, 0) +
-                     std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * kClearance * body_.leg_length()) +
-        body_.leg(side).sole.height(0, 0);
+    foot.ankle.z = floor_ +
+                   std::max(rise(step, from, off, land, u) * body_.leg_length(),
+                            body_.leg(side).sole.height(foot.pitch, foot.bent) - body_.leg(side).sole.height(0, 0) +
+                                std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * kClearance * body_.leg_length()) +
+                   body_.leg(side).sole.height(0, 0);
     return foot;
   }
 
@@ -158,8 +150,7 @@ class Walker {
   static double carried(double from, double leaves, double to, double lands, double u) {
     if (u < kUpright) return from + leaves * u;
     if (u > 1 - kUpright) return to - lands * (1 - u);
-    return hermite({kUpright, from + leaves * kUpright}, {1 - kUpright, to - lands * kUpright}, leaves, lands,
-                   u);
+    return hermite({kUpright, from + leaves * kUpright}, {1 - kUpright, to - lands * kUpright}, leaves, lands, u);
   }
 
   // Of the ankle over where it is when the foot is flat.
@@ -213,12 +204,11 @@ class Walker {
                             loose * 0.0216 * leg * full * wave(0.31) * left;
     stance.pelvis.x += sway.x;
     stance.pelvis.y += sway.y;
-    stance.pelvis.z =
-        floor_ + height - leg * (0.0216 * swing + 0.0124 * swing * gait_.style.bounce * wave(0.056, 2));
+    stance.pelvis.z = floor_ + height - leg * (0.0216 * swing + 0.0124 * swing * gait_.style.bounce * wave(0.056, 2));
     const double lean = full * gait_.style.lean;
-    stance.tilt = (1 - settle) * start_.tilt + glm::dvec3(loose * 2.5 * swing * wave(0.18) + waddle(time),
-                                                          swing * (3 + wave(0.05, 2)) + 0.4 * lean,
-                                                          -5 * loose * swing * wave(0));
+    stance.tilt =
+        (1 - settle) * start_.tilt + glm::dvec3(loose * 2.5 * swing * wave(0.18) + waddle(time),
+                                                swing * (3 + wave(0.05, 2)) + 0.4 * lean, -5 * loose * swing * wave(0));
     add_trunk(stance, p, swing, lean);
     for (const modeler::Side side : kSides) add_arm(stance, side, p, swing);
     return stance;
@@ -241,8 +231,7 @@ class Walker {
   // How far aside a leg of one piece is carried, that it may rise as far as the roll does not lift it.
   double round_about(modeler::Side side) const {
     if (!body_.stiff() || body_.planar()) return 0;
-    const double leg = body_.leg_length(),
-                 lifted = rolls_ ? 2 * std::abs(body_.leg(side).aside) * roll(side) : 0;
+    const double leg = body_.leg_length(), lifted = rolls_ ? 2 * std::abs(body_.leg(side).aside) * roll(side) : 0;
     return leg * std::sqrt(2 * std::max(0.0, kStiffLift - lifted / leg));
   }
 
@@ -276,11 +265,9 @@ class Walker {
       stance.turns[joint] = hanging_shoulder(
           body_, side, {s * (8 + 1.5 * much * wave(0.5)), -3 * swing + 21 * much * wave(0.02), s * -12});
     if (const std::size_t joint = body_.find(modeler::Limb::elbow, side); joint != modeler::kNone)
-      stance.turns[joint] =
-          hanging_elbow(body_, side, {0, -14 - 14 * swing + 15 * much * wave(0.09), s * -14});
+      stance.turns[joint] = hanging_elbow(body_, side, {0, -14 - 14 * swing + 15 * much * wave(0.09), s * -14});
     if (const std::size_t joint = body_.find(modeler::Limb::wrist, side); joint != modeler::kNone)
-      stance.turns[joint] =
-          hanging_elbow(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
+      stance.turns[joint] = hanging_elbow(body_, side, {s * (-6 + 5 * much * wave(0.2)), 4 + 5 * much * wave(0.16), 0});
   }
 
   const Body& body_;
@@ -326,7 +313,8 @@ double swing_share(const Body& body) { return body.stiff() ? 1.0 : 5.0 / 6; }
 
 std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
   std::map<std::size_t, glm::dmat3> turns;
-  for (const modeler::Trunk part : {modeler::Trunk::spine, modeler::Trunk::chest, modeler::Trunk::neck, modeler::Trunk::head})
+  for (const modeler::Trunk part :
+       {modeler::Trunk::spine, modeler::Trunk::chest, modeler::Trunk::neck, modeler::Trunk::head})
     if (const std::size_t joint = body.find(part); joint != modeler::kNone) turns[joint] = glm::dmat3(1);
   for (const modeler::Side side : kSides) {
     const double s = sign_of(side);
@@ -358,13 +346,11 @@ std::vector<Stance> stances_of(const Body& body, const Posture& start, const Gai
 }
 
 std::vector<Posture> postures_of(const Body& body, const Posture& start, const std::vector<Stance>& stances,
-                                 std::uint32_t first_frame, const std::string& doing,
-                                 const std::string& remedy) {
+                                 std::uint32_t first_frame, const std::string& doing, const std::string& remedy) {
   std::vector<Posture> postures;
   Posture posture = start;
   for (std::size_t frame = 0; frame < stances.size(); ++frame) {
-    take_stance(body, stances[frame], posture, doing + " at frame " + std::to_string(first_frame + frame),
-                remedy);
+    take_stance(body, stances[frame], posture, doing + " at frame " + std::to_string(first_frame + frame), remedy);
     postures.push_back(posture);
   }
   return postures;
@@ -372,9 +358,8 @@ std::vector<Posture> postures_of(const Body& body, const Posture& start, const s
 
 }  // namespace
 
-std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
-                                 std::uint32_t first_frame, const std::string& doing,
-                                 const std::string& remedy) {
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait, std::uint32_t first_frame,
+                                 const std::string& doing, const std::string& remedy) {
   const auto moved = [&](bool rolls) {
     return postures_of(body, start, stances_of(body, start, gait, rolls), first_frame, doing, remedy);
   };

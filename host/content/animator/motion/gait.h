@@ -51,9 +51,8 @@ struct Gait {
 // high as the one that stands lets it; the other is lifted by the pelvis' roll, or carried round the outside
 // where hips are narrow, and brushes the floor once where hips do not turn aside. The postures of frames 0 to
 // the gait's end, from `start` on. `doing` and `remedy` are for failures.
-std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait,
-                                 std::uint32_t first_frame, const std::string& doing,
-                                 const std::string& remedy);
+std::vector<Posture> postures_of(const Body& body, const Posture& start, const Gait& gait, std::uint32_t first_frame,
+                                 const std::string& doing, const std::string& remedy);
 
 // Share of a period for which a foot is off the floor.
 double swing_share(const Body& body);

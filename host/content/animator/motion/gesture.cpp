@@ -17,10 +17,10 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kEnough = 1;       // degrees that a nod may fall short
-constexpr double kOff = 0.1;        // of the arm's length, that a waving hand may be off its place
-constexpr double kRaise = 0.5;      // seconds
-constexpr double kTolerance = 0.1;  // degrees between keys
+constexpr double kEnough = 1;                   // degrees that a nod may fall short
+constexpr double kOff = 0.1;                    // of the arm's length, that a waving hand may be off its place
+constexpr double kRaise = 0.5;                  // seconds
+constexpr double kTolerance = 0.1;              // degrees between keys
 constexpr double kInward = -14, kOutward = 34;  // degrees of the forearm from upright
 
 // Postures of some joints at some moments. The numbers of a pose go straight from moment to moment, so that
@@ -59,18 +59,18 @@ class Gesture {
       while (from + 2 < moments_.size() && frame >= moments_[from + 1].frame) ++from;
       const Moment &a = moments_[from], &b = moments_[from + 1];
       const double part = smooth(a.frame, std::max(b.frame, a.frame + 1), frame);
-      numbers.push_back(two_digits(scene_.model().joints[joint],
-                                   glm::mix(a.posture.pose[joint], b.posture.pose[joint], part)));
+      numbers.push_back(
+          two_digits(scene_.model().joints[joint], glm::mix(a.posture.pose[joint], b.posture.pose[joint], part)));
     }
     return numbers;
   }
 
-  static void add(const modeler::Joint& joint, const std::vector<glm::dvec3>& numbers, std::vector<animator::ActorKey>& keys) {
+  static void add(const modeler::Joint& joint, const std::vector<glm::dvec3>& numbers,
+                  std::vector<animator::ActorKey>& keys) {
     choose_keys(
         numbers.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
-          return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at],
-                        kTolerance);
+          return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at], kTolerance);
         },
         [&](std::size_t at) { keys[at].pose[joint.name] = numbers[at]; });
   }
@@ -88,7 +88,8 @@ double bend(const Body& body, std::size_t joint, double degrees, Posture& postur
   const glm::dmat3 from = modeler::orientation(body.model->joints[joint], posture.pose[joint]);
   const glm::dmat3 now = glm::transpose(body.axes) * from * body.axes;
   posture.pose[joint] = numbers_for(body, joint, now * canonical_turn(0, degrees, 0), posture.pose[joint]);
-  return glm::degrees(animator::turn_between(from, modeler::orientation(body.model->joints[joint], posture.pose[joint])).angle);
+  return glm::degrees(
+      animator::turn_between(from, modeler::orientation(body.model->joints[joint], posture.pose[joint])).angle);
 }
 
 Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::size_t head, double depth,
@@ -128,10 +129,9 @@ Posture waving(const Body& body, const Posture& start, modeler::Side side, const
   const glm::dvec3 elbow = shoulder + arm.upper * (facing * glm::normalize(glm::dvec3(0.22, s, -0.05)));
   const glm::dvec3 wrist =
       elbow + arm.fore * (facing * glm::normalize(glm::dvec3(0.12, s * std::sin(tilt), std::cos(tilt))));
-  posture.pose[arm.shoulder] = numbers_for(
-      body, arm.shoulder, hanging_shoulder(body, side, {s * 95, 0, s * 80}), start.pose[arm.shoulder]);
-  posture.pose[arm.elbow] =
-      numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);
+  posture.pose[arm.shoulder] =
+      numbers_for(body, arm.shoulder, hanging_shoulder(body, side, {s * 95, 0, s * 80}), start.pose[arm.shoulder]);
+  posture.pose[arm.elbow] = numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);
   const std::size_t joints[] = {arm.shoulder, arm.elbow};
   std::vector<Goal> goals{{.joint = arm.elbow, .place = elbow}};
   if (arm.wrist == modeler::kNone) {
@@ -140,23 +140,22 @@ Posture waving(const Body& body, const Posture& start, modeler::Side side, const
     const glm::dvec3 along = glm::normalize(frame_in(*body.model, drawn, arm.elbow).place -
                                             frame_in(*body.model, drawn, arm.shoulder).place);
     for (const glm::dvec3& across : {facing[0], facing[1]})
-      goals.push_back({.joint = arm.elbow,
-                       .turn_weight = arm.fore,
-                       .direction = along,
-                       .across = glm::normalize(across - glm::dot(across, wrist - elbow) / arm.fore /
-                                                             arm.fore * (wrist - elbow))});
+      goals.push_back(
+          {.joint = arm.elbow,
+           .turn_weight = arm.fore,
+           .direction = along,
+           .across = glm::normalize(across - glm::dot(across, wrist - elbow) / arm.fore / arm.fore * (wrist - elbow))});
   } else {
     posture.pose[arm.wrist] = numbers_for(body, arm.wrist, glm::dmat3(1), start.pose[arm.wrist]);
     goals.push_back({.joint = arm.wrist, .place = wrist});
   }
   reach(*body.model, posture, joints, goals);
   const Goal& end = arm.wrist == modeler::kNone ? goals.front() : goals.back();
-  if (glm::distance(frame_in(*body.model, posture, end.joint).place, *end.place) >
-      kOff * (arm.upper + arm.fore))
+  if (glm::distance(frame_in(*body.model, posture, end.joint).place, *end.place) > kOff * (arm.upper + arm.fore))
     throw Failure("cannot raise its " + std::string(side == modeler::Side::left ? "left" : "right") + " hand to wave",
                   "actor '" + body.name + "', " + where,
-                  "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" +
-                      body.joint_name(arm.elbow) + "' in its model, or take the other hand");
+                  "widen the limits of '" + body.joint_name(arm.shoulder) + "' or '" + body.joint_name(arm.elbow) +
+                      "' in its model, or take the other hand");
   return posture;
 }
 
@@ -166,7 +165,8 @@ Motion nod(const Scene& scene) {
   const Wishes& wishes = scene.wishes;
   const Body body = body_without_legs(scene.model(), scene.actor.name);
   const std::size_t neck = body.find(modeler::Trunk::neck);
-  const std::size_t head = neck == modeler::kNone ? needed(body, modeler::Trunk::head, "nod") : body.find(modeler::Trunk::head);
+  const std::size_t head =
+      neck == modeler::kNone ? needed(body, modeler::Trunk::head, "nod") : body.find(modeler::Trunk::head);
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
   const Posture down = nodded(body, start, neck, head, wishes.number("depth", 24, {0.1, 120}), wishes);
   std::vector<std::size_t> joints{neck, head};

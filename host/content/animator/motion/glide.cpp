@@ -24,18 +24,13 @@ glm::dvec3 rounded_to(const glm::dvec3& v, double digit) {
 }
 
 // A power of ten that is small against the figure.
-double place_digit(const Body& body) {
-  return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4)));
-}
+double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4))); }
 
-double share(std::size_t from, std::size_t to, std::size_t at) {
-  return double(at - from) / double(to - from);
-}
+double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
 
 class Keying {
  public:
-  Keying(std::span<const Posture> postures, std::uint32_t first)
-      : postures_(postures), keys_(postures.size()) {
+  Keying(std::span<const Posture> postures, std::uint32_t first) : postures_(postures), keys_(postures.size()) {
     for (std::size_t i = 0; i < keys_.size(); ++i) keys_[i].frame = first + std::uint32_t(i);
   }
 
@@ -122,12 +117,12 @@ void begin_at(const modeler::Model& model, const Posture& start, double frames, 
     posture.place += left * off(start.place, first.place);
     for (std::size_t joint = 0; joint < posture.pose.size(); ++joint)
       posture.pose[joint] = animator::clamped(model.joints[joint],
-                                    posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
+                                              posture.pose[joint] + left * off(start.pose[joint], first.pose[joint]));
   }
 }
 
 std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
-                              std::span<const Posture> postures, std::uint32_t first) {
+                                        std::span<const Posture> postures, std::uint32_t first) {
   Keying keying(postures, first);
   keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
   keying.add_turns(

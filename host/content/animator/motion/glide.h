@@ -30,6 +30,6 @@ void begin_at(const modeler::Model& model, const Posture& start, double frames, 
 // carries them stray at most 0.03 degrees between keys, others 0.3, places by 1/5000 of the leg: feet stay
 // where they stand.
 std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
-                              std::span<const Posture> postures, std::uint32_t first);
+                                        std::span<const Posture> postures, std::uint32_t first);
 
 }  // namespace mars::motion

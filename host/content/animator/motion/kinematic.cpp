@@ -46,8 +46,7 @@ class Sampled {
     choose_keys(
         places.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
-          return glm::distance(glm::mix(places[a], places[b], double(at - a) / double(b - a)), places[at]) >
-                 tolerance;
+          return glm::distance(glm::mix(places[a], places[b], double(at - a) / double(b - a)), places[at]) > tolerance;
         },
         [&](std::size_t at) { keys_[at].place = animator::rounded(places[at]); });
   }
@@ -115,10 +114,10 @@ Motion bounce(const Scene& scene) {
                     wishes.number("friction", 0.1, {0, 1})};
   const double height = launch.place.z - floor.height;
   if (height < -1e-9 * (1 + std::abs(floor.height)))
-    wishes.refuse(
-        "floor",
-        "is " + document::shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name + "'",
-        "start higher, or lower the floor");
+    wishes.refuse("floor",
+                  "is " + document::shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name +
+                      "'",
+                  "start higher, or lower the floor");
   const double up = std::max(0.0, launch.velocity.z);
   const double top = std::max(1e-9, height + up * up / (2 * -launch.acceleration.z));
   const Flight flight(launch, floor, kLow * top);
@@ -127,7 +126,7 @@ Motion bounce(const Scene& scene) {
   Motion motion = flown(scene, flight, wishes.number("seconds", std::min(rest, kLongest), {0.001, kLongest}));
   const auto hundredths = [](double value) { return document::shown(std::round(value * 100) / 100); };
   motion.report = "first on the floor after " + hundredths(flight.arcs()[1].time) + " s, " +
-                (slides ? "bounces for " : "at rest after ") + hundredths(flight.rest()) + " s";
+                  (slides ? "bounces for " : "at rest after ") + hundredths(flight.rest()) + " s";
   return motion;
 }
 
@@ -150,8 +149,7 @@ Motion go(const Scene& scene) {
   if (!to) scene.wishes.refuse("to", "is missing", "say where: to 2 0 0");
   constexpr std::string_view names[] = {"linear", "in", "out", "both"};
   constexpr animator::Ease eases[] = {animator::kLinear, animator::kIn, animator::kOut, animator::kBoth};
-  const std::uint32_t last =
-      scene.at + frames_of(scene, scene.wishes.number("seconds", 1, {0.001, kLongest}));
+  const std::uint32_t last = scene.at + frames_of(scene, scene.wishes.number("seconds", 1, {0.001, kLongest}));
   animator::ActorKey from, there;
   from.frame = scene.at;
   there.frame = last;

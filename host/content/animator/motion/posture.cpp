@@ -21,8 +21,8 @@ glm::dmat3 actor_turn(const Posture& posture) { return modeler::orientation(anim
 
 modeler::Axes socket_in(const modeler::Model& model, const Posture& posture, std::size_t joint) {
   const modeler::Joint& j = model.joints[joint];
-  const modeler::Axes parent =
-      j.parent == modeler::kNone ? modeler::Axes{actor_turn(posture), posture.place} : frame_in(model, posture, j.parent);
+  const modeler::Axes parent = j.parent == modeler::kNone ? modeler::Axes{actor_turn(posture), posture.place}
+                                                          : frame_in(model, posture, j.parent);
   return {parent.turn, parent.turn * j.place + parent.place};
 }
 

@@ -34,8 +34,7 @@ std::vector<Freedom> freedoms_of(const modeler::Model& model, const Posture& pos
   for (const std::size_t number : joints) {
     const modeler::Joint& joint = model.joints[number];
     const modeler::Axes socket = socket_in(model, posture, number);
-    const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis,
-                               glm::normalize(glm::cross(joint.x_axis, joint.y_axis))};
+    const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis, glm::normalize(glm::cross(joint.x_axis, joint.y_axis))};
     glm::dmat3 turned = socket.turn;
     for (int axis = 0; axis < 3; ++axis) {
       if (joint.limits[axis].free()) freedoms.push_back({number, axis, turned * axes[axis], socket.place});
@@ -78,8 +77,7 @@ class Equations {
       const glm::dvec3 direction = frame.turn * *goal.direction;
       left.push_back(-goal.turn_weight * glm::dot(direction, goal.across));
       for (const Freedom& f : freedoms)
-        rates.push_back(
-            moves(f, goal) ? goal.turn_weight * glm::dot(glm::cross(f.about, direction), goal.across) : 0);
+        rates.push_back(moves(f, goal) ? goal.turn_weight * glm::dot(glm::cross(f.about, direction), goal.across) : 0);
     }
   }
 
@@ -147,8 +145,7 @@ std::vector<double> step_within(const modeler::Model& model, Posture& posture, c
     for (std::size_t i = 0; i < held.size(); ++i) {
       const modeler::Limits& limits = limits_of(model, equations.freedoms[i]);
       const double now = number(posture, equations.freedoms[i]);
-      if (held[i] || !((now <= limits.lower && step[i] < 0) || (now >= limits.upper && step[i] > 0)))
-        continue;
+      if (held[i] || !((now <= limits.lower && step[i] < 0) || (now >= limits.upper && step[i] > 0))) continue;
       held[i] = more = true;
     }
     if (!more) return step;

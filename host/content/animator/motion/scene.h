@@ -32,7 +32,7 @@ struct Scene {
 struct Motion {
   std::vector<animator::ActorKey> keys;
   std::uint32_t last = 0;  // frame, as Scene::last_after() allows
-  std::string report;        // more for the person who asked: "the seat is ..."; "" if nothing
+  std::string report;      // more for the person who asked: "the seat is ..."; "" if nothing
 };
 
 }  // namespace mars::motion

@@ -49,23 +49,19 @@ class Player {
   Played played() { return std::move(played_); }
 
  private:
-  bool is_actor(const std::string& name) const {
-    return std::count(actors_.begin(), actors_.end(), name) > 0;
-  }
+  bool is_actor(const std::string& name) const { return std::count(actors_.begin(), actors_.end(), name) > 0; }
 
   void let(ScriptLine& line) {
     const std::string name = line.take("a name");
     if (!line.take_if("=")) line.refuse("has no '=' after the name", "write: let midpoint = runtime / 2");
     times_[name] = line.take_time(times_, rate_);
-    if (!line.empty())
-      line.refuse("goes on with '" + line.take("") + "'", "write one time, as in: let end = 4s + 12");
+    if (!line.empty()) line.refuse("goes on with '" + line.take("") + "'", "write one time, as in: let end = 4s + 12");
   }
 
   std::uint32_t take_cue(ScriptLine& line) {
     const std::string cue = line.take("a cue");
     if (cue == "then") return last_;
-    if (cue == "at" || cue == "after")
-      return static_cast<std::uint32_t>(std::lround(line.take_time(times_, rate_)));
+    if (cue == "at" || cue == "after") return static_cast<std::uint32_t>(std::lround(line.take_time(times_, rate_)));
     line.refuse("begins with '" + cue + "', which is no cue",
                 document::did_you_mean(cue, kCues, "begin with at TIME, then, after NAME, or let"));
   }
@@ -83,7 +79,7 @@ class Player {
     if (!is_actor(who))
       line.refuse("names '" + who + "', which is no actor of the film",
                   document::did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()),
-                               "name an actor, or camera"));
+                                         "name an actor, or camera"));
     const std::string verb = line.take("an action");
     const Action* action = find_action(verb);
     std::vector<std::string_view> verbs;
@@ -95,7 +91,7 @@ class Player {
     if (begun_.insert(who).second) clear_after(who, at);
     const Performed done = in_line(line, [&] { return perform(film_, path_, who, *action, at, wishes); });
     played_.report.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) +
-                           " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
+                             " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
     return done.last;
   }
 
@@ -162,8 +158,9 @@ class Player {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
         animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before,
-                  verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
-      animator::pose(film_, meaning_of(film_, path_), kCamera, wishes, end, animator::kLinear, animator::Beyond::refused);
+                            verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
+      animator::pose(film_, meaning_of(film_, path_), kCamera, wishes, end, animator::kLinear,
+                     animator::Beyond::refused);
       return meaning_of(film_, path_).frames;
     });
     played_.report.push_back(line.where() + ": camera " + verb + ", frame " + std::to_string(end));

@@ -11,8 +11,8 @@
 namespace mars::motion {
 
 struct Played {
-  std::uint32_t last = 0;         // frame at which the last action ends
-  bool cut = false;               // whether it said itself where the film ends
+  std::uint32_t last = 0;           // frame at which the last action ends
+  bool cut = false;                 // whether it said itself where the film ends
   std::vector<std::string> report;  // a line for each action: "play.script:4: anna walk, frames 10 to 82"
 };
 

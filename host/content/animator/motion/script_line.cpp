@@ -67,14 +67,10 @@ double ScriptLine::take_term(const Times& times, double rate) {
 
 double ScriptLine::take_time(const Times& times, double rate) {
   double time = take_term(times, rate);
-  while (!empty() && words_[next_].size() == 1 &&
-         kOperators.find(words_[next_][0]) != std::string_view::npos) {
+  while (!empty() && words_[next_].size() == 1 && kOperators.find(words_[next_][0]) != std::string_view::npos) {
     const char what = words_[next_++][0];
     const double other = take_term(times, rate);
-    time = what == '+'   ? time + other
-           : what == '-' ? time - other
-           : what == '*' ? time * other
-                         : time / other;
+    time = what == '+' ? time + other : what == '-' ? time - other : what == '*' ? time * other : time / other;
   }
   if (!(time >= 0) || time > 1e6) refuse("has a time before frame 0 or after 1000000", "write another");
   return time;

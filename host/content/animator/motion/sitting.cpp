@@ -37,8 +37,8 @@ double extent(const Body& body, std::size_t number, const glm::dvec3& direction)
     const modeler::Box& box = joint.segment->sbb;
     const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                            corner & 4 ? box.max.z : box.min.z);
-    most = std::max(most,
-                    glm::dot(glm::transpose(body.axes) * modeler::segment_frame({}, joint).turn * point, direction));
+    most =
+        std::max(most, glm::dot(glm::transpose(body.axes) * modeler::segment_frame({}, joint).turn * point, direction));
   }
   return most;
 }
@@ -86,8 +86,8 @@ class Chair {
       const double lean = kLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
       stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
       bend(stance, lean);
-      take_stance(body_, stance, posture,
-                  std::string(command_) + " at frame " + std::to_string(scene_.at + frame), remedy_);
+      take_stance(body_, stance, posture, std::string(command_) + " at frame " + std::to_string(scene_.at + frame),
+                  remedy_);
       move_arms(arms, u, posture);
       postures.push_back(posture);
     }
@@ -98,8 +98,7 @@ class Chair {
   // Arms as they are in the end: `start_` with turns of joints.
   Posture with_arms(const std::map<std::size_t, glm::dmat3>& turns) const {
     Posture posture = start_;
-    for (const auto& [joint, turn] : turns)
-      posture.pose[joint] = numbers_for(body_, joint, turn, posture.pose[joint]);
+    for (const auto& [joint, turn] : turns) posture.pose[joint] = numbers_for(body_, joint, turn, posture.pose[joint]);
     return posture;
   }
 
@@ -111,8 +110,8 @@ class Chair {
     stance.tilt = {0, 0, 0};
     take_stance(body_, stance, posture, std::string(command_), remedy_);
     for (const modeler::Side side : kSides) {
-      const std::size_t shoulder = body_.find(modeler::Limb::shoulder, side), elbow = body_.find(modeler::Limb::elbow, side),
-                        wrist = body_.find(modeler::Limb::wrist, side);
+      const std::size_t shoulder = body_.find(modeler::Limb::shoulder, side),
+                        elbow = body_.find(modeler::Limb::elbow, side), wrist = body_.find(modeler::Limb::wrist, side);
       if (shoulder == modeler::kNone || elbow == modeler::kNone || wrist == modeler::kNone) continue;
       lay_hand(side, shoulder, elbow, wrist, posture);
     }
@@ -135,12 +134,10 @@ class Chair {
     const glm::dvec3 left = facing(from_)[1], hip = place(leg.hip);
     const double out = kHandOut * glm::dot(place(shoulder) - hip, left);
     const double thick = extent(body_, leg.hip, {1, 0, 0}) * 0.8 + extent(body_, wrist, {0, -s, 0});
-    const double arm =
-        glm::distance(place(shoulder), place(elbow)) + glm::distance(place(elbow), place(wrist));
+    const double arm = glm::distance(place(shoulder), place(elbow)) + glm::distance(place(elbow), place(wrist));
     const std::size_t joints[] = {shoulder, elbow};
     const Goal goals[] = {
-        {.joint = wrist,
-         .place = glm::mix(hip, place(leg.knee), kHandAlong) + out * left + glm::dvec3(0, 0, thick)},
+        {.joint = wrist, .place = glm::mix(hip, place(leg.knee), kHandAlong) + out * left + glm::dvec3(0, 0, thick)},
         {.joint = wrist, .turn_weight = 0.2 * arm, .direction = body_.axes[1], .across = left}};
     reach(*body_.model, posture, joints, goals);
   }
@@ -156,8 +153,7 @@ class Chair {
     for (const modeler::Side side : kSides) {
       const glm::dvec3 hip = stance.pelvis + facing(stance) * glm::dvec3(0, body_.leg(side).aside, -drop_);
       const glm::dvec3& ankle = stance.feet[index_of(side)].ankle;
-      const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y),
-                   reach = 0.9995 * body_.leg(side).length();
+      const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y), reach = 0.9995 * body_.leg(side).length();
       least = std::min(least, ankle.z + std::sqrt(std::max(0.0, reach * reach - far * far)) + drop_);
     }
     return least;
@@ -195,8 +191,8 @@ class Chair {
 glm::dvec3 between_feet(const Stance& stance) { return 0.5 * (stance.feet[0].ankle + stance.feet[1].ankle); }
 
 [[noreturn]] void fail(const Scene& scene, const char* what, const char* command, const char* remedy) {
-  throw Failure(what + (" at frame " + std::to_string(scene.at)),
-                "actor '" + scene.actor.name + "', " + command, remedy);
+  throw Failure(what + (" at frame " + std::to_string(scene.at)), "actor '" + scene.actor.name + "', " + command,
+                remedy);
 }
 
 }  // namespace
@@ -222,9 +218,11 @@ Motion sit(const Scene& scene) {
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },
       chair.with_hands_on_thighs(pelvis));
-  const auto rounded_text = [](double value) { return document::shown(std::round(value * 1e4) / 1e4 + 0.0); };  // never -0
+  const auto rounded_text = [](double value) {
+    return document::shown(std::round(value * 1e4) / 1e4 + 0.0);
+  };  // never -0
   motion.report = "sits at " + rounded_text(pelvis.x) + " " + rounded_text(pelvis.y) + ", on a seat of height " +
-                rounded_text(hips - soft - chair.floor());
+                  rounded_text(hips - soft - chair.floor());
   return motion;
 }
 
@@ -234,14 +232,13 @@ Motion stand(const Scene& scene) {
   const glm::dvec3 middle = between_feet(chair.from());
   const Body& body = chair.body();
   const Posture drawn = drawn_posture(*body.model);
-  const glm::dvec3 ahead =
-      glm::transpose(body.axes) * (frame_in(*body.model, drawn, body.legs[0].ankle).place -
-                                   frame_in(*body.model, drawn, body.pelvis).place);
-  const glm::dvec3 pelvis = glm::dvec3(middle.x, middle.y, chair.floor() + body.height) -
-                            facing(chair.from()) * glm::dvec3(ahead.x, 0, 0);
+  const glm::dvec3 ahead = glm::transpose(body.axes) * (frame_in(*body.model, drawn, body.legs[0].ankle).place -
+                                                        frame_in(*body.model, drawn, body.pelvis).place);
+  const glm::dvec3 pelvis =
+      glm::dvec3(middle.x, middle.y, chair.floor() + body.height) - facing(chair.from()) * glm::dvec3(ahead.x, 0, 0);
   return chair.move(
-      pelvis, 0.4, [](double u) { return smooth(0.05, 0.95, u); },
-      [](double u) { return smooth(0.15, 1, u); }, chair.with_arms(at_ease(body)));
+      pelvis, 0.4, [](double u) { return smooth(0.05, 0.95, u); }, [](double u) { return smooth(0.15, 1, u); },
+      chair.with_arms(at_ease(body)));
 }
 
 }  // namespace mars::motion

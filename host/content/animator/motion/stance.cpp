@@ -13,13 +13,12 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kNearEnough =
-    0.003;                         // of the leg's length: how far a standing foot may be from where it should
-constexpr double kFlatEnough = 3;  // degrees
-constexpr double kTurnWeight = 0.3;  // of the leg's length, for a radian of the foot's turn
-constexpr double kKneeWeight = 0.1;  // and of the knee's
-constexpr double kKneeShare = 0.7;   // of the foot's heading against the pelvis, to which the knee points
-constexpr double kAtLimit = 1e-3;    // degrees
+constexpr double kNearEnough = 0.003;  // of the leg's length: how far a standing foot may be from where it should
+constexpr double kFlatEnough = 3;      // degrees
+constexpr double kTurnWeight = 0.3;    // of the leg's length, for a radian of the foot's turn
+constexpr double kKneeWeight = 0.1;    // and of the knee's
+constexpr double kKneeShare = 0.7;     // of the foot's heading against the pelvis, to which the knee points
+constexpr double kAtLimit = 1e-3;      // degrees
 
 glm::dmat3 heading_turn(double degrees) { return modeler::rotation_by_degrees({0, 0, 1}, degrees); }
 
@@ -28,9 +27,8 @@ glm::dmat3 to_hang(const Body& body, modeler::Limb from, modeler::Limb to, model
   const Posture drawn = drawn_posture(*body.model);
   const std::size_t upper = body.find(from, side), lower = body.find(to, side);
   if (lower == modeler::kNone) return glm::dmat3(1);
-  const glm::dvec3 along =
-      glm::normalize(glm::transpose(body.axes) *
-                     (frame_in(*body.model, drawn, lower).place - frame_in(*body.model, drawn, upper).place));
+  const glm::dvec3 along = glm::normalize(glm::transpose(body.axes) * (frame_in(*body.model, drawn, lower).place -
+                                                                       frame_in(*body.model, drawn, upper).place));
   const glm::dvec3 down(0, 0, -1), axis = glm::cross(along, down);
   const double sine = glm::length(axis);
   return sine < 0.1 ? glm::dmat3(1) : modeler::rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
@@ -84,8 +82,7 @@ int twist_axis(const Body& body, const modeler::Joint& joint) {
   const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis)};
   int best = 2;
   for (int axis = 0; axis < 2; ++axis)
-    if (std::abs(glm::dot(axes[axis], body.axes[2])) > std::abs(glm::dot(axes[best], body.axes[2])))
-      best = axis;
+    if (std::abs(glm::dot(axes[axis], body.axes[2])) > std::abs(glm::dot(axes[best], body.axes[2]))) best = axis;
   return best;
 }
 
@@ -104,9 +101,8 @@ std::string limit_in_the_way(const Body& body, const Posture& posture, std::span
       const modeler::Limits& limits = joint.limits[axis];
       if (value > limits.lower + kAtLimit && value < limits.upper - kAtLimit) continue;
       if (!limits.free() && axis == 2 && joint.freedoms() > 0) continue;  // few joints twist: never the cause
-      const std::string what = limits.free()
-                                   ? "is at its limit of " + degrees_of(value) + " about " + "xyz"[axis]
-                                   : std::string("cannot turn about ") + "xyz"[axis];
+      const std::string what = limits.free() ? "is at its limit of " + degrees_of(value) + " about " + "xyz"[axis]
+                                             : std::string("cannot turn about ") + "xyz"[axis];
       all += (all.empty() ? "'" : ", '") + joint.name + "' " + what;
     }
   }
@@ -139,8 +135,7 @@ class LegReach {
     reach(*body_.model, posture_, all, goals);
     // Where not everything can be had, the foot's place comes first.
     goals[0].turn.reset();
-    if (error_of(to) > kNearEnough * leg_.length() / 10)
-      reach(*body_.model, posture_, leg, std::span(goals).first(1));
+    if (error_of(to) > kNearEnough * leg_.length() / 10) reach(*body_.model, posture_, leg, std::span(goals).first(1));
     const std::size_t ankle[] = {leg_.ankle};
     const Goal flat[] = {{.joint = leg_.ankle, .turn = turn}};
     reach(*body_.model, posture_, ankle, flat);
@@ -157,8 +152,8 @@ class LegReach {
     if (leg_.knee != modeler::kNone) joints.push_back(leg_.knee);
     if (far > kNearEnough * leg_.length()) {
       const std::string limit = limit_in_the_way(body_, posture_, joints);
-      fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit,
-           doing, remedy);
+      fail("its " + whose + " foot cannot be where it stands", limit.empty() ? "the leg is too short" : limit, doing,
+           remedy);
     }
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
     const glm::dmat3 is = body_.turn_of(posture_, leg_.ankle);
@@ -169,14 +164,13 @@ class LegReach {
       joints.assign(1, leg_.ankle);
       joints.push_back(leg_.hip);
       const std::string limit = limit_in_the_way(body_, posture_, joints);
-      fail("its " + whose + " foot cannot stand on its sole", limit.empty() ? turn_missing(wanted) : limit,
-           doing, remedy);
+      fail("its " + whose + " foot cannot stand on its sole", limit.empty() ? turn_missing(wanted) : limit, doing,
+           remedy);
     }
   }
 
  private:
-  void add_knee(const glm::dvec3& hip, const glm::dvec3& to, std::vector<std::size_t>& leg,
-                std::vector<Goal>& goals) {
+  void add_knee(const glm::dvec3& hip, const glm::dvec3& to, std::vector<std::size_t>& leg, std::vector<Goal>& goals) {
     const Hinge hinge = hinge_of(body_, leg_);
     bend_knee(body_, leg_, hinge, glm::distance(hip, to), posture_);
     leg.push_back(leg_.knee);
@@ -195,16 +189,14 @@ class LegReach {
     const modeler::Joint& ankle = body_.model->joints[leg_.ankle];
     const glm::dmat3 frame = frame_in(*body_.model, posture_, leg_.ankle).turn;
     const animator::Turn turn = animator::turn_between(frame, wanted * glm::transpose(body_.axes));
-    const glm::dvec3 axes[] = {ankle.x_axis, ankle.y_axis,
-                               glm::normalize(glm::cross(ankle.x_axis, ankle.y_axis))};
+    const glm::dvec3 axes[] = {ankle.x_axis, ankle.y_axis, glm::normalize(glm::cross(ankle.x_axis, ankle.y_axis))};
     int most = 0;
     std::array<double, 3> along;
     for (int axis = 0; axis < 3; ++axis) {
       along[axis] = glm::degrees(turn.angle) * glm::dot(turn.axis, frame * axes[axis]);
       if (std::abs(along[axis]) > std::abs(along[most])) most = axis;
     }
-    return "'" + ankle.name + "' would have to turn " + degrees_of(along[most]) + " more about " +
-           "xyz"[most];
+    return "'" + ankle.name + "' would have to turn " + degrees_of(along[most]) + " more about " + "xyz"[most];
   }
 
   double error_of(const glm::dvec3& to) const {

@@ -25,20 +25,17 @@ constexpr double kTurnAtOnce = 50;     // degrees between two feet
 constexpr double kLeastAtOnce = 6;     // where the joints' limits want less
 constexpr int kBowTries = 4;           // each with twice as many steps
 constexpr std::uint32_t kMostSteps = 10000;
-constexpr double kUpright = 0.8;       // of its height: what is lower sits
-constexpr double kNothing = 0.2;       // degrees
-constexpr double kOnTheWay = 25;       // degrees that the first step can turn
+constexpr double kUpright = 0.8;  // of its height: what is lower sits
+constexpr double kNothing = 0.2;  // degrees
+constexpr double kOnTheWay = 25;  // degrees that the first step can turn
 
-constexpr const char* kWalkRemedy =
-    "take shorter steps (step-length), or widen the joint's limits in its model";
+constexpr const char* kWalkRemedy = "take shorter steps (step-length), or widen the joint's limits in its model";
 constexpr const char* kBowRemedy =
     "take more and shorter steps (steps, distance), or widen the joint's limits in its model";
 constexpr const char* kTurnRemedy =
     "widen the joint's limits in its model, or key its turn: mars animate FILM pose ACTOR turn.z=90";
 
-glm::dvec2 ahead(double heading) {
-  return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))};
-}
+glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
 glm::dvec2 left_of(const glm::dvec2& v) { return {-v.y, v.x}; }
 
 // Where a body stands, as steps see it.
@@ -70,8 +67,8 @@ class Planner {
  public:
   Planner(const Body& body, double period) : body_(body), period_(period) {
     const Posture drawn = drawn_posture(*body.model);
-    const glm::dvec3 way = frame_in(*body.model, drawn, body.legs[0].ankle).place -
-                           frame_in(*body.model, drawn, body.pelvis).place;
+    const glm::dvec3 way =
+        frame_in(*body.model, drawn, body.legs[0].ankle).place - frame_in(*body.model, drawn, body.pelvis).place;
     forward_ = (glm::transpose(body.axes) * way).x;
     double inner = 0;
     for (const glm::dvec3& point : body.legs[0].sole.foot) inner = std::max(inner, -point.y);
@@ -114,18 +111,16 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
   gait.way.push_back({0, {from.pelvis.x, from.pelvis.y}, from.heading, {0, 0}});
   modeler::Side side = first;
   for (int k = 1; k <= steps; ++k, side = other(side)) {
-    gait.steps.push_back(
-        planner.step(k, side, planner.print(path.at(k * length), path.heading(k * length), side)));
+    gait.steps.push_back(planner.step(k, side, planner.print(path.at(k * length), path.heading(k * length), side)));
     const double s = (k - (k == 1 && !body.stiff() ? kFirstBehind : behind)) * length;
     gait.way.push_back(planner.waypoint(planner.landing(k), path.at(s), path.heading(s), speed));
   }
   const double end = path.heading(path.length);
   gait.steps.push_back(planner.step(steps + 1, side, planner.print(path.at(path.length), end, side)));
   const double near = path.length - 0.06 * length;
+  gait.way.push_back(planner.waypoint(planner.landing(steps + 1), path.at(near), path.heading(near), 0.12 * speed));
   gait.way.push_back(
-      planner.waypoint(planner.landing(steps + 1), path.at(near), path.heading(near), 0.12 * speed));
-  gait.way.push_back(planner.waypoint(std::ceil(planner.landing(steps + 1) + kSettle * period),
-                                      path.at(path.length), end, 0));
+      planner.waypoint(std::ceil(planner.landing(steps + 1) + kSettle * period), path.at(path.length), end, 0));
   return gait;
 }
 
@@ -143,8 +138,8 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double at_once, 
     gait.way.push_back(
         planner.waypoint(planner.landing(k), start.middle, start.heading + by * (k - 0.5) / (2 * pairs), 0));
   }
-  gait.way.push_back(planner.waypoint(std::ceil(planner.landing(2 * pairs) + kSettle * period), start.middle,
-                                      start.heading + by, 0));
+  gait.way.push_back(
+      planner.waypoint(std::ceil(planner.landing(2 * pairs) + kSettle * period), start.middle, start.heading + by, 0));
   return gait;
 }
 
@@ -159,11 +154,10 @@ class Going {
     postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
     const Stance stance = now();
     if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
-      throw Failure(
-          "does not stand at frame " + std::to_string(scene.at),
-          "actor '" + scene.actor.name + "', " + command,
-          "let it stand up first, by the action stand; to do it again otherwise, give --at with the "
-          "frame where it began");
+      throw Failure("does not stand at frame " + std::to_string(scene.at),
+                    "actor '" + scene.actor.name + "', " + command,
+                    "let it stand up first, by the action stand; to do it again otherwise, give --at with the "
+                    "frame where it began");
   }
 
   Stance now() const { return stance_of(body_, postures_.back()); }
@@ -176,8 +170,8 @@ class Going {
     const double reach = 2 * body_.leg_length();
     for (std::size_t i = 1; i < gait.steps.size(); ++i)
       if (const double step = glm::distance(gait.steps[i].to.place, gait.steps[i - 1].to.place); step > reach)
-        throw Failure("would take a step of " + document::shown(step) + ", where two legs of " + document::shown(body_.leg_length()) +
-                          " reach " + document::shown(reach) + " at most",
+        throw Failure("would take a step of " + document::shown(step) + ", where two legs of " +
+                          document::shown(body_.leg_length()) + " reach " + document::shown(reach) + " at most",
                       scene_.who(), remedy);
   }
 
@@ -201,8 +195,7 @@ class Going {
   }
 
   Motion motion() const {
-    return {keys_of(body_, body_.joints(), postures_, scene_.at),
-            scene_.at + std::uint32_t(postures_.size()) - 1, ""};
+    return {keys_of(body_, body_.joints(), postures_, scene_.at), scene_.at + std::uint32_t(postures_.size()) - 1, ""};
   }
 
  private:
@@ -228,7 +221,8 @@ std::uint32_t steps_for(const Wishes& wishes, double way, double step) {
   const double steps = std::max(1.0, std::round(way / step));
   if (steps > kMostSteps)
     wishes.refuse(wishes.has("to") ? "to" : "distance",
-                  "is " + document::shown(way) + " away, which takes " + document::shown(steps) + " steps of " + document::shown(step),
+                  "is " + document::shown(way) + " away, which takes " + document::shown(steps) + " steps of " +
+                      document::shown(step),
                   "a walk has at most " + std::to_string(kMostSteps) + ": go to a nearer place");
   return static_cast<std::uint32_t>(steps);
 }
@@ -259,8 +253,7 @@ Motion walk(const Scene& scene) {
   }
   const double ordinary =
       wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, document::kFarthest});
-  std::uint32_t steps =
-      far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : asked;
+  std::uint32_t steps = far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : asked;
   constexpr std::string_view sides[] = {"left", "right"};
   const modeler::Side first =
       kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];

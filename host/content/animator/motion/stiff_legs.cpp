@@ -18,8 +18,7 @@ std::array<glm::dvec3, 2> legs_of(const Body& body, const Stance& stance, Postur
   place_pelvis(body, stance, posture);
   std::array<glm::dvec3, 2> legs;
   for (const modeler::Side side : kSides)
-    legs[index_of(side)] =
-        frame_in(*body.model, posture, body.leg(side).hip).place - stance.feet[index_of(side)].ankle;
+    legs[index_of(side)] = frame_in(*body.model, posture, body.leg(side).hip).place - stance.feet[index_of(side)].ankle;
   return legs;
 }
 

@@ -13,10 +13,10 @@ void Wishes::refuse(std::string_view name, const std::string& what, const std::s
 
 double Wishes::parsed(std::string_view name, const std::string& text, document::Range range) const {
   const double value = document::number_in<double>(text).value_or(NAN);
-  if (!std::isfinite(value))
-    refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
+  if (!std::isfinite(value)) refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
   if (value < range.lowest || value > range.highest)
-    refuse(name, "is " + text, "give a number from " + document::shown(range.lowest) + " to " + document::shown(range.highest));
+    refuse(name, "is " + text,
+           "give a number from " + document::shown(range.lowest) + " to " + document::shown(range.highest));
   return value;
 }
 
@@ -40,8 +40,7 @@ std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return std::nullopt;
   glm::dvec3 vector(0);
-  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i)
-    vector[int(i)] = parsed(name, found->second[i], {});
+  for (std::size_t i = 0; i < found->second.size() && i < 3; ++i) vector[int(i)] = parsed(name, found->second[i], {});
   return vector;
 }
 

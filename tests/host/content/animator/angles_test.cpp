@@ -19,8 +19,7 @@ modeler::Joint joint_of(modeler::Limits x, modeler::Limits y, modeler::Limits z,
 }
 
 void expect_near(const glm::dvec3& a, const glm::dvec3& b, double most = 1e-9) {
-  EXPECT_LE(glm::length(a - b), most) << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " "
-                                      << b.z;
+  EXPECT_LE(glm::length(a - b), most) << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " " << b.z;
 }
 
 double distance(const glm::dmat3& a, const glm::dmat3& b) {
@@ -80,7 +79,8 @@ TEST(PoseOf, WhereTwoTurnsAreOneTheySplitAsLimitsAllow) {
 
 TEST(PoseOf, SkewedAxesThatDoNotReachComeNear) {
   const modeler::Joint joint = joint_of({-180, 180}, {-180, 180}, {-180, 180}, {0.5, 1, 0});
-  const glm::dmat3 turn = modeler::orientation(joint_of({}, {}, {}), {0, 90, 0});  // takes z to x, nearer than y's turns do
+  const glm::dmat3 turn =
+      modeler::orientation(joint_of({}, {}, {}), {0, 90, 0});  // takes z to x, nearer than y's turns do
   const glm::dvec3 pose = pose_of(joint, turn, {0, 0, 0});
   EXPECT_NEAR(pose.y, 90, 1e-9);
   EXPECT_LT(distance(modeler::orientation(joint, pose), turn), 0.6);

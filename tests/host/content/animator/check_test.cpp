@@ -41,7 +41,8 @@ TEST(LimitsLeft, TheWorstIsWhereGeometrySaysItIs) {
   EXPECT_GT(left[0].worst.angle, 81);
   const std::string line = check_film(film).lines[0];
   EXPECT_TRUE(document::holds(line, "actor 'a b', joint 'j': turns ")) << line;
-  EXPECT_TRUE(document::holds(line, "about y between keys, outside its limits -81 to 81, in frame 20, the worst of")) << line;
+  EXPECT_TRUE(document::holds(line, "about y between keys, outside its limits -81 to 81, in frame 20, the worst of"))
+      << line;
   EXPECT_TRUE(document::holds(line, "key 'a b' j --frame 20 --clamp")) << line;
   const auto warnings = warnings_of(film);
   ASSERT_EQ(warnings.size(), 1u);
@@ -145,8 +146,7 @@ TEST(Warnings, OfALongFilmTakeNoTime) {
   const auto lines = warnings_of(film);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
   ASSERT_EQ(lines.size(), 11u);
-  EXPECT_EQ(lines[10],
-            "f.json: 390 more joints leave their limits between keys (mars animate f.json check lists all)");
+  EXPECT_EQ(lines[10], "f.json: 390 more joints leave their limits between keys (mars animate f.json check lists all)");
 }
 
 TEST(Check, TellsKeysBehindTheEndAndThoseThatDoNothing) {
@@ -155,7 +155,8 @@ TEST(Check, TellsKeysBehindTheEndAndThoseThatDoNothing) {
                          R"("keys": [{"frame": 3, "place": [1, 1, 1]}, {"frame": 50, "place": [1, 1, 1]}])"))
           .lines;
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_TRUE(document::holds(lines[0], "actor 'a b': has keys up to frame 50, behind the film's last, 40")) << lines[0];
+  EXPECT_TRUE(document::holds(lines[0], "actor 'a b': has keys up to frame 50, behind the film's last, 40"))
+      << lines[0];
   EXPECT_TRUE(document::holds(lines[1], "never moves")) << lines[1];
 }
 
@@ -166,7 +167,8 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
   const Findings findings = check_film(film);
   EXPECT_FALSE(findings.trouble);
   ASSERT_EQ(findings.lines.size(), 1u);
-  EXPECT_TRUE(document::holds(findings.lines[0], "1 joint is outside its limits between keys by less than")) << findings.lines[0];
+  EXPECT_TRUE(document::holds(findings.lines[0], "1 joint is outside its limits between keys by less than"))
+      << findings.lines[0];
   EXPECT_TRUE(warnings_of(film).empty());
 }
 

@@ -25,8 +25,7 @@ TEST(Ease, StartsAndEndsSlowlyWhereItSays) {
   EXPECT_GT(1 - eased(kIn, 0.9), 0.1);
   EXPECT_GT(eased(kOut, 0.1), 0.1);
   EXPECT_LT(1 - eased(kOut, 0.9), 0.03);
-  for (const double time : {0.1, 0.3, 0.5})
-    EXPECT_NEAR(eased(kBoth, time), 1 - eased(kBoth, 1 - time), 1e-12);
+  for (const double time : {0.1, 0.3, 0.5}) EXPECT_NEAR(eased(kBoth, time), 1 - eased(kBoth, 1 - time), 1e-12);
 }
 
 TEST(Ease, RunsForward) {

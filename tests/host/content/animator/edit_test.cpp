@@ -13,7 +13,7 @@ document::Json film_with(const std::string& actor) {
   return document::Json::parse(R"({"frames": 20, "camera": {"eye": [0, -9, 2]},
     "models": {"arm": {"joints": [{"name": "a"}, {"name": "b", "parent": "a", "limits": {"y": [-10, 90]}}]}},
     "actors": [{"name": "other", "model": "arm"}, )" +
-                     actor + "]}");
+                               actor + "]}");
 }
 
 // The actor "it" with these members beside name and model, after the keys were put.
@@ -32,9 +32,8 @@ document::Json after(const std::string& members, const std::vector<ActorKey>& ke
 TEST(PutKeys, AnActorWithoutKeysGetsThem) {
   ActorKey late{18, glm::dvec3(1, 2.5, -0.0), {}, {{"b", {0, 45, 0}}}, {}};
   ActorKey early{6, {}, glm::dvec3(0, 0, 90), {}, Ease{0.42, 0, 0.58, 1}};
-  EXPECT_EQ(after("", {late, early}).dump(),
-            R"({"keys":[{"frame":6,"turn":[0,0,90],"ease":"both"},)"
-            R"({"frame":18,"place":[1,2.5,0],"pose":{"b":[0,45,0]}}]})");
+  EXPECT_EQ(after("", {late, early}).dump(), R"({"keys":[{"frame":6,"turn":[0,0,90],"ease":"both"},)"
+                                             R"({"frame":18,"place":[1,2.5,0],"pose":{"b":[0,45,0]}}]})");
 }
 
 TEST(PutKeys, ValuesOfAFrameAreReplacedOthersStay) {
@@ -49,8 +48,7 @@ TEST(PutKeys, AnEaseReplacesTheOneOfItsFrame) {
   const std::string before = R"(, "keys": [{"frame": 5, "turn": [0, 0, 2], "ease": "in"}])";
   EXPECT_EQ(after(before, {{5, {}, {}, {}, kLinear}}).dump(),
             R"({"keys":[{"frame":5,"turn":[0,0,2],"ease":"linear"}]})");
-  EXPECT_EQ(after(before, {{5, {}, {}, {}, Ease{0.5, -0.25, 1, 1}}})["keys"][0]["ease"].dump(),
-            "[0.5,-0.25,1,1]");
+  EXPECT_EQ(after(before, {{5, {}, {}, {}, Ease{0.5, -0.25, 1, 1}}})["keys"][0]["ease"].dump(), "[0.5,-0.25,1,1]");
 }
 
 TEST(PutKeys, StillValuesOfWhatIsKeyedBecomeKeysOfFrame0) {
@@ -70,7 +68,8 @@ TEST(PutKeys, WhatCannotBeKeyedIsToldAndTheFilmStays) {
   document::Json film = film_with(R"({"name": "it", "model": "arm", "matrices": []})");
   const document::Json before = film;
   const std::vector<ActorKey> keys = {{3, glm::dvec3(1, 1, 1), {}, {}, {}}};
-  EXPECT_TRUE(document::holds(document::failure_of([&] { put_keys(film, "it", keys); }), "actor 'it': is moved by matrices"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] { put_keys(film, "it", keys); }), "actor 'it': is moved by matrices"));
   EXPECT_TRUE(document::holds(document::failure_of([&] { put_keys(film, "othre", keys); }), "did you mean 'other'?"));
   EXPECT_EQ(film, before);
 }

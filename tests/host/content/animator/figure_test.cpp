@@ -22,7 +22,8 @@ modeler::Joint joint_at(std::size_t parent, const glm::dvec3& place) {
 
 // Upper arm, fore arm and hand, each one long in x, at rest.
 struct Arm {
-  modeler::Model model{{joint_at(modeler::kNone, {0, 0, 0}), joint_at(0, {1, 0, 0}), joint_at(1, {1, 0, 0})}, {}, {}, {}};
+  modeler::Model model{
+      {joint_at(modeler::kNone, {0, 0, 0}), joint_at(0, {1, 0, 0}), joint_at(1, {1, 0, 0})}, {}, {}, {}};
   FigureMotion motion{constant(glm::dvec3(0)), constant(glm::dvec3(0)), std::vector<Channel<glm::dvec3>>(3)};
 
   void key(std::size_t joint, std::uint32_t frame, const glm::dvec3& pose, const Ease& ease = kLinear) {
@@ -57,8 +58,7 @@ TEST(Limits, BoundExactlyTheThreeNumbers) {
   modeler::Joint joint;
   joint.limits = {{{0, 0}, {-10, 150}, {-180, 180}}};
   EXPECT_FALSE(broken_limit(joint, {0, 150, -180}));
-  EXPECT_EQ(*broken_limit(joint, {0, 150.5, 0}),
-            "turns 150.5 degrees about y, outside its limits -10 to 150");
+  EXPECT_EQ(*broken_limit(joint, {0, 150.5, 0}), "turns 150.5 degrees about y, outside its limits -10 to 150");
   EXPECT_TRUE(document::holds(*broken_limit(joint, {1e-9, 0, 0}), "its x axis is locked at 0, not 1e-09"));
 }
 
@@ -93,8 +93,7 @@ TEST(Figure, LimbsNeverComeApart) {
     for (const std::size_t joint : {1u, 2u}) {
       EXPECT_NEAR(distance(figure.frame_of(joint).place, figure.frame_of(joint - 1).place), 1, 1e-14);
       const modeler::Axes& parent = figure.frame_of(joint - 1);
-      EXPECT_LT(distance(figure.frame_of(joint).place, parent.turn * glm::dvec3(1, 0, 0) + parent.place),
-                1e-14);
+      EXPECT_LT(distance(figure.frame_of(joint).place, parent.turn * glm::dvec3(1, 0, 0) + parent.place), 1e-14);
     }
   }
 }
@@ -109,8 +108,7 @@ TEST(Figure, FreeJointsFollowSlerpBetweenKeys) {
   const glm::dquat last = glm::quat_cast(modeler::orientation(joint, {-100, 60, 150}));
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
     figure.move_to(frame);
-    EXPECT_LT(difference(figure.frame_of(1).turn, glm::mat3_cast(glm::slerp(first, last, frame / 10.0))),
-              1e-12);
+    EXPECT_LT(difference(figure.frame_of(1).turn, glm::mat3_cast(glm::slerp(first, last, frame / 10.0))), 1e-12);
   }
 }
 
@@ -124,8 +122,7 @@ TEST(Figure, HingesMakeWholeTurnsAndKeepTheirLimits) {
   arm.key(1, 8, {0, 720, 0});
   Figure figure(arm.model, arm.motion);
   figure.move_to(1);
-  EXPECT_GE(std::atan2(figure.frame_of(0).turn[0].y, figure.frame_of(0).turn[0].x),
-            -30.0001 * std::acos(-1.0) / 180)
+  EXPECT_GE(std::atan2(figure.frame_of(0).turn[0].y, figure.frame_of(0).turn[0].x), -30.0001 * std::acos(-1.0) / 180)
       << "an ease that swings back stops at the limit";
   JointMotion hinge(arm.model.joints[1], arm.motion.pose[1]);
   for (std::uint32_t frame = 0; frame <= 8; ++frame)

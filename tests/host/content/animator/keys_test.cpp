@@ -26,8 +26,8 @@ struct Scene {
 
   explicit Scene(const std::string& actor, const std::string& more = "")
       : json(document::Json::parse(R"({"frames": 49, "camera": {"eye": [0, -9, 2]}, "models": {"arm": {"joints": [)" +
-                         std::string(kArm) + R"(]}}, "actors": [{"name": "it", "model": "arm")" + actor + "}" + more +
-                         "]}")) {
+                                   std::string(kArm) + R"(]}}, "actors": [{"name": "it", "model": "arm")" + actor +
+                                   "}" + more + "]}")) {
     read();
   }
 
@@ -138,8 +138,9 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
             "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
   EXPECT_TRUE(document::holds(told_twice({"place=1,2,3", "place.z=3"}), "'place.z=3': sets what"));
   const std::vector<std::string> eye = {"eye=1,2"};
-  EXPECT_TRUE(document::holds(document::failure_of([&] { pose(scene.json, scene.film, "camera", eye, 3, {}, Beyond::refused); }),
-                    "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
+  EXPECT_TRUE(document::holds(
+      document::failure_of([&] { pose(scene.json, scene.film, "camera", eye, 3, {}, Beyond::refused); }),
+      "has 2 numbers (write one number for one axis, like eye.y=-9, or three for all: eye=0,-9,2)"));
 }
 
 TEST(Pose, TheCameraIsSetToo) {
@@ -154,8 +155,9 @@ TEST(MakeKeys, TheFilmMovesAsBefore) {
   const Scene before(kMoving);
   Scene scene(kMoving);
   for (const std::uint32_t frame : {7u, 12u, 40u})
-    EXPECT_TRUE(
-        scene([&](document::Json& j, const Film& f) { return make_keys(j, f, kIt, frame, {}, Beyond::refused); }).empty());
+    EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
+                  return make_keys(j, f, kIt, frame, {}, Beyond::refused);
+                }).empty());
   EXPECT_EQ(scene.frames(), "0 7 12 24 40 48");
   for (std::uint32_t frame = 0; frame <= 48; ++frame)
     EXPECT_LT(farthest_apart(scene, before, frame, frame), 1e-7) << frame;
@@ -174,8 +176,9 @@ TEST(MakeKeys, OfSomePartsWithAnEase) {
 
 TEST(MakeKeys, WhoseEaseCannotBeKeptIsTold) {
   Scene scene(kMoving);
-  const Remarks remarks = scene(
-      [&](document::Json& j, const Film& f) { return make_keys(j, f, {false, "it", {"elbow"}}, 12, {}, Beyond::refused); });
+  const Remarks remarks = scene([&](document::Json& j, const Film& f) {
+    return make_keys(j, f, {false, "it", {"elbow"}}, 12, {}, Beyond::refused);
+  });
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_TRUE(document::holds(remarks[0], "actor 'it'")) << remarks[0];
   EXPECT_TRUE(document::holds(remarks[0], "elbow at frame 0")) << remarks[0];
@@ -197,9 +200,14 @@ TEST(MoveKeys, GoWithTheirEaseAndReplaceOthers) {
 TEST(MoveKeys, NotBeforeTheFilmAndNotWhereNoneAre) {
   Scene scene(kMoving);
   const document::Json before = scene.json;
-  EXPECT_EQ(document::failure_of([&] { move_keys(scene.json, scene.film, kIt, {1, 20}, 30); }),
+  EXPECT_EQ(document::failure_of([&] {
+              move_keys(scene.json, scene.film, kIt, {1, 20}, 30);
+            }),
             "actor 'it': has no key in frames 1 to 20 (its keys stand at 0, 24, 48)");
-  EXPECT_TRUE(document::holds(document::failure_of([&] { move_keys(scene.json, scene.film, kIt, {24, 48}, 1'000'000); }), "frame 1000024"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                move_keys(scene.json, scene.film, kIt, {24, 48}, 1'000'000);
+                              }),
+                              "frame 1000024"));
   EXPECT_EQ(scene.json, before);
 }
 
@@ -214,7 +222,9 @@ TEST(CopyKeys, OfARange) {
 
 TEST(DeleteKeys, OfAJointOrOfAll) {
   Scene scene(kMoving);
-  scene([&](document::Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"elbow", "place"}}, {0, 1'000'000}); });
+  scene([&](document::Json& j, const Film& f) {
+    return delete_keys(j, f, {false, "it", {"elbow", "place"}}, {0, 1'000'000});
+  });
   EXPECT_EQ(scene.frames(), "0 24 48");
   EXPECT_FALSE(scene.keys()[0]["pose"].contains("elbow"));
   scene([&](document::Json& j, const Film& f) { return delete_keys(j, f, kIt, {0, 1'000'000}); });
@@ -239,7 +249,10 @@ TEST(Stretch, WhatFollowsComesLater) {
   EXPECT_EQ(scene.frames(), "0 36 60");
   scene([&](document::Json& j, const Film& f) { return stretch(j, f, kIt, {0, 60}, 0.1); });
   EXPECT_EQ(scene.frames(), "0 4 6");
-  EXPECT_TRUE(document::holds(document::failure_of([&] { stretch(scene.json, scene.film, kIt, {0, 6}, 0.1); }), "two would stand"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                stretch(scene.json, scene.film, kIt, {0, 6}, 0.1);
+                              }),
+                              "two would stand"));
 }
 
 TEST(Shift, PassesNoKey) {
@@ -248,7 +261,8 @@ TEST(Shift, PassesNoKey) {
   EXPECT_EQ(scene.frames(), "0 29 53");
   scene([&](document::Json& j, const Film& f) { return shift(j, f, kIt, 20, -8); });
   EXPECT_EQ(scene.frames(), "0 21 45");
-  EXPECT_TRUE(document::holds(document::failure_of([&] { shift(scene.json, scene.film, kIt, 40, -30); }), "would lose keys"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] { shift(scene.json, scene.film, kIt, 40, -30); }), "would lose keys"));
   EXPECT_TRUE(document::holds(document::failure_of([&] { shift(scene.json, scene.film, kIt, 0, -30); }), "frame -9"));
 }
 
@@ -268,8 +282,10 @@ TEST(All, IsCameraLightsMaterialsAndActorsButMatrices) {
   scene.read();
   const Remarks remarks = scene([&](document::Json& j, const Film& f) { return shift(j, f, {true, "", {}}, 0, 7); });
   EXPECT_EQ(remarks, Remarks{"actor 'pot' is moved by matrices and stays as it is"});
-  EXPECT_TRUE(document::holds(document::failure_of([&] { shift(scene.json, scene.film, {false, "pot", {}}, 0, 7); }),
-                    "actor 'pot': is moved by matrices, which have no keys"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] {
+                                shift(scene.json, scene.film, {false, "pot", {}}, 0, 7);
+                              }),
+                              "actor 'pot': is moved by matrices, which have no keys"));
   EXPECT_EQ(scene.frames(), "7 31 55");
   EXPECT_EQ(scene.json["camera"]["keys"][0]["frame"], 17);
   EXPECT_EQ(scene.json["lights"][0]["keys"][0].dump(), R"({"frame":9,"direction":[0,0,2]})");
@@ -302,29 +318,33 @@ TEST(KeysTable, ShowsWhatIsFree) {
 
 Remarks posed(Scene& scene, const std::string& wish, std::uint32_t frame, std::optional<Ease> ease = {}) {
   const std::vector<std::string> wishes = {wish};
-  return scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, frame, ease, Beyond::refused); });
+  return scene(
+      [&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, frame, ease, Beyond::refused); });
 }
 
 TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
   Scene scene("");
   const Remarks back = posed(scene, "turn.z=270", 20);
   ASSERT_EQ(back.size(), 1u);
-  EXPECT_EQ(back[0],
-            "actor 'it': turn goes 90 degrees back from frame 0 to 20, not 270 degrees about z: from key to key it takes "
-            "the smallest turn (to go round, also pose it turn.z=135 --frame 10)");
+  EXPECT_EQ(
+      back[0],
+      "actor 'it': turn goes 90 degrees back from frame 0 to 20, not 270 degrees about z: from key to key it takes "
+      "the smallest turn (to go round, also pose it turn.z=135 --frame 10)");
   EXPECT_TRUE(posed(scene, "turn.z=135", 10).empty());
   EXPECT_TRUE(posed(scene, "turn.z=280", 24).empty());
   // Without the key between it goes back again.
-  const Remarks deleted =
-      scene([&](document::Json& j, const Film& f) { return delete_keys(j, f, {false, "it", {"/turn", "turn"}}, {10, 10}); });
+  const Remarks deleted = scene([&](document::Json& j, const Film& f) {
+    return delete_keys(j, f, {false, "it", {"/turn", "turn"}}, {10, 10});
+  });
   ASSERT_EQ(deleted.size(), 1u);
   EXPECT_TRUE(document::holds(deleted[0], "goes 90 degrees back from frame 0 to 20")) << deleted[0];
   // What was so before is not told again.
   EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
                 return make_keys(j, f, {false, "it", {"turn"}}, 8, {}, Beyond::refused);
               }).empty());
-  EXPECT_TRUE(
-      scene([&](document::Json& j, const Film& f) { return shift(j, f, {false, "it", {"turn"}}, 8, 4); }).empty());
+  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
+                return shift(j, f, {false, "it", {"turn"}}, 8, 4);
+              }).empty());
 }
 
 struct Turned {
@@ -365,13 +385,16 @@ TEST(SideEffects, ANewKeysEaseTellsWhomElseItChanges) {
   Scene scene(kMoving);
   const Remarks remarks = posed(scene, "elbow.y=60", 24, kBoth);
   ASSERT_EQ(remarks.size(), 1u);
-  EXPECT_EQ(remarks[0],
-            "actor 'it': the ease at frame 24 also changes how these move on from there: shoulder, place, turn (a key has "
-            "one ease for all that it holds; to time them apart, put keys at other frames)");
+  EXPECT_EQ(
+      remarks[0],
+      "actor 'it': the ease at frame 24 also changes how these move on from there: shoulder, place, turn (a key has "
+      "one ease for all that it holds; to time them apart, put keys at other frames)");
   EXPECT_TRUE(posed(scene, "elbow.y=50", 24, kBoth).empty()) << "it has that ease";
   EXPECT_TRUE(posed(scene, "elbow.y=50", 30, kOut).empty()) << "nothing else is keyed there";
   EXPECT_TRUE(posed(scene, "elbow.y=50", 48, kOut).empty()) << "nothing follows";
-  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) { return ease_keys(j, f, kIt, {0, 48}, kOut); }).empty())
+  EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
+                return ease_keys(j, f, kIt, {0, 48}, kOut);
+              }).empty())
       << "all were meant";
 }
 

@@ -64,8 +64,7 @@ TEST(TurnBetween, FollowsSlerp) {
 TEST(TurnBetween, NothingTurnsAtZero) {
   for (const glm::dvec3& axis : axes()) {
     const glm::dmat3 any = modeler::rotation(axis, 0.7);
-    EXPECT_EQ(turn_between(any, any).angle, 0)
-        << "the product with the transpose is not the identity to the bit";
+    EXPECT_EQ(turn_between(any, any).angle, 0) << "the product with the transpose is not the identity to the bit";
   }
 }
 
@@ -82,27 +81,26 @@ TEST(TurnBetween, SmallAnglesKeepTheirAxis) {
 TEST(TurnBetween, NearHalfATurnKeepsAxisAndAngle) {
   for (const glm::dvec3& axis : axes())
     for (const double less : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9}) {
-      const glm::dmat3 start = modeler::rotation({0.6, 0, 0.8}, 0.3), last = modeler::rotation(axis, kPi - less) * start;
+      const glm::dmat3 start = modeler::rotation({0.6, 0, 0.8}, 0.3),
+                       last = modeler::rotation(axis, kPi - less) * start;
       const Turn turn = turn_between(start, last);
       EXPECT_NEAR(turn.angle, kPi - less, 1e-13);
       EXPECT_LT(glm::length(turn.axis - axis), 1e-6) << less;
       EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle) * start, last), 1e-13);
-      EXPECT_LT(
-          difference(modeler::rotation(turn.axis, turn.angle / 2) * start, modeler::rotation(axis, (kPi - less) / 2) * start),
-          1e-6);
+      EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle / 2) * start,
+                           modeler::rotation(axis, (kPi - less) / 2) * start),
+                1e-6);
     }
 }
 
 TEST(TurnBetween, HalfATurnGoesAboutTheAxisWithItsLargestComponentPositive) {
   for (const glm::dvec3& axis : axes()) {
-    const glm::dmat3 last =
-        2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);  // to the bit as good as it gets
+    const glm::dmat3 last = 2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);  // to the bit as good as it gets
     const Turn turn = turn_between(glm::dmat3(1), last);
     EXPECT_NEAR(turn.angle, kPi, 1e-12);
     const glm::dvec3 size = glm::abs(turn.axis);
     const double largest = std::max({size.x, size.y, size.z});
-    EXPECT_GT(std::max({turn.axis.x, turn.axis.y, turn.axis.z}), largest - 1e-9)
-        << "of " << axis.x << axis.y << axis.z;
+    EXPECT_GT(std::max({turn.axis.x, turn.axis.y, turn.axis.z}), largest - 1e-9) << "of " << axis.x << axis.y << axis.z;
     EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle), last), 1e-12);
     const glm::dquat half = glm::angleAxis(kPi / 2, glm::dot(turn.axis, axis) > 0 ? axis : -axis);
     EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle / 2), glm::mat3_cast(half)), 1e-12);

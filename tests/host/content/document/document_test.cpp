@@ -47,27 +47,26 @@ TEST_P(MalformedDocument, IsOneClearError) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, MalformedDocument,
-    testing::Values(Malformed{"", "is empty"}, Malformed{" \n\t", "is empty"},
-                    Malformed{"{", "ends before its last bracket (the file may be cut short)"},
-                    Malformed{"[1,2", "ends before its last bracket"}, Malformed{"{\"a\": {}", "before its last bracket"},
-                    Malformed{"{\"a\": tr\n", "ends before its last bracket"},
-                    Malformed{"{\"a\": 1.", "ends before its last bracket"},
-                    Malformed{"{\"a\": \"x\\", "ends before its last bracket"},
-                    Malformed{"{\"a\": \"x\xc3", "ends before its last bracket"},
-                    Malformed{"{\"a\": \"x}", "ends within a text"},
-                    Malformed{"{\"frames\": 3}}", "goes on after its end (take out what follows the last bracket)"},
-                    Malformed{"{\"frames\": 1.}", "frames: is not JSON: a number is not complete"},
-                    Malformed{"{\n\"a\": tru}", "a.json:2"}, Malformed{"{\"a\": NaN}", "not JSON"},
-                    Malformed{"{\"a\": 1e999}", "a number is too large"},
-                    Malformed{"{\"a\": -Infinity}", "not JSON"}, Malformed{"// hello\n{}", "no comments"},
-                    Malformed{"{\"a\": 1,}", "trailing commas"}, Malformed{"{} {}", "not JSON"},
-                    Malformed{"\xff\xfe{}", "not JSON"},
-                    Malformed{"{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", "a.json:3: a: stands twice"},
-                    Malformed{"[1, {\"k\": [{\"a\": 1, \"a\": 2}]}]", "[1].k[0].a: stands twice"},
-                    Malformed{"{\"a\\u0000b\": 1}", "a.json:1: has a key with a control character"},
-                    Malformed{"{\"k\": {\n\"a\\u0001\": 1}}", "a.json:2: k: has a key with a control character"},
-                    Malformed{"{\"k\": [1,\n\"a\\u0001\"]}", "a.json:2: k[1]: has a text with a control character"},
-                    Malformed{"{\"k\": {\"a\": \"x\ty\"}}", "a.json:1: k.a: is not JSON: a text holds the end of a line"}));
+    testing::Values(
+        Malformed{"", "is empty"}, Malformed{" \n\t", "is empty"},
+        Malformed{"{", "ends before its last bracket (the file may be cut short)"},
+        Malformed{"[1,2", "ends before its last bracket"}, Malformed{"{\"a\": {}", "before its last bracket"},
+        Malformed{"{\"a\": tr\n", "ends before its last bracket"},
+        Malformed{"{\"a\": 1.", "ends before its last bracket"},
+        Malformed{"{\"a\": \"x\\", "ends before its last bracket"},
+        Malformed{"{\"a\": \"x\xc3", "ends before its last bracket"}, Malformed{"{\"a\": \"x}", "ends within a text"},
+        Malformed{"{\"frames\": 3}}", "goes on after its end (take out what follows the last bracket)"},
+        Malformed{"{\"frames\": 1.}", "frames: is not JSON: a number is not complete"},
+        Malformed{"{\n\"a\": tru}", "a.json:2"}, Malformed{"{\"a\": NaN}", "not JSON"},
+        Malformed{"{\"a\": 1e999}", "a number is too large"}, Malformed{"{\"a\": -Infinity}", "not JSON"},
+        Malformed{"// hello\n{}", "no comments"}, Malformed{"{\"a\": 1,}", "trailing commas"},
+        Malformed{"{} {}", "not JSON"}, Malformed{"\xff\xfe{}", "not JSON"},
+        Malformed{"{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", "a.json:3: a: stands twice"},
+        Malformed{"[1, {\"k\": [{\"a\": 1, \"a\": 2}]}]", "[1].k[0].a: stands twice"},
+        Malformed{"{\"a\\u0000b\": 1}", "a.json:1: has a key with a control character"},
+        Malformed{"{\"k\": {\n\"a\\u0001\": 1}}", "a.json:2: k: has a key with a control character"},
+        Malformed{"{\"k\": [1,\n\"a\\u0001\"]}", "a.json:2: k[1]: has a text with a control character"},
+        Malformed{"{\"k\": {\"a\": \"x\ty\"}}", "a.json:1: k.a: is not JSON: a text holds the end of a line"}));
 
 TEST(Document, ALongTextIsToldWithItsPlaceAndALongKeyShortened) {
   const std::string longest(5000, 'x');

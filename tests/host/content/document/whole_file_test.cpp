@@ -13,9 +13,7 @@
 namespace mars::document {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  return read_file(path);
-}
+std::string text_of(const std::filesystem::path& path) { return read_file(path); }
 
 TEST(WholeFile, HoldsWhatWasWrittenLast) {
   const sinks::TemporaryFolder folder;
@@ -30,10 +28,8 @@ TEST(WholeFile, HoldsWhatWasWrittenLast) {
 TEST(WholeFile, TellsWhatCannotBeWritten) {
   const sinks::TemporaryFolder folder;
   write_whole_file(folder / "file", "x");
-  EXPECT_TRUE(
-      holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "no/file: cannot write: No"));
-  EXPECT_TRUE(
-      holds(failure_of([&] { check_can_write(folder / "no/file"); }), "no/file: cannot write: No such"));
+  EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "no/file: cannot write: No"));
+  EXPECT_TRUE(holds(failure_of([&] { check_can_write(folder / "no/file"); }), "no/file: cannot write: No such"));
   EXPECT_EQ(failure_of([&] { check_can_write(folder / "other"); }), "");
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "file/x", "x"); }), "Not a directory"));
   std::filesystem::create_directory(folder / "folder");
@@ -44,7 +40,8 @@ TEST(WholeFile, TellsWhatCannotBeWritten) {
 TEST(WholeFile, LinksAndPermissionsStay) {
   const sinks::TemporaryFolder folder;
   write_whole_file(folder / "file", "old");
-  std::filesystem::permissions(folder / "file", std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  std::filesystem::permissions(folder / "file",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   std::filesystem::create_symlink("file", folder / "link");
   write_whole_file(folder / "link", "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
@@ -133,8 +130,7 @@ TEST(WholeFile, AFullDiskLeavesTheOldFile) {
   if (mount("none", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
     GTEST_SKIP() << "only root may mount a small disk";
   write_whole_file(folder / "file", "old");
-  const std::string failure =
-      failure_of([&] { write_whole_file(folder / "file", std::string(1 << 20, 'x')); });
+  const std::string failure = failure_of([&] { write_whole_file(folder / "file", std::string(1 << 20, 'x')); });
   EXPECT_TRUE(holds(failure, "No space left on device")) << failure;
   EXPECT_TRUE(holds(failure, "free some space")) << failure;
   EXPECT_EQ(text_of(folder / "file"), "old");

@@ -35,12 +35,13 @@ TEST(Compile, StoresEqualMeshesOnce) {
   const auto model = [](const char* name, const char* crease) {
     return std::string("\"") + name + R"(": {"shapes": {"hut": {"mesh": {
         "vertices": [[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0.5,0.5,1]],
-        "faces": [[3,2,1,0], [0,1,4], [1,2,4], [2,3,4], [3,0,4]], "crease": )" + crease + R"(}}},
+        "faces": [[3,2,1,0], [0,1,4], [1,2,4], [2,3,4], [3,0,4]], "crease": )" +
+           crease + R"(}}},
         "joints": [{"name": "a", "segment": {"shape": "hut"}},
                    {"name": "b", "parent": "a", "segment": {"shape": "box"}}]})";
   };
-  const CompiledFilm film = compiled(R"({"frames": 3, "camera": {"eye": [0, -9, 2]}, "models": {)" + model("m", "30") + "," +
-                                     model("n", "30") + "," + model("o", "180") + R"(}, "actors": [
+  const CompiledFilm film = compiled(R"({"frames": 3, "camera": {"eye": [0, -9, 2]}, "models": {)" + model("m", "30") +
+                                     "," + model("n", "30") + "," + model("o", "180") + R"(}, "actors": [
       {"name": "x", "model": "m"}, {"name": "y", "model": "n", "place": [2, 0, 0]}, {"name": "z", "model": "o"}]})");
   const wire::FilmView view = film.view();
   wire::FilmView(film.block(), "f.json");
@@ -57,9 +58,7 @@ TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
       {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})"));
   const wire::FilmView view = film.view();
-  const auto color = [&](std::size_t segment) {
-    return view.material_at(view.segments()[segment], 0).color[1];
-  };
+  const auto color = [&](std::size_t segment) { return view.material_at(view.segments()[segment], 0).color[1]; };
   EXPECT_EQ(color(0), 0.8f) << "the default material";
   EXPECT_EQ(color(1), 0.0f);
   EXPECT_EQ(color(2), 0.8f);
@@ -95,14 +94,12 @@ TEST(Compile, RefusesACameraThatCannotLook) {
   };
   EXPECT_TRUE(document::holds(told(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
   EXPECT_TRUE(document::holds(told(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
-  const std::string through =
-      R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
+  const std::string through = R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
   EXPECT_TRUE(document::holds(told(through), "frame 4"));
 }
 
 TEST(Compile, LightsTurnOnTheGreatCircle) {
-  const CompiledFilm film =
-      compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
+  const CompiledFilm film = compiled(R"({"frames": 11, "models": {}, "actors": [], "camera": {"eye": [0, 9, 0]},
       "lights": [{"keys": [{"frame": 0, "direction": [1, 0, 0]}, {"frame": 10, "direction": [-1, 0, 0]}]}]})");
   const wire::FilmView view = film.view();
   for (std::uint32_t frame = 0; frame <= 10; ++frame) {
@@ -154,8 +151,7 @@ TEST(Compile, RawMatricesEqualAKeyedFilm) {
     matrices += "}}";
   }
   const CompiledFilm one = compile(film);
-  const CompiledFilm other =
-      compiled(arm_film(R"({"name": "x", "model": "arm", "matrices": [)" + matrices + "]}"));
+  const CompiledFilm other = compiled(arm_film(R"({"name": "x", "model": "arm", "matrices": [)" + matrices + "]}"));
   for (std::size_t segment = 0; segment < 2; ++segment)
     for (std::uint32_t frame = 0; frame < film.frames; ++frame)
       EXPECT_EQ(one.view().matrix_at(one.view().segments()[segment], frame),
@@ -164,7 +160,10 @@ TEST(Compile, RawMatricesEqualAKeyedFilm) {
 
 TEST(Compile, SizeMayBeChosenAgainstTheFilm) {
   EXPECT_EQ(compiled(arm_film(""), {{}, {{7680, 4320}}}).view().settings().width, 7680u);
-  EXPECT_TRUE(document::holds(document::failure_of([] { compiled(arm_film(""), {{}, {{0, 5}}}); }), "1 to 16384 pixels"));
+  EXPECT_TRUE(document::holds(document::failure_of([] {
+                                compiled(arm_film(""), {{}, {{0, 5}}});
+                              }),
+                              "1 to 16384 pixels"));
 }
 
 TEST(Compile, PlacesThatAddUpTooFarAreRefused) {
@@ -172,8 +171,8 @@ TEST(Compile, PlacesThatAddUpTooFarAreRefused) {
   for (int i = 1; i < 2000; ++i)
     joints += ", {\"name\": \"j" + std::to_string(i) + "\", \"parent\": \"j" + std::to_string(i - 1) +
               "\", \"place\": [1e9, 0, 0], \"segment\": {\"shape\": \"box\"}}";
-  const std::string film = R"({"frames": 1, "camera": {"eye": [0, 9, 0]}, "models": {"m": {"joints": [)" +
-                           joints + R"(]}}, "actors": [{"name": "x", "model": "m"}]})";
+  const std::string film = R"({"frames": 1, "camera": {"eye": [0, 9, 0]}, "models": {"m": {"joints": [)" + joints +
+                           R"(]}}, "actors": [{"name": "x", "model": "m"}]})";
   EXPECT_TRUE(document::holds(document::failure_of([&] { compiled(film); }), "x/j1001, frame 0: stands farther"));
 }
 

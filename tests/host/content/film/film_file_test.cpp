@@ -44,8 +44,7 @@ TEST_F(FilmFileTest, ComesBackBitForBit) {
   EXPECT_EQ(back.actors, 1u);
   EXPECT_EQ(back.joints, 2u);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back.block().data()) % 64, 0u);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1)
-      << "nothing else is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing else is left";
 }
 
 TEST_F(FilmFileTest, SaysTheSameOfBothKinds) {
@@ -60,9 +59,9 @@ TEST_F(FilmFileTest, TakesAnotherSizeButNotOtherIntervals) {
   EXPECT_EQ(large.view().settings().height, 1080u);
   EXPECT_EQ(large.view().settings().frames, 20u);
   EXPECT_TRUE(document::holds(document::failure_of([&] {
-                      load_film(path_, {animator::Cutting::keyframes, {}});
-                    }),
-                    "its intervals are cut"));
+                                load_film(path_, {animator::Cutting::keyframes, {}});
+                              }),
+                              "its intervals are cut"));
   EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(path_, {{}, {{1920, 0}}}); }), "1 to 16384"));
 }
 

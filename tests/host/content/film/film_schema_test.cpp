@@ -26,7 +26,8 @@ std::set<std::string> keys_in(const document::Element& schema) {
 }
 
 void expect_same_keys(const std::string& name, std::span<const document::Keys> known) {
-  const document::Document schema = document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
+  const document::Document schema =
+      document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema" / (name + ".schema.json"));
   const document::Element definitions = *schema.root().find("$defs");
   std::size_t objects = 1;
   for (const document::Element definition : definitions) objects += definition.find("properties").has_value();
@@ -43,7 +44,8 @@ TEST(Schema, NamesTheKeysOfAModel) { expect_same_keys("model", modeler::model_ke
 TEST(Schema, NamesTheKeysOfAFilm) { expect_same_keys("film", animator::film_keys()); }
 
 TEST(Schema, NamesTheLibrarysShapesAndTheirOptions) {
-  const document::Document schema = document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema/model.schema.json");
+  const document::Document schema =
+      document::read_document(fs::path(MARS_SOURCE_DIR) / "docs/schema/model.schema.json");
   const document::Element definitions = *schema.root().find("$defs");
   std::vector<std::string_view> named, known;
   const document::Element names = *definitions.find("library")->find("enum");
@@ -104,7 +106,9 @@ class Schemas {
   }
 
  private:
-  static document::Json read(const char* name) { return document::read_json(fs::path(MARS_SOURCE_DIR) / "docs/schema" / name); }
+  static document::Json read(const char* name) {
+    return document::read_json(fs::path(MARS_SOURCE_DIR) / "docs/schema" / name);
+  }
 
   std::vector<document::Json> objects() const {
     std::vector<document::Json> all = {film_, model_};
@@ -124,7 +128,8 @@ class Schemas {
   bool takes_object(const document::Json& schema, const document::Json& value) const {
     for (const document::Json& needed : schema.value("required", document::Json::array()))
       if (!value.contains(needed.get<std::string>())) return false;
-    const document::Json properties = schema.value("properties", document::Json::object()), others = schema.value("additionalProperties", document::Json());
+    const document::Json properties = schema.value("properties", document::Json::object()),
+                         others = schema.value("additionalProperties", document::Json());
     return std::ranges::all_of(value.items(), [&](const auto& item) {
       if (properties.contains(item.key())) return takes(properties[item.key()], item.value());
       return others.is_object() && takes(others, item.value());
@@ -148,7 +153,8 @@ TEST(Schema, EveryKeyOfAFilmHasAForm) {
   for (const document::Keys& keys : animator::film_keys())
     for (const std::string_view key : keys.names) {
       if (key == "dice") continue;  // has messages of its own
-      EXPECT_TRUE(std::ranges::any_of(document::forms(), [&](const document::Form& form) { return form.key == key; })) << key;
+      EXPECT_TRUE(std::ranges::any_of(document::forms(), [&](const document::Form& form) { return form.key == key; }))
+          << key;
     }
 }
 
@@ -203,8 +209,8 @@ TEST(Examples, ThoseOfTheDocumentationAreTrue) {
   const document::Document model(worked_example("model-format.md"), "model-format.md");
   EXPECT_EQ(modeler::read_model(model.root()).joints.size(), 3u);
   const document::Document sail(R"({"joints": [{"name": "mast", "segment": {"shape": "sail"}}], )" +
-                          worked_example("model-format.md", "\"shapes\"") + "}",
-                      "model-format.md");
+                                    worked_example("model-format.md", "\"shapes\"") + "}",
+                                "model-format.md");
   EXPECT_EQ(modeler::read_model(sail.root()).shapes[0].patches.size(), 1u);
 }
 

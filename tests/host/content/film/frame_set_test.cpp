@@ -19,8 +19,7 @@ TEST(FrameSet, NamesFrames) {
 
 TEST(FrameSet, TellsWhichPartIsWrong) {
   const auto failure = [](const char* text) { return document::failure_of([&] { FrameSet{text}; }); };
-  for (const char* text :
-       {"", ",", "1,", ",1", "-", "-3", "1--2", "1-2-3", "x", "1 ", " 1", "1.5", "+1", "0x1"})
+  for (const char* text : {"", ",", "1,", ",1", "-", "-3", "1--2", "1-2-3", "x", "1 ", " 1", "1.5", "+1", "0x1"})
     EXPECT_TRUE(document::holds(failure(text), "is not a frame or a range of frames")) << "'" << text << "'";
   EXPECT_TRUE(document::holds(failure("0-3,b"), "'b'"));
   EXPECT_TRUE(document::holds(failure("5-4"), "'5-4' ends before it begins"));

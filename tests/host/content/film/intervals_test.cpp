@@ -19,8 +19,7 @@ Starts starts_of(const wire::FilmView& film) {
   return starts;
 }
 
-bool changes_within(const wire::FilmView& film, const wire::Track& track, std::uint32_t first,
-                    std::uint32_t end) {
+bool changes_within(const wire::FilmView& film, const wire::Track& track, std::uint32_t first, std::uint32_t end) {
   for (std::uint32_t frame = first + 1; frame < end; ++frame)
     if (film.value_at(track, frame) != film.value_at(track, frame - 1)) return true;
   return false;
@@ -33,8 +32,7 @@ Starts movers_between(const wire::FilmView& film, std::uint32_t first, std::uint
   Starts movers;
   for (std::uint32_t i = 0; i < film.segments().size(); ++i) {
     const wire::Segment& segment = film.segments()[i];
-    if (all || changes_within(film, segment.motion, first, end) ||
-        changes_within(film, segment.look, first, end))
+    if (all || changes_within(film, segment.motion, first, end) || changes_within(film, segment.look, first, end))
       movers.push_back(i);
   }
   return movers;

@@ -37,15 +37,15 @@ TEST(LargeFilm, AHundredThousandPatchesInline) {
       std::string(kStart) + R"({"joints": [{"name": "t", "segment": {"shape": "s"}}], "shapes": {"s": [)";
   for (int i = 0; i < 100'000; ++i) json += (i ? ",\n" : "") + patch + "]";
   CompiledFilm film;
-  EXPECT_LT(seconds_of([&] { film = compiled(json + R"(]}}}, "actors": [{"name": "x", "model": "m"}]})"); }),
-            30);
+  EXPECT_LT(seconds_of([&] { film = compiled(json + R"(]}}}, "actors": [{"name": "x", "model": "m"}]})"); }), 30);
   EXPECT_EQ(film.view().patches().size(), 100'000u);
 }
 
 TEST(LargeFilm, AMillionTrianglesOfAMesh) {
   constexpr int kSide = 708;
-  std::string json = std::string(kStart) +
-                     R"({"joints": [{"name": "t", "segment": {"shape": "s"}}], "shapes": {"s": {"mesh": {"vertices": [)";
+  std::string json =
+      std::string(kStart) +
+      R"({"joints": [{"name": "t", "segment": {"shape": "s"}}], "shapes": {"s": {"mesh": {"vertices": [)";
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i)
       json += (i + j ? ",\n[0." : "[0.") + std::to_string(1000 + i) + ", 0." + std::to_string(1000 + j) + ", 0." +
@@ -55,8 +55,8 @@ TEST(LargeFilm, AMillionTrianglesOfAMesh) {
     for (int i = 0; i + 1 < kSide; ++i) {
       const int a = j * kSide + i;
       const std::string first = std::to_string(a), opposite = std::to_string(a + kSide + 1);
-      json += (a ? ",\n[" : "[") + first + ", " + std::to_string(a + 1) + ", " + opposite + "],\n[" + first + ", " + opposite +
-              ", " + std::to_string(a + kSide) + "]";
+      json += (a ? ",\n[" : "[") + first + ", " + std::to_string(a + 1) + ", " + opposite + "],\n[" + first + ", " +
+              opposite + ", " + std::to_string(a + kSide) + "]";
     }
   CompiledFilm film;
   EXPECT_LT(seconds_of([&] { film = compiled(json + R"(]}}}}}, "actors": [{"name": "x", "model": "m"}]})"); }), 30);
@@ -68,8 +68,7 @@ std::string chain(int length) {
   for (int i = 1; i < length; ++i)
     joints += ",\n{\"name\": \"j" + std::to_string(i) + "\", \"parent\": \"j" + std::to_string(i - 1) +
               "\", \"place\": [1, 0, 0], \"segment\": {\"shape\": \"box\"}}";
-  return std::string(kStart) + "{\"joints\": [" + joints +
-         "]}}, \"actors\": [{\"name\": \"x\", \"model\": \"m\"";
+  return std::string(kStart) + "{\"joints\": [" + joints + "]}}, \"actors\": [{\"name\": \"x\", \"model\": \"m\"";
 }
 
 TEST(LargeFilm, AChainOfAHundredThousandJointsThatMoves) {

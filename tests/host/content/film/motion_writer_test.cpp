@@ -1,4 +1,5 @@
-// T-matrices of many actors: the same whoever computes them, dense however few there are, and refused before memory ends.
+// T-matrices of many actors: the same whoever computes them, dense however few there are, and refused before memory
+// ends.
 #include <gtest/gtest.h>
 #include <sched.h>
 

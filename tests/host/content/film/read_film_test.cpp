@@ -66,17 +66,17 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{R"({"name": "x", "model": "amr"})", "did you mean 'arm'?"},
         Broken{R"({"name": "x", "model": "arm"}, {"name": "x", "model": "arm"})", "second actor named 'x'"},
         Broken{R"({"name": "x", "model": "arm", "material": "rad"})", "did you mean 'red'?"},
-        Broken{R"({"name": "x", "model": "arm", "materials": {"blue": "red"}})",
-               "no material that a segment"},
+        Broken{R"({"name": "x", "model": "arm", "materials": {"blue": "red"}})", "no material that a segment"},
         Broken{R"({"name": "x", "model": "arm", "place": [1e10, 0, 0]})", "actors[0].place[0]: is 1e+10"},
-        Broken{R"({"name": "x", "model": "arm", "pose": {"knee": [0, 0, 0]}})",
-               "no joint of the model 'arm'"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"knee": [0, 0, 0]}})", "no joint of the model 'arm'"},
         Broken{R"({"name": "x", "model": "arm", "pose": {"b": [0, 401, 0]}})",
                "actors[0].pose.b: joint 'b' turns 401 degrees about y, outside its limits -10 to 400"},
-        Broken{R"({"name": "x", "model": "arm", "pose": {"b": 5}})", "is a number, not a list (write \"b\": [0, 90, 0])"},
+        Broken{R"({"name": "x", "model": "arm", "pose": {"b": 5}})",
+               "is a number, not a list (write \"b\": [0, 90, 0])"},
         Broken{R"({"name": "x", "model": "arm", "pose": {"b": [5, 10, 0]}})",
                "joint 'b' turns about y only; its x axis is locked at 0, not 5"},
-        Broken{R"({"name": "x", "model": "arm", "place": 3})", "is a number, not a list (write \"place\": [1, 0, 0.5])"},
+        Broken{R"({"name": "x", "model": "arm", "place": 3})",
+               "is a number, not a list (write \"place\": [1, 0, 0.5])"},
         Broken{R"({"name": "x", "model": "arm", "place": [1, 2]})", "has 2 items (write \"place\": [1, 0, 0.5])"},
         Broken{R"({"name": "x", "model": "arm", "keys": {"frame": 3}})",
                "is an object, not a list (write \"keys\": [{\"frame\": 0}, {\"frame\": 24}])"},
@@ -84,13 +84,10 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 5}, {"frame": 5}]})", "ascending"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": -1}]})", "from 0"},
         Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 1.5}]})", "whole number"},
-        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": "bath"}]})",
-               "did you mean 'both'?"},
-        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": [2, 0, 0, 1]}]})",
-               "from 0 to 1"},
-        Broken{
-            R"({"name": "x", "model": "arm", "place": [0, 0, 0], "keys": [{"frame": 1, "place": [0, 0, 0]}]})",
-            "is also set by keys"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": "bath"}]})", "did you mean 'both'?"},
+        Broken{R"({"name": "x", "model": "arm", "keys": [{"frame": 0, "ease": [2, 0, 0, 1]}]})", "from 0 to 1"},
+        Broken{R"({"name": "x", "model": "arm", "place": [0, 0, 0], "keys": [{"frame": 1, "place": [0, 0, 0]}]})",
+               "is also set by keys"},
         Broken{
             R"({"name": "x", "model": "arm", "pose": {"b": [0, 0, 0]}, "keys": [{"frame": 1, "pose": {"b": [0, 1, 0]}}]})",
             "actors[0].pose.b: is also set by keys"},
@@ -115,20 +112,23 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
   EXPECT_TRUE(
       document::holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
   EXPECT_TRUE(document::holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
-  EXPECT_TRUE(document::holds(told(R"({"joints": [{"name": "a"}]})"), "is a model, not a film (look at it with mars preview"));
+  EXPECT_TRUE(
+      document::holds(told(R"({"joints": [{"name": "a"}]})"), "is a model, not a film (look at it with mars preview"));
   EXPECT_TRUE(
       document::holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
-            "models.m: is '/nowhere/m.json', which does not exist"));
+                      "models.m: is '/nowhere/m.json', which does not exist"));
   const std::string materials = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "materials": {"m": )";
   EXPECT_TRUE(document::holds(told(materials + R"({"x": 1}})" + rest), "materials.m.x: is no key of a material"));
   EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{}]}})" + rest), "a key of a material needs it"));
-  EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{"x": 1}]}})" + rest), "x: does not belong to a key of a material"));
+  EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{"x": 1}]}})" + rest),
+                              "x: does not belong to a key of a material"));
   const auto named = [&](const std::string& model) {
     return told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
   };
   EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: /: is a directory, not a file (name a file in it)");
   EXPECT_TRUE(document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
-  EXPECT_TRUE(document::holds(named(R"({"from": "none.json", "proportions": {}})"), "f.json:1: models.m.from: none.json: there is no"));
+  EXPECT_TRUE(document::holds(named(R"({"from": "none.json", "proportions": {}})"),
+                              "f.json:1: models.m.from: none.json: there is no"));
 }
 
 std::string outcome_of(const std::string& json) {
@@ -144,8 +144,9 @@ TEST(ReadFilm, CutShortAnywhereIsOneClearError) {
   const std::string whole = kWhole;
   EXPECT_EQ(outcome_of(whole), "film");
   for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_TRUE(document::holds(outcome_of(whole.substr(0, length)),
-                      whole.find_first_not_of(" \n") < length ? "it ends before its last bracket" : "is empty"))
+    EXPECT_TRUE(document::holds(outcome_of(whole.substr(0, length)), whole.find_first_not_of(" \n") < length
+                                                                         ? "it ends before its last bracket"
+                                                                         : "is empty"))
         << length;
 }
 
@@ -155,7 +156,8 @@ TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
     std::string json = kWhole;
     for (int flips = 1 + round % 3; flips > 0; --flips) json[random() % json.size()] = char(random());
     const std::string outcome = outcome_of(json);
-    EXPECT_TRUE(outcome == "film" || document::holds(outcome, "f.json") || document::holds(outcome, "/nowhere")) << outcome;
+    EXPECT_TRUE(outcome == "film" || document::holds(outcome, "f.json") || document::holds(outcome, "/nowhere"))
+        << outcome;
   }
 }
 
@@ -163,20 +165,24 @@ TEST(ReadFilm, LimitsOfTheWrongFormShowTheRightOne) {
   const auto told = [](const std::string& limits) {
     return document::failure_of([&] {
       film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {"m": {"joints": [
-                 {"name": "j", "limits": )" + limits + "}]}}}");
+                 {"name": "j", "limits": )" +
+              limits + "}]}}}");
     });
   };
-  EXPECT_TRUE(document::holds(told("[-30, 30]"), R"(joints[0].limits: is a list, not an object (write "limits": {"x": [-30, 30]}))"));
+  EXPECT_TRUE(document::holds(told("[-30, 30]"),
+                              R"(joints[0].limits: is a list, not an object (write "limits": {"x": [-30, 30]}))"));
   EXPECT_TRUE(document::holds(told(R"({"y": 30})"), R"(limits.y: is a number, not a list (write "y": [-30, 30]))"));
   EXPECT_TRUE(document::holds(told(R"({"x": [1, 2, 3]})"), R"(has 3 items (write "x": [-30, 30]))"));
-  EXPECT_TRUE(document::holds(told(R"({"x": ["a", 3]})"), R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
+  EXPECT_TRUE(
+      document::holds(told(R"({"x": ["a", 3]})"), R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
   EXPECT_TRUE(document::holds(told(R"({"x": [30, -30]})"), R"("x": [-30, 30])"));
 }
 
 TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
   const auto told = [](const std::string& color) {
     return document::failure_of([&] {
-      film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {}, "background": )" + color + "}");
+      film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {}, "background": )" + color +
+              "}");
     });
   };
   EXPECT_EQ(told("[255, 128, 51]"),
@@ -187,10 +193,10 @@ TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
   EXPECT_TRUE(document::holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
   EXPECT_EQ(told("[0, 1.5, 0]"), "f.json:1: background[1]: is 1.5 (write a number from 0 to 1)");
   EXPECT_EQ(told("[0, 1, 0.5]"), "");
-  EXPECT_TRUE(document::holds(document::failure_of([] {
-                      film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 200]}])"));
-                    }),
-                    "lights[0].color: has 200, above 1"));
+  EXPECT_TRUE(document::holds(
+      document::failure_of(
+          [] { film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 200]}])")); }),
+      "lights[0].color: has 200, above 1"));
 }
 
 }  // namespace

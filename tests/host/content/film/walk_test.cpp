@@ -36,9 +36,7 @@ class Walk : public ::testing::Test {
         for (const double u : {0.0, 0.5})
           for (const double v : {0.0, 0.5}) {
             const glm::dvec3 p = modeler::point_of(patch, u, v);
-            const auto at = [&](std::size_t r) {
-              return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3];
-            };
+            const auto at = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
             points.emplace_back(at(0), at(1), at(2));
           }
     }

@@ -25,11 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // A box of 2 x 4 x 6, its six faces as quads, outward.
-constexpr double kCorners[8][3] = {{1, 1, 1}, {3, 1, 1}, {1, 5, 1}, {3, 5, 1}, {1, 1, 7}, {3, 1, 7}, {1, 5, 7}, {3, 5, 7}};
+constexpr double kCorners[8][3] = {{1, 1, 1}, {3, 1, 1}, {1, 5, 1}, {3, 5, 1},
+                                   {1, 1, 7}, {3, 1, 7}, {1, 5, 7}, {3, 5, 7}};
 constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 
 std::string row(const char* word, const double* v) {
-  return std::string(word) + " " + std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]) + "\n";
+  return std::string(word) + " " + std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]) +
+         "\n";
 }
 
 std::string obj_box() {
@@ -97,9 +99,9 @@ std::string gltf_figure() {
 
 std::string gltf_numbers() {
   std::vector<float> numbers(64);
-  numbers[3] = numbers[7] = 1;                                            // places; then joints, all 0
+  numbers[3] = numbers[7] = 1;  // places; then joints, all 0
   for (const std::size_t weight : {12, 13, 16, 17, 20, 21}) numbers[weight] = 0.5f;
-  numbers[31] = 1;                                                        // after places in a texture, times
+  numbers[31] = 1;                                                         // after places in a texture, times
   for (std::size_t i = 0; i < 32; ++i) numbers[32 + i] = i % 16 % 5 == 0;  // matrices
   std::string bytes(numbers.size() * sizeof(float), '\0');
   std::memcpy(bytes.data(), numbers.data(), bytes.size());
@@ -164,8 +166,8 @@ class ImportTest : public testing::Test {
 };
 
 TEST_F(ImportTest, ABoxIsABoxInEveryFormat) {
-  for (const auto& [name, text] : std::map<std::string, std::string>{
-           {"box.obj", obj_box()}, {"box.STL", stl_box()}, {"box.ply", ply_box()}}) {
+  for (const auto& [name, text] :
+       std::map<std::string, std::string>{{"box.obj", obj_box()}, {"box.STL", stl_box()}, {"box.ply", ply_box()}}) {
     const modeler::Model model = import_upright(write(name, text), 'z');
     ASSERT_EQ(model.joints.size(), 1u) << name;
     EXPECT_EQ(model.joints[0].name, "box");
@@ -178,7 +180,9 @@ TEST_F(ImportTest, ABoxIsABoxInEveryFormat) {
     EXPECT_EQ(mesh.crease, 30);
     EXPECT_NEAR(volume(mesh), 6, 1e-6) << name;
     EXPECT_EQ(modeler::cut_meshlets(mesh).places.size(), 24u) << name << ": a box has sharp edges";
-    EXPECT_TRUE(document::holds(told_, "model.json: model of one joint 'box'\n  box        2 x 4 x 6, the file's z upward\n")) << told_;
+    EXPECT_TRUE(
+        document::holds(told_, "model.json: model of one joint 'box'\n  box        2 x 4 x 6, the file's z upward\n"))
+        << told_;
     EXPECT_TRUE(document::holds(told_, "  read       8 vertices")) << told_;
     EXPECT_EQ(not_read(), std::vector<std::string>{"nothing: all of the file was read"});
   }
@@ -219,7 +223,8 @@ TEST_F(ImportTest, ColoursAreJointsOfOneBox) {
   EXPECT_EQ(model.joints[1].name, "two-2");
   EXPECT_EQ(model.joints[1].parent, 0u);
   EXPECT_EQ(model.joints[1].freedoms(), 0);
-  EXPECT_EQ(model.joints[0].segment->sbb.max, model.joints[1].segment->sbb.max) << "one box: shared vertices stay shared";
+  EXPECT_EQ(model.joints[0].segment->sbb.max, model.joints[1].segment->sbb.max)
+      << "one box: shared vertices stay shared";
   EXPECT_EQ(model.joints[0].segment->sbb.min, model.joints[1].segment->sbb.min);
   EXPECT_EQ(model.materials[0].material.color, (std::array<float, 3>{0.8f, 0.1f, 0.2f}));
   EXPECT_EQ(model.shapes[0].mesh->ends.size(), 5u);
@@ -257,17 +262,21 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
   EXPECT_TRUE(document::holds(failure("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n"), "within 1e9"));
   for (const std::string number : {"nan", "1e999"}) {
     const std::string told = failure("a.obj", "v 0 0 0\nv " + number + " 3 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_TRUE(document::holds(told, "has a vertex that is not at numbers, or at too large ones (the file may be damaged")) << told;
+    EXPECT_TRUE(
+        document::holds(told, "has a vertex that is not at numbers, or at too large ones (the file may be damaged"))
+        << told;
   }
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(wishes(folder_ / "no.obj")); }), "no.obj"));
   ImportOptions options = wishes(write("b.obj", obj_box()));
   options.joint = "a/b";
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "'/'"));
   options.joint = "caf\xe9";
-  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "'caf?': cannot name a joint")) << "no UTF-8";
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "'caf?': cannot name a joint"))
+      << "no UTF-8";
   const fs::path lines = write("a b\nc.obj", obj_box());
-  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(wishes(lines)); }),
-                    "a b?c.obj: its name, 'a b?c', cannot name a joint (give the joint a name with --joint: one of 1"));
+  EXPECT_TRUE(document::holds(
+      document::failure_of([&] { import_model(wishes(lines)); }),
+      "a b?c.obj: its name, 'a b?c', cannot name a joint (give the joint a name with --joint: one of 1"));
   options.to = folder_ / "x/m.json";
   options.joint = "";
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "m.json"));
@@ -276,7 +285,8 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
 TEST_F(ImportTest, WhatIsNoFileIsRefusedAtOnce) {
   for (const char* name : {"pipe.obj", "pipe.ply", "pipe.glb", "pipe.gltf", "pipe.bpt"}) {
     ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
-    EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(wishes(folder_ / name)); }), "is not a regular file"));
+    EXPECT_TRUE(
+        document::holds(document::failure_of([&] { import_model(wishes(folder_ / name)); }), "is not a regular file"));
   }
 }
 
@@ -309,7 +319,8 @@ TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
     for (const char* name : {"b.obj", "b.stl", "b.gltf", "b.glb"}) {
       if (text == "{" && document::holds(name, "glb")) continue;  // its name is told to be wrong
       const std::string told = failure(name, text);
-      for (const char* theirs : {"aiMesh", "aiScene", "suitable reader", "Validation", "OBJ:", "GLTF:", "STL:", "JSON parse"})
+      for (const char* theirs :
+           {"aiMesh", "aiScene", "suitable reader", "Validation", "OBJ:", "GLTF:", "STL:", "JSON parse"})
         EXPECT_FALSE(document::holds(told.substr(told.find(": ")), theirs)) << told;
     }
   }
@@ -318,12 +329,14 @@ TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
 TEST_F(ImportTest, AFileThatWasReadBesidesIsNotOverwritten) {
   ImportOptions options = wishes(write("wedge.obj", "mtllib wedge.mtl\n" + obj_box()));
   options.to = write("wedge.mtl", "newmtl a\n");
-  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "wedge.mtl: is the file that is read (write to another)"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
+                              "wedge.mtl: is the file that is read (write to another)"));
   EXPECT_EQ(document::read_file(options.to).size(), 9u);
 }
 
 TEST_F(ImportTest, OtherEndingsAreRefusedByName) {
-  EXPECT_TRUE(document::holds(failure("a.FBX", "x"), "is an FBX scene, which cannot be imported (open it in Blender and export glTF)"));
+  EXPECT_TRUE(document::holds(failure("a.FBX", "x"),
+                              "is an FBX scene, which cannot be imported (open it in Blender and export glTF)"));
   EXPECT_TRUE(document::holds(failure("a.dae", "x"), "COLLADA"));
   EXPECT_TRUE(document::holds(failure("a.bvh", "x"), "is a skeleton with its motion"));
   EXPECT_TRUE(document::holds(failure("a.asf", "x"), "is a skeleton"));
@@ -333,7 +346,8 @@ TEST_F(ImportTest, OtherEndingsAreRefusedByName) {
 }
 
 TEST_F(ImportTest, AFileOfAnotherKindThanItsNameSaysIsToldSo) {
-  EXPECT_TRUE(document::holds(failure("a.obj", ply_box()), "is PLY, though its name does not say so (let its name end in .ply)"));
+  EXPECT_TRUE(document::holds(failure("a.obj", ply_box()),
+                              "is PLY, though its name does not say so (let its name end in .ply)"));
   EXPECT_TRUE(document::holds(failure("a.gltf", "glTF\2"), "let its name end in .glb"));
   EXPECT_TRUE(document::holds(failure("a.glb", "{}"), "let its name end in .gltf"));
 }
@@ -388,7 +402,7 @@ TEST_F(ImportTest, AFileThatIsThereIsReplacedOnlyByForce) {
   import_model(options);
   std::ofstream(options.to) << "mine";
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
-                    "model.json: is there already (choose another name, or replace it with --force)"));
+                              "model.json: is there already (choose another name, or replace it with --force)"));
   EXPECT_EQ(document::read_file(options.to).size(), 4u);
   options.force = true;
   EXPECT_EQ(import(options).joints.size(), 1u);
@@ -399,7 +413,8 @@ TEST_F(ImportTest, AModelInStripsKeepsItsBody) {
   constexpr int kRows = 40;
   std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(2 * kRows) +
                      "\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
-                     "property list int int vertex_indices\nend_header\n", strip;
+                     "property list int int vertex_indices\nend_header\n",
+              strip;
   for (int i = 0; i < 2 * kRows; ++i) {
     text += std::to_string(i / 2) + " " + std::to_string(i % 2) + " 0\n";
     strip += " " + std::to_string(i);
@@ -414,7 +429,8 @@ TEST_F(ImportTest, BuffersBesideAFileCountAsItsSize) {
   write("figure.bin", gltf_numbers());
   EXPECT_EQ(bytes_of_buffers(gltf), 256u);
   write("a figure.bin", gltf_numbers());
-  EXPECT_EQ(bytes_of_buffers(write("spaced.gltf", R"({"buffers": [{"uri": "a%20figure.bin"}, {"uri": "%zz"}]})")), 256u);
+  EXPECT_EQ(bytes_of_buffers(write("spaced.gltf", R"({"buffers": [{"uri": "a%20figure.bin"}, {"uri": "%zz"}]})")),
+            256u);
 }
 
 TEST_F(ImportTest, WhatIsNotReadIsListed) {
@@ -422,10 +438,13 @@ TEST_F(ImportTest, WhatIsNotReadIsListed) {
   import(write("figure.gltf", gltf_figure()));
   EXPECT_TRUE(document::holds(told_, "  read       3 vertices, 1 face, 1 colour\n")) << told_;
   const std::vector<std::string> list = not_read();
-  for (const char* part : {"4 nodes as joints", "2 bones", "1 animation", "1 morph target", "1 texture (", "3 vertices' places",
-                           "3 vertices' colours", "1 material's gloss", "1 camera", "1 light", "1 mesh outside the scene"})
-    EXPECT_EQ(std::count_if(list.begin(), list.end(), [&](const std::string& line) { return line.rfind(part, 0) == 0; }), 1)
-        << part << " in\n" << told_;
+  for (const char* part :
+       {"4 nodes as joints", "2 bones", "1 animation", "1 morph target", "1 texture (", "3 vertices' places",
+        "3 vertices' colours", "1 material's gloss", "1 camera", "1 light", "1 mesh outside the scene"})
+    EXPECT_EQ(
+        std::count_if(list.begin(), list.end(), [&](const std::string& line) { return line.rfind(part, 0) == 0; }), 1)
+        << part << " in\n"
+        << told_;
   EXPECT_EQ(list.size(), 11u) << told_;
 }
 
@@ -444,14 +463,16 @@ TEST_F(ImportTest, FacesThatAreLostAreAFailure) {
   write("figure.bin", numbers);
   std::string text = gltf_figure();
   text.insert(text.find("\"material\": 0"), "\"indices\": 8, ");
-  text.insert(text.find("],\n\"bufferViews\""), ",\n{\"bufferView\": 1, \"componentType\": 5121, \"count\": 6, \"type\": \"SCALAR\"}");
+  text.insert(text.find("],\n\"bufferViews\""),
+              ",\n{\"bufferView\": 1, \"componentType\": 5121, \"count\": 6, \"type\": \"SCALAR\"}");
   EXPECT_TRUE(document::holds(failure("a.gltf", text), "faces, 1 was read")) << text;
 }
 
 TEST_F(ImportTest, PackedShapesAreRefused) {
   std::string text = gltf_figure();
   text.insert(1, "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"], ");
-  EXPECT_TRUE(document::holds(failure("a.gltf", text), "has its shapes packed as KHR_draco_mesh_compression (export it without"));
+  EXPECT_TRUE(document::holds(failure("a.gltf", text),
+                              "has its shapes packed as KHR_draco_mesh_compression (export it without"));
 }
 
 // A file of half a kilobyte that promises 200 million vertices, all but one of them at the origin.
@@ -462,9 +483,10 @@ TEST_F(ImportTest, AFileThatTakesAllMemoryIsOneClearFailure) {
   write("figure.bin", gltf_numbers());
   std::string text = gltf_figure();
   const std::string count = "\"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\", \"min\"";
-  text.replace(text.find("\"bufferView\": 0, " + count), 17 + count.size(),
-               "\"componentType\": 5126, \"count\": 200000000, \"type\": \"VEC3\", \"sparse\": {\"count\": 1, \"indices\": "
-               "{\"bufferView\": 1, \"componentType\": 5121}, \"values\": {\"bufferView\": 0}}, \"min\"");
+  text.replace(
+      text.find("\"bufferView\": 0, " + count), 17 + count.size(),
+      "\"componentType\": 5126, \"count\": 200000000, \"type\": \"VEC3\", \"sparse\": {\"count\": 1, \"indices\": "
+      "{\"bufferView\": 1, \"componentType\": 5121}, \"values\": {\"bufferView\": 0}}, \"min\"");
   EXPECT_TRUE(document::holds(failure("a.gltf", text), "takes more than 1024 MiB of memory to read"));
 }
 
@@ -494,14 +516,16 @@ TEST_F(ImportTest, TheFileItselfIsNotOverwritten) {
   const fs::path from = write("in.bpt", "1\n");
   ImportOptions options = wishes(from);
   options.to = from;
-  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "is the file that is read (write to another)"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
+                              "is the file that is read (write to another)"));
   EXPECT_EQ(document::read_file(from).size(), 2u);
 }
 
 // Files of others, where they lie beside the project.
 TEST_F(ImportTest, GltfFilesOfOthers) {
   const fs::path data = fs::path(MARS_SOURCE_DIR) / "../shared/data";
-  if (!fs::exists(data / "BoxAnimated.glb") || !fs::exists(data / "RiggedFigure.glb")) GTEST_SKIP() << "no files in " << data;
+  if (!fs::exists(data / "BoxAnimated.glb") || !fs::exists(data / "RiggedFigure.glb"))
+    GTEST_SKIP() << "no files in " << data;
   const modeler::Model box = import(data / "BoxAnimated.glb");
   EXPECT_EQ(box.joints.size(), 2u) << "of two colours";
   EXPECT_EQ(box.shapes[0].mesh->normals.size(), box.shapes[0].mesh->vertices.size());

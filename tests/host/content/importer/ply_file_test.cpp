@@ -127,14 +127,17 @@ TEST_F(PlyFileTest, NormalsAreReadAndTheRestIsTold) {
 TEST_F(PlyFileTest, WhatIsPromisedMustBeThere) {
   const std::string many = header("binary_little_endian", "element vertex 4000000000\n" + kPlaces);
   EXPECT_TRUE(document::holds(failure(many + triangle_bytes(0, true)), "promises 4000000000 vertices, 4 were read"));
-  EXPECT_TRUE(
-      document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), "promises 1 face, 0 were read"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"),
+                              "promises 1 face, 0 were read"));
   EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 x\n"), "promises 3 vertices, 1 was read"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"),
+                              "goes on after all"));
+  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+                              "at vertex 3, of 3 from 0"));
   EXPECT_TRUE(
-      document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"), "goes on after all"));
-  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "at vertex 3, of 3 from 0"));
-  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"), "no vertex's number"));
-  EXPECT_TRUE(document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "promises 1 face"));
+      document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 0.5\n"), "no vertex's number"));
+  EXPECT_TRUE(
+      document::holds(failure(triangle_header("ascii") + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"), "promises 1 face"));
 }
 
 TEST_F(PlyFileTest, HeadersAreUnderstoodOrRefused) {
@@ -145,9 +148,9 @@ TEST_F(PlyFileTest, HeadersAreUnderstoodOrRefused) {
   for (const char* line : {"format ebcdic 1.0", "element vertex many", "element vertex -1", "element vertex 3",
                            "property float x", "property quad w", "property list int vertex_indices", "end_9der"})
     EXPECT_TRUE(document::holds(failure(header("ascii", "element vertex 3\n" + kPlaces + line + "\n")),
-                      "is not understood: " + std::string(line)));
-  EXPECT_TRUE(
-      document::holds(failure(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 1\n"), "no z"));
+                                "is not understood: " + std::string(line)));
+  EXPECT_TRUE(document::holds(
+      failure(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n") + "1 1\n"), "no z"));
 }
 
 }  // namespace

@@ -20,8 +20,7 @@ TEST(BodyShapes, HandsMirrorEachOther) {
 }
 
 TEST(Loft, OfEqualRingsIsACylinder) {
-  constexpr Ring rings[] = {{0, 1, 1, 1}, {1, 1, 1, 1}, {2, 1, 1, 1},
-                            {3, 1, 1, 1}, {4, 1, 1, 1}, {5, 1, 1, 1}};
+  constexpr Ring rings[] = {{0, 1, 1, 1}, {1, 1, 1, 1}, {2, 1, 1, 1}, {3, 1, 1, 1}, {4, 1, 1, 1}, {5, 1, 1, 1}};
   Net net;
   add_loft(net, {.rings = rings});
   for (const auto& patch : net)

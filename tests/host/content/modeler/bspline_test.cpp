@@ -41,8 +41,7 @@ double basis(const std::vector<double>& knots, std::size_t i, int degree, double
   if (degree == 0) return knots[i] <= t && t < knots[i + 1] ? 1 : 0;
   const auto p = static_cast<std::size_t>(degree);
   double sum = 0;
-  if (knots[i + p] > knots[i])
-    sum += (t - knots[i]) / (knots[i + p] - knots[i]) * basis(knots, i, degree - 1, t);
+  if (knots[i + p] > knots[i]) sum += (t - knots[i]) / (knots[i + p] - knots[i]) * basis(knots, i, degree - 1, t);
   if (knots[i + p + 1] > knots[i + 1])
     sum += (knots[i + p + 1] - t) / (knots[i + p + 1] - knots[i + 1]) * basis(knots, i + 1, degree - 1, t);
   return sum;
@@ -62,8 +61,7 @@ std::vector<std::pair<double, double>> spans_of(const SplineDirection& direction
   std::vector<std::pair<double, double>> spans;
   const std::size_t first = direction.periodic ? 0 : static_cast<std::size_t>(direction.degree);
   for (std::size_t i = first; i < points; ++i)
-    if (direction.knots[i] < direction.knots[i + 1])
-      spans.emplace_back(direction.knots[i], direction.knots[i + 1]);
+    if (direction.knots[i] < direction.knots[i + 1]) spans.emplace_back(direction.knots[i], direction.knots[i + 1]);
   return spans;
 }
 
@@ -106,8 +104,7 @@ class Dice {
   SplineDirection any_direction(std::size_t& points) {
     SplineDirection direction{whole(1, 3), whole(0, 1) == 1, {}};
     points = static_cast<std::size_t>(direction.degree + whole(1, 7));
-    const std::size_t count =
-        points + (direction.periodic ? 1 : static_cast<std::size_t>(direction.degree) + 1);
+    const std::size_t count = points + (direction.periodic ? 1 : static_cast<std::size_t>(direction.degree) + 1);
     double at = whole(-5, 5);
     while (direction.knots.size() < count) {
       const int times = direction.periodic && direction.knots.empty() ? 1 : whole(1, direction.degree);
@@ -124,8 +121,7 @@ class Dice {
   std::mt19937 random_;
 };
 
-void expect_same_surface(const PointGrid& points, const SplineDirection& u, const SplineDirection& v,
-                         Dice& dice) {
+void expect_same_surface(const PointGrid& points, const SplineDirection& u, const SplineDirection& v, Dice& dice) {
   const auto across = spans_of(u, points[0].size()), along = spans_of(v, points.size());
   const Net net = bezier_patches(points, u, v);
   ASSERT_EQ(net.size(), across.size() * along.size());
@@ -182,8 +178,7 @@ TEST(BSpline, StaysWithinTheHullOfItsPoints) {
     const SplineDirection u = dice.direction(columns), v = dice.direction(rows);
     PointGrid points = dice.points(columns, rows);
     for (auto& row : points)
-      for (glm::dvec3& point : row)
-        point = {std::round(point.x), 1, 0};  // on a side of the cube, at its corners
+      for (glm::dvec3& point : row) point = {std::round(point.x), 1, 0};  // on a side of the cube, at its corners
     for (const auto& patch : bezier_patches(points, u, v))
       for (const glm::dvec3& point : patch) {
         EXPECT_GE(point.x, 0);
@@ -206,9 +201,7 @@ std::vector<glm::dvec3> curve_of(const std::vector<glm::dvec3>& points, const Sp
   return curve;
 }
 
-void expect_near(const glm::dvec3& point, const glm::dvec3& wanted) {
-  EXPECT_LT(glm::length(point - wanted), 1e-15);
-}
+void expect_near(const glm::dvec3& point, const glm::dvec3& wanted) { EXPECT_LT(glm::length(point - wanted), 1e-15); }
 
 // Piegl and Tiller, The NURBS Book, example 3.1: degree 2 over these knots, C(5/2) = P2/8 + 6/8 P3 + P4/8.
 TEST(BSpline, HasTheValueOfTheNurbsBook) {

@@ -8,7 +8,8 @@ namespace mars::modeler {
 namespace {
 
 Model model_of(const std::string& joints) {
-  const document::Document document("{\"joints\": [" + joints + "], \"materials\": {\"fur\": {\"color\": [1, 0.5, 0]}}}", "m.json");
+  const document::Document document(
+      "{\"joints\": [" + joints + "], \"materials\": {\"fur\": {\"color\": [1, 0.5, 0]}}}", "m.json");
   return read_model(document.root());
 }
 
@@ -34,16 +35,19 @@ fur       1 0.5 0  0.1      0.65     0.45      32        2
 
 TEST(Describe, TellsLimbsWhereAModelHasThem) {
   const document::Document document(R"({"joints": [{"name": "hip"}, {"name": "calf", "parent": "hip"}],
-                              "limbs": {"left": {"knee": "calf"}}})", "m.json");
+                              "limbs": {"left": {"knee": "calf"}}})",
+                                    "m.json");
   const std::string text = describe_model(read_model(document.root()));
   EXPECT_NE(text.find("hip     free   -     -          -"), std::string::npos) << text;
   EXPECT_NE(text.find("calf  free   -     left.knee  -"), std::string::npos) << text;
 }
 
 TEST(Describe, MeshesHaveFacesAndASizeAtRest) {
-  const document::Document document(R"({"shapes": {"tip": {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]],
+  const document::Document document(
+      R"({"shapes": {"tip": {"mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]],
       "faces": [[0, 1, 2], [0, 2, 3]]}}}, "joints": [{"name": "a", "segment": {"shape": "tip", "sbb": [[0, 0, 0], [2, 3, 4]]}},
-      {"name": "b", "parent": "a", "place": [2, 0, 0], "segment": {"shape": "tip"}}]})", "m.json");
+      {"name": "b", "parent": "a", "place": [2, 0, 0], "segment": {"shape": "tip"}}]})",
+      "m.json");
   const std::string text = describe_model(read_model(document.root()));
   EXPECT_NE(text.find("faces     4, 2 of them stored"), std::string::npos) << text;
   EXPECT_NE(text.find("tip    2 faces"), std::string::npos) << text;

@@ -63,7 +63,7 @@ TEST(Edit, LimitsAreSetAxisByAxis) {
   EXPECT_FALSE(changed("leg", change).contains("limits"));
   change.limits = {{'y', {3, 2}}};
   EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }),
-                    "joint 'leg': has limits about y from 3 to 2 degrees (give the lower one first)"));
+                              "joint 'leg': has limits about y from 3 to 2 degrees (give the lower one first)"));
 }
 
 TEST(Edit, AnotherShapeLosesTheOptionsOfTheOneBefore) {
@@ -73,10 +73,12 @@ TEST(Edit, AnotherShapeLosesTheOptionsOfTheOneBefore) {
   change.shape = "cone";
   EXPECT_EQ(changed("leg", change)["segment"].dump(), R"({"shape":"cone","top":0.5})");
   change.options = {{"tube", {0.1}}};
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "its own is 'top'"));
+  EXPECT_TRUE(
+      document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "its own is 'top'"));
   change = {};
   change.sbb = Box{};
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "paw", change); }), "has no segment (give it a shape"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "paw", change); }),
+                              "has no segment (give it a shape"));
 }
 
 TEST(Edit, ResetGoesBackToWhatAFileNeedNotTell) {
@@ -103,14 +105,16 @@ TEST(Edit, ANewNameIsPutWhereOthersNameTheJoint) {
   EXPECT_EQ(model["limbs"]["pelvis"], "body");
   change.name = "paw";
   EXPECT_TRUE(document::holds(failure([&](document::Json& other) { set_joint(other, "leg", change); }),
-                    "joint 'paw': is in the model already"));
+                              "joint 'paw': is in the model already"));
 }
 
 TEST(Edit, WhatCarriesOthersIsRemovedOnlyWithThem) {
-  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "leg", false); }), "joint 'leg': carries 'paw'"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "leg", false); }),
+                              "joint 'leg': carries 'paw'"));
   EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "leg", true); }),
-                    "is one of the model's limbs: left.hip"));
-  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "body", true); }), "a model has at least one joint"));
+                              "is one of the model's limbs: left.hip"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& model) { remove_joint(model, "body", true); }),
+                              "a model has at least one joint"));
   document::Json model = dog();
   model.erase("limbs");
   remove_joint(model, "leg", true);
@@ -120,16 +124,22 @@ TEST(Edit, WhatCarriesOthersIsRemovedOnlyWithThem) {
 TEST(Edit, NamesThatAreNotThereAreGuessed) {
   JointChange change;
   change.parent = "bdoy";
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { add_joint(model, "tail", change); }), "did you mean 'body'?"));
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { add_joint(model, "leg", {}); }), "is in the model already"));
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "pwa", {}); }), "did you mean 'paw'?"));
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { remove_joint(model, "legg", true); }), "did you mean 'leg'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { add_joint(model, "tail", change); }),
+                              "did you mean 'body'?"));
+  EXPECT_TRUE(
+      document::holds(failure([&](document::Json& model) { add_joint(model, "leg", {}); }), "is in the model already"));
+  EXPECT_TRUE(
+      document::holds(failure([&](document::Json& model) { set_joint(model, "pwa", {}); }), "did you mean 'paw'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { remove_joint(model, "legg", true); }),
+                              "did you mean 'leg'?"));
   change = {};
   change.material = "furr";
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "did you mean 'fur'?"));
+  EXPECT_TRUE(
+      document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "did you mean 'fur'?"));
   change = {};
   change.shape = "spere";
-  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }), "did you mean 'sphere'?"));
+  EXPECT_TRUE(document::holds(failure([&](document::Json& model) { set_joint(model, "leg", change); }),
+                              "did you mean 'sphere'?"));
 }
 
 TEST(Edit, Materials) {
@@ -147,9 +157,12 @@ TEST(Edit, Materials) {
   EXPECT_EQ(model["joints"][0]["segment"]["material"], "coat");
   remove_material(model, "nose");
   EXPECT_FALSE(model["materials"].contains("nose"));
-  EXPECT_TRUE(document::holds(failure([](document::Json& other) { remove_material(other, "fur"); }), "is what 'body' is made of"));
-  EXPECT_TRUE(document::holds(failure([](document::Json& other) { add_material(other, "fur", {}); }), "is in the model already"));
-  EXPECT_TRUE(document::holds(failure([](document::Json& other) { set_material(other, "fru", {}, {}); }), "did you mean 'fur'?"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& other) { remove_material(other, "fur"); }),
+                              "is what 'body' is made of"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& other) { add_material(other, "fur", {}); }),
+                              "is in the model already"));
+  EXPECT_TRUE(document::holds(failure([](document::Json& other) { set_material(other, "fru", {}, {}); }),
+                              "did you mean 'fur'?"));
 }
 
 TEST(Edit, NumbersAreShort) {
@@ -181,7 +194,8 @@ TEST(EditLimbs, ANewJointTakesNoLimbFromAnother) {
   document::Json model = document::Json::parse(R"({"joints": [{"name": "a"}], "limbs": {"head": "a"}})");
   JointChange change;
   change.limb = "head";
-  EXPECT_TRUE(document::holds(document::failure_of([&] { add_joint(model, "b", change); }), "joint 'b': cannot be head too: 'a' is"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { add_joint(model, "b", change); }),
+                              "joint 'b': cannot be head too: 'a' is"));
 }
 
 TEST(EditLimbs, RefuseWhatIsNoLimb) {

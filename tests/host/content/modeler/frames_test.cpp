@@ -22,7 +22,8 @@ void expect_near(const glm::dvec3& is, const glm::dvec3& wanted, double error = 
 glm::dvec3 placed(const wire::Matrix& matrix, const glm::dvec3& point) {
   glm::dvec3 result;
   for (int row = 0; row < 3; ++row)
-    result[row] = matrix.m[row][0] * point.x + matrix.m[row][1] * point.y + matrix.m[row][2] * point.z + matrix.m[row][3];
+    result[row] =
+        matrix.m[row][0] * point.x + matrix.m[row][1] * point.y + matrix.m[row][2] * point.z + matrix.m[row][3];
   return result;
 }
 

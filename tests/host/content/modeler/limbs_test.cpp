@@ -13,8 +13,8 @@ namespace {
 Model model_with(const std::string& limbs) {
   const document::Document document(R"({"joints": [{"name": "thigh", "parent": "hips"}, {"name": "hips"},
                                          {"name": "shin", "parent": "thigh"}], "limbs": )" +
-                              limbs + "}",
-                          "m.json");
+                                        limbs + "}",
+                                    "m.json");
   return read_model(document.root());
 }
 

@@ -31,7 +31,8 @@ Mesh mesh_of(std::vector<Place> vertices, const std::vector<std::vector<std::uin
 Mesh cube(double crease) {
   std::vector<Place> vertices;
   for (int k = 0; k < 8; ++k) vertices.push_back({float(k & 1), float(k >> 1 & 1), float(k >> 2)});
-  return mesh_of(vertices, {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}, crease);
+  return mesh_of(vertices, {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}},
+                 crease);
 }
 
 // A wavy square of n x n quads: each twice as many triangles.
@@ -67,8 +68,8 @@ double area2(const std::vector<std::array<double, 2>>& p, std::uint32_t a, std::
   return (p[b][0] - p[a][0]) * (p[c][1] - p[a][1]) - (p[c][0] - p[a][0]) * (p[b][1] - p[a][1]);
 }
 
-const std::vector<std::array<double, 2>> kComb = {{0, 0}, {1, 0}, {1, 1}, {0.8, 1}, {0.8, 0.2}, {0.6, 0.2}, {0.6, 1},
-                                                  {0.4, 1}, {0.4, 0.2}, {0.2, 0.2}, {0.2, 1}, {0, 1}};
+const std::vector<std::array<double, 2>> kComb = {{0, 0},   {1, 0},   {1, 1},     {0.8, 1},   {0.8, 0.2}, {0.6, 0.2},
+                                                  {0.6, 1}, {0.4, 1}, {0.4, 0.2}, {0.2, 0.2}, {0.2, 1},   {0, 1}};
 
 TEST(Split, ConcaveFacesAreTiledOnce) {
   std::mt19937 random(3);
@@ -214,7 +215,8 @@ TEST(MeshletCutting, EveryTriangleOnceWithinItsBox) {
       EXPECT_EQ(triangles, cut.triangles.size());
       EXPECT_EQ(angles.size(), mesh.vertices.size()) << "places are the file's, bit for bit";
       if (n >= 40) {
-        EXPECT_LT(cut.meshlets.size(), (crease == 0 ? 1.6 : 1.3) * 2 * n * n / (crease == 0 ? 64 : 128)) << "nearly full";
+        EXPECT_LT(cut.meshlets.size(), (crease == 0 ? 1.6 : 1.3) * 2 * n * n / (crease == 0 ? 64 : 128))
+            << "nearly full";
       }
     }
 }

@@ -51,7 +51,8 @@ TEST_F(PatchFileTest, TellsTheLineOfWhatIsWrong) {
   EXPECT_TRUE(document::holds(failure(""), "ends before the number of patches"));
   EXPECT_TRUE(document::holds(failure("x"), "has 'x' for the number of patches"));
   for (const char* count : {"0", "1.5", "4000000000", "1e300"})
-    EXPECT_TRUE(document::holds(failure(count), "for the number of patches (begin with the number of patches, a whole number from 1"));
+    EXPECT_TRUE(document::holds(failure(count),
+                                "for the number of patches (begin with the number of patches, a whole number from 1"));
   EXPECT_TRUE(document::holds(failure("1\n3 3\n0 2e9"), "has 2e+09 for y (at most 1e9"));
   EXPECT_TRUE(document::holds(failure("9999999\n3 3\n"), "cut short"));
   EXPECT_TRUE(document::holds(failure(one_patch("2 3")), ":2: has a patch of degrees 2 3"));

@@ -69,9 +69,7 @@ std::vector<Round> rounds() {
            make_cone(0.5),
            {1, 1, 1},
            0.25,
-           [](const glm::dvec3& p) {
-             return std::max(across(p) - 0.5 * (0.75 - 0.5 * p.z), std::abs(p.z) - 0.5);
-           }},
+           [](const glm::dvec3& p) { return std::max(across(p) - 0.5 * (0.75 - 0.5 * p.z), std::abs(p.z) - 0.5); }},
           {"capsule",
            make_capsule(0.1),
            {1, 1, 5},

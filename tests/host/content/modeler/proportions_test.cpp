@@ -95,7 +95,8 @@ TEST(Proportions, GoAlongSkewedAxes) {
   const std::string place = std::to_string(1 + 2 * s) + ", " + std::to_string(2 * s);
   const Model model = scaled(R"({"joints": [
       {"name": "a", "y_axis": [1, 1, 0], "limits": {}, "segment": {"shape": "box", "sbb": [[0, 0, 0], [1, 2, 1]]}},
-      {"name": "b", "parent": "a", "place": [)" + place + R"(, 0]}]})",
+      {"name": "b", "parent": "a", "place": [)" +
+                                 place + R"(, 0]}]})",
                              R"({"joints": {"a": [1, 2, 1]}})");
   expect_near(model.joints[1].place, {1 + 4 * s, 4 * s, 0}, 1e-5);
   expect_near(model.joints[0].segment->sbb.max, {1, 4, 1});
@@ -117,7 +118,8 @@ TEST(Proportions, LimbsOfAManStayTogether) {
   const Model man = load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/human.json");
   Model other = man;
   const document::Document document(R"({"branches": {"head": [1.3, 1.2, 1.4]}, "joints": {"*-thigh": [1.1, 1.2, 0.7],
-      "chest": [1, 1.4, 0.8], "*-brow": [1, 2, 1]}, "height": 3})", "p.json");
+      "chest": [1, 1.4, 0.8], "*-brow": [1, 2, 1]}, "height": 3})",
+                                    "p.json");
   apply(read_proportions(document.root()), other);
   const auto before = attachments(man), after = attachments(other);
   ASSERT_EQ(before.size(), man.joints.size() - 1);
@@ -156,18 +158,22 @@ TEST_F(Derived, ReadsTheOtherFileFromItsOwnFolder) {
 }
 
 TEST_F(Derived, EveryMistakeIsOneClearError) {
-  EXPECT_TRUE(document::holds(failure(R"({"from": "leg.json", "proportions": {}})"), "leg.json: there is no such file"));
+  EXPECT_TRUE(
+      document::holds(failure(R"({"from": "leg.json", "proportions": {}})"), "leg.json: there is no such file"));
   EXPECT_TRUE(document::holds(failure(R"({"from": "it.json", "proportions": {}})"), "derives the model from itself"));
   EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json"})"), "has no 'proportions'"));
   EXPECT_TRUE(document::holds(failure(R"({"joints": [{"name": "a"}], "proportions": {}})"), "stands without from"));
-  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {}, "joints": []})"), "stands beside from"));
+  EXPECT_TRUE(
+      document::holds(failure(R"({"from": "arm.json", "proportions": {}, "joints": []})"), "stands beside from"));
   EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {"joints": {"left-hnd": 2}}})"),
-                    "did you mean 'left-hand'?"));
+                              "did you mean 'left-hand'?"));
   EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {"joints": {"arm": 0}}})"),
-                    "proportions.joints.arm: is 0"));
-  EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json", "proportions": {"hight": 2}})"), "did you mean 'height'?"));
+                              "proportions.joints.arm: is 0"));
+  EXPECT_TRUE(
+      document::holds(failure(R"({"from": "arm.json", "proportions": {"hight": 2}})"), "did you mean 'height'?"));
   write("other.json", R"({"from": "it.json", "proportions": {}})");
-  EXPECT_TRUE(document::holds(failure(R"({"from": "other.json", "proportions": {}})"), "derives the model from itself"));
+  EXPECT_TRUE(
+      document::holds(failure(R"({"from": "other.json", "proportions": {}})"), "derives the model from itself"));
   write("none.json", R"({"joints": [{"name": "a"}]})");
   EXPECT_TRUE(document::holds(failure(R"({"from": "none.json", "proportions": {"height": 2}})"), "has no height"));
 }
@@ -184,7 +190,8 @@ TEST(ScaleModel, ChangesPlacesAndBoxesInPlace) {
 }
 
 TEST(ScaleModel, MultipliesTheProportionsOfADerivedModel) {
-  document::Json json = document::Json::parse(R"({"from": "m.json", "proportions": {"joints": {"arm": 2}, "height": 3}})");
+  document::Json json =
+      document::Json::parse(R"({"from": "m.json", "proportions": {"joints": {"arm": 2}, "height": 3}})");
   Proportions proportions;
   proportions.joints = {{"arm", false, {1, 1, 0.5}}, {"left-hand", true, {3, 3, 3}}};
   scale_model(json, model_of(kArm), proportions);

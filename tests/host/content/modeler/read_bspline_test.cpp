@@ -12,8 +12,8 @@ Model model_of(const std::string& json) {
 }
 
 std::string spline_model(const std::string& bspline) {
-  return R"({"joints": [{"name": "a", "segment": {"shape": "sail"}}], "shapes": {"sail": {"bspline": )" +
-         bspline + "}}}";
+  return R"({"joints": [{"name": "a", "segment": {"shape": "sail"}}], "shapes": {"sail": {"bspline": )" + bspline +
+         "}}}";
 }
 
 // Rows of points along u, all different.
@@ -73,13 +73,12 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenSpline{R"({"points": [[[0, 0, 2]]]})", ".points[0][0][2]", "is 2"},
         BrokenSpline{R"({"points": [[[0, 0, 0], [1, 0, 0]], [[0, 0, 1], [1, 0, 1]]]})", ".points",
                      "has 2 points along u, degree 3 needs at least 4"},
-        BrokenSpline{R"({"points": [[[0, 0, 0], [1, 0, 0]]], "u": {"degree": 1}, "v": {"degree": 1}})",
-                     ".points", "has 1 points along v, degree 1 needs at least 2"},
+        BrokenSpline{R"({"points": [[[0, 0, 0], [1, 0, 0]]], "u": {"degree": 1}, "v": {"degree": 1}})", ".points",
+                     "has 1 points along v, degree 1 needs at least 2"},
         BrokenSpline{R"({GRID, "w": {}})", ".w", "is no key of a bspline"},
         BrokenSpline{R"({GRID, "u": {"degre": 2}})", ".u.degre", "did you mean 'degree'?"},
         BrokenSpline{R"({GRID, "u": {"degree": 4}})", ".u.degree", "from 1 to 3"},
-        BrokenSpline{R"({GRID, "u": {"ends": "close"}})", ".u.ends",
-                     "choose one of: clamped, open, periodic"},
+        BrokenSpline{R"({GRID, "u": {"ends": "close"}})", ".u.ends", "choose one of: clamped, open, periodic"},
         BrokenSpline{R"({GRID, "u": {"ends": "open", "knots": [0, 1]}})", ".u.ends", "stands beside knots"},
         BrokenSpline{R"({GRID, "u": {"knots": [0, 1]}})", ".u.knots",
                      "has 2 knots for 5 points of degree 3 (write 9 of them: points + degree + 1"},
@@ -90,8 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
                      "stands 5 times (at degree 3 write it at most 4 times"},
         BrokenSpline{R"({GRID, "u": {"degree": 1, "knots": [0, 0, 1, 1, 2, 2, 2]}})", ".u.knots[2]",
                      "stands 2 times, the surface would tear there"},
-        BrokenSpline{R"({GRID, "u": {"degree": 2, "ends": "periodic", "knots": [0, 0, 1, 2, 3, 3]}})",
-                     ".u.knots[0]", "stands 3 times"},
+        BrokenSpline{R"({GRID, "u": {"degree": 2, "ends": "periodic", "knots": [0, 0, 1, 2, 3, 3]}})", ".u.knots[0]",
+                     "stands 3 times"},
         BrokenSpline{R"({GRID, "u": {"knots": [0, 1, 2, 3, 3, 3, 4, 5, 6]}})", ".u.knots", "the same knot"}));
 
 }  // namespace

@@ -14,9 +14,10 @@ namespace {
 const std::string kVertices = "[[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0.5,0.5,1]]";
 
 Model model_with(const std::string& mesh) {
-  const document::Document document("{\"shapes\": {\"hut\": {\"mesh\": {" + mesh + "}}},\n\"joints\": [{\"name\": \"j\", " +
-                              "\"segment\": {\"shape\": \"hut\"}}]}",
-                          "hut.json");
+  const document::Document document("{\"shapes\": {\"hut\": {\"mesh\": {" + mesh +
+                                        "}}},\n\"joints\": [{\"name\": \"j\", " +
+                                        "\"segment\": {\"shape\": \"hut\"}}]}",
+                                    "hut.json");
   return read_model(document.root());
 }
 
@@ -59,13 +60,15 @@ TEST(ReadMesh, TellsWhereAFaceIsWrong) {
 
 TEST(ReadMesh, TellsWhatElseIsWrong) {
   EXPECT_TRUE(both(failure("\"vertices\": [[0,0,0],[1,0,0],[1,1,2]], \"faces\": [[0,1,2]]"),
-                    "mesh.vertices[2][2]: is 2", "from 0 to 1"));
-  EXPECT_TRUE(document::holds(failure("\"vertices\": [[0,0,0],[1,0,0],[1,1]], \"faces\": [[0,1,2]]"), "vertices[2]: has 2 items"));
+                   "mesh.vertices[2][2]: is 2", "from 0 to 1"));
+  EXPECT_TRUE(document::holds(failure("\"vertices\": [[0,0,0],[1,0,0],[1,1]], \"faces\": [[0,1,2]]"),
+                              "vertices[2]: has 2 items"));
   EXPECT_TRUE(document::holds(failure("\"vertices\": [[0,0,0]], \"faces\": [[0,0,0]]"), "vertices: has fewer than 3"));
   EXPECT_TRUE(both(failure("\"vertices\": " + kVertices), "has no 'faces'", "a mesh needs it"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,4]]") + ", \"creese\": 3"), "creese", "did you mean 'crease'?"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,4]]") + ", \"crease\": 200"), "crease: is 200", "from 0 to 180"));
-  EXPECT_TRUE(document::holds(failure(with_faces("[[0,1,4]]") + ", \"crease\": 0, \"normals\": []"), "beside a crease"));
+  EXPECT_TRUE(
+      document::holds(failure(with_faces("[[0,1,4]]") + ", \"crease\": 0, \"normals\": []"), "beside a crease"));
   EXPECT_TRUE(both(failure(with_faces("[[0,1,4]]") + ", \"normals\": [[0,0,1]]"), "normals: has 1 items", "write 5"));
   const document::Document wrong(R"({"shapes": {"hut": {"mush": 1}}, "joints": [{"name": "j"}]})", "hut.json");
   EXPECT_TRUE(both(document::failure_of([&] { read_model(wrong.root()); }), "mush", "did you mean 'mesh'?"));
@@ -74,8 +77,8 @@ TEST(ReadMesh, TellsWhatElseIsWrong) {
 TEST(ReadMesh, NormalsMayNotPointInside) {
   const std::string normals = ", \"normals\": [[0,0,2],[0,0,1],[0,0,1],[0,0,1],[0,0,1]]";
   EXPECT_EQ(model_with(with_faces("[[0,1,2,3]]") + normals).shapes[0].mesh->normals[0], (Mesh::Place{0, 0, 2}));
-  EXPECT_TRUE(both(failure(with_faces("[[0,1,2,3], [2,1,0]]") + normals), "faces[1]: has normals that point to its inside",
-                    "counter-clockwise"));
+  EXPECT_TRUE(both(failure(with_faces("[[0,1,2,3], [2,1,0]]") + normals),
+                   "faces[1]: has normals that point to its inside", "counter-clockwise"));
 }
 
 }  // namespace

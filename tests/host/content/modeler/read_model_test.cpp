@@ -38,8 +38,8 @@ TEST(ReadModel, LimitsLeaveFreedomOnlyToTheAxesTheyName) {
 }
 
 TEST(ReadModel, PutsParentsBeforeChildren) {
-  const Model model = model_of(with_joints(
-      R"({"name": "c", "parent": "b"}, {"name": "d"}, {"name": "a"}, {"name": "b", "parent": "a"})"));
+  const Model model = model_of(
+      with_joints(R"({"name": "c", "parent": "b"}, {"name": "d"}, {"name": "a"}, {"name": "b", "parent": "a"})"));
   std::vector<std::string> names;
   for (const Joint& joint : model.joints) names.push_back(joint.name);
   EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c", "d"}));
@@ -65,7 +65,7 @@ TEST(ReadModel, TakesPatchesOfItsOwn) {
   const Model model = model_of(joints + shapes + patch_of("[0.25, 0, 0]") + "]}}");
   EXPECT_EQ(model.shapes[0].patches[0].points[0][0], 0.25f);
   EXPECT_TRUE(document::holds(model_failure(joints + shapes + patch_of("[1.25, 0, 0]") + "]}}"),
-                    "shapes.leaf[0][0][0]: is 1.25"));
+                              "shapes.leaf[0][0][0]: is 1.25"));
   EXPECT_TRUE(document::holds(model_failure(joints + shapes + "[[0, 0, 0]]]}}"), "has 1 items"));
 }
 
@@ -85,8 +85,7 @@ TEST_P(BrokenModel, IsOneClearError) {
 INSTANTIATE_TEST_SUITE_P(
     Table, BrokenModel,
     testing::Values(
-        Broken{"", "is empty"}, Broken{R"({"parent": "x"})", "has no 'name'"},
-        Broken{R"({"name": "a/b"})", "'/'"},
+        Broken{"", "is empty"}, Broken{R"({"parent": "x"})", "has no 'name'"}, Broken{R"({"name": "a/b"})", "'/'"},
         Broken{R"({"name": "a"}, {"name": "a"})", "second joint named 'a'"},
         Broken{R"({"name": "hand", "parent": "arn"}, {"name": "arm"})", "did you mean 'arm'?"},
         Broken{R"({"name": "a", "parent": "a"})", "joint 'a' is its own ancestor"},
@@ -95,16 +94,13 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{R"({"name": "a", "place": [0, 0, 1e308]})", "joints[0].place[2]: is 1e+308"},
         Broken{R"({"name": "a", "x_axis": [0, 0, 0]})", "has no length"},
         Broken{R"({"name": "a", "y_axis": [5, 0, 0]})", "parallel"},
-        Broken{R"({"name": "a", "limits": {"y": [10, -10]}})",
-               "joints[0].limits.y: has its lower limit above"},
+        Broken{R"({"name": "a", "limits": {"y": [10, -10]}})", "joints[0].limits.y: has its lower limit above"},
         Broken{R"({"name": "a", "segment": {}})", "has no 'shape'"},
         Broken{R"({"name": "a", "segment": {"shape": "bix"}})", "did you mean 'box'?"},
         Broken{R"({"name": "a", "segment": {"shape": "box", "tube": 0.1}})", "belongs to the shape torus"},
         Broken{R"({"name": "a", "segment": {"shape": "torus", "tube": 0.3}})", "0.2499"},
-        Broken{R"({"name": "a", "segment": {"shape": "box", "sbb": [[0, 0, 0], [1, 0, 1]]}})",
-               "no extent along y"},
-        Broken{R"({"name": "a", "segment": {"shape": "box", "material": "gold"}})",
-               "add it to the materials"}));
+        Broken{R"({"name": "a", "segment": {"shape": "box", "sbb": [[0, 0, 0], [1, 0, 1]]}})", "no extent along y"},
+        Broken{R"({"name": "a", "segment": {"shape": "box", "material": "gold"}})", "add it to the materials"}));
 
 TEST(ReadModel, HundredThousandJointsInAChainAreFine) {
   std::string joints;

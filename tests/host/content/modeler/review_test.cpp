@@ -22,7 +22,8 @@ void expect_one(const std::vector<std::string>& told, const std::string& part) {
 
 TEST(Review, AWholeFigureIsNotDoubted) {
   EXPECT_TRUE(doubts(kBody + R"({"name": "leg", "parent": "body", "limits": {"y": [0, 9]},
-      "segment": {"shape": "box", "sbb": [[0, 0, -1], [1, 1, 0]]}})").empty());
+      "segment": {"shape": "box", "sbb": [[0, 0, -1], [1, 1, 0]]}})")
+                  .empty());
 }
 
 TEST(Review, TellsWhatIsProbablyNotMeant) {
@@ -33,8 +34,9 @@ TEST(Review, TellsWhatIsProbablyNotMeant) {
       "segment": {"shape": "box", "sbb": [[0, 0, -1], [1, 1, 0]]}})"),
              "joint 'leg' is placed 2 outside the segment of 'body', whose sbb lies on the other side");
   expect_one(doubts(kBody + R"({"name": "leg", "parent": "body"})"), "joint 'leg' has no segment and carries no joint");
-  expect_one(doubts(kBody + R"({"name": "leg", "parent": "body", "limits": {"y": [10, 20]}, "segment": {"shape": "box"}})"),
-             "joint 'leg' rests at 10 degrees about y, for its limits leave 0 out");
+  expect_one(
+      doubts(kBody + R"({"name": "leg", "parent": "body", "limits": {"y": [10, 20]}, "segment": {"shape": "box"}})"),
+      "joint 'leg' rests at 10 degrees about y, for its limits leave 0 out");
   expect_one(doubts(kBody + R"({"name": "leg", "parent": "body", "segment": {"shape": "box"}},
                                {"name": "tail", "segment": {"shape": "box"}})"),
              "joint 'tail' hangs on nothing, beside 'body'");
@@ -49,7 +51,8 @@ TEST(Review, TellsWhatIsProbablyNotMeant) {
 
 TEST(Review, AFloorOfTilesIsNotDoubted) {
   EXPECT_TRUE(doubts(R"({"name": "a", "limits": {}, "segment": {"shape": "box"}},
-                        {"name": "b", "limits": {}, "place": [5, 0, 0], "segment": {"shape": "box"}})").empty());
+                        {"name": "b", "limits": {}, "place": [5, 0, 0], "segment": {"shape": "box"}})")
+                  .empty());
 }
 
 // Legs whose hips stand at y and -y, with feet that reach forward.
@@ -57,11 +60,13 @@ std::vector<std::string> walker(double y, double root) {
   const auto leg = [&](const std::string& side, double at) {
     return R"(, {"name": ")" + side + R"(-leg", "parent": "body", "place": [0, )" + std::to_string(at) +
            R"(, -1], "segment": {"shape": "box", "sbb": [[-0.2, -0.2, -1], [0.2, 0.2, 0]]}},
-           {"name": ")" + side + R"(-foot", "parent": ")" + side + R"(-leg", "place": [0, 0, -1],
+           {"name": ")" +
+           side + R"(-foot", "parent": ")" + side + R"(-leg", "place": [0, 0, -1],
             "segment": {"shape": "box", "sbb": [[-0.2, -0.2, 0], [0.8, 0.2, 0.1]]}})";
   };
   return doubts(R"({"name": "body", "place": [0, 0, )" + std::to_string(root) +
-                    R"(], "segment": {"shape": "box", "sbb": [[-1, -1, -1], [1, 1, 1]]}})" + leg("left", y) + leg("right", -y),
+                    R"(], "segment": {"shape": "box", "sbb": [[-1, -1, -1], [1, 1, 1]]}})" + leg("left", y) +
+                    leg("right", -y),
                 R"(, "limbs": {"left": {"hip": "left-leg", "ankle": "left-foot"},
                                "right": {"hip": "right-leg", "ankle": "right-foot"}})");
 }

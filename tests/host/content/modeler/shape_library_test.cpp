@@ -32,8 +32,7 @@ std::vector<Variant> variants() {
     if (shape.option.key.empty()) continue;
     for (const bool most : {false, true}) {
       OptionValues values{};
-      std::fill_n(values.begin(), shape.option.count,
-                  most ? shape.option.range.highest : shape.option.range.lowest);
+      std::fill_n(values.begin(), shape.option.count, most ? shape.option.range.highest : shape.option.range.lowest);
       all.push_back({&shape, values, name + (most ? "_most_" : "_least_") + std::string(shape.option.key)});
     }
   }
@@ -147,8 +146,7 @@ TEST_P(Library, HasUnitNormalsOnTheOutsideOfEveryDicedFace) {
 // The unit normals on both patches of every shared side, at three places of it.
 TEST_P(Library, IsSmoothAcrossItsEdges) {
   if (is({"box", "cylinder", "cone", "teapot"})) return;
-  constexpr double ends[4][4] = {
-      {0, 0, 1, 0}, {1, 0, 1, 1}, {1, 1, 0, 1}, {0, 1, 0, 0}};  // u, v as sides_of runs
+  constexpr double ends[4][4] = {{0, 0, 1, 0}, {1, 0, 1, 1}, {1, 1, 0, 1}, {0, 1, 0, 0}};  // u, v as sides_of runs
   std::map<std::pair<Edge, int>, glm::dvec3> seen;
   for (const wire::Patch& patch : patches_) {
     const auto sides = sides_of(patch);

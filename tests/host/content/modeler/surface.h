@@ -22,8 +22,7 @@ inline std::array<double, 4> bernstein_slope(double t) {
   return {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
 }
 
-inline glm::dvec3 blend(const wire::Patch& patch, const std::array<double, 4>& u,
-                        const std::array<double, 4>& v) {
+inline glm::dvec3 blend(const wire::Patch& patch, const std::array<double, 4>& u, const std::array<double, 4>& v) {
   glm::dvec3 sum(0, 0, 0);
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
@@ -39,8 +38,7 @@ inline glm::dvec3 point_of(const wire::Patch& patch, double u, double v) {
 
 // Along the outward normal, as long as the surface element.
 inline glm::dvec3 normal_of(const wire::Patch& patch, double u, double v) {
-  return glm::cross(blend(patch, bernstein_slope(u), bernstein(v)),
-                    blend(patch, bernstein(u), bernstein_slope(v)));
+  return glm::cross(blend(patch, bernstein_slope(u), bernstein(v)), blend(patch, bernstein(u), bernstein_slope(v)));
 }
 
 // By Gauss's theorem; negative if the normals point inward.
@@ -50,8 +48,7 @@ inline double volume_of(const std::vector<wire::Patch>& patches, int steps = 24)
     for (int j = 0; j < steps; ++j)
       for (int i = 0; i < steps; ++i) {
         const double u = (i + 0.5) / steps, v = (j + 0.5) / steps;
-        volume +=
-            glm::dot(point_of(patch, u, v) - glm::dvec3(0.5), normal_of(patch, u, v)) / (3.0 * steps * steps);
+        volume += glm::dot(point_of(patch, u, v) - glm::dvec3(0.5), normal_of(patch, u, v)) / (3.0 * steps * steps);
       }
   return volume;
 }

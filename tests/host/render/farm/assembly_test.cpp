@@ -124,7 +124,8 @@ void expect_put_together(unsigned seed) {
         not_pasted -= pasted->sent_more.size();
         EXPECT_EQ(pasted->kind == wire::FrameKind::keyframe, pasted->number == task.frames.front());
         if (pasted->whole == nullptr) continue;
-        EXPECT_EQ(pasted->contributors.size(), pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
+        EXPECT_EQ(pasted->contributors.size(),
+                  pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
         pool.submit(pasted->whole);
       }
     }

@@ -19,7 +19,8 @@ void sound_node() {
 }
 
 // Frames of intervals over nodes in groups: all arrive, each as its contributors drew it.
-void expect_all_frames(const EmptyFilm& film, int nodes, std::uint32_t groups, const std::vector<std::uint32_t>& frames) {
+void expect_all_frames(const EmptyFilm& film, int nodes, std::uint32_t groups,
+                       const std::vector<std::uint32_t>& frames) {
   ScriptedRun run;
   run.nodes = nodes;
   run.work = {frames, true, groups};

@@ -1,5 +1,5 @@
-// Messages that no sound node sends: each is one clear failure that names the node and its machine, and nothing of it is
-// used.
+// Messages that no sound node sends: each is one clear failure that names the node and its machine, and nothing of it
+// is used.
 #include "host/render/farm/node_inbox.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,9 @@ std::string failure_with(const std::function<void()>& bad_node, bool traced = fa
   });
 }
 
-void send_bytes(long type, const void* data, std::size_t bytes) { csend(type, data, static_cast<long>(bytes), myhost(), 0); }
+void send_bytes(long type, const void* data, std::size_t bytes) {
+  csend(type, data, static_cast<long>(bytes), myhost(), 0);
+}
 
 // A greeting, spoilt.
 template <typename Spoil>
@@ -74,11 +76,14 @@ TEST(Greeting, AnotherVersionsIsNotReadFurther) {
 }
 
 TEST(Greeting, IsOfTheSameBuild) {
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.magic[2] ^= 1; }), "n1 (node 1) is not MARS"));
+  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.magic[2] ^= 1; }),
+                              "n1 (node 1) is not MARS"));
   EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.byte_order = 0x04030201; }),
-                    "use machines of one byte order"));
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { ++hello.stamp.sizes; }), "messages of other sizes"));
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { ++hello.stamp.release[2]; }), "n1 (node 1) runs MARS"));
+                              "use machines of one byte order"));
+  EXPECT_TRUE(
+      document::holds(failure_greeting([](wire::Hello& hello) { ++hello.stamp.sizes; }), "messages of other sizes"));
+  EXPECT_TRUE(
+      document::holds(failure_greeting([](wire::Hello& hello) { ++hello.stamp.release[2]; }), "n1 (node 1) runs MARS"));
 }
 
 TEST(Greeting, CutOffAnywhere) {
@@ -92,14 +97,17 @@ TEST(Greeting, CutOffAnywhere) {
       ScriptedNode::receive(wire::kStop);
     });
     const bool too_short = bytes < sizeof(wire::WireStamp);
-    EXPECT_TRUE(document::holds(failure, too_short ? "node 1 is not MARS" : "node 1: sent a greeting of another size")) << failure;
+    EXPECT_TRUE(document::holds(failure, too_short ? "node 1 is not MARS" : "node 1: sent a greeting of another size"))
+        << failure;
   }
 }
 
 TEST(Greeting, SaysOnlyWhatIsTrue) {
   EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.node = 0; }), "another node's greeting"));
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = 7; }), "a machine that is not there"));
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = -1; }), "a machine that is not there"));
+  EXPECT_TRUE(
+      document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = 7; }), "a machine that is not there"));
+  EXPECT_TRUE(
+      document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = -1; }), "a machine that is not there"));
   EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.simd.fill('x'); }), "names without end"));
 }
 
@@ -135,8 +143,8 @@ std::string failure_of_strip(const std::function<void(Bytes&, wire::Strip&)>& sp
     node.boot();
     const auto command = node.next_command();
     StripStore store;
-    const StripBytes strip = strip_bytes(ScriptedNode::strip_of(*command, command->frames.front()), {{{0, 1, 2}}, {1, 2}},
-                                         {{{3, 0, 1}}, {3}}, store);
+    const StripBytes strip = strip_bytes(ScriptedNode::strip_of(*command, command->frames.front()),
+                                         {{{0, 1, 2}}, {1, 2}}, {{{3, 0, 1}}, {3}}, store);
     Bytes bytes(strip.data.get(), strip.data.get() + strip.size);
     wire::Strip header;
     std::memcpy(&header, bytes.data(), sizeof header);
@@ -155,7 +163,8 @@ void expect_refused(const std::string& what, const std::function<void(Bytes&, wi
 
 TEST(Inbox, StripsOfAnotherSize) {
   expect_refused("a strip of an impossible size", [](Bytes& bytes, wire::Strip&) { bytes.clear(); });
-  expect_refused("a strip of an impossible size", [](Bytes& bytes, wire::Strip&) { bytes.resize(sizeof(wire::Strip) - 1); });
+  expect_refused("a strip of an impossible size",
+                 [](Bytes& bytes, wire::Strip&) { bytes.resize(sizeof(wire::Strip) - 1); });
   expect_refused("a strip of an impossible size", [](Bytes& bytes, wire::Strip& strip) {
     bytes.resize(wire::kMaxStripBytes + 4);
     strip.pixels += (bytes.size() - sizeof strip) / 4 - strip.pixels;
@@ -180,7 +189,8 @@ TEST(Inbox, StripsThatDrawWhereTheyMustNot) {
   expect_refused("pixels outside the strip's lines", [](Bytes& bytes, wire::Strip&) { spoil_run(bytes, {~0u, 0, 1}); });
   expect_refused("pixels outside the strip's lines", [](Bytes&, wire::Strip& strip) { strip.last_line = 3; });
   expect_refused("lines outside the picture", [](Bytes&, wire::Strip& strip) { strip.last_line = 9; });
-  expect_refused("lines outside the picture", [](Bytes&, wire::Strip& strip) { strip.first_line = 8, strip.last_line = 0; });
+  expect_refused("lines outside the picture",
+                 [](Bytes&, wire::Strip& strip) { strip.first_line = 8, strip.last_line = 0; });
   // A run of nothing: as many pixels as the runs count.
   expect_refused("pixels outside the picture", [](Bytes& bytes, wire::Strip& strip) {
     spoil_run(bytes, {3, 0, 0});
@@ -193,7 +203,8 @@ TEST(Inbox, StripsThatNobodyAskedFor) {
   expect_refused("another node's strip", [](Bytes&, wire::Strip& strip) { strip.node = 0; });
   expect_refused("another node's strip", [](Bytes&, wire::Strip& strip) { strip.node = 1000; });
   expect_refused("a strip of frame 9 that it was not asked for", [](Bytes&, wire::Strip& strip) { strip.frame = 9; });
-  expect_refused("a strip of frame 0 that it was not asked for", [](Bytes&, wire::Strip& strip) { strip.interval = 3; });
+  expect_refused("a strip of frame 0 that it was not asked for",
+                 [](Bytes&, wire::Strip& strip) { strip.interval = 3; });
   expect_refused("a strip that is neither the last nor another", [](Bytes&, wire::Strip& strip) { strip.last = 2; });
 }
 
@@ -257,8 +268,12 @@ TEST(Inbox, EventsThatMakeNoSense) {
   EXPECT_TRUE(refused({event, end}, 1));
   EXPECT_TRUE(refused({end, event})) << "what ends them comes last";
   EXPECT_TRUE(refused({end, end}));
-  for (const auto& [kind, what, peer] : {std::tuple{Kind::span, 10, 0}, {Kind::span, -1, 0}, {Kind::sent, 1, 3},
-                                         {Kind::taken, 1, -1}, {Kind::waited, -2, 0}, {static_cast<Kind>(9), 0, 0}}) {
+  for (const auto& [kind, what, peer] : {std::tuple{Kind::span, 10, 0},
+                                         {Kind::span, -1, 0},
+                                         {Kind::sent, 1, 3},
+                                         {Kind::taken, 1, -1},
+                                         {Kind::waited, -2, 0},
+                                         {static_cast<Kind>(9), 0, 0}}) {
     event.kind = kind;
     event.what = what;
     event.peer = peer;

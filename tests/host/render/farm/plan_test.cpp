@@ -46,7 +46,8 @@ TEST(Plan, GroupsCoverTheNodesSideBySide) {
   for (const int nodes : {1, 2, 5, 8})
     for (const int groups : {1, 2, 3, 100}) {
       const std::vector<collectives::Group> made = make_groups(nodes, groups, 1);
-      EXPECT_EQ(made.size(), static_cast<std::size_t>(std::min(nodes, groups))) << "no more than nodes, though than tasks";
+      EXPECT_EQ(made.size(), static_cast<std::size_t>(std::min(nodes, groups)))
+          << "no more than nodes, though than tasks";
       int next = 0;
       for (const collectives::Group& group : made) {
         EXPECT_EQ(group.first, next);

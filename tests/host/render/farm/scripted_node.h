@@ -1,5 +1,5 @@
-// Nodes that follow a test's script in place of the firmware: threads that say by NX calls what a node would, or what none
-// should. And renderings by such nodes.
+// Nodes that follow a test's script in place of the firmware: threads that say by NX calls what a node would, or what
+// none should. And renderings by such nodes.
 #pragma once
 
 #include <cstring>
@@ -83,7 +83,8 @@ class ScriptedNode {
     Command command;
     std::memcpy(&command.render, message.data(), sizeof command.render);
     command.frames.resize((message.size() - sizeof command.render) / sizeof(std::uint32_t));
-    std::memcpy(command.frames.data(), message.data() + sizeof command.render, command.frames.size() * sizeof(std::uint32_t));
+    std::memcpy(command.frames.data(), message.data() + sizeof command.render,
+                command.frames.size() * sizeof(std::uint32_t));
     return command;
   }
 
@@ -117,7 +118,8 @@ class ScriptedNode {
     std::vector<std::uint32_t> own{command.frames.front()};
     const wire::Render& render = command.render;
     for (std::size_t k = 1; k < command.frames.size(); ++k)
-      if (render.group_first + wire::contributor_of_inbetween(render.first_inbetween + k - 1, render.group_count) == mynode())
+      if (render.group_first + wire::contributor_of_inbetween(render.first_inbetween + k - 1, render.group_count) ==
+          mynode())
         own.push_back(command.frames[k]);
     return own;
   }

@@ -42,7 +42,13 @@ farm::FarmReport two_nodes_two_frames() {
 }
 
 TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
-  const ReportHead head{"film.json", "abc", "mpi", {"film.json", "-o", "x"}, 96, 54, farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, 2, 1, 4)};
+  const ReportHead head{"film.json",
+                        "abc",
+                        "mpi",
+                        {"film.json", "-o", "x"},
+                        96,
+                        54,
+                        farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, 2, 1, 4)};
   const json report = json::parse(report_text(head, two_nodes_two_frames()));
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);

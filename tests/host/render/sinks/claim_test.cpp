@@ -51,8 +51,9 @@ TEST(Claim, OnlyOtherFramesOfTheSameFilmAreLetIn) {
   const ClaimOf claim(film("a.json", 'a', {0, 1, 2, 9}));
   EXPECT_EQ(claim.refuses(film("a.json", 'a', {3, 4, 8})), "");
   const std::string overlap = claim.refuses(film("copy.json", 'a', {4, 9}));
-  EXPECT_TRUE(overlap.starts_with("out: another run, process 4711 on host n1, renders frames 0-2,9 of a.json into this "
-                                  "folder since "))
+  EXPECT_TRUE(
+      overlap.starts_with("out: another run, process 4711 on host n1, renders frames 0-2,9 of a.json into this "
+                          "folder since "))
       << overlap;
   EXPECT_TRUE(overlap.ends_with("(give other frames with --frames, another folder with -o, or wait)")) << overlap;
   const std::string other = claim.refuses(film("b.json", 'b', {3}));
@@ -66,14 +67,17 @@ TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {
   for (std::uint32_t frame = 1; frame < 400; frame += 2) odd.push_back(frame);
   const ClaimOf claim(film("a.json", 'a', odd), 12345);
   const std::string refusal = claim.refuses(film("a.json", 'a', {1}));
-  EXPECT_TRUE(document::holds(refusal, "renders 200 frames from 1 to 399 of a.json into this folder since 19")) << refusal;
-  EXPECT_TRUE(document::holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})), "renders frame 3 of a.json"));
+  EXPECT_TRUE(document::holds(refusal, "renders 200 frames from 1 to 399 of a.json into this folder since 19"))
+      << refusal;
+  EXPECT_TRUE(document::holds(ClaimOf(film("a.json", 'a', {3})).refuses(film("a.json", 'a', {3})),
+                              "renders frame 3 of a.json"));
 }
 
 TEST(Claim, OneThatCannotBeReadIsRefusedToo) {
   const ClaimOf claim(film("a.json", 'a', {1}));
   document::write_whole_file(claim.run().files.front(), "nonsense");
-  EXPECT_TRUE(document::holds(claim.refuses(film("a.json", 'a', {3})), "n1.claim: another run renders into this folder"));
+  EXPECT_TRUE(
+      document::holds(claim.refuses(film("a.json", 'a', {3})), "n1.claim: another run renders into this folder"));
 }
 
 TEST(Claim, OneThatNoRunWritesCannotBeRead) {

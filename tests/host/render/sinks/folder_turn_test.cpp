@@ -31,9 +31,7 @@ ProcessName ended() {
   return process;
 }
 
-void age(const fs::path& file, std::chrono::seconds by) {
-  fs::last_write_time(file, fs::last_write_time(file) - by);
-}
+void age(const fs::path& file, std::chrono::seconds by) { fs::last_write_time(file, fs::last_write_time(file) - by); }
 
 TEST(FolderTurn, OneAtATime) {
   const TemporaryFolder folder;

@@ -211,7 +211,8 @@ TEST(FrameFolder, RunsThatWouldBeMixedAreRefusedAndChangeNothing) {
   FrameFolder frames(folder.path(), of_frames({1, 2}));
   put_frames(frames, of_frames({1}), 7);
   const std::string manifest = document::read_file(folder / "frames.json");
-  EXPECT_TRUE(document::holds(failure_to_claim(folder.path(), of_frames({2, 3})), "renders frames 1-2 of a film.json into"));
+  EXPECT_TRUE(
+      document::holds(failure_to_claim(folder.path(), of_frames({2, 3})), "renders frames 1-2 of a film.json into"));
   Manifest other = of_frames({1, 3});
   other.checksum = std::string(32, 'b');
   other.film = "other.json";
@@ -364,14 +365,15 @@ TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
   const std::string sum = "\"checksum\":\"" + std::string(32, 'a') + "\",";
   document::write_whole_file(folder / "frames.json", head + sum + R"("frames":[[0,1]]})");
   EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), "") << "else what follows is wrong anyway";
-  for (const char* frames : {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]", "[[2,1]]",
-                             R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])",
-                             R"([[0,0]],"pixel_hashes":["x"])"})
+  for (const char* frames :
+       {"[[0,4]]", "[[-1,2]]", "[[0]]", "[3]", "7", "[[0,1e300]]", "[[2,3],[0,1]]", "[[2,1]]",
+        R"([[0,1]],"pixel_hashes":["x"])", R"([[0,0]],"pixel_hashes":[3])", R"([[0,0]],"pixel_hashes":["x"])"})
     failure_with(head + sum + "\"frames\":" + frames + "}");
   EXPECT_TRUE(document::holds(failure_with(head + sum + R"("frames":[[0,1]],"pixel\u001b_hashes":[]})"),
-                    R"(the key "pixel\u001b_hashes" is unknown)"));
+                              R"(the key "pixel\u001b_hashes" is unknown)"));
   EXPECT_TRUE(document::holds(failure_with(head + R"("frames":[[0,1]]})"), R"(the key "checksum" is missing)"));
-  const std::string of_long = failure_with(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
+  const std::string of_long =
+      failure_with(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
   EXPECT_TRUE(document::holds(of_long, "xxx... is not 32 hexadecimal digits")) << of_long.substr(0, 1000);
   EXPECT_LT(of_long.size(), 400u);
 }
@@ -445,7 +447,7 @@ TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
   fs::permissions(folder / "frames.json", fs::perms::none);
   as_nobody(folder.path(), [&] {
     return document::holds(failure_to_claim(folder.path(), of_frames({3})),
-                 "frames.json: cannot be read: Permission denied (check its permissions)");
+                           "frames.json: cannot be read: Permission denied (check its permissions)");
   });
   EXPECT_EQ(read_manifest(folder.path()).frames, small_manifest().frames);
   EXPECT_EQ(folder.entries(), 6u);
@@ -467,7 +469,8 @@ TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "frame-0001.png/below");
   const std::string failure = failure_to_claim(folder.path(), small_manifest());
-  EXPECT_TRUE(document::holds(failure, "frame-0001.png: cannot remove: Is a directory (something of another kind")) << failure;
+  EXPECT_TRUE(document::holds(failure, "frame-0001.png: cannot remove: Is a directory (something of another kind"))
+      << failure;
 }
 
 TEST(Verify, OneHashForEqualFrames) {
@@ -535,9 +538,10 @@ TEST(Verify, ManifestsWithoutHashesAreReadToo) {
   const TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   const std::string hash = verify_folder(folder.path()).hash;
-  document::write_whole_file(folder / "frames.json",
-                   R"({"film":"a film.json","checksum":")" + std::string(32, 'a') +
-                       R"(","width":6,"height":4,"rate":24,"film_frames":12,"frames":[[0,2],[5,5],[11,11]]})");
+  document::write_whole_file(
+      folder / "frames.json",
+      R"({"film":"a film.json","checksum":")" + std::string(32, 'a') +
+          R"(","width":6,"height":4,"rate":24,"film_frames":12,"frames":[[0,2],[5,5],[11,11]]})");
   const Verdict verdict = verify_folder(folder.path());
   EXPECT_FALSE(verdict.compared);
   EXPECT_EQ(verdict.hash, hash);

@@ -46,9 +46,11 @@ TEST_F(LeaseOfAFile, IsRenewedByItsHolderWhereTheThreadDidNot) {
 TEST_F(LeaseOfAFile, WhoWasStoppedForLongLearnsThatItIsGone) {
   fs::remove(file_);
   EXPECT_EQ(document::failure_of([&] { lease_.check(); }), "") << "others wait longer before they take it away";
-  EXPECT_TRUE(document::holds(document::failure_of([&] { Lease(file_).confirm(); }), "file: this run's claim to the folder is gone"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { Lease(file_).confirm(); }),
+                              "file: this run's claim to the folder is gone"));
   now_ = 1031;
-  EXPECT_TRUE(document::holds(document::failure_of([&] { lease_.check(); }), "file: this run's claim to the folder is gone"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] { lease_.check(); }), "file: this run's claim to the folder is gone"));
   document::create_file(file_, "");
   EXPECT_NE(document::failure_of([&] { lease_.check(); }), "") << "another's under its name is not its own";
 }

@@ -20,7 +20,8 @@ constexpr std::uint64_t kGiB = 1024 * kMiB;
 Facts sound() {
   Facts facts;
   facts.host = "ada";
-  facts.programs = {"/usr/bin/mpirun", "/opt/mars/mars-host", "/opt/mars/mars-node", "/opt/mars/mars-threads", launch::Mpi::open_mpi, {}};
+  facts.programs = {"/usr/bin/mpirun",        "/opt/mars/mars-host", "/opt/mars/mars-node",
+                    "/opt/mars/mars-threads", launch::Mpi::open_mpi, {}};
   facts.surroundings = {8, 8, 0, false, false, false, {}};
   facts.mpirun_version = "mpirun (Open MPI) 4.1.4\n\nReport bugs to http://www.open-mpi.org/community/help/\n";
   facts.processors = facts.machine_processors = 8;
@@ -35,7 +36,13 @@ Facts sound() {
 }
 
 SlurmJob job(std::uint32_t machines) {
-  return {"71", machines, 0, "", "", true, "MPI plugin types are...\n\tnone\n\tpmi2\n\tpmix\nspecific pmix plugin versions: pmix_v4\n"};
+  return {"71",
+          machines,
+          0,
+          "",
+          "",
+          true,
+          "MPI plugin types are...\n\tnone\n\tpmi2\n\tpmix\nspecific pmix plugin versions: pmix_v4\n"};
 }
 
 // Of the surroundings as `change` leaves them.
@@ -49,9 +56,12 @@ std::vector<Finding> findings(const std::function<void(Facts&)>& change) {
 void expect(State state, const std::string& about, const std::string& found, const std::string& remedy,
             const std::function<void(Facts&)>& change) {
   const std::vector<Finding> all = findings(change);
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Finding& each) {
-    return each.state == state && each.about == about && document::holds(each.found, found) && document::holds(each.remedy, remedy);
-  })) << about << ": " << found << " (" << remedy << ")";
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                          [&](const Finding& each) {
+                            return each.state == state && each.about == about && document::holds(each.found, found) &&
+                                   document::holds(each.remedy, remedy);
+                          }))
+      << about << ": " << found << " (" << remedy << ")";
   for (const Finding& each : all) EXPECT_TRUE(each.state != State::trouble || !each.remedy.empty()) << each.found;
 }
 
@@ -69,8 +79,7 @@ TEST(Checks, Mpi) {
     f.programs.mpirun.reset();
     f.slurm = job(2);
   });
-  expect(State::note, "MPI", "Open MPI 5.0.3", "4.1",
-         [](Facts& f) { f.mpirun_version = "mpirun (Open MPI) 5.0.3\n"; });
+  expect(State::note, "MPI", "Open MPI 5.0.3", "4.1", [](Facts& f) { f.mpirun_version = "mpirun (Open MPI) 5.0.3\n"; });
   expect(State::trouble, "MPI", "not Open MPI's: HYDRA build details:", "PATH",
          [](Facts& f) { f.mpirun_version = "HYDRA build details:\n    Version:  4.0.2\n"; });
   expect(State::good, "MPI", "MPICH 4.0.2, /usr/bin/mpirun", "", [](Facts& f) {
@@ -93,8 +102,7 @@ TEST(Checks, Programs) {
   });
   expect(State::note, "programs", "/usr/bin/mars-node", "different versions",
          [](Facts& f) { f.programs.node = "/usr/bin/mars-node"; });
-  expect(State::trouble, "programs", "libmpi.so.40", "module load",
-         [](Facts& f) { f.lacking = {"libmpi.so.40"}; });
+  expect(State::trouble, "programs", "libmpi.so.40", "module load", [](Facts& f) { f.lacking = {"libmpi.so.40"}; });
 }
 
 TEST(Checks, Processors) {
@@ -130,14 +138,16 @@ TEST(Checks, Memory) {
 }
 
 TEST(Checks, SharedMemory) {
-  expect(State::note, "/dev/shm", "64 MiB, 64 MiB free", "--shm-size=1g",
-         [](Facts& f) { f.shared = Space{64 * kMiB, 64 * kMiB}; });
+  expect(State::note, "/dev/shm", "64 MiB, 64 MiB free", "--shm-size=1g", [](Facts& f) {
+    f.shared = Space{64 * kMiB, 64 * kMiB};
+  });
   expect(State::note, "/dev/shm", "many nodes", "--shm-size=1g", [](Facts& f) {
     f.shared = Space{256 * kMiB, 256 * kMiB};
     f.nodes = 128;
   });
-  expect(State::trouble, "/dev/shm", "64 MiB, 1 MiB free", "may be deleted",
-         [](Facts& f) { f.shared = Space{64 * kMiB, kMiB}; });
+  expect(State::trouble, "/dev/shm", "64 MiB, 1 MiB free", "may be deleted", [](Facts& f) {
+    f.shared = Space{64 * kMiB, kMiB};
+  });
   expect(State::trouble, "/dev/shm", "is not there", "tmpfs", [](Facts& f) { f.shared.reset(); });
 }
 
@@ -152,10 +162,8 @@ TEST(Checks, Containers) {
 }
 
 TEST(Checks, TemporaryFiles) {
-  expect(State::trouble, "TMPDIR", "/tmp cannot be written", "set TMPDIR",
-         [](Facts& f) { f.temporary_space.reset(); });
-  expect(State::trouble, "TMPDIR", "1 MiB free", "empty it",
-         [](Facts& f) { f.temporary_space = Space{kGiB, kMiB}; });
+  expect(State::trouble, "TMPDIR", "/tmp cannot be written", "set TMPDIR", [](Facts& f) { f.temporary_space.reset(); });
+  expect(State::trouble, "TMPDIR", "1 MiB free", "empty it", [](Facts& f) { f.temporary_space = Space{kGiB, kMiB}; });
 }
 
 TEST(Checks, OpenFiles) {
@@ -201,8 +209,8 @@ TEST(Checks, AStart) {
   EXPECT_EQ(check_start(trial),
             (Finding{State::good, "a start", "2 nodes on 1 machine (mpi) booted in 0.5 s, rendered 4 frames", ""}));
   trial.failure = Failure("the host was killed", "machine ada", "look at dmesg");
-  EXPECT_EQ(check_start(trial), (Finding{State::trouble, "a start", "machine ada: the host was killed",
-                                         "look at dmesg\nmpirun x"}));
+  EXPECT_EQ(check_start(trial),
+            (Finding{State::trouble, "a start", "machine ada: the host was killed", "look at dmesg\nmpirun x"}));
 }
 
 }  // namespace

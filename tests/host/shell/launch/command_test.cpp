@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Programs all_programs() {
-  return {"/usr/bin/mpirun", "/opt/mars-host", "/opt/mars-node", "/opt/mars-threads", Mpi::open_mpi,
-          "/opt/mars-loopback.so"};
+  return {"/usr/bin/mpirun",   "/opt/mars-host", "/opt/mars-node",
+          "/opt/mars-threads", Mpi::open_mpi,    "/opt/mars-loopback.so"};
 }
 
 options::RenderOptions film(std::uint32_t nodes) {
@@ -35,7 +35,9 @@ Surroundings alone(std::uint32_t cores, std::vector<std::string> environment = {
   return {cores, 2 * cores, 0, false, false, false, {}, 0, child::Environment(std::move(environment))};
 }
 
-Surroundings batch_job(std::uint32_t tasks) { return {2, 2, tasks, false, false, false, {}, 0, child::Environment({})}; }
+Surroundings batch_job(std::uint32_t tasks) {
+  return {2, 2, tasks, false, false, false, {}, 0, child::Environment({})};
+}
 
 fs::path write_hostfile(const sinks::TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "hosts") << text;
@@ -103,7 +105,8 @@ TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
 TEST(Command, NoMpiWithinTooFewAddresses) {
   Surroundings surroundings = alone(8);
   surroundings.address_limit = std::uint64_t{200} << 20;
-  EXPECT_TRUE(document::holds(document::failure_of([&] { line(3, surroundings); }), "ulimit -v: the limit of 204800 kB"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] { line(3, surroundings); }), "ulimit -v: the limit of 204800 kB"));
   surroundings.address_limit = std::uint64_t{1} << 30;
   EXPECT_EQ(document::failure_of([&] { line(3, surroundings); }), "");
 }
@@ -123,9 +126,11 @@ TEST(Command, MpichHasWordsOfItsOwn) {
   options::RenderOptions options = film(7);
   const Surroundings surroundings = {2, 2, 0, true, true, true, {"MARS_MEMORY"}, 0, child::Environment({})};
   EXPECT_EQ(shell_text(mpi_command(options, programs, surroundings)),
-            "UCX_TLS=sm,self LD_PRELOAD=/opt/mars-loopback.so /usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a film.json' -o out : -n 7 /opt/mars-node");
+            "UCX_TLS=sm,self LD_PRELOAD=/opt/mars-loopback.so /usr/bin/mpirun -bind-to none -n 1 /opt/mars-host 'a "
+            "film.json' -o out : -n 7 /opt/mars-node");
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn4\n").string();
-  EXPECT_TRUE(document::holds(shell_text(mpi_command(options, programs, surroundings)), "-bind-to none -hosts n1:2,n4:1 -n 1"));
+  EXPECT_TRUE(
+      document::holds(shell_text(mpi_command(options, programs, surroundings)), "-bind-to none -hosts n1:2,n4:1 -n 1"));
 }
 
 TEST(Command, SlurmsTasksAreCounted) {
@@ -139,16 +144,19 @@ TEST(Command, SlurmsTasksAreCounted) {
 TEST(Command, HostfilesAreRead) {
   const sinks::TemporaryFolder folder;
   std::string found;
-  for (const Slots& slots : read_hostfile(
-           write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")))
+  for (const Slots& slots :
+       read_hostfile(write_hostfile(folder, "n1 slots=2\n n2 slots = 3 max-slots=9 # fast\n\n# n3 slots=7\nn4\n")))
     found += slots.host + ":" + std::to_string(slots.count) + " ";
   EXPECT_EQ(found, "n1:2 n2:3 n4:1 ");
-  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }), "names no host"));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "n1\nn2 slots=many\n")); }),
-                    "hosts:2: slots has no number up to 999999"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "# none\n")); }),
+                              "names no host"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, "n1\nn2 slots=many\n")); }),
+                      "hosts:2: slots has no number up to 999999"));
   const std::string long_name(100000, 'y');
-  EXPECT_TRUE(document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
-                    "hosts:1: is no host's name: it is too long"));
+  EXPECT_TRUE(
+      document::holds(document::failure_of([&] { read_hostfile(write_hostfile(folder, long_name + " slots=2\n")); }),
+                      "hosts:1: is no host's name: it is too long"));
   const std::string longest(255, 'y');
   EXPECT_EQ(read_hostfile(write_hostfile(folder, longest + " slots=2\n")).at(0).host, longest);
   EXPECT_EQ(read_hostfile(write_hostfile(folder, "n1 " + long_name + " slots=2 #" + long_name)).at(0).count, 2u);
@@ -178,8 +186,7 @@ TEST(Command, MindsRootContainersAndSettings) {
 }
 
 TEST(Command, ThreadsAreOneProcess) {
-  EXPECT_EQ(shell_text(threads_command(film(3), all_programs())),
-            "/opt/mars-threads 'a film.json' -o out --nodes 3");
+  EXPECT_EQ(shell_text(threads_command(film(3), all_programs())), "/opt/mars-threads 'a film.json' -o out --nodes 3");
 }
 
 TEST(Command, AnyWordCanBePasted) {
@@ -205,7 +212,8 @@ TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
 
 TEST(Command, MpirunIsThatOfOurMpi) {
   const sinks::TemporaryFolder folder;
-  for (const char* name : {"module/mpirun", "usr/mpirun", "usr/mpirun.openmpi", "usr/mpirun.mpich", "usr/mpiexec.hydra"})
+  for (const char* name :
+       {"module/mpirun", "usr/mpirun", "usr/mpirun.openmpi", "usr/mpirun.mpich", "usr/mpiexec.hydra"})
     make_program(folder / name);
   const std::string usr = (folder / "usr").string();
   EXPECT_EQ(find_mpirun(Mpi::open_mpi, usr), folder / "usr/mpirun.openmpi");
@@ -220,14 +228,16 @@ TEST(Command, AutoTakesMpiWhereItIs) {
   EXPECT_EQ(choose_backend(options::Backend::threads, programs), options::Backend::threads);
   programs.mpirun.reset();
   EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::threads);
-  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }), "mpirun was not found"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }),
+                              "mpirun was not found"));
   programs = all_programs();
   programs.node.reset();
   EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::threads);
-  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }), "mars-host and mars-node"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }),
+                              "mars-host and mars-node"));
   programs.threads.reset();
-  EXPECT_TRUE(
-      document::holds(document::failure_of([&] { choose_backend(options::Backend::automatic, programs); }), "mars-threads was not"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::automatic, programs); }),
+                              "mars-threads was not"));
 }
 
 }  // namespace

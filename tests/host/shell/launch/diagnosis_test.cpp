@@ -53,11 +53,11 @@ TEST(Diagnosis, OfAKilledRank) {
 }
 
 TEST(Diagnosis, OfALostMachine) {
-  EXPECT_EQ(message(failed_with({"ORTE has lost communication with a remote daemon.", "",
-                                 "  HNP daemon   : [[6456,0],0] on node n1",
-                                 "  Remote daemon: [[6456,0],2] on node n3"})),
-            "machine n3: does not answer any more (check whether it still runs and can be reached; "
-            "render the missing frames with --frames)");
+  EXPECT_EQ(
+      message(failed_with({"ORTE has lost communication with a remote daemon.", "",
+                           "  HNP daemon   : [[6456,0],0] on node n1", "  Remote daemon: [[6456,0],2] on node n3"})),
+      "machine n3: does not answer any more (check whether it still runs and can be reached; "
+      "render the missing frames with --frames)");
 }
 
 // The ssh of a machine's daemon may end before the daemon is missed.
@@ -65,7 +65,8 @@ TEST(Diagnosis, OfAMachineWhoseDaemonEndsFirst) {
   Remains remains = failed_with({"ORTE was unable to reliably start one or more daemons.", "",
                                  "  Message:    connect() to 127.0.0.1:1028 failed"});
   EXPECT_TRUE(document::holds(message(remains), "cannot start on another machine")) << "nothing had booted";
-  remains.booted = events::Booted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n4", 2, "", "sse2"}, {2, "n4", 3, "", "sse2"}}};
+  remains.booted =
+      events::Booted{"mpi", 2, {{0, "n1", 1, "", "sse2"}, {1, "n4", 2, "", "sse2"}, {2, "n4", 3, "", "sse2"}}};
   EXPECT_TRUE(document::holds(message(remains), "machine localhost: does not answer any more"));
   remains.last_words.back() = "  Message:    connect() to n4-ib0:1028 failed";
   EXPECT_TRUE(document::holds(message(remains), "machine n4-ib0: does not answer any more")) << "no address";

@@ -160,8 +160,7 @@ TEST(RenderOptions, EveryOptionHasAnExample) {
     CLI::App app("a test");
     RenderOptions options;
     add_render_options(app, options, program);
-    for (const CLI::Option* option :
-         app.get_options([](const CLI::Option* each) { return each != nullptr; })) {
+    for (const CLI::Option* option : app.get_options([](const CLI::Option* each) { return each != nullptr; })) {
       if (option->get_name() == "--help" || option->get_group().empty()) continue;  // a refused name is in no group
       EXPECT_TRUE(document::holds(option->get_description(), "Example: ")) << option->get_name();
     }

@@ -38,8 +38,8 @@ inline document::Json built(double size, double legs, double width) {
   return model;
 }
 
-inline document::Json jointed(const std::string& name, const std::string& parent, const document::Json& place, const document::Json& limits,
-                    const document::Json& sbb, const char* shape = "box") {
+inline document::Json jointed(const std::string& name, const std::string& parent, const document::Json& place,
+                              const document::Json& limits, const document::Json& sbb, const char* shape = "box") {
   document::Json joint{{"name", name}, {"place", place}, {"segment", {{"shape", shape}, {"sbb", sbb}}}};
   if (!parent.empty()) joint["parent"] = parent;
   if (!limits.is_null()) joint["limits"] = limits;
@@ -48,23 +48,19 @@ inline document::Json jointed(const std::string& name, const std::string& parent
 
 // Of boxes, every joint a hinge: it can neither sway nor turn.
 inline document::Json robot() {
-  document::Json joints =
-      document::Json::array({jointed("hull", "", {0, 0, 95}, document::Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
+  document::Json joints = document::Json::array(
+      {jointed("hull", "", {0, 0, 95}, document::Json::object(), {{-15, -25, -5}, {15, 25, 60}})});
   document::Json limbs{{"pelvis", "hull"}};
   for (const std::string side : {"left", "right"}) {
     const double y = side == "left" ? 18 : -18;
-    joints.push_back(
-        jointed(side + " thigh", "hull", {0, y, 0}, {{"y", {-100, 60}}}, {{-6, -6, -45}, {6, 6, 5}}));
+    joints.push_back(jointed(side + " thigh", "hull", {0, y, 0}, {{"y", {-100, 60}}}, {{-6, -6, -45}, {6, 6, 5}}));
     joints.push_back(
         jointed(side + " shin", side + " thigh", {0, 0, -45}, {{"y", {0, 120}}}, {{-5, -5, -42}, {5, 5, 5}}));
-    joints.push_back(jointed(side + " foot", side + " shin", {0, 0, -42}, {{"y", {-60, 60}}},
-                             {{-10, -8, -8}, {20, 8, 2}}));
     joints.push_back(
-        jointed(side + " arm", "hull", {0, 1.7 * y, 55}, {{"y", {-170, 90}}}, {{-4, -4, -30}, {4, 4, 4}}));
-    limbs[side] = {{"hip", side + " thigh"},
-                   {"knee", side + " shin"},
-                   {"ankle", side + " foot"},
-                   {"shoulder", side + " arm"}};
+        jointed(side + " foot", side + " shin", {0, 0, -42}, {{"y", {-60, 60}}}, {{-10, -8, -8}, {20, 8, 2}}));
+    joints.push_back(jointed(side + " arm", "hull", {0, 1.7 * y, 55}, {{"y", {-170, 90}}}, {{-4, -4, -30}, {4, 4, 4}}));
+    limbs[side] = {
+        {"hip", side + " thigh"}, {"knee", side + " shin"}, {"ankle", side + " foot"}, {"shoulder", side + " arm"}};
   }
   return {{"limbs", limbs}, {"joints", joints}};
 }
@@ -78,8 +74,7 @@ inline document::Json bird() {
   for (const std::string side : {"left", "right"}) {
     const double x = side == "left" ? 0.25 : -0.25;
     joints.push_back(jointed(side + " leg", "body", {x, 0, 0}, {}, {{-0.05, -0.05, -1}, {0.05, 0.05, 0}}));
-    joints.push_back(
-        jointed(side + " foot", side + " leg", {0, 0, -1}, {}, {{-0.1, -0.3, -0.04}, {0.1, 0.1, 0.02}}));
+    joints.push_back(jointed(side + " foot", side + " leg", {0, 0, -1}, {}, {{-0.1, -0.3, -0.04}, {0.1, 0.1, 0.02}}));
     limbs[side] = {{"hip", side + " leg"}, {"ankle", side + " foot"}};
   }
   return {{"limbs", limbs}, {"joints", joints}};
@@ -93,8 +88,7 @@ inline document::Json stilts(double leg, double aside, const document::Json& lim
   document::Json limbs{{"pelvis", "hull"}};
   for (const std::string side : {"left", "right"}) {
     const double y = side == "left" ? aside : -aside;
-    joints.push_back(
-        jointed(side + " leg", "hull", {0, y, 0}, limits, {{-0.02, -wide, -leg}, {0.02, wide, 0}}));
+    joints.push_back(jointed(side + " leg", "hull", {0, y, 0}, limits, {{-0.02, -wide, -leg}, {0.02, wide, 0}}));
     joints.push_back(jointed(side + " foot", side + " leg", {0, 0, -leg}, limits,
                              {{-0.1 * leg, -wide, -0.1 * leg}, {0.2 * leg, wide, 0.02}}));
     limbs[side] = {{"hip", side + " leg"}, {"ankle", side + " foot"}};
@@ -103,19 +97,19 @@ inline document::Json stilts(double leg, double aside, const document::Json& lim
 }
 
 // The man, changed: limits of all joints whose names end so.
-inline document::Json limited(document::Json model, const std::string& end, const char* axis, const document::Json& limits) {
+inline document::Json limited(document::Json model, const std::string& end, const char* axis,
+                              const document::Json& limits) {
   for (document::Json& joint : model["joints"])
     if (joint["name"].get<std::string>().ends_with(end)) joint["limits"][axis] = limits;
   return model;
 }
 
 inline document::Json film_with(const document::Json& model) {
-  return {
-      {"frames", 1000},
-      {"camera", {{"eye", {0, -9, 2}}}},
-      {"models", {{"figure", model}}},
-      {"actors",
-       document::Json::array({{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
+  return {{"frames", 1000},
+          {"camera", {{"eye", {0, -9, 2}}}},
+          {"models", {{"figure", model}}},
+          {"actors", document::Json::array(
+                         {{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
 }
 
 // "walk steps 4 lean 5", from a frame on, or else from the last key.

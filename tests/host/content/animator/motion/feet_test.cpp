@@ -36,9 +36,7 @@ Points sole(const film::CompiledFilm& film, const std::string& side, std::uint32
       for (const double u : {0.0, 0.5, 1.0})
         for (const double v : {0.0, 0.5, 1.0}) {
           const glm::dvec3 p = modeler::point_of(patch, u, v);
-          const auto at = [&](std::size_t r) {
-            return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3];
-          };
+          const auto at = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
           points.emplace_back(at(0), at(1), at(2));
         }
   }
@@ -71,8 +69,7 @@ class Feet {
     EXPECT_LT(through_, kThrough) << what;
     EXPECT_LT(floating_, kDown) << what;
     EXPECT_GT(held_, 300u) << what << ": points that were measured";
-    ::testing::Test::RecordProperty(
-        what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
+    ::testing::Test::RecordProperty(what, "slides " + std::to_string(slid_) + ", through " + std::to_string(through_));
   }
 
   void expect_no_sinking(const std::string& what) {
@@ -161,9 +158,8 @@ TEST(Feet, OfLegsOfOnePieceOnHingesDoNotSink) {
 }
 
 TEST(Feet, StayInOtherStylesAndOnBows) {
-  for (const char* words :
-       {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
-        "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
+  for (const char* words : {"walk steps 4 lean 12 bounce 2 knee-lift 1.5 arm-swing 2", "walk steps 8 turn 120 pace 1.5",
+                            "walk distance 6 steps 7 first left", "walk to -3 4", "turn by -135", "turn to 0 9"})
     for (const Build& build : people()) {
       document::Json film = film_with(build.model);
       const Performed performed = act(film, words, 5);

@@ -23,8 +23,7 @@ TEST(Flight, ThrownRisesToItsApexAndComesBack) {
 
 TEST(Flight, BouncesAreAGeometricSeries) {
   const double height = 2, e = 0.8, first = std::sqrt(2 * height / kG);
-  const Flight flight({{0, 0, height}, {0, 0, 0}, {0, 0, -kG}},
-                      {.height = 0, .restitution = e, .friction = 0}, 1e-3);
+  const Flight flight({{0, 0, height}, {0, 0, 0}, {0, 0, -kG}}, {.height = 0, .restitution = e, .friction = 0}, 1e-3);
   double impact = first, up = 2 * first;
   for (int bounce = 1; bounce <= 10; ++bounce) {
     EXPECT_NEAR(flight.place_at(impact).z, 0, 1e-9) << bounce;
@@ -67,8 +66,8 @@ document::Json ball_at(double height) {
 TEST(Bounce, FilmsFollowTheLawAtEveryFrameWithinTheTolerance) {
   document::Json film = ball_at(3.5);
   const Performed done = act(film, "bounce velocity 2 0 1 restitution 0.75 friction 0.1 spin 0 300 0", 10);
-  const Flight flight({{0, 0, 3}, {2, 0, 1}, {0, 0, -kG}},
-                      {.height = 0, .restitution = 0.75, .friction = 0.1}, 1e-3 * (3 + 1 / (2 * kG)));
+  const Flight flight({{0, 0, 3}, {2, 0, 1}, {0, 0, -kG}}, {.height = 0, .restitution = 0.75, .friction = 0.1},
+                      1e-3 * (3 + 1 / (2 * kG)));
   for (std::uint32_t frame = done.first; frame <= done.last; ++frame) {
     const glm::dvec3 there = shown(film, frame), law = flight.place_at((frame - 10) / 24.0);
     EXPECT_NEAR(there.x, law.x, 5e-3) << frame;

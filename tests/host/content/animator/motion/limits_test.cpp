@@ -82,8 +82,7 @@ TEST(Actions, BeginWithWhatTheFigureDoes) {
   act(film, "walk steps 2", 12);
   const Shown after(film);
   for (const std::size_t joint : before.body.joints())
-    EXPECT_LT(glm::distance(before.place(joint, 12), after.place(joint, 12)), 0.003)
-        << before.body.joint_name(joint);
+    EXPECT_LT(glm::distance(before.place(joint, 12), after.place(joint, 12)), 0.003) << before.body.joint_name(joint);
 }
 
 TEST(Actions, AskedAgainReplaceWhatTheyHadMade) {
@@ -110,7 +109,8 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
            Impossible{"walk step-length 100", "take shorter steps"},
            Impossible{"walk steps 10000 pace 0.1", "would end at frame 24004440", 240},
            Impossible{"turn by 3600 pace 0.1", "a film has at most 1000000 frames", 1000},
-           Impossible{"nod times 1000 seconds 60", "nod: would end at frame 1440000 (begin earlier, or make it shorter"},
+           Impossible{"nod times 1000 seconds 60",
+                      "nod: would end at frame 1440000 (begin earlier, or make it shorter"},
            Impossible{"wave times 1000 seconds 60", "would end at frame 1440024"},
            Impossible{"spin seconds 600", "would end at frame 1500000", 1000, 900'000},
            Impossible{"throw seconds 600", "would end at frame 1500000", 1000, 900'000},
@@ -154,8 +154,7 @@ TEST(Sit, HasThighsLevelFeetDownAndHandsOnThighs) {
     const Leg& leg = shown.body.leg(side);
     const glm::dvec3 hip = shown.place(leg.hip, done.last), knee = shown.place(leg.knee, done.last);
     EXPECT_NEAR(hip.z, knee.z, 0.01 * leg.thigh);
-    EXPECT_NEAR(glm::distance(glm::dvec2(knee), glm::dvec2(shown.place(leg.ankle, done.last))), 0,
-                0.2 * leg.shin);
+    EXPECT_NEAR(glm::distance(glm::dvec2(knee), glm::dvec2(shown.place(leg.ankle, done.last))), 0, 0.2 * leg.shin);
     const glm::dvec3 hand = shown.place(shown.body.find(modeler::Limb::wrist, side), done.last);
     EXPECT_GT(hand.z, knee.z);
     EXPECT_LT(glm::distance(hand, 0.5 * (hip + knee)), 0.5 * leg.thigh);
@@ -235,10 +234,9 @@ TEST(Gestures, NeedNoLegsAndNoHands) {
   const modeler::Model& model = b.models[0];
   const std::size_t wrist = model.limbs.of(modeler::Limb::wrist, modeler::Side::left);
   for (const std::uint32_t frame : {12u, 18u})
-    EXPECT_LT(
-        glm::distance(frame_in(a.models[0], posture_at(a.models[0], a.actors[0].motion, frame), wrist).place,
-                      frame_in(model, posture_at(model, b.actors[0].motion, frame), wrist).place),
-        0.25);
+    EXPECT_LT(glm::distance(frame_in(a.models[0], posture_at(a.models[0], a.actors[0].motion, frame), wrist).place,
+                            frame_in(model, posture_at(model, b.actors[0].motion, frame), wrist).place),
+              0.25);
 }
 
 std::string refused(const document::Json& model, const std::string& words) {
@@ -249,12 +247,10 @@ std::string refused(const document::Json& model, const std::string& words) {
 TEST(Actions, SayWhatIsInTheWay) {
   EXPECT_EQ(refused(human(), "stand"),
             "actor 'anna', stand: stands already at frame 0 (let it sit down first, by the action sit)");
-  EXPECT_NE(refused(robot(), "turn").find("cannot turn about"), std::string::npos)
-      << refused(robot(), "turn");
+  EXPECT_NE(refused(robot(), "turn").find("cannot turn about"), std::string::npos) << refused(robot(), "turn");
   EXPECT_NE(refused(human(), "walk step-length 2.6").find("at its limit of"), std::string::npos)
       << refused(human(), "walk step-length 2.6");
-  EXPECT_NE(refused(limited(human(), "-foot", "y", {0, 0}), "sit back 0.1").find("'left-foot'"),
-            std::string::npos)
+  EXPECT_NE(refused(limited(human(), "-foot", "y", {0, 0}), "sit back 0.1").find("'left-foot'"), std::string::npos)
       << refused(limited(human(), "-foot", "y", {0, 0}), "sit back 0.1");
   EXPECT_EQ(refused(robot(), "wave"),
             "actor 'anna': its model names no right elbow, which 'wave' needs "
@@ -270,8 +266,7 @@ TEST(Actions, SayWhatIsInTheWay) {
             "nod: 'depth' is 100 degrees, but 'neck' and 'head' can bend 70 from where they are "
             "(nod less, or widen the joint's limits in its model)");
   EXPECT_EQ(refused(human(), "walk steps 0"), "walk: 'steps' is 0 (give a number from 1 to 10000)");
-  EXPECT_EQ(refused(human(), "walk to 1 1 distance 3"),
-            "walk: 'to' stands beside distance (give one of them)");
+  EXPECT_EQ(refused(human(), "walk to 1 1 distance 3"), "walk: 'to' stands beside distance (give one of them)");
   EXPECT_EQ(refused(human(), "wave hand lft"), "wave: 'hand' is 'lft' (did you mean 'left'?)");
 }
 

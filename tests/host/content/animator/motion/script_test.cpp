@@ -53,8 +53,9 @@ at runtime   cut)");
 }
 
 TEST(Script, ACameraMovesNoLongerThanAFilmLasts) {
-  EXPECT_TRUE(document::holds(failure("at 10 camera move eye 1 2 3 seconds 1e6"),
-                    "a.script:1: this line moves the camera until frame 24000010 (a film has at most 1000000 frames"));
+  EXPECT_TRUE(document::holds(
+      failure("at 10 camera move eye 1 2 3 seconds 1e6"),
+      "a.script:1: this line moves the camera until frame 24000010 (a film has at most 1000000 frames"));
 }
 
 TEST(Script, CutAloneEndsTheFilmWhenTheLineBeforeEnds) {
@@ -134,9 +135,10 @@ TEST(Script, TheExamplesAreAsTheirScriptsMakeThem) {
     ASSERT_EQ(a.frames, b.frames);
     for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
       for (std::uint32_t frame = 0; frame < a.frames; ++frame) {
-        const auto place = [&](const animator::Film& film) { return animator::value_at(film.actors[actor].motion.place, frame); };
-        EXPECT_LT(glm::distance(place(a), place(b)), 1e-3)
-            << name << " " << a.actors[actor].name << " " << frame;
+        const auto place = [&](const animator::Film& film) {
+          return animator::value_at(film.actors[actor].motion.place, frame);
+        };
+        EXPECT_LT(glm::distance(place(a), place(b)), 1e-3) << name << " " << a.actors[actor].name << " " << frame;
       }
     for (std::size_t actor = 0; actor < a.actors.size(); ++actor)
       EXPECT_EQ(kept["actors"][actor].contains("keys") ? kept["actors"][actor]["keys"].size() : 0u,
