@@ -11,6 +11,7 @@
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/messages/shared_memory.h"
+#include "node/wire/greeting.h"
 #include "node/wire/commands.h"
 #include "node/wire/film.h"
 #include "node/simd/instruction_set.h"

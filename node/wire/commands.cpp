@@ -1,3 +1,4 @@
+#include "node/wire/greeting.h"
 #include "node/wire/commands.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Commands as a host should not send them: each is refused before anything of it is used.
+#include "node/wire/greeting.h"
 #include "node/wire/commands.h"
 
 #include <gtest/gtest.h>

@@ -9,6 +9,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/farm/scripted_node.h"
+#include "node/wire/greeting.h"
 
 namespace mars::farm {
 namespace {

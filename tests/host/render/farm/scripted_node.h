@@ -14,6 +14,7 @@
 #include "host/render/farm/farm.h"
 #include "tests/host/render/farm/empty_film.h"
 #include "tests/host/render/farm/strips.h"
+#include "node/wire/greeting.h"
 
 namespace mars::farm {
 

@@ -1,4 +1,4 @@
-#include "node/wire/stamp.h"
+#include "node/wire/greeting.h"
 
 #include <algorithm>
 #include <cstring>
