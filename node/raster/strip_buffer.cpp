@@ -10,6 +10,9 @@ namespace mars::raster {
 namespace {
 
 constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the space left and the next
+// A strip with so many bytes goes to the host: few enough to stay in a core's cache on their way, and the host puts them
+// in place while the node draws on.
+constexpr std::size_t kFullBytes = std::size_t{512} << 10;
 constexpr std::size_t kPixels = wire::kMaxStripBytes / sizeof(std::uint32_t) + simd::kVectorSlack;  // of one layer
 constexpr std::size_t kRuns = wire::kMaxStripBytes / sizeof(wire::Run);
 
@@ -54,6 +57,7 @@ std::size_t StripBuffer::bytes() const {
 }
 
 std::uint32_t StripBuffer::lines_that_fit() const {
+  if (bytes() >= kFullBytes) return 0;
   return static_cast<std::uint32_t>(std::min<std::size_t>(kLines, (wire::kMaxStripBytes - bytes()) / line_bytes_));
 }
 
