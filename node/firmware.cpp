@@ -1,21 +1,22 @@
 #include "node/firmware.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <exception>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
+#include "hal/messages/shared_memory.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/messages/shared_memory.h"
+#include "node/renderer.h"
+#include "node/simd/instruction_set.h"
 #include "node/wire/commands.h"
 #include "node/wire/film.h"
-#include "node/simd/instruction_set.h"
 #include "node/wire/protocol.h"
-#include "node/renderer.h"
 
 namespace mars::node {
 namespace {

@@ -1,6 +1,7 @@
 #include "node/tessellator.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace mars::node {
 

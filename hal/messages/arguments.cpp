@@ -1,5 +1,7 @@
 #include "hal/messages/arguments.h"
 
+#include <cstdint>
+
 #include "hal/messages/call_failure.h"
 #include "hal/messages/message_types.h"
 

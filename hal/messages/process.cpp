@@ -1,6 +1,7 @@
 #include "hal/messages/process.h"
 
-#include <utility>
+#include <optional>
+#include <string>
 
 #include "hal/messages/call_failure.h"
 

@@ -1,7 +1,9 @@
 #include "hal/messages/progress.h"
 
+#include <chrono>
 #include <cstring>
-#include <utility>
+#include <optional>
+#include <string>
 
 #include "hal/messages/call_failure.h"
 

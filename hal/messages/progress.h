@@ -2,7 +2,6 @@
 // they belong, handlers when they are due.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "hal/messages/arguments.h"

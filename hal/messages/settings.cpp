@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdlib>
 #include <numeric>
 #include <string_view>
+#include <system_error>
 
 #include "hal/failure/failure.h"
 

@@ -1,6 +1,9 @@
 // MPI's own collectives, in the form that does not wait: their blocking forms spin.
 #include <algorithm>
 #include <climits>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "hal/failure/failure.h"

@@ -2,8 +2,12 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <chrono>
 #include <climits>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "hal/messages/message_types.h"

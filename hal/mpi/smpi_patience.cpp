@@ -1,6 +1,9 @@
 // Of ranks that SimGrid simulates: a sleep that a bell ends takes nobody's time.
 #include "hal/mpi/patience.h"
 
+#include <chrono>
+#include <optional>
+
 namespace mars::mpi {
 
 void prepare_to_wait() {}

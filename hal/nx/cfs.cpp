@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <limits>
-#include <span>
+#include <string>
 #include <system_error>
 #include <utility>
 

@@ -2,6 +2,7 @@
 #include "hal/nx/nx_global.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <functional>
 #include <string>

@@ -4,6 +4,13 @@
 // segment, and every rank's next call throws the reason.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "hal/messages/backend.h"
 #include "hal/processes/heap.h"
 #include "hal/processes/segment.h"

@@ -7,10 +7,14 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "hal/messages/world.h"
 #include "hal/processes/place.h"

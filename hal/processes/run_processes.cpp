@@ -1,6 +1,8 @@
 #include "hal/processes/run_processes.h"
 
 #include <cstdio>
+#include <exception>
+#include <string>
 
 #include "hal/failure/explain.h"
 #include "hal/messages/process.h"

@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
+#include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hal/messages/call_failure.h"

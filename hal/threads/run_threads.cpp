@@ -1,5 +1,7 @@
 #include "hal/threads/run_threads.h"
 
+#include <exception>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <vector>

@@ -1,6 +1,7 @@
 #include "node/geometry/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

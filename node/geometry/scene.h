@@ -2,6 +2,7 @@
 // the frame at hand, in eye space.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,7 +1,10 @@
 #include "node/group/outbox.h"
 
-#include "hal/nx/nx_messages.h"
+#include <cstdint>
+#include <span>
+
 #include "hal/messages/recorder.h"
+#include "hal/nx/nx_messages.h"
 #include "node/wire/commands.h"
 
 namespace mars::group {

@@ -2,6 +2,7 @@
 // the way, so that a node draws on while the host is busy.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "node/raster/strip_buffer.h"

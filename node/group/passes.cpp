@@ -1,6 +1,7 @@
 #include "node/group/passes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "hal/collectives/group_sum.h"

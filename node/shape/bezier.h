@@ -2,6 +2,8 @@
 // message, no film, no picture. Rates are numbers of steps.
 #pragma once
 
+#include <array>
+
 #include "node/shape/kernels.h"
 #include "node/wire/film_parts.h"
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
-#include <utility>
 
 #include "hal/failure/failure.h"
 

@@ -4,6 +4,7 @@
 // FilmData is the same film in vectors, for those who make one.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -4,12 +4,14 @@
 //   EXPECT_EQ(counts.sent({.from = 0, .type = mars::wire::triangles_from(0)}).messages, ...);
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <tuple>
 
 #include "hal/messages/backend.h"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/mpi/start.h"
 #include "hal/messages/process.h"
+#include "hal/mpi/start.h"
 
 namespace mars::messages {
 namespace {

@@ -1,9 +1,13 @@
 // Promise 4: the work is really divided, shown by counting what is sent and what each node says it did.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
-#include <mutex>
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "host/images/png_file.h"
 #include "host/render/sinks/sink_pool.h"

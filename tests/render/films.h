@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "host/content/modeler/meshlets.h"

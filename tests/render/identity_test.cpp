@@ -2,7 +2,13 @@
 // from scratch by one node.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <memory>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "tests/hal/machines_backend.h"
 #include "tests/node/simd/instruction_sets.h"

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 #include <nlohmann/json.hpp>
 #include <set>
 

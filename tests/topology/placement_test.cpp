@@ -1,5 +1,6 @@
 // Where nodes go on made-up machines, alone and in clusters, and how close that keeps the cube's dimensions.
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 #include <string>

@@ -1,6 +1,7 @@
 // Set-ups as they are stored: a triangle's planes for all four values at once, and its edge boxes.
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "node/raster/kernels/functions.h"

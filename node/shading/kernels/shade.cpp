@@ -4,6 +4,8 @@
 // Directions are not normalised before they are used. With n the normal / w, e the direction to the eye and t that to
 // the light, R.V = (2 (n.t)(n.e) - (t.e)(n.n)) / ((n.n) |t| |e|). Its square is what is raised to half the exponent,
 // so |e| is never taken, and one root and one division do for n and e.
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "node/shading/kernels/functions.h"

@@ -1,4 +1,5 @@
 // msgcancel and flushmsg, and message ids that run out.
+#include <string>
 #include <vector>
 
 #include "hal/nx/nx_messages.h"

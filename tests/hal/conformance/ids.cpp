@@ -1,5 +1,6 @@
 // Asynchronous sends and receives, and the message ids that stand for them.
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "hal/nx/nx_messages.h"

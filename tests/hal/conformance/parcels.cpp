@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "hal/messages/collective_method.h"
 #include "hal/collectives/crystal_router.h"
-#include "hal/nx/nx_messages.h"
+#include "hal/messages/collective_method.h"
 #include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"

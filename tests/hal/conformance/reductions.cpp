@@ -2,9 +2,9 @@
 #include <vector>
 
 #include "hal/messages/collective_method.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/messages/process.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"

@@ -1,4 +1,5 @@
 // Sends: to whom, in which order, and that none waits for its receiver.
+#include <algorithm>
 #include <vector>
 
 #include "hal/nx/nx_messages.h"

@@ -1,16 +1,20 @@
 // Matching as a process does it against a naive model: random arrivals and calls, each call's result foretold.
-#include <array>
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
+#include <list>
 #include <map>
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/nx_paragon.h"
-#include "hal/messages/process.h"
 #include "tests/hal/matching/model.h"
 #include "tests/hal/matching/scripted_backend.h"
 

@@ -1,10 +1,15 @@
 // What a probe tells of is what the next receive takes, also when messages arrive between two looks.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <deque>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
 
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
 
 namespace mars::messages {
 namespace {

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 
+#include <cstdlib>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

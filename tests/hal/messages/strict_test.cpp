@@ -1,8 +1,8 @@
 // Strict mode: what is longer than 100 bytes has been received when its send is done.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::messages {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
@@ -17,9 +18,9 @@
 #include <gtest/gtest.h>
 
 #include "hal/messages/call_failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_files.h"
 #include "hal/nx/nx_global.h"
-#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 #include "tests/hal/machines_backend.h"
 

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <vector>
 
-#include "hal/nx/nx_global.h"
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/template/template_backend.h"
 
 namespace mars::transport_template {

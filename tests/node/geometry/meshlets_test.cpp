@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
-#include "tests/node/simd/instruction_sets.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/wire/small_film.h"
 
 namespace mars::geometry {

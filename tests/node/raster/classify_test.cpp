@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
-#include "tests/node/simd/instruction_sets.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 
 namespace mars::raster {
 namespace {

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <random>
+#include <span>
 #include <tuple>
 #include <vector>
 

@@ -11,9 +11,9 @@
 
 #include "node/shape/dice.h"
 #include "node/simd/instruction_set.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::raster {
 namespace {
