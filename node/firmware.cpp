@@ -32,7 +32,7 @@ class Firmware {
   explicit Firmware(const NodeIdentity& identity);
 
   void obey();
-  // The node's last words.
+  // The last message of a node that has failed.
   void report_fault(const std::string& reason);
 
  private:
@@ -49,7 +49,7 @@ class Firmware {
   std::optional<wire::FilmView> film_;
   std::optional<Renderer> renderer_;
   int groups_ = 1;
-  std::vector<std::byte> command_;  // the one at hand
+  std::vector<std::byte> command_;  // the one being obeyed
 };
 
 Firmware::Firmware(const NodeIdentity& identity)
@@ -86,14 +86,14 @@ void Firmware::obey() {
   }
 }
 
-// The command that was probed.
+// Receives the command that was probed; valid until the next.
 std::span<const std::byte> Firmware::receive(long type) {
   command_.resize(static_cast<std::size_t>(infocount()));
   crecv(type, command_.data(), static_cast<long>(command_.size()));
   return command_;
 }
 
-// The machine's first node takes the film from the host; the others read it there.
+// The machine's first node receives the film into memory that all nodes of the machine share.
 void Firmware::load() {
   const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
   film_block_.emplace(load.film_bytes);

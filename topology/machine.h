@@ -41,7 +41,7 @@ class Machine {
   Machine& operator=(Machine&&) noexcept;
   ~Machine();
 
-  int cores() const;             // whole cores; processors where the machine does not tell its cores
+  int cores() const;             // whole cores; processors where the machine shows no cores
   int processors() const;        // hardware threads
   std::uint64_t memory() const;  // bytes, of their NUMA domains; 0: unknown
 

@@ -1,7 +1,7 @@
 // One node's part in a collective by dimension exchange: the hypercube that the nodes of a group form, and
 // the messages across it. Positions are node ids less the group's first. The lowest 2^d of them are the
-// corners; each other one folds in with the corner 2^d below it. What one node finds wrong all get to know,
-// and none is left waiting: messages go on as ever, spoilt ones among them, and at the end all fail.
+// corners; each other one folds in with the corner 2^d below it. An error found on one node reaches all,
+// and none is left waiting: messages go on, spoilt ones among them, and at the end all nodes fail.
 #pragma once
 
 #include <cstddef>

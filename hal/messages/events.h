@@ -1,5 +1,5 @@
-// The events of one process: what recorder.h records. Their memory is two halves set aside at the start: one
-// is filled, the other may be on its way to whoever collects. What does not fit is left out and counted.
+// The events of one process, as recorder.h records them. Their memory is two halves set aside at the start: one
+// is filled, the other may be on its way to the collector. Events that do not fit are left out and counted.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// What moves inside of one rank's message calls (process.h): requests to their end, arrived messages to where
-// they belong, handlers when they are due.
+// Progress inside one rank's message calls (process.h): requests to their end, arrived messages to their receive or
+// queue, handlers when they are due.
 #pragma once
 
 #include <cstdint>

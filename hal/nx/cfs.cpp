@@ -24,7 +24,7 @@ const char* remedy(int code) {
   switch (code) {
     case EBADF: return "open the file first, for reading or writing as the call needs";
     case EINVAL: return "see nx_files.h for what a call may be given";
-    case ENOSPC: return "make room on the disk";
+    case ENOSPC: return "free space on the disk";
     case ESPIPE: return "use it with cread and cwrite in mode 0, or take a file";
     default: return "";
   }
@@ -48,7 +48,7 @@ int error_of_mode(int fd, int mode) {
   return ::lseek(fd, 0, SEEK_CUR) < 0 ? errno : 0;
 }
 
-// What is no regular file has no end. -1 and errno where there is no file.
+// Other than regular files have no end. -1 and errno where there is no file.
 off_t size_of(int fd) {
   struct stat facts {};
   if (::fstat(fd, &facts) != 0) return -1;
@@ -67,8 +67,8 @@ long unused_number() {
   return static_cast<long>(::getpid()) << 16 | (++last & 0xffff);
 }
 
-// A file newly opened under a number that was used before is told from the one before it by its owner for
-// signals, which nobody else sets on a file.
+// The owner for signals, which nothing else sets on a file, marks a file that is known: one newly opened under the same
+// number has no mark.
 void mark(int fd) { ::fcntl(fd, F_SETOWN, ::getpid()); }
 bool marked(int fd) { return ::fcntl(fd, F_GETOWN) == ::getpid(); }
 
@@ -84,7 +84,7 @@ void Files::fail(const char* call, int code) const {
 Files::Shared* Files::find(int fd) {
   const auto at = shared_.find(fd);
   if (at == shared_.end()) return nullptr;
-  // The mode of a file that is closed stays, so that the other nodes learn of the failure.
+  // A closed file stays in its mode, so that its next call fails on all nodes.
   if (marked(fd) || ::fcntl(fd, F_GETFL) < 0) return &at->second;
   shared_.erase(at);
   return nullptr;
@@ -296,7 +296,7 @@ void Files::set_mode(const char* call, int fd, int mode) {
                       std::to_string(static_cast<int>(words[0].number)),
                   "set the same mode on all nodes");
   }
-  // Nobody moves a common pointer any more: all nodes are in here.
+  // No node moves the common pointer any more: all are in this call.
   if (common) ::lseek(fd, place(call, before, fd), SEEK_SET);
   shared_.erase(fd);
   if (mode == 0) return;

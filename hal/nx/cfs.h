@@ -1,7 +1,7 @@
-// The files of one process: what the calls of nx/nx_files.h mean, on descriptors of the system. Where a
-// transfer goes is settled first, inside the call and between the nodes as the file's mode says; then the
-// bytes move, at once or in the worker's thread, and no node waits for another's bytes. Failures are the
-// process's (Process::fail), with the system's errno.
+// The files of one process: the work of the calls of nx_files.h, on descriptors of the system. The place of a transfer
+// is settled first, inside the call and between the nodes as the file's mode says; then the bytes move, at once or in
+// the worker's thread, and no node waits for another's bytes. Failures are the process's (Process::fail), with the
+// system's errno.
 #pragma once
 
 #include <sys/types.h>
@@ -44,7 +44,7 @@ class Files : public messages::Process::Extension {
     std::unique_ptr<FilesPointer> pointer;  // mode 1
     std::optional<long> record;             // mode 3: how long all transfers are, once it is settled
   };
-  // What one node says of a call that all make together.
+  // One node's part of a call that all make together.
   struct Word {
     double error = 0;   // an errno
     double place = 0;   // of the pointer; the same on all nodes

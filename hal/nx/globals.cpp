@@ -149,7 +149,7 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
     messages::process().fail("gcol", EQMSGLONG,
                              "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
                                  std::to_string(parts[node].capacity) + " that node " + std::to_string(node) +
-                                 " has room for",
+                                 " can take",
                              "give a buffer for the bytes of all nodes");
   }
   concatenate(exchange, x, offsets, y);

@@ -1,4 +1,4 @@
-// What a process of a job over shared memory gets from the one that started it, and what its host may ask.
+// What a process of a job over shared memory gets from the one that started it, and the requests of its host.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ void leave_place(const Place& place);
 std::optional<Place> take_place();
 
 // One datagram from host to job, answered by one int: 0 or an errno.
-struct Asking {
+struct JobRequest {
   enum class What : std::int32_t {
-    begin,  // start every node that has not been loaded, as the job was told to
+    begin,  // start every node that has not been loaded, with the job's own program
     load,   // start `file` on `node`
     kill,   // end the process on `node`, -1: on all, and wait until it has gone
   };

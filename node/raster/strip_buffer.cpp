@@ -9,7 +9,7 @@
 namespace mars::raster {
 namespace {
 
-constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the space left and the next
+constexpr std::uint32_t kLines = 8;  // drawn at most between two checks of the space left
 constexpr std::size_t kPixels = wire::kMaxStripBytes / sizeof(std::uint32_t) + simd::kVectorSlack;  // of one layer
 constexpr std::size_t kRuns = wire::kMaxStripBytes / sizeof(wire::Run);
 

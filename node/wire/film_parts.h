@@ -68,12 +68,12 @@ struct Shape {
 };
 
 // One instance of a shape. `motion` gives indices into matrices: T-matrices from the unit cube to the world.
-// `look` gives indices into materials. Patches and meshlets of the whole film are numbered segment by segment.
+// `material` gives indices into materials. Patches and meshlets of the whole film are numbered segment by segment.
 struct Segment {
   std::uint32_t shape;
   std::uint32_t name;  // offset into names
   Track motion;
-  Track look;
+  Track material;
 };
 
 // Phong's: ambient + diffuse * N.L coloured, specular * (R.V)^exponent white, per light.

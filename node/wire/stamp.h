@@ -1,11 +1,11 @@
 // The first 16 bytes of the first message either way (Hello from a node, Load from the host). They never change,
-// whatever a later version sends behind them, so that every version can tell which other one it has met:
+// whatever a later version sends behind them, so that every version recognises any other:
 //
 //   bytes 0-3     "MARS"
 //         4-7     kByteOrder as the sender stores it
 //         8       version of the wire, raised whenever a message changes
 //         9-11    version of MARS: major, minor, patch
-//         12-15   the sizes of all messages' structs as one hash, as the sender stores it
+//         12-15   hash of the sizes of the structs in messages and in the film, as the sender stores it
 //
 // In Hello the name of the node's machine follows, 64 bytes, zero-ended; that never changes either.
 #pragma once
@@ -34,8 +34,8 @@ static_assert(sizeof(WireStamp) == 16);
 
 WireStamp own_stamp();
 
-// Throws Failure unless `message` begins with the caller's own stamp. `sender` and `receiver` name who sent it and who
-// reads it: "n3 (node 17)", "the host".
+// Throws Failure unless `message` begins with the caller's own stamp. `sender` and `receiver` name the two
+// programs: "n3 (node 17)", "the host".
 void check_stamp(std::span<const std::byte> message, const std::string& sender, const std::string& receiver);
 
 }  // namespace mars::wire

@@ -1,4 +1,4 @@
-// Which triangle a line's samples show.
+// The triangle that each sample of a line shows.
 #include <cstddef>
 #include <cstdint>
 
