@@ -49,7 +49,6 @@ class Process : public Progress {
   bool masktrap(bool masked);
   void flick();
   void led(bool on) { led_ = on; }
-  bool led() const { return led_; }
 
   // As in nx_paragon.h.
   void crecvx(long typesel, void* buffer, long length, long node, long pid, long* info);
@@ -112,7 +111,7 @@ class Process : public Progress {
 
   CollectiveMethod collectives_ = CollectiveMethod::automatic;
   std::unique_ptr<Extension> extension_;
-  bool led_ = false;
+  bool led_ = false;  // only debuggers read it
 };
 
 // The calling thread's process; a Failure when it has none.

@@ -21,8 +21,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  std::size_t size() const { return events_.size(); }
-  std::size_t capacity() const { return events_.capacity(); }
+  // As of EventBuffer.
   std::span<const Event> turn(bool last) { return events_.turn(last); }
 
  private:

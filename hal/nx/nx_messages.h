@@ -92,7 +92,7 @@ typedef struct esize {
 } esize_t;
 void hwclock(esize_t* ticks);
 
-void led(long state); /* 1: this node works, 0: it waits; debuggers see it in the process */
+void led(long state); /* 1: this node works, 0: it waits; shown by a debugger only */
 void flick(void);     /* gives the processor away for a moment; longer the more often nothing has arrived */
 
 /* The twins. */

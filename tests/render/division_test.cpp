@@ -147,8 +147,8 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
     const int from = static_cast<int>(t.record.patch) % nodes;
     for (int to = 0; to < nodes; ++to) {
       const Strip& home = homes[static_cast<std::size_t>(to)];
-      const auto there = std::count_if(covered.begin(), covered.end(), [&](const raster::UnsortedEdgeBox& c) {
-        return c.line >= home.first_line && c.line < home.last_line;
+      const auto there = std::count_if(covered.begin(), covered.end(), [&](const raster::UnsortedEdgeBox& box) {
+        return box.line >= home.first_line && box.line < home.last_line;
       });
       boxes[{from, to}] += static_cast<std::uint64_t>(there);
       triangles[{from, to}] += there > 0;

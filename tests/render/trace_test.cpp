@@ -1,4 +1,4 @@
-// A traced run: its pictures are the same, and its trace tells what the report and a counting backend tell.
+// A traced run: its pictures are the same, and its trace agrees with the report and with a counting backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The crystal router: parcels for some nodes, who do not know of them.
+// The crystal router: parcels for some nodes, which do not know of them.
 #include <algorithm>
 #include <span>
 #include <string>

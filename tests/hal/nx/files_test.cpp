@@ -280,14 +280,14 @@ TEST_P(FilesTest, AFileOpenedAnewIsInMode0) {
   put("0123456789");
   run([&](int fd) {
     setiomode(fd, 2);
-    const int moved = ::fcntl(fd, F_DUPFD, fd);  // keeps the number from the other nodes
-    const int anew = ::open(path_.c_str(), O_RDONLY);
-    ::dup2(anew, fd);
+    const int moved = ::fcntl(fd, F_DUPFD, fd);  // so that the other nodes do not get the number
+    const int reopened = ::open(path_.c_str(), O_RDONLY);
+    ::dup2(reopened, fd);
     EXPECT_EQ(iomode(fd), 0);
     if (mynode() == 0) {
       EXPECT_EQ(read_text(fd, 3), "012");
     }
-    ::close(anew);
+    ::close(reopened);
     ::close(moved);
   });
 }

@@ -54,7 +54,7 @@ void Rank::await_the_owed() {
     check_time();
     collect_fired();
     if (receives_.empty() && ledger_.owed() > 0) {
-      receive_now(-1, room_for(-1), nullptr);
+      receive_now(-1, capacity_for(-1), nullptr);
       continue;
     }
     for (std::size_t asked = receives_.size(); asked > 0; --asked) ask();

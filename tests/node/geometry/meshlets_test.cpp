@@ -163,7 +163,7 @@ TEST(Meshlets, WithoutANormalThereIsNone) {
   }
 }
 
-// Whoever is dropped would have left no mark, by the plain twin; and most of those without a mark are dropped.
+// A dropped meshlet would leave no mark, by the plain twin; and most of those without a mark are dropped.
 TEST(Meshlets, OnlyTheUnseenAreDropped) {
   shape::Random random(4);
   const raster::PatchIdentity identity{0, 0, false, false, false};

@@ -53,7 +53,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-// Which ways triangles went, so that a test can tell that it tested them.
+// The ways that triangles went, so that a test can check that it tested them.
 struct Paths {
   int decided = 0;
   int undecided = 0;

@@ -1,4 +1,4 @@
-// A diced patch as a mesh: vertices that lie at the same place are one, whoever made them.
+// A diced patch as a mesh: vertices that lie at the same place are one.
 #pragma once
 
 #include <array>
