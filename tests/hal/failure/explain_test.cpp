@@ -1,4 +1,4 @@
-// What is said of exceptions that are no Failure.
+// The Failures that stand for other exceptions.
 #include "hal/failure/explain.h"
 
 #include <gtest/gtest.h>
@@ -24,6 +24,7 @@ TEST(Explain, NamesTheLimitThatMemoryRanOutOf) {
 TEST(Explain, KnowsABrokenRule) {
   try {
     check(false, "two is one");
+    FAIL() << "a broken rule throws";
   } catch (const std::exception& failure) {
     EXPECT_EQ(explain(failure).problem.find("a rule of MARS itself is broken: two is one ("), 0u);
   }

@@ -77,7 +77,7 @@ TEST_F(SettingsTest, OfMessagesAreRead) {
   EXPECT_THROW(read_settings(), Failure);
 }
 
-TEST_F(SettingsTest, ThatAreUnknownAreToldWithTheNearestName) {
+TEST_F(SettingsTest, ThatAreUnknownAreReportedWithTheNearestName) {
   const Variable known("MARS_SIMD", "avx2");
   const Variable memory("MARS_MEMROY", "1");
   const Variable simd("MARS_SIM", "x");

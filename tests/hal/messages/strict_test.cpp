@@ -110,8 +110,8 @@ TEST(Strict, MessagesThatAreThrownAwayHoldNobody) {
   });
 }
 
-// Whoever ended the world knew nothing of that.
-TEST(Strict, TellsWhoWaitedWhenTheWorldEnds) {
+// The end of the world comes from elsewhere.
+TEST(Strict, WaitsAreReportedWhenTheWorldEnds) {
   testing::internal::CaptureStderr();
   const auto end_it = [] {
     std::this_thread::sleep_for(milliseconds(300));
@@ -122,7 +122,7 @@ TEST(Strict, TellsWhoWaitedWhenTheWorldEnds) {
   EXPECT_NE(printed.find("in csend until node 0 receives 200 bytes"), std::string::npos) << printed;
 }
 
-TEST(Strict, TellsWhoWaitsForWhom) {
+TEST(Strict, LongWaitsAreReported) {
   testing::internal::CaptureStderr();
   const auto end_it = [] {
     std::this_thread::sleep_for(milliseconds(1000));

@@ -118,7 +118,7 @@ TEST_P(FilesTest, APrivatePointerIsTheSystemsOwn) {
   });
 }
 
-TEST_P(FilesTest, InMode1EveryStretchIsSomebodysOwn) {
+TEST_P(FilesTest, InMode1EveryStretchIsOneNodes) {
   constexpr long kEach = 50;
   const auto body = [](int fd) {
     setiomode(fd, 1);
@@ -204,7 +204,7 @@ TEST_P(FilesTest, InMode3EqualStretchesLieInOrderOfNodesWithoutMessages) {
   EXPECT_EQ(content(), expected);
 }
 
-TEST_P(FilesOfSeveralTest, UnequalLengthsInMode3AreToldToAll) {
+TEST_P(FilesOfSeveralTest, UnequalLengthsInMode3FailOnAll) {
   run([](int fd) {
     setiomode(fd, 3);
     const std::string said = failure_of([&] { write_text(fd, letters(0, mynode() == 1 ? 5 : 4)); }, EINVAL);
@@ -276,7 +276,7 @@ TEST_P(FilesTest, AReadThatIsUnderWayEndsWhereTheFileEnds) {
   });
 }
 
-TEST_P(FilesTest, AFileOpenedAnewIsInMode0) {
+TEST_P(FilesTest, AFileOpenedAgainIsInMode0) {
   put("0123456789");
   run([&](int fd) {
     setiomode(fd, 2);
@@ -292,7 +292,7 @@ TEST_P(FilesTest, AFileOpenedAnewIsInMode0) {
   });
 }
 
-TEST_P(FilesOfSeveralTest, NodesThatDoNotAgreeAreToldSo) {
+TEST_P(FilesOfSeveralTest, DisagreementFailsOnAll) {
   put("0123456789");
   run([](int fd) {
     std::string said = failure_of([&] { setiomode(fd, mynode() == 1 ? 2 : 3); }, EINVAL);

@@ -37,7 +37,7 @@ TEST(Guard, PlainCallsEndCPrograms) {
               "node 1, msgwait: there is no message id 7");
 }
 
-TEST(Guard, TwinsDoNotAndNxPerrorTellsThem) {
+TEST(Guard, TwinsDoNotAndNxPerrorPrintsThem) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(as_a_c_program([] {
                 nx_perror("first");

@@ -60,7 +60,7 @@ class Rank {
   void wait_for_a_send();
 
   // The end of a round.
-  void tell_all(std::int32_t type);
+  void send_to_all(std::int32_t type);
   void await_all_sent();
   void await_the_owed();
   void drain();

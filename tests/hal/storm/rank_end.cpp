@@ -8,7 +8,7 @@
 namespace mars::storm {
 
 void Rank::finish() {
-  tell_all(kSentAll);
+  send_to_all(kSentAll);
   await_all_sent();
   masked_ = 0;
   masktrap(0);
@@ -22,11 +22,11 @@ void Rank::finish() {
     flick();
   }
   ledger_.close();
-  tell_all(kGotAll);
+  send_to_all(kGotAll);
   for (; !got_all_.empty(); got_all_.pop_back()) msgwait(got_all_.back());
 }
 
-void Rank::tell_all(std::int32_t type) {
+void Rank::send_to_all(std::int32_t type) {
   for (int rank = 0; rank <= nodes_; ++rank)
     if (rank != me_) csend(type, nullptr, 0, rank, 0);
 }

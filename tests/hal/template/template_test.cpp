@@ -68,7 +68,7 @@ TEST_F(Template, ThrowsAwayAtTheEndWhatNobodyReceived) {
   EXPECT_FALSE(backend.peek());
 }
 
-TEST(TemplateDeathTest, AbortTellsTheReason) {
+TEST(TemplateDeathTest, AbortPrintsTheReason) {
   TemplateBackend backend;
   EXPECT_EXIT(backend.abort("node 0 has had enough"), testing::ExitedWithCode(1), "node 0 has had enough");
 }

@@ -90,7 +90,7 @@ TEST(Threads, AMessageOnItsWayFromARankThatEnds) {
   }
 }
 
-TEST(Threads, AbortTellsItsReason) {
+TEST(Threads, AbortThrowsItsReason) {
   const auto node = [] {
     if (mynode() == 2) messages::process().backend().abort("enough");
     wait_for_ever();
@@ -130,7 +130,7 @@ TEST(Threads, SharedMemoryOfDifferentSizesIsFoundOut) {
                std::logic_error);
 }
 
-TEST(Counting, TellsWhoSentWhatToWhom) {
+TEST(Counting, IsBySenderReceiverAndType) {
   messages::Counts counts;
   const auto host = [] {
     char bytes[20];
