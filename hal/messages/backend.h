@@ -28,7 +28,7 @@ struct ByteRange {
   std::size_t length = 0;
 };
 
-// What a network may be able to reduce by itself.
+// Reductions that a network may offer.
 struct Reduction {
   enum class Element { real64, real32, whole };
   enum class Rule { sum, product, high, low, bit_and, bit_or, bit_xor };

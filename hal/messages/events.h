@@ -45,7 +45,7 @@ class EventBuffer {
   // The time to give as `begin`.
   double now() const { return backend_.seconds(); }
 
-  // The events of the half at hand, in the order of their ends, closed by one of kind lost. Recording goes on
+  // The events of the current half, in the order of their ends, closed by one of kind lost. Recording goes on
   // in the other half, whose events are then gone.
   std::span<const Event> turn(bool last);
 
@@ -57,7 +57,7 @@ class EventBuffer {
   int silent_type_;
   std::vector<Event> events_;  // both halves, each with one event more, which closes it
   std::size_t half_ = 0;
-  std::size_t size_ = 0;  // of the half at hand
+  std::size_t size_ = 0;  // of the current half
   std::uint64_t lost_ = 0;
   std::int32_t frame_ = -1;
 };

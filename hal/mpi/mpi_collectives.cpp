@@ -43,7 +43,7 @@ bool fits(std::span<const messages::ByteRange> ranges) {
 
 }  // namespace
 
-// Where MPI waits well, nobody need look again.
+// Where MPI waits well it is done on return.
 messages::Ticket MpiBackend::ticket_of_collective(MPI_Request request) {
   if (mpi_waits_well()) succeed(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
   return ticket_for(request);

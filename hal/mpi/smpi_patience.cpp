@@ -1,4 +1,4 @@
-// Of ranks that SimGrid simulates: a sleep that a bell ends takes nobody's time.
+// For ranks that SimGrid simulates: a sleep that a bell ends takes no processor.
 #include "hal/mpi/patience.h"
 
 #include <chrono>

@@ -155,36 +155,40 @@ Transfer Files::claim(const char* call, int fd, bool write, void* buffer, long l
 
 off_t Files::claim_in_order(const char* call, Shared& file, const Transfer& what, int error) {
   const auto length = static_cast<long>(what.length);
-  const long me = process_.backend().rank();
-  const long nodes = process_.backend().nodes();
   const off_t at = ::lseek(what.fd, 0, SEEK_CUR);
-  off_t before = me * length;
-  off_t all = nodes * length;
-  if (file.record && error != 0) fail(call, error);
-  if (file.record && *file.record != length) {
+  const Word mine{static_cast<double>(error), static_cast<double>(at), static_cast<double>(length)};
+  const Ranges ranges =
+      file.record ? recorded_ranges(call, *file.record, length, error) : agreed_ranges(call, file, mine);
+  if (file.mode == 3) file.record = length;
+  ::lseek(what.fd, beyond(what, at, ranges.all), SEEK_SET);
+  return at + ranges.before;
+}
+
+// Without messages: all nodes know what was agreed on before.
+Files::Ranges Files::recorded_ranges(const char* call, long record, long length, int error) const {
+  if (error != 0) fail(call, error);
+  if (record != length)
     process_.fail(call, EINVAL,
-                  std::to_string(length) + " bytes where each is to move " + std::to_string(*file.record) + " (mode 3)",
+                  std::to_string(length) + " bytes where each is to move " + std::to_string(record) + " (mode 3)",
                   "setiomode again for another length, or take mode 2");
+  return {process_.backend().rank() * length, process_.backend().nodes() * length};
+}
+
+Files::Ranges Files::agreed_ranges(const char* call, const Shared& file, const Word& mine) const {
+  const std::vector<Word> words = agree(call, mine);
+  const auto me = static_cast<std::size_t>(process_.backend().rank());
+  Ranges ranges;
+  for (std::size_t node = 0; node < words.size(); ++node) {
+    const auto theirs = static_cast<off_t>(words[node].number);
+    if (node < me) ranges.before += theirs;
+    ranges.all += theirs;
+    if (file.mode == 3 && words[node].number != words[0].number)
+      process_.fail(call, EINVAL,
+                    "node " + std::to_string(node) + " moves " + std::to_string(theirs) + " bytes, node 0 " +
+                        std::to_string(static_cast<long>(words[0].number)) + " (mode 3)",
+                    "give all nodes the same length, or take mode 2");
   }
-  if (!file.record) {
-    const std::vector<Word> words =
-        agree(call, {static_cast<double>(error), static_cast<double>(at), static_cast<double>(length)});
-    before = all = 0;
-    for (long node = 0; node < nodes; ++node) {
-      const auto theirs = static_cast<off_t>(words[node].number);
-      if (node < me) before += theirs;
-      all += theirs;
-      if (file.mode == 3 && words[node].number != words[0].number) {
-        process_.fail(call, EINVAL,
-                      "node " + std::to_string(node) + " moves " + std::to_string(theirs) + " bytes, node 0 " +
-                          std::to_string(static_cast<long>(words[0].number)) + " (mode 3)",
-                      "give all nodes the same length, or take mode 2");
-      }
-    }
-    if (file.mode == 3) file.record = length;
-  }
-  ::lseek(what.fd, beyond(what, at, all), SEEK_SET);
-  return at + before;
+  return ranges;
 }
 
 long Files::moved(const char* call, const Transferred& came) const {

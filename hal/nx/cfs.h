@@ -50,10 +50,17 @@ class Files : public messages::Process::Extension {
     double place = 0;   // of the pointer; the same on all nodes
     double number = 0;  // a length, a mode ...
   };
+  // Of a transfer of all nodes in modes 2 and 3: bytes before this node's range, and of all ranges.
+  struct Ranges {
+    off_t before = 0;
+    off_t all = 0;
+  };
 
   // What is to move for a call: the file's pointer is beyond it already. `now`: before the call returns.
   Transfer claim(const char* call, int fd, bool write, void* buffer, long length, bool now);
   off_t claim_in_order(const char* call, Shared& file, const Transfer& what, int error);
+  Ranges recorded_ranges(const char* call, long record, long length, int error) const;
+  Ranges agreed_ranges(const char* call, const Shared& file, const Word& mine) const;
   long start(const char* call, const Transfer& what);
   long moved(const char* call, const Transferred& came) const;
 

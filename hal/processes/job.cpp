@@ -245,7 +245,7 @@ void Job::note_failure(const std::string& reason) {
 
 std::string Job::name(int index) const { return messages::rank_name(index, segment_.nodes()); }
 
-// A host may go on after a failure, when it has killed the nodes; without it nobody can.
+// Only a host can go on after a failure, once it has killed the nodes.
 void Job::hurry() {
   const bool host = plan_.host && processes_[segment_.nodes()].id != 0;
   if (segment_.stopped() && !host && !deadline_) deadline_ = Clock::now() + kGrace;

@@ -79,7 +79,7 @@ class Job {
   int standing_still_ = 0;  // looks at which nothing could move
   std::uint64_t last_taken_ = 0;
   std::chrono::steady_clock::time_point next_look_{};
-  std::optional<std::chrono::steady_clock::time_point> deadline_;  // for what should end by itself
+  std::optional<std::chrono::steady_clock::time_point> deadline_;  // for processes to end, before they are killed
 };
 
 }  // namespace mars::processes

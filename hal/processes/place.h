@@ -14,7 +14,7 @@ struct Place {
 
 // For the environment of a process that is about to become another program.
 void leave_place(const Place& place);
-// Taken from there, by that program. None: nobody started it as a rank.
+// Taken from there, by that program. None: it was not started as a rank.
 std::optional<Place> take_place();
 
 // One datagram from host to job, answered by one int: 0 or an errno.

@@ -81,7 +81,7 @@ messages::Ticket ProcessesBackend::start_send(int to, int type, const void* data
   return 0;
 }
 
-// The message that is next, or 0. One that was under way to the process before this one is nobody's.
+// The message that is next, or 0. One that was under way to the process before this one is discarded.
 Offset ProcessesBackend::first_seen() {
   for (;;) {
     const Offset first = slot_.seen.load(std::memory_order_relaxed);

@@ -78,7 +78,7 @@ inline constexpr int kShares = 256;  // at a time
 struct alignas(64) Header {
   std::int32_t nodes;  // the machine's
   std::int32_t has_host;
-  std::atomic<std::int32_t> cube;       // of which the first so many are the cube
+  std::atomic<std::int32_t> cube;       // number of them, the first ones, that are the cube
   std::atomic<std::uint32_t> age;       // begins and ends of processes so far
   std::uint64_t heap_capacity;          // addresses that each heap has
   std::uint64_t limit;                  // bytes that messages under way may take in all heaps
