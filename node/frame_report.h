@@ -1,4 +1,4 @@
-// What a node reports to the host about the current frame: the header of its strips, with times and counts so far.
+// A node's report to the host about the current frame: the header of its strips, with times and counts so far.
 #pragma once
 
 #include <array>

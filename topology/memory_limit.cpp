@@ -77,7 +77,7 @@ std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit
     const std::uint64_t left = most - std::min(most, used);
     share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / part));
   };
-  // What a thread uses beside its frame has its addresses from the start, but becomes data only later.
+  // A thread's memory beside its frame has its addresses from the start, but becomes data only later.
   limit_to(limit.each.addresses, limit.used.addresses, 2);
   limit_to(limit.each.data, limit.used.data, 4);
   return share;

@@ -33,7 +33,7 @@ class DimensionExchange {
   // One each way; `out` and `in` do not overlap.
   void swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
 
-  // What is wrong; the first counts. What is sent from now on says that something is. `code` is a CallError.
+  // Notes an error; the first counts. Messages sent from now on say that there is one. `code` is a CallError.
   void spoil(int code, const std::string& what, const std::string& remedy);
   bool spoilt() const { return fault_.has_value(); }
   // At the end: throws this process's CallFailure if something was wrong on any node.

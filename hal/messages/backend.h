@@ -1,8 +1,7 @@
 // The contract of transports: what a process (process.h) asks of a backend. hal/mpi/, hal/processes/ and hal/threads/
-// implement it; hal/template/ is one to copy. One Backend object is one rank; all its
-// calls come from one thread. Ranks are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are
-// 0..2^31-1 and lengths bytes; what types mean does not concern a backend. Between one sender and one receiver
-// messages arrive in the order sent.
+// implement it; hal/template/ is one to copy. One Backend object is one rank; all its calls come from one thread. Ranks
+// are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are 0..2^31-1 and lengths bytes; what types mean
+// does not concern a backend. Between one sender and one receiver messages arrive in the order sent.
 #pragma once
 
 #include <chrono>

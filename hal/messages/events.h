@@ -45,6 +45,8 @@ class EventBuffer {
   // The time to give as `begin`.
   double now() const { return backend_.seconds(); }
 
+  std::size_t size() const { return size_; }
+  std::size_t capacity() const { return capacity_; }
   // The events of the current half, in the order of their ends, closed by one of kind lost. Recording goes on
   // in the other half, whose events are then gone.
   std::span<const Event> turn(bool last);

@@ -10,7 +10,7 @@
 
 namespace mars::messages {
 
-// What a process has sent, messages inside collectives included.
+// The messages that a process has sent, those inside collectives included.
 struct Traffic {
   struct Count {
     std::uint64_t messages = 0;

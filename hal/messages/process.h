@@ -77,7 +77,7 @@ class Process : public Progress {
   Ticket start_internal(int to, const void* data, std::size_t length);
   using Progress::wait_sent;
 
-  // What the collectives of this process use; the same on all nodes.
+  // The method of this process's collectives; the same on all nodes.
   void set_collectives(CollectiveMethod method) { collectives_ = method; }
   CollectiveMethod collectives() const { return collectives_; }
 
@@ -124,7 +124,7 @@ void find_process_by(FindProcess find);
 // By the clock of the calling thread's process; the machine's where it has none.
 double seconds();
 
-// What the calling process has sent so far.
+// The messages that the calling process has sent so far.
 const Traffic& traffic();
 
 }  // namespace mars::messages

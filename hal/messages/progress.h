@@ -56,7 +56,7 @@ class Progress : public Caller {
   bool call_handlers();
   void call_handler(Request& head);
 
-  // What has arrived.
+  // Arrived messages.
   bool look(const Selection& selection);
   bool found(const Message* message);
   bool arrive();

@@ -22,6 +22,8 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   // As of EventBuffer.
+  std::size_t size() const { return events_.size(); }
+  std::size_t capacity() const { return events_.capacity(); }
   std::span<const Event> turn(bool last) { return events_.turn(last); }
 
  private:

@@ -13,11 +13,10 @@ namespace mars::messages {
 // Of the calling node.
 Neighbourhood neighbourhood();
 
-// `bytes` bytes (aligned to 64, with anything in them) that all nodes of one machine see; the machine gives
-// pages as they are first touched. Making and destroying one are collective: all nodes of the machine do it
-// at the same point of their work, with the same `bytes`. The users order
-// writes and reads, by messages or gsync. Throws a Failure on all of them when the machine cannot
-// give that much.
+// `bytes` bytes (aligned to 64, with anything in them) that all nodes of one machine see; the machine gives pages as
+// they are first touched. Making and destroying one are collective: all nodes of the machine do it at the same point of
+// their work, with the same `bytes`. The users order writes and reads, by messages or gsync. Throws a Failure on all of
+// them when the machine cannot give that much.
 class SharedMemory {
  public:
   explicit SharedMemory(std::size_t bytes);

@@ -189,8 +189,8 @@ std::optional<messages::Envelope> MpiBackend::peek() {
   if (peeked_) return peeked_;
   int arrived = 0;
   MPI_Status status;
-  // Open MPI's first look may only fetch what has come, and the second one sees it: a rank that
-  // slept after the first would not be rung again.
+  // Open MPI's first look may only fetch what has come, and the second one sees it: a rank that slept after the first
+  // would not be rung again.
   for (int looks = bells_->armed() ? 2 : 1; looks > 0 && arrived == 0; --looks)
     succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
   if (arrived == 0) return std::nullopt;

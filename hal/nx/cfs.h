@@ -56,7 +56,7 @@ class Files : public messages::Process::Extension {
     off_t all = 0;
   };
 
-  // What is to move for a call: the file's pointer is beyond it already. `now`: before the call returns.
+  // The transfer of a call: the file's pointer is beyond it already. `now`: before the call returns.
   Transfer claim(const char* call, int fd, bool write, void* buffer, long length, bool now);
   off_t claim_in_order(const char* call, Shared& file, const Transfer& what, int error);
   Ranges recorded_ranges(const char* call, long record, long length, int error) const;

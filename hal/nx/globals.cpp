@@ -26,8 +26,7 @@ constexpr auto lower = [](auto a, auto b) { return b < a ? b : a; };
 
 collectives::Group all_nodes() { return {0, messages::process().backend().nodes()}; }
 
-// What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there
-// is none.
+// A wrong argument spoils the exchange, so that the other nodes are not left waiting; the count is then 0.
 std::size_t checked_count(collectives::DimensionExchange& exchange, const void* x, const void* work, long n) {
   if (n < 0) exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
   if (n > 0 && x == nullptr) exchange.spoil(EQPBUF, "the vector is a null pointer", "give a vector, or length 0");

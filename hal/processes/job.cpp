@@ -235,7 +235,7 @@ void Job::look_for_standstill() {
   note_failure(reason);
 }
 
-// What ends the others is reported once.
+// The failure that ends the others is reported once.
 void Job::note_failure(const std::string& reason) {
   code_ = std::max(code_, 1);
   if (segment_.stopped()) return;

@@ -1,4 +1,4 @@
-// What a process of a job over shared memory gets from the one that started it, and the requests of its host.
+// The place in a job over shared memory that a process gets from the one that started it, and the requests of a host.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ std::optional<Place> take_place();
 // One datagram from host to job, answered by one int: 0 or an errno.
 struct JobRequest {
   enum class What : std::int32_t {
-    begin,  // start every node that has not been loaded, with the job's own program
+    begin,  // start every node that has not been loaded, as the job plans
     load,   // start `file` on `node`
     kill,   // end the process on `node`, -1: on all, and wait until it has gone
   };

@@ -62,7 +62,7 @@ class ThreadsBackend : public messages::Backend {
   messages::MessageList returned_;  // of pool_
 };
 
-// What the ranks have in common. Outlives their threads.
+// The state that the ranks share. Outlives their threads.
 class ThreadsWorld {
  public:
   explicit ThreadsWorld(int nodes);

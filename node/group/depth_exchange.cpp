@@ -7,7 +7,7 @@
 
 namespace mars::group {
 
-// Which lines go from which node to which.
+// The lines that each node sends, and their receivers.
 class DepthExchange::Plan {
  public:
   Plan(const DepthNeeds& needs, const raster::Czb& czb) : needs_(needs), czb_(czb) {}

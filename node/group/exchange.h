@@ -30,7 +30,7 @@ class TriangleExchange {
   void finish();
 
  private:
-  // What goes to one home.
+  // The triangles for one home.
   struct Parcel {
     std::span<geometry::Triangle> triangles;
     std::span<raster::UnsortedEdgeBox> boxes;

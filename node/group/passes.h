@@ -33,7 +33,7 @@ struct MadeCounts {
 // Bytes that these take on their node in a single pass, with the copies that are sent to the group's other nodes.
 std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group);
 
-// What a node of the group knows of the frame when lines are mapped.
+// A frame as a node of the group knows it when lines are mapped.
 struct FrameLoad {
   collectives::Group group;
   std::span<const std::uint64_t> ebc;          // of all nodes (mapping.h)

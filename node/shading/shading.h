@@ -1,4 +1,4 @@
-// What shading takes and returns. Plain structs only: kernels of several instruction sets share them (kernels.h).
+// The input and output of shading. Plain structs only: kernels of several instruction sets share them (kernels.h).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace mars::shading {
 
-// What the samples of a frame are shaded with, in eye space.
+// All that shading needs of a frame, in eye space.
 struct Shading {
   const geometry::Triangle* triangles;
   const wire::Material* materials;

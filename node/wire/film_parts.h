@@ -1,4 +1,4 @@
-// What a compiled film is made of (film.h): plain structs, as they lie in the block. Angles are gone here:
+// The parts of a compiled film (film.h): plain structs, as they lie in the block. Angles are gone here:
 // matrices only.
 //
 // Units: world lengths; colours 0..1 as they are shown (no gamma); frames count from 0.

@@ -1,9 +1,9 @@
-// What crosses the wire between host and node: message types and their bodies, plain little-endian structs
-// followed by arrays where said. The node owns this page; the host includes it and nothing else of the
-// firmware. A node boots, sends Hello and then only obeys. Hello and Load begin with a stamp that tells versions apart
-// (stamp.h). Stop may come while nodes draw: each then finishes the keyframes it was given, for the others of its group
-// wait for it, draws no more inbetweens, sends no more strips and ends. Both sides check a message's size, counts and
-// ranges before they use anything of it: the node in commands.h, the host in host/render/farm/node_inbox.h.
+// The messages between host and node: their types and their bodies, plain little-endian structs followed by arrays
+// where said. The node owns this page; the host includes it and nothing else of the firmware. A node boots, sends Hello
+// and then only obeys. Hello and Load begin with a stamp that tells versions apart (stamp.h). Stop may come while nodes
+// draw: each then finishes the keyframes it was given, for the others of its group wait for it, draws no more
+// inbetweens, sends no more strips and ends. Both sides check a message's size, counts and ranges before they use
+// anything of it: the node in commands.h, the host in host/render/farm/node_inbox.h.
 //
 //   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
@@ -65,7 +65,7 @@ static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version h
 
 enum class Mapping : std::uint32_t { greedy, optimal };
 
-// Bytes of the film block that one kFilmBlock message has; the last has the rest.
+// Bytes of the film block in one kFilmBlock message; the last has the rest.
 inline constexpr std::uint64_t kFilmPiece = std::uint64_t{16} << 20;
 
 // Strips that a node has buffers for.

@@ -23,8 +23,8 @@ Floats dot(const Floats* a, const Floats* b) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// All values of one sample and what they are computed from: four lanes in one register,
-// with any instruction set; arithmetic is lane by lane.
+// All values of one sample and what they are computed from: four lanes in one register, with any instruction set;
+// arithmetic is lane by lane.
 typedef float Sample __attribute__((vector_size(sizeof(float) * shape::kValues)));
 typedef std::int32_t Places __attribute__((vector_size(sizeof(std::int32_t) * shape::kValues)));
 
@@ -168,7 +168,7 @@ struct MaterialLanes {
   }
 };
 
-// What a vector of samples shows, for vectors in the order of a block.
+// The materials of a vector of samples, for vectors in the order of a block.
 class Materials {
  public:
   Materials(const wire::Material* materials, const Block& block)
