@@ -1,22 +1,23 @@
 #include "node/firmware.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <exception>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "hal/failure/explain.h"
 #include "hal/failure/failure.h"
+#include "hal/messages/shared_memory.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/messages/shared_memory.h"
-#include "node/wire/greeting.h"
+#include "node/renderer.h"
+#include "node/simd/instruction_set.h"
 #include "node/wire/commands.h"
 #include "node/wire/film.h"
-#include "node/simd/instruction_set.h"
+#include "node/wire/greeting.h"
 #include "node/wire/protocol.h"
-#include "node/renderer.h"
 
 namespace mars::node {
 namespace {
@@ -32,7 +33,7 @@ class Firmware {
   explicit Firmware(const NodeIdentity& identity);
 
   void obey();
-  // The node's last words.
+  // The last message of a node that has failed.
   void report_fault(const std::string& reason);
 
  private:
@@ -49,7 +50,7 @@ class Firmware {
   std::optional<wire::FilmView> film_;
   std::optional<Renderer> renderer_;
   int groups_ = 1;
-  std::vector<std::byte> command_;  // the one at hand
+  std::vector<std::byte> command_;  // the one being obeyed
 };
 
 Firmware::Firmware(const NodeIdentity& identity)
@@ -86,14 +87,14 @@ void Firmware::obey() {
   }
 }
 
-// The command that was probed.
+// Receives the command that was probed; valid until the next.
 std::span<const std::byte> Firmware::receive(long type) {
   command_.resize(static_cast<std::size_t>(infocount()));
   crecv(type, command_.data(), static_cast<long>(command_.size()));
   return command_;
 }
 
-// The machine's first node takes the film from the host; the others read it there.
+// The machine's first node receives the film into memory that all nodes of the machine share.
 void Firmware::load() {
   const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
   film_block_.emplace(load.film_bytes);

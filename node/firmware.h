@@ -1,4 +1,4 @@
-// The node program: boots, says who it is, and then only obeys the host's commands until it is told to stop.
+// The node program: boots, introduces itself (Hello), then obeys the host's commands until Stop.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace mars::node {
 
-// What a node cannot find out for itself, opening no file and reading no environment.
+// Facts that the node is given: it opens no file and reads no environment.
 struct NodeIdentity {
   std::string host;                  // name of its machine
   std::string binding;               // processors it is bound to, as text; "" if free
@@ -16,7 +16,7 @@ struct NodeIdentity {
   std::string simd;                  // widest instruction set allowed, "" for any (best_instruction_set)
 };
 
-// Runs the calling HAL process as a node. Returns when the host says stop; a failure is first told to the host.
+// Runs the calling HAL process as a node. Returns after Stop. A failure goes to the host first (Fault), then is thrown.
 void run_node(const NodeIdentity& identity);
 
 }  // namespace mars::node

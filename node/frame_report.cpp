@@ -1,5 +1,7 @@
 #include "node/frame_report.h"
 
+#include <cstddef>
+
 #include "hal/messages/process.h"
 #include "hal/messages/recorder.h"
 #include "hal/nx/nx_messages.h"

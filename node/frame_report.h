@@ -1,4 +1,4 @@
-// What a node tells the host of the frame at hand: the header of its strips, with times and counts so far.
+// A node's report to the host about the current frame: the header of its strips, with times and counts so far.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class FrameReport {
   void begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t interval);
   // Adds the time since the last call to `phase`, and records it as a span.
   void clock(wire::Phase phase);
-  // The time since the last call is no phase's, or somebody else has added it.
+  // Leaves the time since the last call out: it belongs to no phase, or the callee has added it already.
   void skip_clock();
   // Prepares the header of the frame's next strip; `memory`: bytes in use at the peak.
   void set_strip(const geometry::LineRange& lines, bool last, std::uint64_t memory);

@@ -86,7 +86,7 @@ Tessellation Renderer::tessellate_all() {
   return own;
 }
 
-// For passes, triangles of some lines are made again.
+// The triangles of the pass's lines, made again.
 Tessellation Renderer::tessellate_part(const group::Pass& pass) {
   arena_.clear();
   group::mark_lines(homes(), pass, wanted_lines_);
@@ -139,13 +139,13 @@ raster::LineBoxes Renderer::exchange_triangles(const raster::Polygons& own, cons
 
 void Renderer::draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles,
                           const group::Pass& pass) {
-  const shading::Shading shades = shading(triangles);
+  const shading::Shading shading = shading_for(triangles);
   const bool constant = boxes.any_stationary();
   geometry::LineRange strip{boxes.lines.first, boxes.lines.first};
   do {
     raster::StripBuffer& buffer = outbox_.begin(constant);
     report_.clock(wire::Phase::credit);
-    strip = {strip.last, draw_strip(boxes, strip.last, shades, buffer)};
+    strip = {strip.last, draw_strip(boxes, strip.last, shading, buffer)};
     report_.clock(wire::Phase::scanline);
     const bool drawn = strip.last == boxes.lines.last;
     if (drawn) finish_exchange(pass);
@@ -184,7 +184,7 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
 
 std::size_t Renderer::member() const { return static_cast<std::size_t>(mynode() - group_.first); }
 
-shading::Shading Renderer::shading(const geometry::Triangle* triangles) const {
+shading::Shading Renderer::shading_for(const geometry::Triangle* triangles) const {
   return {triangles, scene_.film().materials().data(), scene_.lights().data(),
           static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }

@@ -2,6 +2,7 @@
 // (thesis 4.8, four steps), inbetweens alone (4.9). All buffers are made when the film is loaded.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,7 +26,7 @@ namespace mars::node {
 
 class Renderer {
  public:
-  // `machines`: each node's. Collective over a machine's nodes.
+  // `machines`: each node's machine, as in Load. The film's block outlives it. Collective over a machine's nodes.
   Renderer(const wire::FilmView& film, const wire::Load& load, std::span<const std::int32_t> machines,
            simd::InstructionSet set);
 
@@ -38,7 +39,7 @@ class Renderer {
   void finish();
 
   group::Outbox& outbox() { return outbox_; }
-  // The frame at hand, for a fault's report.
+  // The current frame, for a fault's report.
   std::uint32_t frame() const { return report_.strip().frame; }
 
  private:
@@ -61,7 +62,7 @@ class Renderer {
 
   std::size_t member() const;  // the caller's index in the group
   std::span<geometry::LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
-  shading::Shading shading(const geometry::Triangle* triangles) const;
+  shading::Shading shading_for(const geometry::Triangle* triangles) const;
 
   std::optional<Tracer> tracer_;
   geometry::Scene scene_;
@@ -75,11 +76,11 @@ class Renderer {
   group::DepthExchange depth_exchange_;
   group::Outbox outbox_;
 
-  // Of the interval at hand.
+  // Of the current interval.
   geometry::LineRange moving_line_bounds_;  // in its inbetweens
   std::vector<std::uint8_t> contributes_;   // 1: the node draws inbetweens; by nodes of the group
 
-  // Of the frame at hand.
+  // Of the current frame.
   collectives::Group group_;                // that draws it
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
   std::vector<std::uint8_t> wanted_lines_;

@@ -1,8 +1,22 @@
 #include "node/tessellator.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace mars::node {
+
+// Sets up a surface's triangles, stores them and counts the work.
+struct Tessellator::Output {
+  raster::SetUp set_up;
+  raster::SetUps& out;
+  wire::WorkCounts& work;
+
+  void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
+    set_up.add(surface, identity, out);
+    ++work.patches;
+    work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
+  }
+};
 
 Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set) {}
 
@@ -23,41 +37,49 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKi
 
 void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
                       wire::WorkCounts& work) {
+  Output output{{instruction_set_, scene.projection(), scene.width(), scene.height()}, out, work};
+  for (std::size_t s = 0; s < scene.film().segments().size(); ++s)
+    if (scene.moves(s) == moving) add_segment(scene, s, scatter, output);
+}
+
+void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter,
+                              Output& output) {
   const wire::FilmView& film = scene.film();
-  raster::SetUp set_up(instruction_set_, scene.projection(), scene.width(), scene.height());
-  const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
-  const int fixed_rate = static_cast<int>(film.settings().dice);
-  const auto set_up_surface = [&](const shape::Surface& surface, raster::PatchIdentity& identity,
-                                  std::uint32_t number) {
-    identity.patch = number;
-    set_up.add(surface, identity, out);
-    ++work.patches;
-    work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
-  };
-  for (std::size_t s = 0; s < film.segments().size(); ++s) {
-    if (scene.moves(s) != moving) continue;
-    const wire::Shape& shape = film.shapes()[film.segments()[s].shape];
-    const std::uint32_t first = scene.first_patch(s);
-    std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
-    if (i >= shape.size()) continue;
-    const shape::EyeMatrix matrix = scene.matrix(s);
-    const std::uint32_t material = scene.material(s);
-    raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1, moving};
-    for (; i < shape.patch_count; i += scatter.count) {
-      const shape::EyePatch patch = shape::to_eye(matrix, film.patches()[shape.first_patch + i]);
-      if (shape::unseen(patch, scene.projection(), width, height)) continue;
-      dicer_.dice(patch, scene.projection(), fixed_rate);
-      set_up_surface(dicer_, identity, first + static_cast<std::uint32_t>(i));
-    }
-    if (i >= shape.size()) continue;
-    const shape::EyeMap map = geometry::eye_map(matrix);
-    for (; i < shape.size(); i += scatter.count) {
-      const wire::Meshlet& meshlet = film.meshlets()[shape.first_meshlet + i - shape.patch_count];
-      if (geometry::unseen(matrix, meshlet, scene.projection(), width, height)) continue;
-      placer_.place(map, film, meshlet, scene.projection());
-      set_up_surface(placer_, identity, first + static_cast<std::uint32_t>(i));
-    }
+  const wire::Shape& shape = film.shapes()[film.segments()[segment].shape];
+  const std::uint32_t first = scene.first_patch(segment);
+  std::uint64_t i = (scatter.index + scatter.count - first % scatter.count) % scatter.count;
+  if (i >= shape.size()) return;
+  const shape::EyeMatrix matrix = scene.matrix(segment);
+  const std::uint32_t material = scene.material(segment);
+  raster::PatchIdentity identity{0, material, shape::mirrors(matrix), film.materials()[material].sides == 1,
+                                 scene.moves(segment)};
+  for (; i < shape.patch_count; i += scatter.count) {
+    identity.patch = first + static_cast<std::uint32_t>(i);
+    add_patch(scene, matrix, film.patches()[shape.first_patch + i], identity, output);
   }
+  if (i >= shape.size()) return;
+  const shape::EyeMap map = geometry::eye_map(matrix);
+  for (; i < shape.size(); i += scatter.count) {
+    identity.patch = first + static_cast<std::uint32_t>(i);
+    add_meshlet(scene, matrix, map, film.meshlets()[shape.first_meshlet + i - shape.patch_count], identity, output);
+  }
+}
+
+void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
+                            const raster::PatchIdentity& identity, Output& output) {
+  const shape::EyePatch eye_patch = shape::to_eye(matrix, patch);
+  const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
+  if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
+  dicer_.dice(eye_patch, scene.projection(), static_cast<int>(scene.film().settings().dice));
+  output.add(dicer_, identity);
+}
+
+void Tessellator::add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,
+                              const wire::Meshlet& meshlet, const raster::PatchIdentity& identity, Output& output) {
+  const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
+  if (geometry::unseen(matrix, meshlet, scene.projection(), width, height)) return;
+  placer_.place(map, scene.film(), meshlet, scene.projection());
+  output.add(placer_, identity);
 }
 
 }  // namespace mars::node

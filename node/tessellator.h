@@ -2,6 +2,7 @@
 // triangles, their edge boxes counted line by line.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -45,8 +46,15 @@ class Tessellator {
                           const LineTable& lines, raster::Arena& arena, wire::WorkCounts& work);
 
  private:
+  struct Output;
+
   void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
            wire::WorkCounts& work);
+  void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
+  void add_patch(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const wire::Patch& patch,
+                 const raster::PatchIdentity& identity, Output& output);
+  void add_meshlet(const geometry::Scene& scene, const shape::EyeMatrix& matrix, const shape::EyeMap& map,
+                   const wire::Meshlet& meshlet, const raster::PatchIdentity& identity, Output& output);
 
   simd::InstructionSet instruction_set_;
   shape::Dicer dicer_;

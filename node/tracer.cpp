@@ -1,5 +1,7 @@
 #include "node/tracer.h"
 
+#include <cstddef>
+
 #include "hal/nx/nx_messages.h"
 #include "node/wire/protocol.h"
 

@@ -1,5 +1,5 @@
-// Records what the calling node does and sends it to the host, while frames are drawn and at the end. One
-// message is on its way at a time; meanwhile events gather, and what does not fit is counted (hal/messages/recorder.h).
+// Records the calling node's events and sends them to the host, while frames are drawn and at the end. One message is
+// on its way at a time; meanwhile events gather, and those that do not fit are counted (hal/messages/recorder.h).
 #pragma once
 
 #include "hal/messages/recorder.h"
@@ -8,7 +8,7 @@ namespace mars::node {
 
 class Tracer {
  public:
-  // Room for the messages of a pass among all nodes.
+  // Has capacity for the events of one pass with all nodes.
   Tracer();
 
   // Sends what there is, unless the last message is still on its way.

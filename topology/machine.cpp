@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
@@ -15,7 +16,7 @@
 namespace mars::topology {
 namespace {
 
-constexpr std::size_t kRoomToLoad = std::size_t{16} << 20;  // bytes; a machine of 256 processors takes some 2 MiB
+constexpr std::size_t kBytesToLoad = std::size_t{16} << 20;  // a machine of 256 processors takes some 2 MiB
 
 using Bitmap = std::unique_ptr<hwloc_bitmap_s, decltype(&hwloc_bitmap_free)>;
 
@@ -30,7 +31,7 @@ hwloc_topology_t start_topology() {
 }
 
 // Cores, or processors where the machine shows none (some virtual machines).
-hwloc_obj_type_t unit(hwloc_topology_t topology) {
+hwloc_obj_type_t core_type(hwloc_topology_t topology) {
   return hwloc_get_nbobjs_by_type(topology, HWLOC_OBJ_CORE) > 0 ? HWLOC_OBJ_CORE : HWLOC_OBJ_PU;
 }
 
@@ -65,15 +66,16 @@ Bitmap bound_processors(hwloc_topology_t topology) {
 Bitmap processors_of(hwloc_topology_t topology, const Place& place) {
   Bitmap processors = make_bitmap();
   for (int core = place.first; core < place.first + place.count; ++core)
-    hwloc_bitmap_or(processors.get(), processors.get(), hwloc_get_obj_by_type(topology, unit(topology), core)->cpuset);
+    hwloc_bitmap_or(processors.get(), processors.get(),
+                    hwloc_get_obj_by_type(topology, core_type(topology), core)->cpuset);
   return processors;
 }
 
 // The numbers of the cores that have one of `processors`.
 Bitmap cores_of(hwloc_topology_t topology, hwloc_const_bitmap_t processors) {
   Bitmap cores = make_bitmap();
-  for (int core = 0; core < count(topology, unit(topology)); ++core)
-    if (hwloc_bitmap_intersects(hwloc_get_obj_by_type(topology, unit(topology), core)->cpuset, processors))
+  for (int core = 0; core < count(topology, core_type(topology)); ++core)
+    if (hwloc_bitmap_intersects(hwloc_get_obj_by_type(topology, core_type(topology), core)->cpuset, processors))
       hwloc_bitmap_set(cores.get(), core);
   return cores;
 }
@@ -114,7 +116,7 @@ Machine::~Machine() = default;
 Machine Machine::load_here() {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
-  ::operator delete(::operator new(kRoomToLoad));
+  ::operator delete(::operator new(kBytesToLoad));
   Machine machine(start_topology());
   if (hwloc_topology_load(machine.topology_.get()) != 0) fail("hwloc cannot read this machine");
   return machine;
@@ -135,13 +137,15 @@ Machine Machine::synthetic(const std::string& description) {
   return machine;
 }
 
-int Machine::cores() const { return count(topology_.get(), unit(topology_.get())); }
+int Machine::cores() const { return count(topology_.get(), core_type(topology_.get())); }
 int Machine::processors() const { return count(topology_.get(), HWLOC_OBJ_PU); }
 std::uint64_t Machine::memory() const { return hwloc_get_root_obj(topology_.get())->total_memory; }
 
 // How much lies between a core and the one before: less the more they share.
 int Machine::gap(int core) const {
-  const auto object = [&](int number) { return hwloc_get_obj_by_type(topology_.get(), unit(topology_.get()), number); };
+  const auto object = [&](int number) {
+    return hwloc_get_obj_by_type(topology_.get(), core_type(topology_.get()), number);
+  };
   return -hwloc_get_common_ancestor_obj(topology_.get(), object(core - 1), object(core))->depth;
 }
 

@@ -23,7 +23,7 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
-// What a thread may run on, in the numbers of the whole machine (lstopo -l shows them).
+// The processors that a thread may run on, in the numbers of the whole machine (lstopo -l shows them).
 struct Binding {
   std::string cores;   // "core 3", "cores 0-1,4"; "" if it may run on all
   int first_core = 0;  // the lowest of them
@@ -41,7 +41,7 @@ class Machine {
   Machine& operator=(Machine&&) noexcept;
   ~Machine();
 
-  int cores() const;             // whole cores; processors where the machine does not tell its cores
+  int cores() const;             // whole cores; processors where the machine shows no cores
   int processors() const;        // hardware threads
   std::uint64_t memory() const;  // bytes, of their NUMA domains; 0: unknown
 
@@ -52,7 +52,7 @@ class Machine {
   // are better left to the scheduler.
   std::optional<Place> place(int k, int n, int reserved, int first_id = 0) const;
 
-  // What a process bound to `place` shares with others.
+  // The parts of the machine that a process bound to `place` uses.
   Seat seat(const Place& place) const;
 
   // Binds the calling thread to a place.

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLeastShare = std::uint64_t{1} << 20;  // with less a node says itself what it lacks
+constexpr std::uint64_t kLeastShare = std::uint64_t{1} << 20;  // with less the node itself reports what it lacks
 constexpr std::uint64_t kMostShare = std::uint64_t{4} << 30;
 constexpr std::uint64_t kUnknownMemory = std::uint64_t{1} << 30;
 constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;  // version 1 writes "none" as a number near 2^63
@@ -72,14 +72,14 @@ MemoryLimit memory_limit(const fs::path& root) { return {group_limit(root), proc
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
   std::uint64_t share = std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);
-  const auto keep_within = [&](std::uint64_t most, std::uint64_t used, std::uint64_t part) {
+  const auto limit_to = [&](std::uint64_t most, std::uint64_t used, std::uint64_t part) {
     if (most == 0) return;
     const std::uint64_t left = most - std::min(most, used);
     share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / part));
   };
-  // What a thread uses beside its frame has its addresses from the start, but becomes data only later.
-  keep_within(limit.each.addresses, limit.used.addresses, 2);
-  keep_within(limit.each.data, limit.used.data, 4);
+  // A thread's memory beside its frame has its addresses from the start, but becomes data only later.
+  limit_to(limit.each.addresses, limit.used.addresses, 2);
+  limit_to(limit.each.data, limit.used.data, 4);
   return share;
 }
 

@@ -10,7 +10,7 @@
 
 namespace mars::topology {
 
-// What the calling process has; sanitizers take terabytes of addresses. 0 where /proc cannot be read.
+// The memory that the calling process has; sanitizers take terabytes of addresses. 0 where /proc cannot be read.
 ProcessMemory process_memory(const std::filesystem::path& root = "/");
 
 // Bytes; 0: no limit.
@@ -28,9 +28,9 @@ struct MemoryLimit {
 // Of the calling process. `root` is where proc/ and sys/ are.
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 
-// The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame when
-// nobody says how many: half of its equal share, at most 4 GiB; of what a limit of data leaves, a quarter.
-// Where the node is one of several threads that share this process's limit, `threads` says of how many.
+// The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame by default: half
+// of its equal share, at most 4 GiB; of what a limit of data leaves, a quarter. Where the node is one of several
+// threads that share this process's limit, `threads` says of how many.
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads = 1);
 
 }  // namespace mars::topology

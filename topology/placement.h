@@ -1,7 +1,7 @@
-// Which node sits where. A cube's exchanges go across dimension 0, 1, 2 ..., so nodes whose ids differ in a
-// low bit shall share as much of a machine as can be: ids are given out machine by machine (number_nodes),
-// on a machine Machine::place goes by the same bits, and what came of it can be told (dimensions). Pure
-// numbers, except that seats come from Machine.
+// The placement of nodes on machines. A cube's exchanges go across dimension 0, 1, 2 ..., so nodes whose ids differ in
+// a low bit shall share as much of a machine as can be: ids are given out machine by machine (number_nodes), on a
+// machine Machine::place goes by the same bits, and dimensions() reports the result. Pure numbers, except that seats
+// come from Machine.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace mars::topology {
 enum class Part : std::uint8_t { core, l2, l3, numa, package };
 inline constexpr int kParts = 5;
 
-// Which part of each kind (hwloc's logical number) holds all processors that a process may use, by Part; -1
-// where there is no such part or it uses several.
+// By Part, the part (hwloc's logical number) that holds all processors that a process may use; -1 where there is none
+// or it uses several.
 using Seat = std::array<std::int32_t, kParts>;
 
 // The nearest thing that two processes share: a Part, the machine, or only the network.
@@ -34,7 +34,7 @@ struct Location {
 
 Closeness closeness(const Location& a, const Location& b);
 
-// What the furthest neighbours share across dimension 0, 1, 2 ... of the cube of these nodes, by id.
+// The closeness of the furthest neighbours across dimension 0, 1, 2 ... of the hypercube of these nodes, by id.
 std::vector<Closeness> dimensions(std::span<const Location> nodes);
 
 // Where a process runs before it has a node id.

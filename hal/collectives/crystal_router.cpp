@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kCall[] = "an exchange of parcels";
 
-// Below, all go directly; as do loads that are long enough for the way to matter more than the messages.
+// In smaller groups all go directly; as do loads so long that forwarding costs more than messages.
 constexpr int kFewNodes = 64;
 constexpr std::size_t kLongLoad = 64;  // bytes of a node, for each node of the group
 
@@ -155,7 +155,7 @@ std::span<const Parcel> CrystalRouter::sorted() {
 }
 
 std::span<const Parcel> CrystalRouter::exchange(const Group& group, std::span<const Parcel> parcels, Route route) {
-  DimensionExchange membership(kCall, group);  // fails on who is no member
+  DimensionExchange membership(kCall, group);  // fails on a node outside the group
   const int me = messages::process().backend().rank();
   held_.size = 0;
   for (const Parcel& parcel : parcels) {

@@ -1,4 +1,4 @@
-// Sparse all-to-all: each node of a group has messages for some others, who do not know of them. The crystal
+// Sparse all-to-all: each node of a group has messages for some others, which do not know of them. The crystal
 // router (Fox et al., Solving Problems on Concurrent Processors, 1988) sends log2 P messages a node, one
 // across each dimension, which carry all that has to cross it; sending to each node directly takes P - 1.
 // Positions that are not corners (dimension_exchange.h) hand theirs to their corner and get theirs from it.

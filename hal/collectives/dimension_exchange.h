@@ -1,7 +1,7 @@
 // One node's part in a collective by dimension exchange: the hypercube that the nodes of a group form, and
 // the messages across it. Positions are node ids less the group's first. The lowest 2^d of them are the
-// corners; each other one folds in with the corner 2^d below it. What one node finds wrong all get to know,
-// and none is left waiting: messages go on as ever, spoilt ones among them, and at the end all fail.
+// corners; each other one folds in with the corner 2^d below it. An error found on one node reaches all,
+// and none is left waiting: messages go on, spoilt ones among them, and at the end all nodes fail.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ class DimensionExchange {
   // One each way; `out` and `in` do not overlap.
   void swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
 
-  // What is wrong; the first counts. What is sent from now on says that something is. `code` is a CallError.
+  // Notes an error; the first counts. Messages sent from now on say that there is one. `code` is a CallError.
   void spoil(int code, const std::string& what, const std::string& remedy);
   bool spoilt() const { return fault_.has_value(); }
   // At the end: throws this process's CallFailure if something was wrong on any node.

@@ -13,8 +13,8 @@ struct Run {
 
 }  // namespace
 
-// What a node holds at each step is the parts of an aligned run of corners, and of those folded into them:
-// two ranges of y. Runs beyond the last position are not sent.
+// At each step a node has the parts of an aligned run of corners, and of those folded into them: two ranges of
+// y. Runs beyond the last position are not sent.
 void gather(DimensionExchange& exchange, void* y, const std::vector<std::size_t>& offsets) {
   const int me = exchange.position();
   const int corners = exchange.corners();

@@ -1,5 +1,5 @@
-// The Failure that stands for any exception: what the libraries throw says neither what went wrong nor what to do.
-// Where memory or threads ran out it names the process's own limits.
+// The Failure that stands for any exception, as exceptions of libraries name no cause and no remedy. Where memory or
+// threads ran out it names the process's own limits.
 #pragma once
 
 #include <exception>

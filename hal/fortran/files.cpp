@@ -1,5 +1,5 @@
-// Fortran's entry points of nx_files.h. A file is a unit of OPEN, where gfortran's library is there to tell
-// which descriptor that is; else it is a descriptor.
+// Fortran's entry points of nx_files.h. A file is a unit of OPEN, where gfortran's library, which knows its
+// descriptor, is linked; else it is a descriptor.
 #include "hal/fortran/fortran.h"
 #include "hal/nx/nx_files.h"
 

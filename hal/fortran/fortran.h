@@ -1,6 +1,6 @@
-// What Fortran hands over and expects, as the entry points of fortran*.cpp take it: every argument by
-// reference, INTEGER*4 for all integers, names in lower case with an underscore behind, and the lengths of
-// CHARACTER arguments behind all others (as gfortran and those that follow it do).
+// Fortran's calling convention, as the entry points in this folder follow it: every argument by reference, INTEGER*4
+// for all integers, names in lower case with an underscore behind, and the lengths of CHARACTER arguments behind all
+// others (as gfortran and those that follow it do).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // Fortran's entry points of nx_global.h.
 #include <algorithm>
+#include <vector>
 
 #include "hal/fortran/fortran.h"
 #include "hal/nx/nx_global.h"

@@ -1,5 +1,7 @@
 #include "hal/messages/arguments.h"
 
+#include <cstdint>
+
 #include "hal/messages/call_failure.h"
 #include "hal/messages/message_types.h"
 
@@ -45,7 +47,7 @@ std::size_t check_buffer(const Caller& caller, const char* call, const void* buf
   return bytes;
 }
 
-// The host's is what it says itself, and it alone can be meant.
+// The host sets its own pid, and messages to it may give any.
 void check_pid(const Caller& caller, const char* call, long node, long pid) {
   const bool any = node == caller.backend().host();
   if (pid < -1 || (pid > 0 && !any)) fail_pid(caller, call, pid);

@@ -1,4 +1,5 @@
-// What NX calls may be given, by the rules of nx/nx_messages.h. Each check throws the caller's CallFailure.
+// Checks of the arguments of NX calls, by the rules of hal/nx/nx_messages.h. Each check throws the caller's
+// CallFailure.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,7 @@
-// What carries messages: the contract that a process (process.h) asks of a backend and each folder below hal/
-// implements: mpi/, processes/, threads/; template/ is one to copy. One Backend object is one rank; all its
-// calls come from one thread. Ranks are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are
-// 0..2^31-1 and lengths bytes; what types mean is not a backend's affair. Between one sender and one receiver
-// messages arrive in the order sent.
+// The contract of transports: what a process (process.h) asks of a backend. hal/mpi/, hal/processes/ and hal/threads/
+// implement it; hal/template/ is one to copy. One Backend object is one rank; all its calls come from one thread. Ranks
+// are the nodes 0..nodes()-1 and the host, whose id is nodes(). Types are 0..2^31-1 and lengths bytes; what types mean
+// does not concern a backend. Between one sender and one receiver messages arrive in the order sent.
 #pragma once
 
 #include <chrono>
@@ -28,7 +27,7 @@ struct ByteRange {
   std::size_t length = 0;
 };
 
-// What a network may be able to reduce by itself.
+// Reductions that a network may offer.
 struct Reduction {
   enum class Element { real64, real32, whole };
   enum class Rule { sum, product, high, low, bit_and, bit_or, bit_xor };
@@ -73,9 +72,8 @@ class Backend {
   // Takes the message that peek returned into `buffer`, which is at least its length.
   virtual void take(void* buffer) = 0;
 
-  // For one who waits for a message of just this type, and for whom peek has nothing: waits some
-  // microseconds and takes it if it comes and is at most `capacity` long: true, and `came` is its envelope.
-  // Meanwhile other messages may be overtaken.
+  // For a caller that waits for a message of just this type while peek has nothing: waits some microseconds and takes
+  // it if it comes and is at most `capacity` long: true, and `came` is its envelope. Other messages may be overtaken.
   virtual bool receive_soon(int /*type*/, void* /*buffer*/, std::size_t /*capacity*/, Envelope& /*came*/) {
     return false;
   }
@@ -92,8 +90,8 @@ class Backend {
   }
 
   // Called between unsuccessful looks, turn 0, 1, 2 ...: lets time pass, longer with each turn, at most about
-  // `longest`, and no longer than until something happens where the backend can know. Who gives 5 ms or more
-  // can do nothing before a message comes: where all do, a backend may end the job.
+  // `longest`, and not beyond an event that the backend can see. A caller that gives 5 ms or more has
+  // nothing to do before a message comes: where all ranks do so, a backend may end the job.
   virtual void idle(int turn, std::chrono::microseconds longest) = 0;
 
   // Since some fixed point: by the machine's clock, unless ranks live by another.

@@ -8,8 +8,7 @@
 
 namespace mars::messages {
 
-// What can be wrong with a call: the numbers that nx_errno.h has under NX's names (hal/nx/guard.cpp compares
-// them).
+// The errors of a call: the numbers that nx_errno.h has under NX's names (hal/nx/guard.cpp compares them).
 enum CallError : int {
   kMessageTooLong = 3001,  // for the receive's buffer
   kBadType = 3002,

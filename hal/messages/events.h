@@ -1,5 +1,5 @@
-// The events of one process: what recorder.h records. Their memory is two halves set aside at the start: one
-// is filled, the other may be on its way to whoever collects. What does not fit is left out and counted.
+// The events of one process, as recorder.h records them. Their memory is two halves set aside at the start: one
+// is filled, the other may be on its way to the collector. Events that do not fit are left out and counted.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,7 @@ class EventBuffer {
 
   std::size_t size() const { return size_; }
   std::size_t capacity() const { return capacity_; }
-  // The events of the half at hand, in the order of their ends, closed by one of kind lost. Recording goes on
+  // The events of the current half, in the order of their ends, closed by one of kind lost. Recording goes on
   // in the other half, whose events are then gone.
   std::span<const Event> turn(bool last);
 
@@ -59,7 +59,7 @@ class EventBuffer {
   int silent_type_;
   std::vector<Event> events_;  // both halves, each with one event more, which closes it
   std::size_t half_ = 0;
-  std::size_t size_ = 0;  // of the half at hand
+  std::size_t size_ = 0;  // of the current half
   std::uint64_t lost_ = 0;
   std::int32_t frame_ = -1;
 };

@@ -1,4 +1,4 @@
-// What hsend, hrecv and hsendrecv call when their request is done.
+// The function that hsend, hrecv and hsendrecv call when their request is done.
 #pragma once
 
 #include "hal/messages/backend.h"

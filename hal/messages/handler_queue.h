@@ -12,7 +12,7 @@ namespace mars::messages {
 
 class HandlerQueue {
  public:
-  // There is a request that nobody waits for.
+  // There is a request with a handler, or one to be forgotten when it is done.
   bool any() const { return !waiting_.empty() || !due_.empty(); }
 
   // A request that has a handler, or that is to be forgotten when it is done.

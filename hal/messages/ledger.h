@@ -1,4 +1,4 @@
-// What one process counts of its messages, and, where somebody records it (recorder.h), the events of them.
+// The counts of one process's messages, and, where it is recorded (recorder.h), their events.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace mars::messages {
 
-// What a process has sent, messages inside collectives included.
+// The messages that a process has sent, those inside collectives included.
 struct Traffic {
   struct Count {
     std::uint64_t messages = 0;
@@ -31,7 +31,7 @@ class Ledger {
   void forget(int rank) { numbers_[static_cast<std::size_t>(rank)] = {}; }
   void waited(const Envelope& came, double begin);
 
-  // The time to give as `begin`: 0 where nobody records.
+  // The time to give as `begin`: 0 without a recorder.
   double begin() const;
 
   const Traffic& traffic() const { return traffic_; }

@@ -1,6 +1,5 @@
-// Which message goes into which receive: the receives of one process that wait for their message, and the
-// messages that wait for their receive. Both are in order, of posting and of arrival; the first that fits is
-// taken.
+// Matches messages with receives: the receives of one process that wait for their message, and the messages that wait
+// for their receive. Both are in order, of posting and of arrival; the first that fits is taken.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which numbers are message types and which types a receive's `typesel` selects, by the rules of NX.
+// Message types, and the types that a receive's `typesel` selects, by the rules of NX.
 #pragma once
 
 #include <cstdint>

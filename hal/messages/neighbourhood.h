@@ -1,4 +1,4 @@
-// Which nodes are on one machine.
+// Nodes that are on one machine.
 #pragma once
 
 namespace mars::messages {
@@ -8,8 +8,8 @@ struct Neighbourhood {
   int machine = 0;      // lowest node id on it
   int index = 0;        // of this node among them, in order of node id
   int count = 1;        // of them
-  int rank = 0;         // of this node for whoever started it (MPI's)
-  bool placed = false;  // whoever started them gave them processors of their own: do not bind them again
+  int rank = 0;         // of this node in the job that started it (MPI's)
+  bool placed = false;  // each was started on processors of its own: do not bind them again
 };
 
 }  // namespace mars::messages

@@ -17,7 +17,7 @@ PrivateMemory::PrivateMemory(std::size_t bytes) {
   block_ = {static_cast<std::byte*>(block), Release{bytes}};
 }
 
-// Whether the machine does is its affair.
+// The machine need not.
 void PrivateMemory::prefer_large_pages() { madvise(block_.get(), block_.get_deleter().size, MADV_HUGEPAGE); }
 
 void PrivateMemory::Release::operator()(std::byte* block) const { munmap(block, size); }

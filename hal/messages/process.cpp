@@ -1,13 +1,14 @@
 #include "hal/messages/process.h"
 
-#include <utility>
+#include <optional>
+#include <string>
 
 #include "hal/messages/call_failure.h"
 
 namespace mars::messages {
 namespace {
 
-// At a time, for what else there may be to look at than messages, which wake.
+// At most: messages end it, other news do not.
 constexpr std::chrono::microseconds kFlick{1000};
 
 thread_local Process* bound_process = nullptr;
@@ -153,7 +154,7 @@ bool Process::msgdone(long mid) {
 
 void Process::msgcancel(long mid) {
   cancel(known_request("msgcancel", mid));
-  attend();  // not before: it could receive the message that is not wanted
+  attend();  // not before: it could receive the message into the cancelled request
 }
 
 long Process::msgmerge(long mid1, long mid2) {
@@ -244,7 +245,7 @@ void Process::flick() {
   backend_.idle(quiet_turns_++, kFlick);
 }
 
-// Only who is strict compares counts with others. What the program before has sent is counted as its own.
+// Only strict ranks compare their counts. Messages of the program before are counted as its own.
 void Process::reset_peer(int rank) {
   if (!rendezvous_.strict()) return;
   while (arrive()) {

@@ -2,12 +2,12 @@
 // that made it, and the NX calls of that thread are calls on it; so ranks may be threads or processes. All
 // progress happens inside calls: a message waits in the backend until a call looks, and then goes straight
 // into the buffer of the receive that it matches, or into the queue of messages that wait. Once warm, nothing
-// is allocated. Failures name node, call, what and remedy. process.cpp is the calls, progress.cpp what moves.
+// is allocated. Failures name node, call, what and remedy. process.cpp has the calls, progress.cpp and sending.cpp what
+// they share.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -49,7 +49,6 @@ class Process : public Progress {
   bool masktrap(bool masked);
   void flick();
   void led(bool on) { led_ = on; }
-  bool led() const { return led_; }
 
   // As in nx_paragon.h.
   void crecvx(long typesel, void* buffer, long length, long node, long pid, long* info);
@@ -68,8 +67,8 @@ class Process : public Progress {
   // Another program is about to run as `rank`, and counts its messages from the first.
   void reset_peer(int rank);
 
-  // For collectives, which are named `call`: one internal message from node to node. How many bytes came is
-  // returned; more than `length` are thrown away.
+  // For collectives, which are named `call`: one internal message from node to node. Returns how many bytes came; if
+  // more than `length`, they are discarded.
   void send_internal(int to, const void* data, std::size_t length);
   std::size_t receive_internal(const char* call, int from, void* data, std::size_t length);
   // Likewise, behind the first `at` bytes of `buffer`, which grows as needed.
@@ -78,7 +77,7 @@ class Process : public Progress {
   Ticket start_internal(int to, const void* data, std::size_t length);
   using Progress::wait_sent;
 
-  // What the collectives of this process use; the same on all nodes.
+  // The method of this process's collectives; the same on all nodes.
   void set_collectives(CollectiveMethod method) { collectives_ = method; }
   CollectiveMethod collectives() const { return collectives_; }
 
@@ -86,10 +85,10 @@ class Process : public Progress {
   bool reduce(const Reduction& reduction, void* x, std::size_t n);
   bool all_to_all(const void* out, std::span<const ByteRange> to, void* in, std::span<const ByteRange> from);
 
-  // The orderly end: waits for all ranks, throws away what nobody received.
+  // The orderly end: waits for all ranks, discards messages that were not received.
   void finish();
 
-  // What a layer above has for this process alone. It ends with the process, or when another takes its place.
+  // State that a layer above has for this process. It is destroyed with the process, or when another replaces it.
   class Extension {
    public:
     virtual ~Extension() = default;
@@ -99,7 +98,7 @@ class Process : public Progress {
 
   const Traffic& traffic() const { return ledger_.traffic(); }
 
-  // Whoever records this process, or nullptr; set by the Recorder.
+  // The recorder of this process, or nullptr; set by Recorder.
   EventBuffer* recorder() const { return ledger_.recorder(); }
   void record(EventBuffer* recorder) { ledger_.record(recorder); }
 
@@ -112,7 +111,7 @@ class Process : public Progress {
 
   CollectiveMethod collectives_ = CollectiveMethod::automatic;
   std::unique_ptr<Extension> extension_;
-  bool led_ = false;
+  bool led_ = false;  // only debuggers read it
 };
 
 // The calling thread's process; a Failure when it has none.
@@ -125,7 +124,7 @@ void find_process_by(FindProcess find);
 // By the clock of the calling thread's process; the machine's where it has none.
 double seconds();
 
-// What the calling process has sent so far.
+// The messages that the calling process has sent so far.
 const Traffic& traffic();
 
 }  // namespace mars::messages

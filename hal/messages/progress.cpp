@@ -1,14 +1,16 @@
 #include "hal/messages/progress.h"
 
+#include <chrono>
 #include <cstring>
-#include <utility>
+#include <optional>
+#include <string>
 
 #include "hal/messages/call_failure.h"
 
 namespace mars::messages {
 namespace {
 
-// At a time: a message wakes.
+// At most: a message ends it.
 constexpr std::chrono::microseconds kSleep{10000};
 
 void describe(const Envelope& envelope, long* info) {
@@ -39,7 +41,7 @@ void Progress::receive_now(const char* call, const Selection& selection, const R
   wait_or_cancel(request);
 }
 
-// The quick way, where nobody can tell that other messages are overtaken.
+// The quick way, where it does not show that other messages are overtaken.
 bool Progress::receive_soon(const Selection& selection, const ReceiveBuffer& into, long* info) {
   if (selection.typesel < 0 || type_class(selection.typesel) == TypeClass::force) return false;
   if (!matching_.none_posted() || matching_.find(selection) != nullptr) return false;
@@ -53,7 +55,7 @@ bool Progress::receive_soon(const Selection& selection, const ReceiveBuffer& int
   return true;
 }
 
-// Force messages that others sent before, and that were overtaken, are nobody's.
+// Force messages that others sent before, and that were overtaken, are discarded.
 void Progress::settle_overtaken() {
   while (overtaken_) {
     const std::optional<Envelope> next = backend_.peek();
@@ -124,12 +126,12 @@ void Progress::wait(Request& head) try {
 } catch (const CallFailure&) {
   throw;
 } catch (...) {
-  // Whoever ends a job that stands still does not know who waits for whom.
+  // A backend that ends a job at a standstill does not know which rank waits for which.
   if (rendezvous_.strict() && head.state != Request::State::free) rendezvous_.report_wait(*this, head);
   throw;
 }
 
-// For requests that nobody knows but the call that waits: a handler that fails ends it.
+// For requests that only the waiting call knows: a handler that fails ends it.
 void Progress::wait_or_cancel(Request& request) try { wait(request); } catch (...) {
   if (request.state != Request::State::free) cancel(request);
   throw;
@@ -219,7 +221,7 @@ bool Progress::call_handlers() {
   }
 }
 
-// The handler's info is that of its message; the call in which it runs knows nothing of it.
+// The handler's info is that of its message; the call in which it runs does not see it.
 void Progress::call_handler(Request& head) {
   const Handler handler = head.handler;
   const Envelope envelope = head.envelope;

@@ -1,8 +1,7 @@
-// What moves inside of one rank's message calls (process.h): requests to their end, arrived messages to where
-// they belong, handlers when they are due.
+// Progress inside one rank's message calls (process.h): requests to their end, arrived messages to their receive or
+// queue, handlers when they are due.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "hal/messages/arguments.h"
@@ -57,7 +56,7 @@ class Progress : public Caller {
   bool call_handlers();
   void call_handler(Request& head);
 
-  // What has arrived.
+  // Arrived messages.
   bool look(const Selection& selection);
   bool found(const Message* message);
   bool arrive();

@@ -43,7 +43,7 @@ struct Request {
   Selection selection;  // of a receive
   void* buffer = nullptr;
   std::size_t capacity = 0;
-  long* info = nullptr;       // 8 numbers about what was received, or nobody wants them
+  long* info = nullptr;       // 8 numbers about the message received; nullptr: not wanted
   std::uint64_t arrival = 0;  // of what was received
   std::uint32_t number = 0;   // of what was received
 

@@ -1,4 +1,4 @@
-// Which messages a receive or probe asks for.
+// The messages that a receive or probe asks for.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,7 @@
 // How messages leave.
+#include <cstdint>
+#include <optional>
+
 #include "hal/messages/progress.h"
 
 namespace mars::messages {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdlib>
 #include <numeric>
 #include <string_view>
+#include <system_error>
 
 #include "hal/failure/failure.h"
 
@@ -110,7 +112,7 @@ Settings read_settings() {
   return settings;
 }
 
-// By Open MPI, by whoever speaks PMIx (srun too), PMI-1 or PMI-2 (MPICH's).
+// By Open MPI, or by a launcher that speaks PMIx (srun too), PMI-1 or PMI-2 (MPICH's).
 bool started_by_mpi() {
   const std::array names = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD"};
   return std::any_of(names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });

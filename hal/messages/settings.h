@@ -1,5 +1,5 @@
-// What MARS takes from the environment: the one table of MARS_* variables and the only reader of it.
-// Programs' main files read it and hand the values on; no library does.
+// The environment: the one table of MARS_* variables, and its only reader. Programs' main files and libmars-nx read it
+// and pass the values on; no other library does.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace mars::messages {
 struct Setting {
   const char* name;
   const char* meaning;
-  const char* fallback;  // what happens without it, as people read it
+  const char* fallback;  // what happens without it, for people
 };
 
 std::span<const Setting> settings_table();
@@ -36,12 +36,12 @@ Settings read_settings();
 // Whether an MPI's starter (mpirun, srun) made this process a rank of a job.
 bool started_by_mpi();
 
-// Takes out of the environment what the process that started this one as a rank wrote there for it
-// (hal/processes/place.h); none: nothing.
+// Takes the text that the process that started this one as a rank left in the environment (hal/processes/place.h) out
+// of it; none: it left none.
 std::optional<std::string> take_place_text();
 inline constexpr const char* kPlaceSetting = "MARS_NX_PLACE";
 
-// What the environment says of the terminal.
+// The terminal, by the environment.
 struct TerminalKind {
   std::string name;       // TERM; "": none
   bool colors24 = false;  // COLORTERM: every colour

@@ -1,5 +1,5 @@
-// Memory that all nodes of one machine see, so that what is the same for all (the patches of a film) is
-// stored once a machine. The host takes no part.
+// Memory that all nodes of one machine see, so that data that are the same for all (the patches of a film) are stored
+// once a machine. The host takes no part.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,10 @@ namespace mars::messages {
 // Of the calling node.
 Neighbourhood neighbourhood();
 
-// `bytes` bytes (aligned to 64, with anything in them) that all nodes of one machine see; the machine gives
-// pages as they are first touched. Making and destroying one are collective: all nodes of the machine do it
-// at the same point of their work, with the same `bytes`. Who writes what, and when others may read it, is
-// the users' affair (messages and gsync order it). Throws a Failure on all of them when the machine cannot
-// give that much.
+// `bytes` bytes (aligned to 64, with anything in them) that all nodes of one machine see; the machine gives pages as
+// they are first touched. Making and destroying one are collective: all nodes of the machine do it at the same point of
+// their work, with the same `bytes`. The users order writes and reads, by messages or gsync. Throws a Failure on all of
+// them when the machine cannot give that much.
 class SharedMemory {
  public:
   explicit SharedMemory(std::size_t bytes);

@@ -12,7 +12,7 @@
 
 namespace mars::mpi {
 
-// Of a length that few messages have, for those are looked at more closely.
+// Its length is one that few messages have: each message of that length must be opened.
 struct Announcement {
   unsigned char mark[45];
   unsigned char length[sizeof(std::uint64_t)];

@@ -1,6 +1,7 @@
 #include "hal/mpi/bells.h"
 
 #include <atomic>
+#include <ctime>
 #include <memory>
 #include <new>
 

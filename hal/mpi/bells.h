@@ -1,11 +1,12 @@
-// A bell for each rank of a machine, in memory that they share: who sends to a rank rings its bell, so that
-// it can sleep while nothing comes and still wake at once. MPI itself offers no way to sleep. Ranks on other
+// A bell for each rank of a machine, in memory that they share: a sender rings the receiver's bell, so
+// that a rank can sleep while nothing comes and still wake at once. MPI itself offers no way to sleep. Ranks on other
 // machines have none here: their messages are noticed when a sleep ends by itself. Ringing costs next to
 // nothing while nobody sleeps: a rank arms its bell, looks once more, and only then sleeps; senders only look
 // whether a bell is armed, in a line of memory that seldom changes.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -32,7 +33,7 @@ class Bells {
   // Once armed, a bell is armed until it rings.
   void arm();
   bool armed() const;
-  // Until this rank's bell rings, at most so long; not at all if it rang since it was armed. Whoever sleeps
+  // Until this rank's bell rings, at most so long; not at all if it rang since it was armed. The caller
   // has looked since it armed the bell.
   void sleep(std::chrono::microseconds longest);
 

@@ -1,11 +1,11 @@
-// What the ranks of a job of C programs send each other beside their messages: that a node may begin, that
-// one has ended, that one is to end, and whether anything still moves when one has ended with an error.
+// Control messages between the ranks of a job of C programs: a node may begin, a node has ended, a node is to end; and
+// whether anything still moves after one has ended with an error.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -64,11 +64,11 @@ class Control {
   std::optional<bool> begins_;
   std::vector<std::optional<int>> ended_;
 
-  // Of one who watches.
+  // Of a rank that watches.
   bool watches_ = false;
   std::chrono::steady_clock::time_point next_round_{};
   int answers_ = 0;          // in this round, of ranks that wait or have ended
-  std::uint64_t taken_ = 0;  // by all who answered
+  std::uint64_t taken_ = 0;  // by all that answered
   std::uint64_t taken_before_ = 0;
   int still_rounds_ = 0;
 };

@@ -6,13 +6,12 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -29,9 +28,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
 constexpr std::chrono::seconds kPatienceWithKilled{2};
-// Whoever lets that much time pass has nothing to do before a message comes.
+// A caller that lets that much time pass has nothing to do before a message comes.
 constexpr std::chrono::microseconds kPatience{5000};
-constexpr int kLooksBefore = 100;  // turns of a wait before what is beside messages is looked at
+constexpr int kLooksBefore = 100;  // turns of a wait before control messages are looked for
 
 using Name = std::array<char, 512>;  // a program's path, its end if it is long
 
@@ -51,8 +50,7 @@ void wait(MPI_Request& request) {
 
 class MpiWorld;
 
-// The messages of a rank that also looks for what the job has for it. The host's first message is when nodes
-// begin at the latest.
+// The messages of a rank that also looks for control messages. Nodes begin at the host's first message at the latest.
 class JoinedBackend : public MpiBackend {
  public:
   JoinedBackend(MpiWorld& world, bool host, MPI_Comm ranks)
@@ -89,7 +87,7 @@ class MpiWorld final : public messages::World {
   Status status(int node) override;
   void wait_for_end() override;
 
-  // Takes in what the job has for this rank; does not return where this rank is to end.
+  // Receives control messages; does not return where this rank is to end.
   void look(bool waits);
 
  private:
@@ -172,7 +170,7 @@ MpiWorld::MpiWorld(std::optional<bool> host, bool two_threads) {
   if (!is_host()) make_cube();
 }
 
-// Nodes wait here for what the host says of the cube.
+// Nodes wait here until the host has chosen the cube.
 void MpiWorld::make_cube() {
   if (has_host_) {
     MPI_Request request = MPI_REQUEST_NULL;

@@ -1,6 +1,5 @@
-// How a C program joins the MPI job that somebody's mpirun or srun made it a rank of. The host, if there is
-// one, is rank 0. Nodes wait in their first NX call until the host has made its cube, and those beyond it
-// wait for the end.
+// How a C program joins the MPI job of which mpirun or srun made it a rank. The host, if there is one, is rank 0. Nodes
+// wait in their first NX call until the host has made its cube, and those beyond it wait for the end.
 #pragma once
 
 #include <memory>

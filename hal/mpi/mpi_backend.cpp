@@ -3,11 +3,8 @@
 #include <sched.h>
 #include <sys/statvfs.h>
 
-#include <algorithm>
 #include <climits>
-#include <cstring>
 #include <exception>
-#include <string>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/message_types.h"

@@ -4,9 +4,13 @@
 // MPI's counts: announcement.h.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <mpi.h>

@@ -1,6 +1,9 @@
 // MPI's own collectives, in the form that does not wait: their blocking forms spin.
 #include <algorithm>
 #include <climits>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "hal/failure/failure.h"
@@ -40,7 +43,7 @@ bool fits(std::span<const messages::ByteRange> ranges) {
 
 }  // namespace
 
-// Where MPI waits well, nobody need look again.
+// Where MPI waits well it is done on return.
 messages::Ticket MpiBackend::ticket_of_collective(MPI_Request request) {
   if (mpi_waits_well()) succeed(MPI_Wait(&request, MPI_STATUS_IGNORE), "MPI_Wait");
   return ticket_for(request);

@@ -1,9 +1,13 @@
-// Messages and waiting: what MpiBackend does all the time.
+// MpiBackend's messages and waiting.
 #include <sched.h>
 
 #include <algorithm>
+#include <chrono>
 #include <climits>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "hal/messages/message_types.h"
@@ -87,7 +91,7 @@ bool MpiBackend::test(MPI_Request& request, MPI_Status* status) {
 
 void MpiBackend::wait(MPI_Request& request, MPI_Status* status) {
   if (mpi_waits_well()) return succeed(MPI_Wait(&request, status), "MPI_Wait");
-  // In the middle of a message: whoever stands by in an idle of its own is not asked.
+  // In the middle of a message: a derived class's idle is not called.
   for (int turn = 0; !test(request, status); ++turn) MpiBackend::idle(turn, kLongestBlindSleep);
 }
 
@@ -185,8 +189,8 @@ std::optional<messages::Envelope> MpiBackend::peek() {
   if (peeked_) return peeked_;
   int arrived = 0;
   MPI_Status status;
-  // Open MPI's first look may only fetch what has come, and the second one sees it: whoever slept on the
-  // first would not be rung again.
+  // Open MPI's first look may only fetch what has come, and the second one sees it: a rank that slept after the first
+  // would not be rung again.
   for (int looks = bells_->armed() ? 2 : 1; looks > 0 && arrived == 0; --looks)
     succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
   if (arrived == 0) return std::nullopt;
@@ -304,8 +308,8 @@ bool MpiBackend::give_up(MPI_Request& request, MPI_Status& status) {
   return cancelled != 0;
 }
 
-// Of what ranks send that have no bell here, and of what MPI still has to do for a send, only a look tells.
-// Arms the bell for one more look before the first sleep.
+// Messages from ranks that have no bell here, and progress of sends within MPI, show only to a look. Arms the bell for
+// one more look before the first sleep.
 void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
   const auto pause = pause_of(turn, oversubscribed_);
   if (!pause) return;

@@ -13,7 +13,7 @@ class Overflow {
   Overflow(const Overflow&) = delete;
   Overflow& operator=(const Overflow&) = delete;
 
-  // nullptr where the system does not give so much address space.
+  // nullptr where the system has not that much address space.
   std::byte* bytes() const { return bytes_; }
   // Gives memory back after a message of `length`.
   void trim(std::size_t length);

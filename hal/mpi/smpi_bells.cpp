@@ -2,6 +2,10 @@
 // sleep in simulated time.
 #include "hal/mpi/bells.h"
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
 #include <simgrid/semaphore.h>
 
 #include "hal/mpi/mpi_call.h"

@@ -1,5 +1,8 @@
-// Of ranks that SimGrid simulates: a sleep that a bell ends takes nobody's time.
+// For ranks that SimGrid simulates: a sleep that a bell ends takes no processor.
 #include "hal/mpi/patience.h"
+
+#include <chrono>
+#include <optional>
 
 namespace mars::mpi {
 

@@ -1,7 +1,6 @@
-// Starts a rank of an MPI job as the host or a node: the start of the MPI backend. mpi.h is known only below
-// hal/mpi/. One job has one host and at least one node, in one program or several (mpirun -n 1 mars-host
-// : -n 8 mars-node); the nodes are numbered by place (topology/placement.h), in the order of
-// their ranks where that says nothing.
+// Starts a rank of an MPI job as the host or a node: the start of the MPI backend. mpi.h is known only below hal/mpi/.
+// One job has one host and at least one node, in one program or several (mpirun -n 1 mars-host : -n 8 mars-node); the
+// nodes are numbered by place (topology/placement.h), else in the order of their ranks.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,7 @@
 #include "hal/nx/byte_order.h"
 
+#include <cstddef>
+
 #include "hal/nx/nx_byte_order.h"
 
 namespace {

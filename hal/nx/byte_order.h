@@ -1,14 +1,13 @@
-// Numbers from one byte order to another: what the calls of nx_byte_order.h are made of.
+// Numbers from one byte order to another: the work of the calls of nx_byte_order.h.
 #pragma once
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <span>
 
 namespace mars::nx {
 
-// Of this machine's kind, and so of its host programs and of its nodes.
+// Host and nodes are machines of this one's kind.
 inline constexpr std::endian kHostOrder = std::endian::native;
 inline constexpr std::endian kNodeOrder = std::endian::native;
 

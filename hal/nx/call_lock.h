@@ -1,5 +1,5 @@
-// Who has a progress thread (progress_thread.h) makes each of its NX calls under a mutex, so that the thread
-// calls only between them. Others pay for two counts. A handler's calls are within a call, and so hold it
+// With a progress thread (progress_thread.h) each NX call of a program runs under a mutex, so that the thread calls
+// only between them. Other programs pay for two counts. A handler's calls are within a call, which holds the mutex
 // already.
 #pragma once
 

@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <limits>
-#include <span>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -23,7 +24,7 @@ const char* remedy(int code) {
   switch (code) {
     case EBADF: return "open the file first, for reading or writing as the call needs";
     case EINVAL: return "see nx_files.h for what a call may be given";
-    case ENOSPC: return "make room on the disk";
+    case ENOSPC: return "free space on the disk";
     case ESPIPE: return "use it with cread and cwrite in mode 0, or take a file";
     default: return "";
   }
@@ -47,7 +48,7 @@ int error_of_mode(int fd, int mode) {
   return ::lseek(fd, 0, SEEK_CUR) < 0 ? errno : 0;
 }
 
-// What is no regular file has no end. -1 and errno where there is no file.
+// Other than regular files have no end. -1 and errno where there is no file.
 off_t size_of(int fd) {
   struct stat facts {};
   if (::fstat(fd, &facts) != 0) return -1;
@@ -66,8 +67,8 @@ long unused_number() {
   return static_cast<long>(::getpid()) << 16 | (++last & 0xffff);
 }
 
-// A file newly opened under a number that was used before is told from the one before it by its owner for
-// signals, which nobody else sets on a file.
+// The owner for signals, which nothing else sets on a file, marks a file that is known: one newly opened under the same
+// number has no mark.
 void mark(int fd) { ::fcntl(fd, F_SETOWN, ::getpid()); }
 bool marked(int fd) { return ::fcntl(fd, F_GETOWN) == ::getpid(); }
 
@@ -83,7 +84,7 @@ void Files::fail(const char* call, int code) const {
 Files::Shared* Files::find(int fd) {
   const auto at = shared_.find(fd);
   if (at == shared_.end()) return nullptr;
-  // The mode of a file that is closed stays, so that the other nodes learn of the failure.
+  // A closed file stays in its mode, so that its next call fails on all nodes.
   if (marked(fd) || ::fcntl(fd, F_GETFL) < 0) return &at->second;
   shared_.erase(at);
   return nullptr;
@@ -154,36 +155,40 @@ Transfer Files::claim(const char* call, int fd, bool write, void* buffer, long l
 
 off_t Files::claim_in_order(const char* call, Shared& file, const Transfer& what, int error) {
   const auto length = static_cast<long>(what.length);
-  const long me = process_.backend().rank();
-  const long nodes = process_.backend().nodes();
   const off_t at = ::lseek(what.fd, 0, SEEK_CUR);
-  off_t before = me * length;
-  off_t all = nodes * length;
-  if (file.record && error != 0) fail(call, error);
-  if (file.record && *file.record != length) {
+  const Word mine{static_cast<double>(error), static_cast<double>(at), static_cast<double>(length)};
+  const Ranges ranges =
+      file.record ? recorded_ranges(call, *file.record, length, error) : agreed_ranges(call, file, mine);
+  if (file.mode == 3) file.record = length;
+  ::lseek(what.fd, beyond(what, at, ranges.all), SEEK_SET);
+  return at + ranges.before;
+}
+
+// Without messages: all nodes know what was agreed on before.
+Files::Ranges Files::recorded_ranges(const char* call, long record, long length, int error) const {
+  if (error != 0) fail(call, error);
+  if (record != length)
     process_.fail(call, EINVAL,
-                  std::to_string(length) + " bytes where each is to move " + std::to_string(*file.record) + " (mode 3)",
+                  std::to_string(length) + " bytes where each is to move " + std::to_string(record) + " (mode 3)",
                   "setiomode again for another length, or take mode 2");
+  return {process_.backend().rank() * length, process_.backend().nodes() * length};
+}
+
+Files::Ranges Files::agreed_ranges(const char* call, const Shared& file, const Word& mine) const {
+  const std::vector<Word> words = agree(call, mine);
+  const auto me = static_cast<std::size_t>(process_.backend().rank());
+  Ranges ranges;
+  for (std::size_t node = 0; node < words.size(); ++node) {
+    const auto theirs = static_cast<off_t>(words[node].number);
+    if (node < me) ranges.before += theirs;
+    ranges.all += theirs;
+    if (file.mode == 3 && words[node].number != words[0].number)
+      process_.fail(call, EINVAL,
+                    "node " + std::to_string(node) + " moves " + std::to_string(theirs) + " bytes, node 0 " +
+                        std::to_string(static_cast<long>(words[0].number)) + " (mode 3)",
+                    "give all nodes the same length, or take mode 2");
   }
-  if (!file.record) {
-    const std::vector<Word> words =
-        agree(call, {static_cast<double>(error), static_cast<double>(at), static_cast<double>(length)});
-    before = all = 0;
-    for (long node = 0; node < nodes; ++node) {
-      const auto theirs = static_cast<off_t>(words[node].number);
-      if (node < me) before += theirs;
-      all += theirs;
-      if (file.mode == 3 && words[node].number != words[0].number) {
-        process_.fail(call, EINVAL,
-                      "node " + std::to_string(node) + " moves " + std::to_string(theirs) + " bytes, node 0 " +
-                          std::to_string(static_cast<long>(words[0].number)) + " (mode 3)",
-                      "give all nodes the same length, or take mode 2");
-      }
-    }
-    if (file.mode == 3) file.record = length;
-  }
-  ::lseek(what.fd, beyond(what, at, all), SEEK_SET);
-  return at + before;
+  return ranges;
 }
 
 long Files::moved(const char* call, const Transferred& came) const {
@@ -295,7 +300,7 @@ void Files::set_mode(const char* call, int fd, int mode) {
                       std::to_string(static_cast<int>(words[0].number)),
                   "set the same mode on all nodes");
   }
-  // Nobody moves a common pointer any more: all nodes are in here.
+  // No node moves the common pointer any more: all are in this call.
   if (common) ::lseek(fd, place(call, before, fd), SEEK_SET);
   shared_.erase(fd);
   if (mode == 0) return;

@@ -1,12 +1,11 @@
-// The files of one process: what the calls of nx/nx_files.h mean, on descriptors of the system. Where a
-// transfer goes is settled first, inside the call and between the nodes as the file's mode says; then the
-// bytes move, at once or in the worker's thread, and no node waits for another's bytes. Failures are the
-// process's (Process::fail), with the system's errno.
+// The files of one process: the work of the calls of nx_files.h, on descriptors of the system. The place of a transfer
+// is settled first, inside the call and between the nodes as the file's mode says; then the bytes move, at once or in
+// the worker's thread, and no node waits for another's bytes. Failures are the process's (Process::fail), with the
+// system's errno.
 #pragma once
 
 #include <sys/types.h>
 
-#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -45,16 +44,23 @@ class Files : public messages::Process::Extension {
     std::unique_ptr<FilesPointer> pointer;  // mode 1
     std::optional<long> record;             // mode 3: how long all transfers are, once it is settled
   };
-  // What one node says of a call that all make together.
+  // One node's part of a call that all make together.
   struct Word {
     double error = 0;   // an errno
     double place = 0;   // of the pointer; the same on all nodes
     double number = 0;  // a length, a mode ...
   };
+  // Of a transfer of all nodes in modes 2 and 3: bytes before this node's range, and of all ranges.
+  struct Ranges {
+    off_t before = 0;
+    off_t all = 0;
+  };
 
-  // What is to move for a call: the file's pointer is beyond it already. `now`: before the call returns.
+  // The transfer of a call: the file's pointer is beyond it already. `now`: before the call returns.
   Transfer claim(const char* call, int fd, bool write, void* buffer, long length, bool now);
   off_t claim_in_order(const char* call, Shared& file, const Transfer& what, int error);
+  Ranges recorded_ranges(const char* call, long record, long length, int error) const;
+  Ranges agreed_ranges(const char* call, const Shared& file, const Word& mine) const;
   long start(const char* call, const Transfer& what);
   long moved(const char* call, const Transferred& came) const;
 

@@ -19,7 +19,7 @@ int open_pointer(const std::string& path, int flags) {
   return fd;
 }
 
-// Of an open file, not of the process: nodes that are threads of one process keep each other out, too.
+// Of an open file, not of the process: nodes that are threads of one process exclude each other, too.
 class Lock {
  public:
   explicit Lock(int fd) : fd_(fd) {
@@ -57,7 +57,7 @@ FilesPointer::FilesPointer(std::string path, int users)
 
 FilesPointer::FilesPointer(std::string path) : path_(std::move(path)), fd_(open_pointer(path_, 0)) {}
 
-// Nobody is there to tell of an error, and none would be of use.
+// An error could not be reported, and would not help.
 FilesPointer::~FilesPointer() {
   try {
     const Lock lock(fd_);

@@ -1,9 +1,8 @@
 // The pointer into a file that all nodes share (I/O mode 1), first come, first served. It lies in a small
-// file of its own, and whoever moves it holds a lock of the system on that file for this moment. So it cannot
-// deadlock: nobody waits for a node to come into an NX call (a node that computes for long holds up none,
-// which is what this mode is for), and the system takes the lock from a process that dies. Nodes of one
-// machine keep the file among its temporary files, without a name; else it lies beside the shared file,
-// hidden, until the last node has let go.
+// file of its own, and a node that moves it holds a lock of the system on that file meanwhile. So it cannot
+// deadlock: no node waits for another to come into an NX call (a node that computes for long delays none, the purpose
+// of this mode), and the system releases the lock of a process that dies. For nodes of one machine the file is a
+// temporary file without a name; else it lies beside the shared file, hidden, until the last node has closed it.
 #pragma once
 
 #include <sys/types.h>

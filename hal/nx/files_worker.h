@@ -40,7 +40,7 @@ class FilesWorker {
   // An id of 31 bits, or none when all are in use.
   std::optional<long> start(const Transfer& what);
   bool known(long id);
-  // What came of a known id, which is then free. `look`: none while it is under way; `wait` waits for it.
+  // The result of a known id, which is then free. `look`: none while it is under way; `wait` waits for it.
   std::optional<Transferred> look(long id);
   Transferred wait(long id);
 

@@ -2,6 +2,7 @@
 #include "hal/nx/nx_global.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -25,8 +26,7 @@ constexpr auto lower = [](auto a, auto b) { return b < a ? b : a; };
 
 collectives::Group all_nodes() { return {0, messages::process().backend().nodes()}; }
 
-// What is wrong with a vector spoils the exchange, so that the other nodes are not left waiting; then there
-// is none.
+// A wrong argument spoils the exchange, so that the other nodes are not left waiting; the count is then 0.
 std::size_t checked_count(collectives::DimensionExchange& exchange, const void* x, const void* work, long n) {
   if (n < 0) exchange.spoil(EQLEN, "length " + std::to_string(n) + " is negative", "give the number of elements");
   if (n > 0 && x == nullptr) exchange.spoil(EQPBUF, "the vector is a null pointer", "give a vector, or length 0");
@@ -148,7 +148,7 @@ void concatenate_all(const void* x, long xlen, void* y, long ylen, long* ncnt) {
     messages::process().fail("gcol", EQMSGLONG,
                              "the " + std::to_string(all) + " bytes of all nodes do not fit the " +
                                  std::to_string(parts[node].capacity) + " that node " + std::to_string(node) +
-                                 " has room for",
+                                 " can take",
                              "give a buffer for the bytes of all nodes");
   }
   concatenate(exchange, x, offsets, y);

@@ -1,5 +1,6 @@
 #include "hal/nx/guard.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 

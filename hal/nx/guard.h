@@ -1,4 +1,4 @@
-// What stands between an NX call as C sees it and its work: the plain form and the twin of each call are
+// The wrappers of NX calls for C: the plain form and the twin of each call are
 //   void csend(...) { plain([&] { process().csend(...); }); }
 //   long _csend(...) { return twin([&] { process().csend(...); }); }
 #pragma once
@@ -29,8 +29,7 @@ auto plain(Call call) try {
   fail_plainly();
 }
 
-// What is no failure of this one call (another rank's end, a broken network) is none that a program can
-// handle.
+// Only failures of the call itself return: a program cannot handle others (another rank's end, a broken network).
 template <class Call>
 long twin(Call call) try {
   const CallLock lock;

@@ -1,4 +1,4 @@
-/* NX/2: byte order. The hosts of the iPSC/2 kept numbers with the highest byte first, its nodes with the lowest;
+/* NX/2: byte order. The hosts of the iPSC/2 stored numbers with the highest byte first, its nodes with the lowest;
  * host programs turned what they sent (htoc: host to cube) and what they received (ctoh). Each works on `n`
  * elements of `array`, in place. Here the host and the nodes are machines of one kind: the calls are there, and
  * leave everything as it is. */

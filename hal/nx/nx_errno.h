@@ -1,4 +1,4 @@
-/* What errno is after a call's twin returned -1. The names are NX's; the numbers are ours, beyond those of the
+/* The values of errno after a call's twin returned -1. The names are NX's; the numbers are ours, beyond those of the
  * system. */
 #pragma once
 

@@ -25,7 +25,7 @@ enum { M_UNIX = 0, M_LOG = 1, M_SYNC = 2, M_RECORD = 3 }; /* the modes, by the n
 enum { SIZE_SET = 0, SIZE_CUR = 1, SIZE_END = 2 };        /* for lsize */
 
 /* Reads or writes at the file's pointer, which moves on; returns how many bytes were moved. Reading ends early
- * where the file ends, and only there: iseof tells. */
+ * where the file ends, and only there: see iseof. */
 long cread(int fd, void* buf, long len);
 long cwrite(int fd, const void* buf, long len);
 

@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define NAMELEN 16 /* a cube's name and its end fit into so many characters */
+#define NAMELEN 16 /* characters of a cube's name, with its end */
 
 /* Makes the first nodes of the job the cube, `name`. cubetype: "8" or "d3" for eight nodes, what follows is ignored;
  * NULL or "" for all there are. More than there are: EQNODE. srmname and keep are ignored. */
@@ -43,7 +43,7 @@ void waitone(long node, long pid, long* cnode, long* cpid, long* ccode);
 void killproc(long node, long pid);
 void killcube(long node, long pid);
 
-/* A cube that somebody holds. */
+/* A cube that is held. */
 struct cubetable {
   char cubename[NAMELEN];
   char cubetype[NAMELEN];

@@ -4,7 +4,7 @@
  * receive takes, no probe finds, and which are discarded when no receive is posted. Lengths are bytes. pid is
  * 0, or -1 where a wildcard makes sense. Between one sender and one receiver messages stay in order.
  *
- * A call that fails ends the program on all nodes after telling why. Its twin with an underscore before its
+ * A call that fails prints the reason and ends the program on all nodes. Its twin with an underscore before its
  * name returns -1 instead, with errno set (nx_errno.h), and 0 or more on success. In MARS's own C++ programs
  * the plain call throws mars::Failure. */
 #pragma once
@@ -17,8 +17,9 @@ extern "C" {
 
 /* Sends; returns when `buf` may be used again, not when it was received: messages are buffered, so that all
  * may send before they receive. (With the setting MARS_NX_STRICT a send of more than 100 bytes is done only when
- * its message has been received, for finding programs that rely on buffers; whoever then waits in silence for
- * 5 s, or until the job is ended, prints for whom.) node -1: to all other nodes, of the host to all nodes. */
+ * its message has been received, for finding programs that rely on buffers; a process that then waits for
+ * 5 s without any message, or until the job is ended, prints for which one.) node -1: to all other nodes, of the host
+ * to all nodes. */
 void csend(long type, const void* buf, long len, long node, long pid);
 /* Waits for a message that `typesel` selects and receives it. typesel, of which 32 bits count: >= 0 that type;
  * -1 any ordinary type; another negative is a set of bits: bit k (0..29) selects type k, bit 30 every type from
@@ -48,11 +49,11 @@ void cprobe(long typesel);
 long iprobe(long typesel);
 
 /* Throws away messages that have arrived and wait to be received: those that typesel selects, from `node`
- * and `pid`, -1 for any. Posted receives keep what they have. */
+ * and `pid`, -1 for any. Messages that posted receives have taken stay. */
 void flushmsg(long typesel, long node, long pid);
 
 /* About the message of this process's last receive, probe that found one, msgwait or msgdone == 1 of a receive. In a
- * handler: about its message; the program that it interrupts sees nothing of it. */
+ * handler: about its message; the program that it interrupts does not see it. */
 long infocount(void);
 long infonode(void);
 long infotype(void);
@@ -91,7 +92,7 @@ typedef struct esize {
 } esize_t;
 void hwclock(esize_t* ticks);
 
-void led(long state); /* 1: this node works, 0: it waits; kept for whoever watches the process */
+void led(long state); /* 1: this node works, 0: it waits; shown by a debugger only */
 void flick(void);     /* gives the processor away for a moment; longer the more often nothing has arrived */
 
 /* The twins. */

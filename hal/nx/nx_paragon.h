@@ -1,5 +1,5 @@
 /* NX of the Paragon: what it added to the calls of the iPSC/2 (nx_messages.h). Receives and probes may choose the
- * sender, and tell of the message in an array of the caller's. A node runs one process, whose ptype is 0. */
+ * sender, and describe the message in an array of the caller's. A node runs one process, whose ptype is 0. */
 #pragma once
 
 #include "nx_messages.h"
@@ -11,15 +11,15 @@ extern "C" {
 #define INVALID_PTYPE (-1)
 #define FORCE_TYPE 0x40000000 /* the first of the force types */
 
-/* As without the x, for messages from `nodesel` (-1: anyone) and `ptypesel` (0, or -1: any). What is told of the
- * message: info[0] its type, info[1] its length, info[2] its sender, info[3] its ptype, info[4..7] 0. irecvx
- * fills `info` when its id is waited for or found done. A null pointer: nobody wants to know. infocount() and
- * its like tell it, too. */
+/* As without the x, for messages from `nodesel` (-1: anyone) and `ptypesel` (0, or -1: any). They describe
+ * the message: info[0] is its type, info[1] its length, info[2] its sender, info[3] its ptype, info[4..7] are 0.
+ * irecvx fills `info` when its id is waited for or found done. `info` may be a null pointer. infocount() and the
+ * other info calls describe the message, too. */
 void crecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, long info[8]);
 long irecvx(long typesel, void* buf, long len, long nodesel, long ptypesel, long info[8]);
 void cprobex(long typesel, long nodesel, long ptypesel, long info[8]);
 long iprobex(long typesel, long nodesel, long ptypesel, long info[8]);
-/* An array for those who have none of their own. */
+/* An array for programs that have none of their own. */
 extern long msginfo[8];
 
 /* As without the x; the handler gets `parameter`, too. */

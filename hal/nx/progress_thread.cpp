@@ -49,7 +49,7 @@ void ProgressThread::run() try {
   try {
     process_.backend().abort(reason_of(failure));
   } catch (const std::exception&) {
-    // A backend of threads tells it to whoever started them.
+    // The threads backend throws it in run_threads, too.
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 
 #include "hal/failure/failure.h"
 
@@ -11,7 +12,7 @@ namespace mars::processes {
 namespace {
 
 constexpr std::uint32_t kSmallestClass = 6;  // 64 bytes: a cache line
-constexpr std::uint32_t kLastSmall = 16;     // classes up to it come in slabs and keep their memory
+constexpr std::uint32_t kLastSmall = 16;     // classes up to it come in slabs, whose memory is never given back
 constexpr std::size_t kSlab = 64 * 1024;
 constexpr std::uint64_t kPage = 4096;
 
@@ -103,7 +104,7 @@ void Heap::fail_full() const {
                 "", "receive before so much is sent, or set MARS_NX_MEMORY to more MiB");
 }
 
-// Keeps the block's addresses and gives the pages after its first back.
+// Gives the pages after the block's first back; its addresses stay.
 void Heap::hollow(Block& block, Offset offset) {
   const std::uint64_t first = (offset + sizeof(Block) + kPage - 1) / kPage * kPage;
   const std::uint64_t last = (offset + block_size(block.size_class)) / kPage * kPage;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "hal/processes/segment.h"
 
@@ -11,7 +13,7 @@ namespace mars::processes {
 
 class Heap {
  public:
-  // Rank `index`'s; what a process that had this rank before has left in use stays so until it is given back.
+  // Rank `index`'s; blocks that an earlier process of this rank has left in use stay so until they are given back.
   Heap(const Segment& segment, int index);
 
   // A block of at least `length` bytes and its length set. Throws Failure when the messages under way take

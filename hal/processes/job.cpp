@@ -52,7 +52,7 @@ Job::Job(JobPlan plan)
 
 Job::~Job() {
   kill_all(SIGKILL);
-  // What they had started and left becomes ours as they go.
+  // Processes that they had started become ours as they end.
   while (waitpid(-1, nullptr, 0) > 0) kill_all(SIGKILL);
   for (const int descriptor : {ours_, hosts_, signals_}) close(descriptor);
   sigprocmask(SIG_SETMASK, &signals_before_, nullptr);
@@ -109,19 +109,19 @@ void Job::start(int index, const std::string& file) {
 }
 
 void Job::serve() {
-  Asking request{};
+  JobRequest request{};
   if (recv(ours_, &request, sizeof request, MSG_DONTWAIT) != sizeof request) return;
   answer(request);
 }
 
-void Job::answer(const Asking& request) {
+void Job::answer(const JobRequest& request) {
   std::int32_t result = 0;
   const bool sensible = request.node >= -1 && request.node < segment_.nodes();
-  if (request.what == Asking::What::begin) {
+  if (request.what == JobRequest::What::begin) {
     begin();
-  } else if (!sensible || (request.what == Asking::What::load && request.node < 0)) {
+  } else if (!sensible || (request.what == JobRequest::What::load && request.node < 0)) {
     result = EINVAL;
-  } else if (request.what == Asking::What::kill) {
+  } else if (request.what == JobRequest::What::kill) {
     kill_nodes(request.node);
   } else if (processes_[request.node].id != 0) {
     result = EBUSY;
@@ -159,7 +159,7 @@ void Job::take_signals() {
       reap();
       continue;
     }
-    // Whoever asks twice does not want to wait. What a terminal sends, it sends to all.
+    // A second signal means now. A terminal sends its signals to all processes itself.
     if (passed_on_ != 0)
       kill_all(SIGKILL);
     else if (signal.ssi_code != SI_KERNEL)
@@ -171,7 +171,7 @@ void Job::take_signals() {
   }
 }
 
-// Also of what ranks started and left behind.
+// Also processes that ranks started and left behind.
 void Job::reap() {
   int status = 0;
   for (pid_t ended; (ended = waitpid(-1, &status, WNOHANG)) > 0;) {
@@ -189,7 +189,7 @@ void Job::note_end(int index, int status) {
   const int code = signal != 0 ? -signal : WEXITSTATUS(status);
   const bool in_order = signal == 0 && slot.life != Life::joined;
   slot.code = code;
-  // In this order: whoever finds the new age also finds that the process has ended, and when.
+  // In this order: a process that reads the new age also reads that this one has ended, and when.
   slot.ended = segment_.header().age + 1;
   slot.life = in_order || killed ? Life::ended : Life::died;
   ++segment_.header().age;
@@ -220,7 +220,7 @@ std::uint64_t Job::taken() const {
 void Job::look_for_standstill() {
   if (Clock::now() < next_look_) return;
   next_look_ = Clock::now() + kTick;
-  // What is looked at one after the other is true at once only if nothing has moved since the last look.
+  // Slots are read one after the other: together they are true only if nothing has moved since the last look.
   const std::uint64_t before = std::exchange(last_taken_, taken());
   const bool still = stands_still() && before == last_taken_;
   standing_still_ = still ? standing_still_ + 1 : 0;
@@ -235,7 +235,7 @@ void Job::look_for_standstill() {
   note_failure(reason);
 }
 
-// What ends the others is reported once.
+// The failure that ends the others is reported once.
 void Job::note_failure(const std::string& reason) {
   code_ = std::max(code_, 1);
   if (segment_.stopped()) return;
@@ -245,7 +245,7 @@ void Job::note_failure(const std::string& reason) {
 
 std::string Job::name(int index) const { return messages::rank_name(index, segment_.nodes()); }
 
-// A host may go on after a failure, when it has killed the nodes; without it nobody can.
+// Only a host can go on after a failure, once it has killed the nodes.
 void Job::hurry() {
   const bool host = plan_.host && processes_[segment_.nodes()].id != 0;
   if (segment_.stopped() && !host && !deadline_) deadline_ = Clock::now() + kGrace;

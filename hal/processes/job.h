@@ -25,7 +25,7 @@ struct JobPlan {
   enum class Begin { at_once, later, never };
   Begin begin = Begin::at_once;
   std::uint64_t limit = 0;  // bytes that messages under way may take
-  // What a rank is, called in its process; returns its exit code if it returns at all. `file` is what the
+  // A rank's program, called in its process; returns its exit code if it returns at all. `file` is what the
   // host asked to be loaded, "" where it did not ask.
   std::function<int(const Place& place, const std::string& file)> become;
   // A line about what went wrong.
@@ -53,7 +53,7 @@ class Job {
   void begin();
   bool running(int first, int last) const;
   void serve();
-  void answer(const Asking& request);
+  void answer(const JobRequest& request);
   void kill_nodes(int node);
   void take_signals();
   void reap();
@@ -79,7 +79,7 @@ class Job {
   int standing_still_ = 0;  // looks at which nothing could move
   std::uint64_t last_taken_ = 0;
   std::chrono::steady_clock::time_point next_look_{};
-  std::optional<std::chrono::steady_clock::time_point> deadline_;  // for what should end by itself
+  std::optional<std::chrono::steady_clock::time_point> deadline_;  // for processes to end, before they are killed
 };
 
 }  // namespace mars::processes

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"

@@ -1,9 +1,8 @@
-// What a process of a job over shared memory gets from the one that started it, and what its host may ask.
+// The place in a job over shared memory that a process gets from the one that started it, and the requests of a host.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 namespace mars::processes {
 
@@ -15,13 +14,13 @@ struct Place {
 
 // For the environment of a process that is about to become another program.
 void leave_place(const Place& place);
-// Taken from there, by that program. None: nobody started it as a rank.
+// Taken from there, by that program. None: it was not started as a rank.
 std::optional<Place> take_place();
 
 // One datagram from host to job, answered by one int: 0 or an errno.
-struct Asking {
+struct JobRequest {
   enum class What : std::int32_t {
-    begin,  // start every node that has not been loaded, as the job was told to
+    begin,  // start every node that has not been loaded, as the job plans
     load,   // start `file` on `node`
     kill,   // end the process on `node`, -1: on all, and wait until it has gone
   };

@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::size_t kPage = 4096;
 
-// What is waited for may come at once from a process on another processor; where processes share one it does
-// not come before this one has given it away.
+// A message may come at once from a process on another processor; where processes share one, not before this process
+// has yielded.
 constexpr int kLooks = 20;   // turns
 constexpr int kYields = 10;  // turns after these
 constexpr int kLooksATurn = 32;
-// Whoever lets that much time pass has nothing to do before a message comes.
+// A caller that lets that much time pass has nothing to do before a message comes.
 constexpr std::chrono::microseconds kPatience{5000};
 
 int processors() {
@@ -81,7 +81,7 @@ messages::Ticket ProcessesBackend::start_send(int to, int type, const void* data
   return 0;
 }
 
-// The message that is next, or 0. One that was under way to the process before this one is nobody's.
+// The message that is next, or 0. One that was under way to the process before this one is discarded.
 Offset ProcessesBackend::first_seen() {
   for (;;) {
     const Offset first = slot_.seen.load(std::memory_order_relaxed);

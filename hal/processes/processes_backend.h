@@ -1,8 +1,15 @@
 // Ranks as processes of one machine, over memory that they share (segment.h). A message is copied into a
-// block of its sender, pushed to the receiver, copied out and given back; who waits sleeps until it is woken,
-// so a long wait costs nothing. A rank that dies takes no other with it: whoever sees it die stops the
-// segment, and every rank's next call throws the reason.
+// block of its sender, pushed to the receiver, copied out and given back; a rank that waits sleeps until it is
+// woken, so a long wait costs nothing. A rank that dies leaves the memory sound: the job (job.h) sees it die and stops
+// the segment, and every rank's next call throws the reason.
 #pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "hal/messages/backend.h"
 #include "hal/processes/heap.h"

@@ -7,10 +7,14 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
@@ -21,7 +25,7 @@ namespace {
 constexpr std::uint64_t kAlone = std::uint64_t{1} << 32;  // bytes that a node alone may send itself
 constexpr std::int64_t kSleep = 100'000'000;              // nanoseconds
 
-// The host's first message is when nodes must run at the latest.
+// Nodes begin at the host's first message at the latest.
 class HostBackend : public ProcessesBackend {
  public:
   HostBackend(const Segment& segment, int index, ProcessesWorld& world)
@@ -47,7 +51,7 @@ bool runnable(const fs::path& file) {
   return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;
 }
 
-// As given; then under its last name beside the host program, for its folders of 1990 are gone.
+// As given; else beside the host program: the folders that programs of 1990 name are gone.
 fs::path find_program(const fs::path& file) {
   const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / file.filename();
   for (const fs::path& each : {file, beside})
@@ -89,8 +93,8 @@ void ProcessesWorld::fail(const std::string& reason) {
   std::_Exit(1);
 }
 
-int ProcessesWorld::ask(Asking::What what, int node, const std::string& file) {
-  Asking request{what, node, {}};
+int ProcessesWorld::ask(JobRequest::What what, int node, const std::string& file) {
+  JobRequest request{what, node, {}};
   if (file.size() >= sizeof request.file) return ENAMETOOLONG;
   std::memcpy(request.file, file.c_str(), file.size());
   std::int32_t answer = ECONNRESET;
@@ -104,7 +108,7 @@ int ProcessesWorld::ask(Asking::What what, int node, const std::string& file) {
 void ProcessesWorld::begin() {
   if (begun_) return;
   begun_ = true;
-  ask(Asking::What::begin, -1, "");
+  ask(JobRequest::What::begin, -1, "");
 }
 
 void ProcessesWorld::resize(int nodes) {
@@ -120,12 +124,12 @@ void ProcessesWorld::load(const std::string& file, int node) {
     throw Failure("node " + std::to_string(node) + " still runs another program", "",
                   "wait for its end or kill it first");
   messages::process().reset_peer(node);
-  const int error = ask(Asking::What::load, node, program);
+  const int error = ask(JobRequest::What::load, node, program);
   if (error != 0) throw Failure(std::strerror(error), file, "");
 }
 
 void ProcessesWorld::kill(int node) {
-  ask(Asking::What::kill, node, "");
+  ask(JobRequest::What::kill, node, "");
   if (node < 0) segment_.flush(place_.index);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "hal/messages/world.h"
 #include "hal/processes/place.h"
@@ -31,7 +32,7 @@ class ProcessesWorld : public messages::World {
   void wait_for_end() override;
 
  private:
-  int ask(Asking::What what, int node, const std::string& file);
+  int ask(JobRequest::What what, int node, const std::string& file);
 
   Segment segment_;
   const Place place_;

@@ -1,6 +1,8 @@
 #include "hal/processes/run_processes.h"
 
 #include <cstdio>
+#include <exception>
+#include <string>
 
 #include "hal/failure/explain.h"
 #include "hal/messages/process.h"
@@ -15,7 +17,7 @@ void print(const std::string& line) {
   std::fflush(stderr);
 }
 
-// One rank's whole life.
+// One rank from its start to its end.
 int run_rank(const Place& place, const std::function<int()>& body) {
   const Segment segment(place.segment);
   Slot& slot = segment.slot(place.index);

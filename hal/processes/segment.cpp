@@ -93,8 +93,8 @@ void Segment::sleep(Slot& slot, std::int64_t nanoseconds) {
   messages::futex(slot.asleep, FUTEX_WAIT, 1, &timeout);
 }
 
-// What it is woken for was written before; the sleeper looks for it after it has written `asleep`: one sees
-// the other.
+// The waker has written its message before; the sleeper looks for one after it has written `asleep`: one sees the
+// other.
 void Segment::wake(Slot& slot) {
   if (slot.asleep.load() == 1 && slot.asleep.exchange(0) == 1) messages::futex(slot.asleep, FUTEX_WAKE, 1, nullptr);
 }

@@ -1,5 +1,5 @@
 // The memory that the processes of one machine share to be the ranks of one job: what stands where in it. All
-// is zero at the start, addresses are offsets, and whatever several processes change is one atomic word,
+// is zero at the start, addresses are offsets, and what several processes change is one atomic word,
 // changed by one instruction: so any of them may be killed at any instant and the others go on. Slot i is
 // node i; the host's is the last.
 //
@@ -53,7 +53,7 @@ enum class Waiting : std::uint32_t {
 
 struct alignas(64) Slot {
   BlockStack arrived;                 // messages to this rank
-  std::atomic<std::uint32_t> asleep;  // 1: waits on this word (a futex), to be woken by whoever makes it 0
+  std::atomic<std::uint32_t> asleep;  // 1: waits on this word (a futex), woken by the process that makes it 0
   std::atomic<Waiting> waiting;
   alignas(64) BlockStack returned;   // blocks of this rank's heap
   alignas(64) Offset carved;         // bytes of its heap that are blocks; changed by the owner alone
@@ -78,14 +78,14 @@ inline constexpr int kShares = 256;  // at a time
 struct alignas(64) Header {
   std::int32_t nodes;  // the machine's
   std::int32_t has_host;
-  std::atomic<std::int32_t> cube;       // of which the first so many are the cube
+  std::atomic<std::int32_t> cube;       // number of them, the first ones, that are the cube
   std::atomic<std::uint32_t> age;       // begins and ends of processes so far
   std::uint64_t heap_capacity;          // addresses that each heap has
   std::uint64_t limit;                  // bytes that messages under way may take in all heaps
   std::atomic<std::uint64_t> used;      // of these
   std::atomic<std::int32_t> finished;   // ranks that have come to their orderly end
-  std::atomic<std::uint32_t> stopped;   // 1: by nobody who has said why yet; 2: `reason` can be read
-  std::atomic<std::uint32_t> stopping;  // whoever adds first writes the reason
+  std::atomic<std::uint32_t> stopped;   // 1: the reason is not there yet; 2: `reason` can be read
+  std::atomic<std::uint32_t> stopping;  // the process that adds first writes the reason
   char reason[1000];
   Share shares[kShares];
 };
@@ -127,7 +127,7 @@ class Segment {
   void stop(const std::string& reason) const;
   bool stopped() const { return header().stopped.load(std::memory_order_relaxed) != 0; }
   std::string reason() const;
-  // Forgets it; for when all who may have seen it are gone.
+  // Forgets it; once all processes that may have seen it are gone.
   void go_on() const;
 
  private:

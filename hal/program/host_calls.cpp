@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
+#include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hal/messages/call_failure.h"
@@ -76,7 +73,7 @@ void on_world(const char* call, int code, Work work) try {
   fail(call, code, failure.where.empty() ? failure.problem : failure.where + ": " + failure.problem, failure.remedy);
 }
 
-// "8" or "d3"; what follows told of memory and processors.
+// "8" or "d3"; what follows, which named memory and processors, is ignored.
 int nodes_of(const char* call, const std::string& type, int all) {
   if (type.empty()) return all;
   const bool dimension = type[0] == 'd';
@@ -190,7 +187,7 @@ void kill_nodes(const char* call, long node, long pid, bool flush) {
 
 long list_cubes(const char* call, cubetable* table, long slots) {
   if (!cube.held) return 0;
-  if (slots > 0 && table == nullptr) fail(call, EQPBUF, "the table is a null pointer", "give room for the cubes");
+  if (slots > 0 && table == nullptr) fail(call, EQPBUF, "the table is a null pointer", "give an array for the cubes");
   if (slots > 0) {
     *table = {};
     cube.name.copy(table->cubename, NAMELEN - 1);

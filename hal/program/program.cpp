@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "hal/failure/explain.h"

@@ -1,5 +1,5 @@
-// What makes a C program with a main function of its own, which knows nothing of jobs, a rank of one: its
-// first NX call, or its end, connects it, and exit() takes it out in order. Linked into libmars-nx only.
+// Makes a C program with a main function of its own, which knows nothing of jobs, a rank of one: its first NX call, or
+// its end, connects it, and exit() disconnects it in order. Linked into libmars-nx only.
 #pragma once
 
 #include "hal/messages/process.h"

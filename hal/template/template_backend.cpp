@@ -16,7 +16,7 @@ constexpr std::align_val_t kAlignment{64};
 
 }  // namespace
 
-// With many ranks: hand the bytes to the transport, or copy them and hand over the copy when there is room.
+// With many ranks: hand the bytes to the transport, or copy them and hand over the copy when it can take them.
 // Must return though the receiver does nothing, or two nodes that send first would wait for each other for
 // ever.
 void TemplateBackend::send(int to, int type, const void* data, std::size_t length) {

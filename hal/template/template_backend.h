@@ -3,7 +3,8 @@
 // contract; what a body would do in a world of many ranks stands beside it in the .cpp file.
 #pragma once
 
-#include <cstdint>
+#include <chrono>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>

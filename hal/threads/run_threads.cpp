@@ -1,5 +1,7 @@
 #include "hal/threads/run_threads.h"
 
+#include <exception>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -11,7 +13,7 @@
 namespace mars::threads {
 namespace {
 
-// One rank's whole life.
+// One rank from its start to its end.
 void run_rank(ThreadsWorld& world, int rank, const std::function<void()>& body, const WrapBackend& wrap) try {
   ThreadsBackend& backend = world.rank(rank);
   const std::unique_ptr<messages::Backend> wrapped = wrap ? wrap(backend) : nullptr;

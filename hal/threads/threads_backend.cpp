@@ -1,8 +1,8 @@
 #include "hal/threads/threads_backend.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "hal/failure/explain.h"

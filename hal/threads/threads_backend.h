@@ -5,11 +5,15 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/messages/backend.h"
@@ -58,7 +62,7 @@ class ThreadsBackend : public messages::Backend {
   messages::MessageList returned_;  // of pool_
 };
 
-// What the ranks have in common. Outlives their threads.
+// The state that the ranks share. Outlives their threads.
 class ThreadsWorld {
  public:
   explicit ThreadsWorld(int nodes);

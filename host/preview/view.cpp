@@ -105,8 +105,8 @@ class Maker {
     for (const wire::Shape& shape : film_.shapes()) add_lines(control_net(film_, shape));
     const std::uint32_t cube = add_lines(cube_edges());
     for (const wire::Segment& segment : film_.segments()) {
-      parts(As::vertices).push_back({segment.shape, segment.motion, segment.look});
-      parts(As::prisms).push_back({cube, segment.motion, segment.look});
+      parts(As::vertices).push_back({segment.shape, segment.motion, segment.material});
+      parts(As::prisms).push_back({cube, segment.motion, segment.material});
     }
   }
 
@@ -130,8 +130,8 @@ class Maker {
       const modeler::Joint& joint = model.joints[number];
       if (joint.segment) {
         const wire::Segment& segment = film_.segments()[next_segment_++];
-        parts(As::stick).push_back({lines[number], segment.motion, segment.look});
-        looks.push_back(segment.look);
+        parts(As::stick).push_back({lines[number], segment.motion, segment.material});
+        looks.push_back(segment.material);
       } else {
         looks.push_back(joint.parent == modeler::kNone ? grey() : looks[joint.parent]);
         if (actor.matrices.empty()) bare.push_back(number);
@@ -179,7 +179,7 @@ class Maker {
       std::size_t longest = 0;
       for (const std::size_t axis : {1u, 2u})
         if (glm::length(column_of(matrix, axis)) > glm::length(column_of(matrix, longest))) longest = axis;
-      parts(As::stick).push_back({axes[longest], segment.motion, segment.look});
+      parts(As::stick).push_back({axes[longest], segment.motion, segment.material});
     }
   }
 

@@ -1,6 +1,7 @@
 #include "node/geometry/clip.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace mars::geometry {
 namespace {

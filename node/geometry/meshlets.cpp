@@ -1,7 +1,9 @@
 #include "node/geometry/meshlets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace mars::geometry {
 namespace {

@@ -7,6 +7,7 @@
 
 namespace mars::geometry {
 
+// How `matrix` moves places and turns normals.
 shape::EyeMap eye_map(const shape::EyeMatrix& matrix);
 
 // Whether the meshlet surely leaves no mark on a picture of width x height: its box lies outside.

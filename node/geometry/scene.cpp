@@ -1,6 +1,7 @@
 #include "node/geometry/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -77,7 +78,7 @@ shape::EyeMatrix Scene::matrix(std::size_t segment) const {
 }
 
 std::uint32_t Scene::material(std::size_t segment) const {
-  return film_.value_at(film_.segments()[segment].look, frame_);
+  return film_.value_at(film_.segments()[segment].material, frame_);
 }
 
 LineRange Scene::moving_line_bounds(std::span<const std::uint32_t> frames) const {

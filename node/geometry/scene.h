@@ -1,7 +1,8 @@
-// The film as a node sees it: which segments move in the interval at hand, and camera, lights and matrices of
-// the frame at hand, in eye space.
+// The film as a node sees it: the segments that move in the current interval, and camera, lights and matrices of the
+// current frame, in eye space.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
-// A polygon's set-up: all that drawing it needs, one cache line, and what travels to the homes of its scanlines. A
-// plain struct: kernels of several instruction sets share it. Values at a sample are plane equations taken at the
+// A triangle's set-up: all that drawing it needs, one cache line, sent as it is to the homes of its scanlines. A plain
+// struct: kernels of several instruction sets share it. Values at a sample are plane equations taken at the
 // sample's own place relative to the first vertex.
 #pragma once
 

@@ -7,7 +7,7 @@
 
 namespace mars::group {
 
-// Who gives what to whom.
+// The lines that each node sends, and their receivers.
 class DepthExchange::Plan {
  public:
   Plan(const DepthNeeds& needs, const raster::Czb& czb) : needs_(needs), czb_(czb) {}
@@ -28,7 +28,7 @@ class DepthExchange::Plan {
 
   // Needed lines that `node` is home of.
   geometry::LineRange lines_of(int node) const { return geometry::overlap(needs_.homes[index(node)], needs_.lines); }
-  // Those that must travel; none on one machine, where word that they are written is enough.
+  // Those that a message must carry; none within a machine, where an empty one says that they are written.
   geometry::LineRange travelling(int from, int to) const {
     return share_a_machine(from, to) ? geometry::LineRange{} : lines_of(from);
   }
@@ -48,7 +48,7 @@ void DepthExchange::complete(const DepthNeeds& needs, raster::Czb& czb) {
   send_home_lines(plan, czb);
   if (plan.collects(self)) {
     collect_lines(plan, czb);
-    tell_contributors(plan);
+    notify_contributors(plan);
   } else if (plan.contributes(self)) {
     crecv(wire::depth_lines_from(czb.head_of(self)), nullptr, 0);
   }
@@ -75,7 +75,7 @@ void DepthExchange::collect_lines(const Plan& plan, raster::Czb& czb) {
   pending_.wait();
 }
 
-void DepthExchange::tell_contributors(const Plan& plan) const {
+void DepthExchange::notify_contributors(const Plan& plan) const {
   const int self = plan.self();
   for (int node = plan.first(); node < plan.last(); ++node)
     if (node != self && plan.contributes(node) && plan.share_a_machine(self, node))

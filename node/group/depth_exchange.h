@@ -1,8 +1,9 @@
 // CZB for the nodes that draw inbetweens: after a keyframe each machine that has such nodes, the contributors, gets the
 // lines that inbetweens may touch, once.
 //
-// The group's nodes on a machine write their home lines to its CZB. The first of them, its head, collects there what
-// other machines send and the word of its own, and then tells the machine's contributors.
+// The group's nodes on a machine write their home lines to its CZB. The first of them, its head, receives there the
+// lines of other machines and an empty message from each node of its own that has written, and then notifies the
+// machine's contributors.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace mars::group {
 
-// What the group's nodes know of each other, all of them the same.
+// The same on all nodes of the group.
 struct DepthNeeds {
   collectives::Group group;
   std::span<const geometry::LineRange> homes;  // of the group's nodes
@@ -37,7 +38,7 @@ class DepthExchange {
 
   void send_home_lines(const Plan& plan, raster::Czb& czb);
   void collect_lines(const Plan& plan, raster::Czb& czb);
-  void tell_contributors(const Plan& plan) const;
+  void notify_contributors(const Plan& plan) const;
 
   PendingMessages pending_;
 };

@@ -37,7 +37,7 @@ void TriangleExchange::send_triangles(const collectives::Group& group, const ras
     std::ranges::fill(on_home(std::span(home_of_)), static_cast<std::uint32_t>(home));
     const auto counts = on_home(line_counts);
     const std::size_t boxes = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-    // As many triangles as so many edge boxes can have; less is filled.
+    // Capacity for one triangle an edge box, the most there can be.
     parcels_[home] = {arena.take<geometry::Triangle>(boxes), arena.take<raster::UnsortedEdgeBox>(boxes), 0, boxes,
                       shading::kNoTriangle};
   }
@@ -58,7 +58,7 @@ void TriangleExchange::fill_parcels(const raster::Polygons& own, std::uint32_t s
     const std::uint32_t home = home_of_[unsorted.line];
     if (home == self) return;
     Parcel& parcel = parcels_[home];
-    if (std::exchange(parcel.met, unsorted.box.triangle) != unsorted.box.triangle)
+    if (std::exchange(parcel.last_triangle, unsorted.box.triangle) != unsorted.box.triangle)
       parcel.triangles[parcel.triangle_count++] = own.triangles[unsorted.box.triangle];
     raster::UnsortedEdgeBox& copy = parcel.boxes[--parcel.box_count] = unsorted;
     copy.box.triangle = static_cast<std::uint32_t>(parcel.triangle_count - 1);
@@ -77,9 +77,9 @@ raster::Polygons TriangleExchange::receive_triangles(const collectives::Group& g
   const auto boxes =
       arena.take<raster::UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(raster::UnsortedEdgeBox));
   crecv(wire::edge_boxes_from(node), boxes.data(), bytes_of(boxes));
-  const auto stationary =
-      std::partition_point(boxes.begin(), boxes.end(), [](const raster::UnsortedEdgeBox& c) { return c.moving == 1; });
-  const auto moving = static_cast<std::size_t>(stationary - boxes.begin());
+  const auto first_stationary = std::partition_point(
+      boxes.begin(), boxes.end(), [](const raster::UnsortedEdgeBox& box) { return box.moving == 1; });
+  const auto moving = static_cast<std::size_t>(first_stationary - boxes.begin());
   return {triangles.data(), boxes.subspan(moving), boxes.first(moving)};
 }
 

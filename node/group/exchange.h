@@ -1,4 +1,4 @@
-// What nodes of a group give each other in a keyframe: triangles, each once to every home of its scanlines.
+// The exchange of triangles within a group in a keyframe: each is sent once to every home of its scanlines.
 #pragma once
 
 #include <cstddef>
@@ -24,26 +24,27 @@ class TriangleExchange {
   void send_triangles(const collectives::Group& group, const raster::Polygons& own,
                       std::span<const geometry::LineRange> homes, std::span<const std::uint32_t> line_counts,
                       raster::Arena& arena);
-  // What another node, the `number`th of count - 1, sends; it lies in `arena`.
+  // Receives from another node, the `number`th of count - 1; the result lies in `arena`.
   raster::Polygons receive_triangles(const collectives::Group& group, int number, raster::Arena& arena);
+  // Waits until all that was sent has left `arena`.
   void finish();
 
  private:
-  // What goes to one home.
+  // The triangles for one home.
   struct Parcel {
     std::span<geometry::Triangle> triangles;
     std::span<raster::UnsortedEdgeBox> boxes;
     std::size_t triangle_count = 0;  // filled from the front
     std::size_t box_count = 0;       // not filled yet, from the back
-    std::uint32_t met =
-        shading::kNoTriangle;  // the triangle last seen to go there: a triangle's edge boxes follow each other
+    // The last triangle that goes there: a triangle's edge boxes follow each other.
+    std::uint32_t last_triangle = shading::kNoTriangle;
   };
 
   void fill_parcels(const raster::Polygons& own, std::uint32_t self);
 
   PendingMessages pending_;
   std::vector<Parcel> parcels_;
-  std::vector<std::uint32_t> home_of_;  // each line of some home: its index
+  std::vector<std::uint32_t> home_of_;  // by line: index of its home; only lines of `homes` are set
 };
 
 }  // namespace mars::group

@@ -1,4 +1,5 @@
-// What a group's nodes add up in a keyframe, in one go: EBC, and what each node's own triangles take of its memory.
+// The sums over a group in a keyframe, in one message exchange: EBC, and the memory that each node's own triangles
+// take.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +16,8 @@ class GroupSums {
   // `lines`: of a picture; `nodes`: the most a group has.
   GroupSums(std::size_t lines, std::size_t nodes);
 
-  // Collective over the group. `line_counts`: edge boxes a line of the caller's triangles; `own_bytes`: what these take
-  // (own_bytes, passes.h).
+  // Collective over the group. `line_counts`: edge boxes a line of the caller's triangles; `own_bytes`: the memory that
+  // these take (own_bytes, passes.h).
   void add_up(const collectives::Group& group, std::span<const std::uint32_t> line_counts, std::uint64_t own_bytes);
 
   // EBC of all nodes: lines + 1 running totals, as mapping.h wants them.

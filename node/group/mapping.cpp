@@ -1,6 +1,7 @@
 #include "node/group/mapping.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace mars::group {
 namespace {

@@ -1,4 +1,4 @@
-// Which scanlines each node of a group draws: contiguous ranges of about equal numbers of edge boxes, from the
+// The mapping of scanlines to the nodes of a group: contiguous ranges of about equal numbers of edge boxes, from the
 // prefix-summed EBC (thesis figure 4.7).
 #pragma once
 

@@ -1,7 +1,10 @@
 #include "node/group/outbox.h"
 
-#include "hal/nx/nx_messages.h"
+#include <cstdint>
+#include <span>
+
 #include "hal/messages/recorder.h"
+#include "hal/nx/nx_messages.h"
 #include "node/wire/commands.h"
 
 namespace mars::group {
@@ -29,20 +32,20 @@ void Outbox::send(wire::Strip& header) {
 
 void Outbox::wait_for_credit(wire::Strip& header) {
   const double start = dclock();
-  constexpr long kNews = wire::any_of(wire::kCredit, wire::kStop);
-  while (!stopped_ && iprobe(kNews)) take_news();  // which may give the processor away
+  constexpr long kCommands = wire::any_of(wire::kCredit, wire::kStop);
+  while (!stopped_ && iprobe(kCommands)) take_command();
   if (credits_ == 0) ++header.work.credits_waited;
   while (!stopped_ && credits_ == 0) {
-    cprobe(kNews);
-    take_news();
+    cprobe(kCommands);
+    take_command();
   }
   const double end = dclock();
   header.times.credit += end - start;
   messages::record_span(static_cast<int>(wire::Phase::credit), start, end);
 }
 
-// Stop stays where it is: the firmware ends by it.
-void Outbox::take_news() {
+// Stop is not received here: the firmware does that.
+void Outbox::take_command() {
   if (infotype() == wire::kStop)
     stopped_ = true;
   else

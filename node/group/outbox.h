@@ -1,7 +1,8 @@
-// Strips on their way to the host, a buffer for each credit: how many may be on
-// the way, so that a node draws on while the host is busy.
+// Strips on their way to the host, a buffer for each credit. Credits are the number of strips that may be on their way,
+// so that a node draws on while the host is busy.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "node/raster/strip_buffer.h"
@@ -10,12 +11,13 @@ namespace mars::group {
 
 class Outbox {
  public:
+  // `width`: of the picture; `credits`: at the start, and at most.
   Outbox(std::size_t width, int credits);
 
   // An empty buffer (StripBuffer::clear); waits until the strip last sent from it is gone.
   raster::StripBuffer& begin(bool constant);
-  // Sends what begin() gave under `header`, waiting for credit first; wait, pixels and bytes are added to it. Sends
-  // nothing where the host has said stop: it takes no more strips.
+  // Sends the buffer that begin() gave under `header`, waiting for credit first; the wait, pixels and bytes are added
+  // to `header`. After Stop it sends nothing: the host takes no more strips.
   void send(wire::Strip& header);
   bool stopped() const { return stopped_; }
 
@@ -31,7 +33,7 @@ class Outbox {
   };
 
   void wait_for_credit(wire::Strip& header);
-  void take_news();
+  void take_command();
   static void wait(Slot& slot);
 
   std::vector<Slot> slots_;

@@ -1,6 +1,7 @@
 #include "node/group/passes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "hal/collectives/group_sum.h"
@@ -16,8 +17,8 @@ namespace {
 constexpr std::uint64_t kTravelling = sizeof(geometry::Triangle) + sizeof(raster::UnsortedEdgeBox);
 constexpr std::uint64_t kInLine = sizeof(raster::EdgeBox);
 
-// Bytes of a pass besides triangles and edge boxes: the sort's offsets and heads, and what is lost where each
-// piece of memory is rounded up.
+// Bytes of a pass besides triangles and edge boxes: the counting sort's arrays, and the rounding of each piece of
+// memory.
 std::uint64_t overhead(const FrameLoad& load) { return 24 * load.line_counts.size() + 512 * load.homes.size() + 4096; }
 
 // Of all nodes' triangles, on some lines.

@@ -21,16 +21,16 @@ struct Pass {
 // The lines of a home that are drawn in a pass. The parts for twice as many passes lie within these.
 geometry::LineRange part_of(const geometry::LineRange& home, const Pass& pass);
 
-// Sets those of `wanted`, one a line of the picture, to 1 that any of the homes draws in the pass, others to 0.
+// `wanted` has one entry a line of the picture: 1 where one of the homes draws it in the pass, else 0.
 void mark_lines(std::span<const geometry::LineRange> homes, const Pass& pass, std::span<std::uint8_t> wanted);
 
-// What one node's patches became: triangles that touch a sample, and their edge boxes.
+// The triangles that one node made and that touch a sample, and their edge boxes.
 struct MadeCounts {
   std::uint64_t triangles = 0;
   std::uint64_t edge_boxes = 0;
 };
 
-// Bytes that these take on their node in a single pass, with what is set aside to send them to the group's others.
+// Bytes that these take on their node in a single pass, with the copies that are sent to the group's other nodes.
 std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group);
 
 // A frame as a node of the group knows it when lines are mapped.
@@ -46,12 +46,12 @@ struct FrameLoad {
 // A bound on the bytes that node `node` uses in any of `passes` passes.
 std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes);
 
-// The least number of passes, a power of two, for which `memory` bytes do on node `node`. Throws Failure where they do
-// not even for one line.
+// The least number of passes, a power of two, for which `memory` bytes suffice on node `node`. Throws Failure where
+// they do not suffice for one line.
 std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory);
 
-// The number of passes that does for the calling node and all others of the group, the same on every one; collective.
-// Nodes ask each other only where one pass might not do for one of them, which all can tell from the sums.
+// The number of passes that suffices on all nodes of the group, the same on each; collective. Nodes exchange their
+// numbers only where one pass might not suffice for one of them, which all know from the sums.
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory);
 
 }  // namespace mars::group

@@ -13,7 +13,7 @@ namespace mars::raster {
 // Triangles no higher than this many 1/256 pixel may have been turned over by snapping.
 inline constexpr int kThin = 4;
 
-// What is asked of triangles whose vertices are all on the screen's plane.
+// For triangles whose vertices are all on the screen's plane.
 struct ClassifyTask {
   std::int32_t width;
   std::int32_t height;
@@ -32,8 +32,8 @@ struct Classified {
   std::uint32_t faces;  // the side from which a, b, c run counter-clockwise is turned to the eye
   alignas(64) std::int32_t first_row[shape::kBatchTriangles];
   alignas(64) std::int32_t last_row[shape::kBatchTriangles];
-  alignas(64) std::uint32_t
-      columns[kMostExtent][shape::kBatchTriangles];  // of row first_row + r at [r]: first | last << 16, or 0
+  // Of row first_row + r at [r]: first | last << 16, or 0.
+  alignas(64) std::uint32_t columns[kMostExtent][shape::kBatchTriangles];
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
   alignas(64) float x1[shape::kBatchTriangles];
   alignas(64) float y1[shape::kBatchTriangles];
@@ -42,7 +42,7 @@ struct Classified {
   alignas(64) float inverse[shape::kBatchTriangles];
 };
 
-// What a patch's or a meshlet's triangles have in common.
+// Common to all triangles of a patch or a meshlet.
 struct PatchIdentity {
   std::uint32_t patch;
   std::uint32_t material;

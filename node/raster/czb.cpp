@@ -10,7 +10,7 @@ Czb::Czb(std::span<const std::int32_t> machines, int groups, std::int32_t width,
   const auto nodes = static_cast<int>(machines.size()), self = static_cast<int>(mynode());
   const auto machine = [&](int node) { return machines[static_cast<std::size_t>(node)]; };
   std::size_t shared = 0;           // by groups with several nodes here
-  std::optional<std::size_t> mine;  // its number among them
+  std::optional<std::size_t> mine;  // the caller's group's number among them
   for (int number = 0; number < groups; ++number) {
     const collectives::Group group = collectives::group_of(nodes, groups, number);
     int here = 0;

@@ -1,8 +1,8 @@
 // CZB: the z that an interval's stationary parts left, on the lines that its inbetweens may touch. Each machine has
 // one for each group: the group's nodes there write their home lines to it, and all of them read it.
 //
-// Who writes when: home lines in a keyframe, after the group's sum of EBC, which no node leaves before all have come to
-// it and so have finished the inbetweens of the interval before. Who reads: inbetweens, after DepthExchange::complete.
+// Home lines are written in a keyframe, after the group's sum of EBC: no node leaves that before all have come to it
+// and so have finished the inbetweens of the interval before. Inbetweens read, after DepthExchange::complete.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace mars::raster {
 class Czb {
  public:
   // Of a picture's size, of the caller's group, one of `groups` that the nodes, each on its machine, form side by side.
-  // Pages are used as lines are written. Collective over a machine's nodes. Throws Failure where it does not give it.
+  // Pages are used as lines are written. Collective over a machine's nodes. Throws Failure where memory is short.
   Czb(std::span<const std::int32_t> machines, int groups, std::int32_t width, std::int32_t height);
 
   // 1 / w a sample, 0 where nothing stands; line after line.

@@ -1,4 +1,4 @@
-// What a triangle covers of one scanline. Plain structs: kernels of several instruction sets share them.
+// The part of a scanline that a triangle covers. Plain structs: kernels of several instruction sets share them.
 #pragma once
 
 #include <cstdint>

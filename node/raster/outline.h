@@ -1,4 +1,4 @@
-// Which samples a triangle covers, row by row. Decided in exact integers, half-open on the left and top, so
+// The samples that a triangle covers, row by row. Decided in exact integers, half-open on the left and top, so
 // neighbours neither share a sample nor leave one out.
 #pragma once
 

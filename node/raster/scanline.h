@@ -2,6 +2,7 @@
 // shading after, so that hidden samples are never shaded.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

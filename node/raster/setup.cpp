@@ -37,8 +37,8 @@ bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
 }
 
 // Memory that a batch does not exceed in a picture of so many lines.
-std::size_t most_bytes(const Classified& e, std::int32_t height) {
-  const std::int32_t rows = e.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
+std::size_t most_bytes(const Classified& c, std::int32_t height) {
+  const std::int32_t rows = c.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
   return shape::kBatchTriangles *
          (sizeof(geometry::Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
 }
@@ -62,7 +62,7 @@ bool normals_face_eye(const shape::Vertices& v, const shape::Corner3& corners) {
 
 // Whether the eye is on the side of the triangle to which (b - a) x (c - a) points. Asked of the places before
 // snapping, which can turn a thin triangle over; where even these are in a line but for rounding (beside the
-// tip of a cone), the normals tell. Else such a triangle would be lit from behind.
+// tip of a cone), the normals decide. Else such a triangle would be lit from behind.
 bool faces_eye(const shape::Vertices& v, const shape::Corner3& corners) {
   constexpr float kRounding = 1e-6f;
   float a[3], b[3], c[3];

@@ -6,6 +6,7 @@
 // Both decide the same, bit for bit.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -3,6 +3,7 @@
 // kMaxStripBytes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 

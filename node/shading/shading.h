@@ -1,5 +1,4 @@
-// Lines of a picture: which triangles they show, and how these are shaded. Plain structs only: kernels of several
-// instruction sets share them (kernels.h).
+// The input and output of shading. Plain structs only: kernels of several instruction sets share them (kernels.h).
 #pragma once
 
 #include <cstdint>
@@ -12,6 +11,7 @@
 
 namespace mars::shading {
 
+// All that shading needs of a frame, in eye space.
 struct Shading {
   const geometry::Triangle* triangles;
   const wire::Material* materials;
@@ -26,11 +26,13 @@ struct Extent {
   std::uint32_t last;
 };
 
+// How much shading a line wrote.
 struct Shaded {
   std::uint32_t runs;
   std::uint32_t pixels;
 };
 
+// The id of a sample that shows nothing.
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 }  // namespace mars::shading

@@ -2,6 +2,8 @@
 // message, no film, no picture. Rates are numbers of steps.
 #pragma once
 
+#include <array>
+
 #include "node/shape/kernels.h"
 #include "node/wire/film_parts.h"
 
@@ -44,8 +46,7 @@ void to_eye(const EyeMatrix& matrix, const std::array<float, 3>& place, float (&
 // Basis of `rate` steps, 1..kMaxRate; tables live as long as the program.
 const Basis& basis(int rate);
 
-// An edge in its one canonical direction, which depends on its four points alone; `reversed` tells whether
-// that runs against u or v.
+// An edge in its one canonical direction, which depends on its four points alone; `reversed`: it runs against u or v.
 struct Edge {
   Curve curve;
   bool reversed;

@@ -1,6 +1,7 @@
 #include "node/shape/surface.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace mars::shape {
 

@@ -1,4 +1,4 @@
-// What set-up takes: a diced patch (dice.h) or a meshlet (meshlets.h) in eye space, its vertices projected, its
+// The input of set-up: a diced patch (dice.h) or a meshlet (meshlets.h) in eye space, its vertices projected, its
 // triangles in batches. Made again for each, in the same memory.
 #pragma once
 

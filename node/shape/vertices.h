@@ -13,8 +13,8 @@ namespace mars::shape {
 inline constexpr std::int32_t kSubpixels = 256;
 inline constexpr std::int32_t kSampleOffset = kSubpixels / 2;
 
-// What a sample takes from a triangle: 1 / w, w the distance along the view axis (greater is nearer), and the
-// eye space normal / w, turned to the eye.
+// The values that a sample takes from a triangle: 1 / w, w the distance along the view axis (greater is nearer), and
+// the eye space normal / w, turned to the eye.
 enum Value { kDepth, kNormalX, kNormalY, kNormalZ, kValues };
 
 // Bernstein polynomials at i / rate, i = 0..rate: four cubic ones, and three quadratic ones for slopes.
@@ -33,7 +33,7 @@ struct Row {
   float sign;
 };
 
-// What weighs a patch's 16 control points at each of 16 places of it: for the place itself and its derivatives.
+// The weights of a patch's 16 control points at each of 16 places of it: for the place itself and its derivatives.
 struct CurvatureWeights {
   enum Kind { kPlace, kU, kV, kUU, kUV, kVV, kKinds };
   alignas(64) float weight[kKinds][16][16];  // [control point][place]

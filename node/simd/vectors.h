@@ -7,6 +7,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstdint>
+
 #include "node/simd/vector_slack.h"
 
 namespace mars::simd::MARS_SET {

@@ -22,16 +22,16 @@ struct RenderCommand {
   std::span<const std::uint32_t> frames;
 };
 
-// For one of `nodes` nodes, which `receiver` names where the host is of another version: "n3 (node 17)".
+// For one of `nodes` nodes; `receiver` names it in a failure: "n3 (node 17)".
 LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::string& receiver);
 
 // For node `node` of `nodes`, which form `groups` groups.
 RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups);
 
-// For a node that has given away `missing` credits.
+// The number of credits, for a node of whose credits `missing` are spent.
 std::int32_t read_credit(std::span<const std::byte> message, std::int32_t missing);
 
-// Stop and Clock, which say all by their type, and others that must have just so many bytes.
+// For commands of a fixed size, such as Stop and Clock, which are empty.
 void check_size(const char* command, std::size_t bytes, std::size_t expected);
 
 }  // namespace mars::wire

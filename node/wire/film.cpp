@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
-#include <utility>
 
 #include "hal/failure/failure.h"
 
@@ -42,12 +41,10 @@ static_assert(sizeof(Header) <= kMatricesOffset && kMatricesOffset % kAlignment 
 
 std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
 
-[[noreturn]] void broken(const std::string& where, const std::string& what) {
-  throw Failure("is not a sound compiled film: " + what, where, "compile the film again with `mars compile`");
-}
-
 void require(bool holds, const std::string& where, const char* what) {
-  if (!holds) broken(where, what);
+  if (holds) return;
+  throw Failure(std::string("is not a sound compiled film: ") + what, where,
+                "compile the film again with `mars compile`");
 }
 
 template <typename T>
@@ -73,6 +70,11 @@ template <typename Range>
 bool all_finite(const Range& numbers) {
   return std::all_of(numbers.begin(), numbers.end(),
                      [](auto number) { return number >= -kLargest && number <= kLargest; });
+}
+
+bool sound(const FilmSettings& s) {
+  return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
+         s.frames <= kMostFrames && s.dice <= 256 && all_finite(s.background) && s.rate > 0 && s.rate <= 1e6f;
 }
 
 bool sound(const Material& m) {
@@ -109,11 +111,6 @@ bool inside(const std::array<float, 3>& place, const Meshlet& box) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(box.low[axis] <= place[axis] && place[axis] <= box.high[axis])) return false;
   return true;
-}
-
-bool sound(const FilmSettings& s) {
-  return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
-         s.frames <= kMostFrames && s.dice <= 256 && all_finite(s.background) && s.rate > 0 && s.rate <= 1e6f;
 }
 
 // Whether a track lies within `changes`, starts at frame 0, ascends, and names values below `values`.
@@ -221,6 +218,11 @@ void FilmView::check_all(const std::string& where) const {
   for (const Track& track : light_tracks_)
     require(sound(track, changes_, lights_.size()), where, "a light's track is broken");
   check_meshlets(where);
+  check_segments(where);
+  check_intervals(where);
+}
+
+void FilmView::check_segments(const std::string& where) const {
   for (const Shape& shape : shapes_) {
     require(within(shape.first_patch, shape.patch_count, patches_.size()), where, "a shape has no such patches");
     require(within(shape.first_meshlet, shape.meshlet_count, meshlets_.size()), where, "a shape has no such meshlets");
@@ -229,9 +231,12 @@ void FilmView::check_all(const std::string& where) const {
     require(segment.shape < shapes_.size(), where, "a segment has no such shape");
     require(segment.name < names_.size(), where, "a segment has no such name");
     require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
-    require(sound(segment.look, changes_, materials_.size()), where, "a segment's material is broken");
+    require(sound(segment.material, changes_, materials_.size()), where, "a segment's material is broken");
   }
   require(patch_instances() <= std::numeric_limits<std::uint32_t>::max(), where, "it has too many patches");
+}
+
+void FilmView::check_intervals(const std::string& where) const {
   std::uint64_t next = 0;
   for (const Interval& interval : intervals_) {
     require(interval.first_frame == next && interval.frame_count > 0, where, "its intervals leave a gap");
@@ -283,7 +288,7 @@ const Matrix& FilmView::matrix_at(const Segment& segment, std::uint32_t frame) c
 }
 
 const Material& FilmView::material_at(const Segment& segment, std::uint32_t frame) const {
-  return materials_[value_at(segment.look, frame)];
+  return materials_[value_at(segment.material, frame)];
 }
 
 const Camera& FilmView::camera_at(std::uint32_t frame) const { return cameras_[value_at(settings_->camera, frame)]; }

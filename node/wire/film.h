@@ -1,9 +1,10 @@
 // The compiled film: what a node knows of a film, and, byte for byte, the body of a .mars file. Model data
 // (shapes, segments, materials) and motion data (only what changed, with the frame from which it holds),
 // cut into render intervals. One contiguous block that a machine's nodes share; FilmView reads it in place,
-// FilmData is the same film in vectors, for those who make one.
+// FilmData is the same film in vectors, from which the block is made.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -44,8 +45,8 @@ struct FilmData {
 std::vector<std::byte> pack(const FilmData& film);
 
 // The same for a block whose matrices already stand where they belong, `matrices` of them, kMatricesOffset bytes
-// behind its beginning; those of `film` do not count. `resize` gives the block its size, keeps what stands there
-// and returns where it is.
+// behind its beginning; those of `film` do not count. `resize` gives the block its size without changing what
+// is in it, and returns where it begins.
 inline constexpr std::size_t kMatricesOffset = 320;
 void pack_around(const FilmData& film, std::size_t matrices,
                  const std::function<std::byte*(std::size_t bytes)>& resize);
@@ -89,6 +90,8 @@ class FilmView {
  private:
   void check_all(const std::string& where) const;
   void check_meshlets(const std::string& where) const;
+  void check_segments(const std::string& where) const;
+  void check_intervals(const std::string& where) const;
 
   const FilmSettings* settings_ = nullptr;
   std::span<const Patch> patches_;

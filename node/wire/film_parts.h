@@ -1,4 +1,4 @@
-// What a compiled film is made of (film.h): plain structs, as they lie in the block. Angles are gone here:
+// The parts of a compiled film (film.h): plain structs, as they lie in the block. Angles are gone here:
 // matrices only.
 //
 // Units: world lengths; colours 0..1 as they are shown (no gamma); frames count from 0.
@@ -68,12 +68,12 @@ struct Shape {
 };
 
 // One instance of a shape. `motion` gives indices into matrices: T-matrices from the unit cube to the world.
-// `look` gives indices into materials. Patches and meshlets of the whole film are numbered segment by segment.
+// `material` gives indices into materials. Patches and meshlets of the whole film are numbered segment by segment.
 struct Segment {
   std::uint32_t shape;
   std::uint32_t name;  // offset into names
   Track motion;
-  Track look;
+  Track material;
 };
 
 // Phong's: ambient + diffuse * N.L coloured, specular * (R.V)^exponent white, per light.

@@ -43,7 +43,7 @@ void check_stamp(std::span<const std::byte> message, const std::string& sender, 
   };
   const std::string same = "install the same MARS on all machines";
   WireStamp stamp{};
-  std::memcpy(&stamp, message.data(), std::min(message.size(), sizeof stamp));
+  if (!message.empty()) std::memcpy(&stamp, message.data(), std::min(message.size(), sizeof stamp));
   if (message.size() < sizeof stamp || stamp.magic != own.magic)
     refuse("is not MARS, or of a version before 0.2.0", same);
   if (stamp.byte_order != own.byte_order)

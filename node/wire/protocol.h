@@ -1,15 +1,15 @@
-// What crosses the wire between host and node: message types and their bodies, plain little-endian structs
-// followed by arrays where said. The node owns this page; the host includes it and nothing else of the
-// firmware. A node boots, sends Hello and then only obeys. Hello and Load begin with a stamp that tells versions apart
-// (stamp.h). Stop may come while nodes draw: each then finishes the keyframes it was given, for the others of its group
-// wait for it, draws no more inbetweens, sends no more strips and ends. Both sides check a message's size, counts and
-// ranges before they use anything of it: the node's in commands.h, the host's in host/render/farm/node_inbox.h.
+// The messages between host and node: their types and their bodies, plain little-endian structs followed by arrays
+// where said. The node owns this page; the host includes it and nothing else of the firmware. A node boots, sends Hello
+// and then only obeys. Hello and Load begin with a stamp that tells versions apart (stamp.h). Stop may come while nodes
+// draw: each then finishes the keyframes it was given, for the others of its group wait for it, draws no more
+// inbetweens, sends no more strips and ends. Both sides check a message's size, counts and ranges before they use
+// anything of it: the node in commands.h, the host in host/render/farm/node_inbox.h.
 //
 //   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or that they are
-//                  there (types that say who sends)
+//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or an empty message once they are written
+//                  (the type names the sender)
 #pragma once
 
 #include <array>
@@ -32,12 +32,12 @@ enum MessageType : long {
   kStrip,
   kFault,
   kStop,
-  kClock,  // host -> node: what is the time? (empty); node -> host: its dclock(), a double
+  kClock,  // host -> node: empty, asks for the time; node -> host: its dclock(), a double
   kTrace,  // messages::Event ..., closed by one of kind lost
 };
 
-// Types of what nodes send each other say from whom, for NX receives by type alone. They are low: an MPI need
-// not carry high ones.
+// The type of a message between nodes names its sender, for NX receives by type alone. Types are low: an MPI need not
+// carry high ones.
 constexpr long triangles_from(long node) { return 32 + 3 * node; }
 constexpr long edge_boxes_from(long node) { return 33 + 3 * node; }
 constexpr long depth_lines_from(long node) { return 34 + 3 * node; }
@@ -48,13 +48,13 @@ constexpr long any_of(Types... types) {
   return static_cast<long>(-0x80000000L + (0L + ... + (1L << types)));
 }
 
-// Who a node is. Strings are zero-ended.
+// A node's identity. Strings are zero-ended.
 struct Hello {
   WireStamp stamp;
   std::array<char, 64> host;  // name of its machine
   std::int32_t node;
   std::int32_t machine;              // lowest node id on the same machine
-  std::int32_t rank;                 // its number for whoever started it (MPI's)
+  std::int32_t rank;                 // its number in the job that started it (MPI's)
   std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
   std::uint64_t memory;              // bytes it may use for one frame's triangles and edge boxes
   std::array<char, 64> binding;      // processors it is bound to, as hwloc lists them; "" if free
@@ -65,7 +65,7 @@ static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version h
 
 enum class Mapping : std::uint32_t { greedy, optimal };
 
-// Bytes of the film block that one kFilmBlock message has; the last has the rest.
+// Bytes of the film block in one kFilmBlock message; the last has the rest.
 inline constexpr std::uint64_t kFilmPiece = std::uint64_t{16} << 20;
 
 // Strips that a node has buffers for.
@@ -116,10 +116,10 @@ struct PhaseTimes {
   double credit;    // waiting for the host: for its credit, or until an earlier strip is gone
 };
 
-// What a trace's spans are: these steps, and the frame around them, whose value is its interval.
+// The spans of a trace: these steps, and the frame around them, whose value is its interval.
 enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, depth, credit, keyframe, inbetween };
 
-// What one node did so far for one frame; the frame's last strip has it all.
+// Work of one node for one frame so far; the frame's last strip has it all.
 struct WorkCounts {
   std::uint64_t patches;  // diced, and meshlets
   std::uint64_t vertices;
@@ -161,7 +161,7 @@ struct Strip {
   WorkCounts work;
 };
 
-// Why a node cannot go on; the whole run stops.
+// A node has failed; the whole run stops.
 struct Fault {
   std::int32_t node;
   std::int32_t frame;  // -1: before any

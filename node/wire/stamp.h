@@ -1,11 +1,11 @@
 // The first 16 bytes of the first message either way (Hello from a node, Load from the host). They never change,
-// whatever a later version sends behind them, so that every version can tell which other one it has met:
+// whatever a later version sends behind them, so that every version recognises any other:
 //
 //   bytes 0-3     "MARS"
 //         4-7     kByteOrder as the sender stores it
 //         8       version of the wire, raised whenever a message changes
 //         9-11    version of MARS: major, minor, patch
-//         12-15   the sizes of all messages' structs as one hash, as the sender stores it
+//         12-15   hash of the sizes of the structs in messages and in the film, as the sender stores it
 //
 // In Hello the name of the node's machine follows, 64 bytes, zero-ended; that never changes either.
 #pragma once

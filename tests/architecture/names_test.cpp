@@ -2,6 +2,7 @@
 // members then serve the other's objects. Types in anonymous namespaces and in functions are their file's own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <regex>

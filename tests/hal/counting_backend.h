@@ -1,15 +1,17 @@
-// A backend that counts what its rank sends before handing it on: who sent how much of which type to whom.
+// A backend that counts the messages that its rank sends, by sender, receiver and type, and hands them on.
 //   Counts counts;
 //   run_threads(nodes, host, node, counting(counts));
 //   EXPECT_EQ(counts.sent({.from = 0, .type = mars::wire::triangles_from(0)}).messages, ...);
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <tuple>
 
 #include "hal/messages/backend.h"

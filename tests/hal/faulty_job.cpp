@@ -1,14 +1,13 @@
 // A rank of jobs that must end with a failure, quickly (mpi_faults_test.cpp): argument 1 says how, or 1 the
 // way and 2 the moment (faults/faults.h).
-#include <functional>
 #include <map>
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "hal/mpi/start.h"
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/mpi/start.h"
+#include "hal/nx/nx_messages.h"
 #include "tests/hal/faults/faults.h"
 
 namespace mars::messages {

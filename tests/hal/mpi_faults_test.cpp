@@ -1,4 +1,4 @@
-// Jobs that cannot go on end at once, on all ranks, with the reason told once and an exit code.
+// Jobs that cannot go on end at once, on all ranks, with the reason printed once and an exit code.
 #include <stdio.h>
 #include <sys/wait.h>
 

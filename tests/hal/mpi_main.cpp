@@ -1,11 +1,11 @@
 // The main function of tests under MPI: all ranks run all tests in the same order, rank 0 as the host. A
-// failure on any rank is told by that rank and ends the job, so that none waits for one that gave up.
+// failure on any rank is printed by that rank and ends the job, so that none waits for one that gave up.
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "hal/mpi/start.h"
 #include "hal/messages/process.h"
+#include "hal/mpi/start.h"
 
 namespace mars::messages {
 namespace {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <new>
+#include <vector>
 
 #include "tests/hal/counting_backend.h"
 #include "tests/render/film_run.h"

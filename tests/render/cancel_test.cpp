@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <mutex>
 #include <numeric>
+#include <vector>
 
 #include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"

@@ -1,9 +1,13 @@
 // Promise 4: the work is really divided, shown by counting what is sent and what each node says it did.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
-#include <mutex>
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
@@ -143,8 +147,8 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
     const int from = static_cast<int>(t.record.patch) % nodes;
     for (int to = 0; to < nodes; ++to) {
       const Strip& home = homes[static_cast<std::size_t>(to)];
-      const auto there = std::count_if(covered.begin(), covered.end(), [&](const raster::UnsortedEdgeBox& c) {
-        return c.line >= home.first_line && c.line < home.last_line;
+      const auto there = std::count_if(covered.begin(), covered.end(), [&](const raster::UnsortedEdgeBox& box) {
+        return box.line >= home.first_line && box.line < home.last_line;
       });
       boxes[{from, to}] += static_cast<std::uint64_t>(there);
       triangles[{from, to}] += there > 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"

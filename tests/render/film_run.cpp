@@ -6,6 +6,7 @@
 #include <fstream>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "host/images/png_file.h"
 #include "host/render/sinks/sink_pool.h"
@@ -14,7 +15,7 @@
 namespace mars::test {
 namespace {
 
-// Keeps every frame.
+// Stores every frame.
 class MemorySink : public sinks::Sink {
  public:
   void take(const compositor::Frame& frame) override {
@@ -77,6 +78,7 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
 
 void expect_same(const FilmRun& rendered, const FilmRun& expected, const wire::FilmSettings& settings,
                  const std::string& name) {
+  EXPECT_FALSE(rendered.frames.empty()) << name << ": nothing was rendered";
   for (const auto& [number, pixels] : rendered.frames) {
     const auto twin = expected.frames.find(number);
     ASSERT_NE(twin, expected.frames.end()) << name << ": frame " << number;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,8 @@ class FilmBlock {
 
 FilmRun run_film(std::span<const std::byte> film, const RunOptions& options = {});
 
-// EXPECTs equal pictures for equal frames; where they differ writes both and their difference as PNG files
-// into the working directory, named after `name`.
+// EXPECTs at least one frame, and equal pictures for equal frames; where they differ writes both and their difference
+// as PNG files into the working directory, named after `name`.
 void expect_same(const FilmRun& rendered, const FilmRun& expected, const wire::FilmSettings& settings,
                  const std::string& name);
 

@@ -1,6 +1,8 @@
 #include "tests/render/films.h"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "host/content/modeler/primitives.h"

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "host/content/modeler/meshlets.h"
@@ -30,7 +28,7 @@ class FilmMaker {
   std::uint32_t add_shape(const std::vector<wire::Patch>& patches);
   std::uint32_t add_shape(const modeler::Meshlets& mesh);
   std::uint32_t add_material(const wire::Material& material);
-  // One matrix (stands still) or one a frame (only changes are kept).
+  // One matrix (stands still) or one a frame (only changes are stored).
   void add_segment(std::uint32_t shape, std::uint32_t material, const std::vector<wire::Matrix>& motion);
   void add_light(const wire::Light& light);
   // One camera, or one a frame.

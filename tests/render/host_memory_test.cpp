@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 #include <numeric>
+#include <vector>
 
 #include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"

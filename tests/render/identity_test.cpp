@@ -2,7 +2,13 @@
 // from scratch by one node.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <memory>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "tests/hal/machines_backend.h"
 #include "tests/node/simd/instruction_sets.h"
@@ -111,6 +117,7 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
     options.memory = 300'000 + 200 * GetParam().film.settings.height;
     const FilmBlock block(GetParam().film);
     const FilmRun run = run_film(block.bytes(), options);
+    EXPECT_EQ(run.frames.size(), GetParam().film.settings.frames);
     expect_same(run, run_film(block.bytes(), from_scratch()), GetParam().film.settings, "passes");
     for (const wire::Strip& strip : run.report.strips) {
       passes = std::max(passes, strip.work.passes);
@@ -139,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Films, Identity, testing::ValuesIn(cases()), [](const a
   return name;
 });
 
-// Memory so short that a single line does not fit is the user's fault, told as such; nobody hangs.
+// Memory so short that a single line does not fit is the user's fault, and is reported as such; no rank hangs.
 TEST(Memory, TooShortForOneLineIsOneClearFailure) {
   const FilmBlock block(crowd(640, 360, 2, 2));
   RunOptions options;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "host/content/modeler/primitives.h"
 #include "node/shape/dice.h"

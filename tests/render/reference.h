@@ -26,7 +26,7 @@ struct Reference {
   const ReferenceSample& at(std::uint32_t column, std::uint32_t row) const { return samples[row * width + column]; }
 };
 
-// Draws `frame`; which segments move comes from the film's intervals.
+// Draws `frame`; the film's intervals say which segments move.
 Reference draw_reference(const wire::FilmView& film, std::uint32_t frame);
 
 // The colour (red, green, blue, 0..255, not rounded) of a sample that shows a triangle.

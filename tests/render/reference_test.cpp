@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <memory>
+#include <string>
 #include <thread>
 
 #include "tests/hal/machines_backend.h"
@@ -148,7 +150,7 @@ TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
   EXPECT_EQ(shared({6, 3, 1}), 2 * kCzb);
   EXPECT_EQ(shared({6, 3, 2}), 2 * kCzb);
   EXPECT_EQ(shared({6, 4, 2}), 2 * kCzb) << "nodes 0 to 2; 4 and 5. Node 3 is apart from its mates";
-  EXPECT_EQ(shared({6, 6, 6}), 0u) << "a group of one node has nobody to share with";
+  EXPECT_EQ(shared({6, 6, 6}), 0u) << "a group of one node shares with none";
 }
 
 // Where there is no inbetween nothing is shared, and no node hears of it.

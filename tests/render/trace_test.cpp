@@ -1,9 +1,13 @@
-// A traced run: its pictures are the same, and its trace tells what the report and a counting backend tell.
+// A traced run: its pictures are the same, and its trace agrees with the report and with a counting backend.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 #include <nlohmann/json.hpp>
 #include <set>
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -99,7 +100,7 @@ TEST(Machine, BindsThreadsToTheirPlaces) {
   EXPECT_EQ(Machine::here().cores(), n);
 }
 
-TEST(Machine, BindingIsTold) {
+TEST(Machine, BindingIsReported) {
   const std::string before = Machine::binding().cores;
   const Machine machine = Machine::here();
   if (machine.cores() < 2 || !before.empty()) GTEST_SKIP() << "needs a machine of its own with two cores";
@@ -113,7 +114,7 @@ TEST(Machine, BindingIsTold) {
   }).join();
 }
 
-TEST(Machine, BindingToSomeCoresIsTold) {
+TEST(Machine, BindingToSomeCoresIsReported) {
   const Machine machine = Machine::here();
   if (machine.cores() < 3 || !Machine::binding().cores.empty())
     GTEST_SKIP() << "needs a machine of its own with three cores";

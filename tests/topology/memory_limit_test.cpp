@@ -1,4 +1,4 @@
-// Limits as made-up /proc and /sys trees tell them, and as this process sets them.
+// Limits that made-up /proc and /sys trees give, and that this process sets.
 #include "topology/memory_limit.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 

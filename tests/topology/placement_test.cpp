@@ -1,5 +1,6 @@
-// Where nodes go on made-up machines, alone and in clusters, and how close that keeps the cube's dimensions.
+// Where nodes go on made-up machines, alone and in clusters, and how close the cube's dimensions then are.
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 #include <string>
@@ -72,7 +73,7 @@ TEST(Placement, NoDimensionIsFurtherThanAHigherOne) {
   }
 }
 
-// A machine whose ids begin at an odd number still keeps pairs together: 3 | 4 5 of two chiplets.
+// A machine whose ids begin at an odd number still has pairs together: 3 | 4 5 of two chiplets.
 TEST(Placement, PlacesGoByIdsNotByCounts) {
   const Machine machine = Machine::synthetic("l3:2 core:2 pu:1");
   EXPECT_EQ(machine.place(0, 3, 0, 3), (Place{0, 2}));

@@ -1,5 +1,7 @@
 // Sixteen triangles at a time: which way they face, which samples they cover. In 32-bit integers, exact for
 // triangles no larger than kMostExtent: places relative to the triangle stay below 2^15, sums of products below 2^31.
+#include <cstdint>
+
 #include "node/raster/kernels/functions.h"
 
 namespace mars::raster::MARS_SET {

@@ -1,6 +1,7 @@
 // Set-ups as they are stored: a triangle's planes for all four values at once, and its edge boxes.
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "node/raster/kernels/functions.h"
@@ -44,18 +45,18 @@ void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, cons
   out.material = identity.material;
 }
 
-void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& e,
+void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& c,
           std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out) {
   SetUpSpace space = out;
-  for (std::uint32_t left = lanes & e.decided; left != 0; left &= left - 1) {
+  for (std::uint32_t left = lanes & c.decided; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const UnsortedEdgeBox* const before = space.last_box;
     const auto number = static_cast<std::uint32_t>(space.next - space.first);
-    const auto first_row = static_cast<std::uint32_t>(e.first_row[lane]);
-    const auto rows = static_cast<std::uint32_t>(e.last_row[lane]) - first_row;
+    const auto first_row = static_cast<std::uint32_t>(c.first_row[lane]);
+    const auto rows = static_cast<std::uint32_t>(c.last_row[lane]) - first_row;
     const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
     for (std::uint32_t r = 0; r < rows; ++r) {
-      const std::uint32_t row = first_row + r, columns = e.columns[r][lane];
+      const std::uint32_t row = first_row + r, columns = c.columns[r][lane];
       const bool wanted = (columns != 0) & (space.wanted_lines[row] != 0);
       put(number, columns, row | moving, space.last_box - 1);
       space.last_box -= wanted;
@@ -64,7 +65,7 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;
     set_up_planes(v, {triangles.a[k], triangles.b[k], triangles.c[k]},
-                  {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane], e.inverse[lane], (e.faces >> lane & 1) != 0},
+                  {c.x1[lane], c.y1[lane], c.x2[lane], c.y2[lane], c.inverse[lane], (c.faces >> lane & 1) != 0},
                   identity, *space.next++);
   }
   out = space;

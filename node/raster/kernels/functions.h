@@ -1,8 +1,10 @@
 // The kernels of this folder, each defined in a file of its own and compiled for one instruction set at a time.
 #pragma once
 
-#include "node/simd/vectors.h"
+#include <cstdint>
+
 #include "node/raster/kernels.h"
+#include "node/simd/vectors.h"
 
 namespace mars::raster::MARS_SET {
 

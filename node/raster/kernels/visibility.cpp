@@ -1,4 +1,7 @@
-// Which triangle a line's samples show.
+// The triangle that each sample of a line shows.
+#include <cstddef>
+#include <cstdint>
+
 #include "node/raster/kernels/functions.h"
 
 namespace mars::raster::MARS_SET {

@@ -4,6 +4,8 @@
 // Directions are not normalised before they are used. With n the normal / w, e the direction to the eye and t that to
 // the light, R.V = (2 (n.t)(n.e) - (t.e)(n.n)) / ((n.n) |t| |e|). Its square is what is raised to half the exponent,
 // so |e| is never taken, and one root and one division do for n and e.
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "node/shading/kernels/functions.h"
@@ -21,8 +23,8 @@ Floats dot(const Floats* a, const Floats* b) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// All values of one sample and what they are computed from: four lanes that the compiler keeps in one register, for
-// whatever instruction set; arithmetic is lane by lane.
+// All values of one sample and what they are computed from: four lanes in one register, with any instruction set;
+// arithmetic is lane by lane.
 typedef float Sample __attribute__((vector_size(sizeof(float) * shape::kValues)));
 typedef std::int32_t Places __attribute__((vector_size(sizeof(std::int32_t) * shape::kValues)));
 
@@ -38,7 +40,7 @@ struct Stretch {
   std::uint32_t material;
 };
 
-// Samples of one line that show something, close together, and what becomes of them.
+// The samples of one line that show something, without gaps, and their shading.
 constexpr std::uint32_t kBlock = 256;
 constexpr std::uint32_t kCapacity = kBlock + simd::kVectorSlack;
 struct Block {
@@ -166,7 +168,7 @@ struct MaterialLanes {
   }
 };
 
-// What a vector of samples shows, for vectors in the order of a block.
+// The materials of a vector of samples, for vectors in the order of a block.
 class Materials {
  public:
   Materials(const wire::Material* materials, const Block& block)

@@ -1,8 +1,8 @@
 // The kernels of this folder, each defined in a file of its own and compiled for one instruction set at a time.
 #pragma once
 
-#include "node/simd/vectors.h"
 #include "node/shape/kernels.h"
+#include "node/simd/vectors.h"
 
 namespace mars::shape::MARS_SET {
 

@@ -1,4 +1,5 @@
 // Points and normals of a patch or a mesh, and where they lie on the screen.
+#include <cstddef>
 #include <cstring>
 
 #include "node/shape/kernels/functions.h"

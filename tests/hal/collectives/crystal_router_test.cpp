@@ -1,5 +1,6 @@
-// How many messages the crystal router sends, beside sending directly: exactly, at every number of nodes.
+// The number of messages of the crystal router and of direct sending: exactly, at every number of nodes.
 #include <bit>
+#include <span>
 #include <string>
 #include <vector>
 

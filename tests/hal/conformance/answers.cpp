@@ -17,7 +17,7 @@ void answer_all(int times) {
 }
 
 RULE(csendrecv_returns_the_length, "csendrecv sends, waits for the answer and returns its length",
-     "info* tell of the answer") {
+     "info* describe the answer") {
   if (is_host()) {
     answer_all(3);
     return;

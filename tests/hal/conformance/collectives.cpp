@@ -91,8 +91,8 @@ RULE(gcol_in_node_order,
   }
 }
 
-RULE(gcol_that_does_not_fit, "gcol into less room than all parts need fails",
-     "EQMSGLONG, on every node, also where one alone has too little room") {
+RULE(gcol_that_does_not_fit, "gcol into a buffer shorter than all parts fails",
+     "EQMSGLONG, on every node, also where the buffer of one alone is too short") {
   if (is_host()) return;
   const std::string mine = "part";
   const long all = 4 * numnodes();
@@ -114,7 +114,7 @@ RULE(wrong_on_one_node, "what is wrong on one node fails on all that wait for it
 }
 
 RULE(different_lengths, "a vector of another length on one node is EQLEN on all",
-     "the shorter one's room is not written beyond; afterwards all goes on") {
+     "nothing is written behind the shorter one; afterwards all goes on") {
   if (is_host() || numnodes() == 1) return;
   struct Lengths {
     long usual, odd;
@@ -132,16 +132,16 @@ RULE(different_lengths, "a vector of another length on one node is EQLEN on all"
 }
 
 RULE(different_lists_of_lengths, "gcolx with another list on one node is EQLEN",
-     "not on all, who cannot all see it, but on one at least") {
+     "not on all, for not all can see it, but on one at least") {
   if (is_host() || numnodes() == 1) return;
   std::vector<char> x(16), y(static_cast<std::size_t>(16 * numnodes()));
   for (const long other : some_nodes()) {
     std::vector<long> lengths(static_cast<std::size_t>(numnodes()), 8);
     if (mynode() == other) lengths[0] = 16;
-    long told = _gcolx(x.data(), lengths.data(), y.data()) == -1, work = 0;
-    if (told == 1) expect_equal(errno, EQLEN);
-    gisum(&told, 1, &work);
-    expect(told >= 1, "one is told");
+    long failed = _gcolx(x.data(), lengths.data(), y.data()) == -1, work = 0;
+    if (failed == 1) expect_equal(errno, EQLEN);
+    gisum(&failed, 1, &work);
+    expect(failed >= 1, "it fails on one");
   }
 }
 

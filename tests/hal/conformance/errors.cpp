@@ -1,5 +1,5 @@
-// Wrong arguments. The plain call tells the rank, the call, what was wrong and what to do; its twin returns -1 and sets
-// errno.
+// Wrong arguments. The plain call's failure names the rank, the call, the error and the remedy; its twin returns -1 and
+// sets errno.
 #include <string>
 
 #include "hal/nx/nx_messages.h"

@@ -1,5 +1,5 @@
-// What bodies of rules expect. Where it does not hold, the rank throws std::runtime_error with the place: that ends a
-// world of any backend, so that no rank waits for one that gave up.
+// Expectations of the bodies of rules. Where one does not hold, the rank throws std::runtime_error with the place: that
+// ends a world of any backend, so that no rank waits for one that gave up.
 #pragma once
 
 #include <concepts>
@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace mars::conformance {
@@ -36,7 +35,7 @@ void expect_equal(const Got& got, const Wanted& wanted, const Place& at = Place:
 
 void expect_in(const std::string& text, const std::vector<std::string>& parts, const Place& at = Place::current());
 
-// `call` throws a CallFailure of `code`, one of nx_errno.h, that tells the rank and all of `parts`.
+// `call` throws a CallFailure of `code`, one of nx_errno.h, that names the rank and all of `parts`.
 void expect_fails(int code, const std::function<void()>& call, const std::vector<std::string>& parts,
                   const Place& at = Place::current());
 

@@ -1,4 +1,5 @@
 // msgcancel and flushmsg, and message ids that run out.
+#include <string>
 #include <vector>
 
 #include "hal/nx/nx_messages.h"
@@ -15,10 +16,10 @@ RULE(cancelled_receives,
   if (is_host()) return;
   long never = -7, next = 0;
   const long cancelled = irecv(40, &never, sizeof never);
-  const long kept = irecv(40, &next, sizeof next);
+  const long posted = irecv(40, &next, sizeof next);
   msgcancel(cancelled);
   send_long(40, 1, mynode());
-  msgwait(kept);
+  msgwait(posted);
   expect_equal(next, 1);
   expect_equal(never, -7);
   REFUSED(EQMID, msgcancel, (cancelled), "no message id " + std::to_string(cancelled));
@@ -183,7 +184,7 @@ RULE(flush_by_node, "flushmsg throws away messages of one sender, or of all with
 }
 
 RULE(flush_spares_the_posted, "flushmsg does not touch posted receives, nor what they have got",
-     "a receive that is done keeps its message; one that is not gets the next") {
+     "a receive that is done still has its message; one that is not gets the next") {
   if (is_host()) return;
   long done = 0, later = 0;
   const long first = irecv(50, &done, sizeof done);

@@ -63,7 +63,7 @@ RULE(hrecv_calls_once,
   send_empty(4, myhost());
   receive_empty(51);
   await_calls(1);
-  expect(here.calls[0] == Call{50, sizeof(long), myhost(), 0}, "the handler is told of the message");
+  expect(here.calls[0] == Call{50, sizeof(long), myhost(), 0}, "the handler gets the message's numbers");
   expect_equal(here.value, 1);
   expect_equal(iprobe(50), 1);
   expect_equal(receive_long(50), 2);
@@ -133,7 +133,7 @@ RULE(hsend_calls_once, "hsend calls its handler once, with type, length, receive
   await_calls(1);
   mine.assign(mine.size(), 0);
   expect(theirs == pattern(300'000, 1), "the message is whole");
-  expect(seen().calls[0] == Call{56, 300'000, next_node(), 0}, "the handler is told of the message");
+  expect(seen().calls[0] == Call{56, 300'000, next_node(), 0}, "the handler gets the message's numbers");
   for (int turn = 0; turn < 3; ++turn) flick();
   expect_equal(seen().calls.size(), 1);
 }
@@ -154,7 +154,7 @@ RULE(hsendrecv_calls_for_the_answer, "hsendrecv sends, and calls its handler whe
   expect_equal(here.calls.size(), 0);
   send_empty(59, myhost());
   await_calls(1);
-  expect(here.calls[0] == Call{58, sizeof(long), myhost(), 0}, "the handler is told of the answer");
+  expect(here.calls[0] == Call{58, sizeof(long), myhost(), 0}, "the handler gets the answer's numbers");
   expect_equal(here.value, 2 * question);
 }
 
@@ -171,7 +171,7 @@ RULE(masktrap_holds_back, "masktrap(1) holds handlers back until masktrap(0), an
   for (int turn = 0; turn < 3; ++turn) flick();
   expect_equal(here.calls.size(), 0);
   expect_equal(iprobe(60), 0);
-  expect_equal(here.value, 7);  // it has come, but is not told
+  expect_equal(here.value, 7);  // it has come, but its handler has not run
   expect_equal(masktrap(0), 1);
   expect_equal(here.calls.size(), 1);
   expect_equal(masktrap(0), 0);
@@ -212,7 +212,8 @@ RULE(a_handler_fails_a_crecv, "a crecv that fails because an hrecv's message is 
 
 void note_info(long, long, long, long) { note(infotype(), infocount(), infonode(), infopid()); }
 
-RULE(info_in_handlers, "in a handler info* tell of its own message", "what it interrupts sees nothing of it") {
+RULE(info_in_handlers, "in a handler info* describe its own message",
+     "the program that it interrupts does not see it") {
   if (is_host()) return;
   Seen& here = forget();
   csend(72, "abc", 3, next_node(), 0);

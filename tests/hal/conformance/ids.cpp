@@ -1,5 +1,6 @@
 // Asynchronous sends and receives, and the message ids that stand for them.
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "hal/nx/nx_messages.h"
@@ -78,7 +79,7 @@ RULE(ids_are_not_used_again_soon, "an id that was freed stands for nothing, also
   for (const long mid : later) msgcancel(mid);
 }
 
-RULE(msgdone_does_not_wait, "msgdone is 0 while nothing came, and then keeps the id",
+RULE(msgdone_does_not_wait, "msgdone is 0 while nothing came, and the id stays in use",
      "an id whose msgdone was 0 is still good") {
   if (is_host()) {
     for (long node = 0; node < numnodes(); ++node) receive_empty(4);
@@ -114,7 +115,7 @@ RULE(a_thousand_ids, "a thousand ids at once, done in any order", "none stands f
 }
 
 RULE(info_is_of_what_was_asked,
-     "info* tell of the message whose msgwait, msgdone that was 1, receive or probe was last",
+     "info* describe the message whose msgwait, msgdone that was 1, receive or probe was last",
      "messages that arrive meanwhile, and sends, do not change them") {
   if (is_host()) return;
   long first = 0, second = 0;

@@ -11,7 +11,7 @@ namespace mars::conformance {
 namespace {
 
 RULE(zero_length, "a message may be empty, and be received into no buffer",
-     "its probe and its receive tell the length 0") {
+     "its probe and its receive report the length 0") {
   if (is_host()) send_empty(9, -1);
   if (is_host()) return;
   cprobe(9);

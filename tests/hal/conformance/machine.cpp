@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "hal/collectives/group_sum.h"
-#include "hal/nx/nx_global.h"
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"

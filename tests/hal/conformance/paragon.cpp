@@ -25,7 +25,7 @@ RULE(crecvx_by_sender, "crecvx receives from the node it names, -1 being any",
     long value = 0;
     crecvx(80, &value, sizeof value, node, 0, info.data());
     expect_equal(value, 100 + node);
-    expect(info == Info{80, sizeof(long), node}, "the array tells of the message");
+    expect(info == Info{80, sizeof(long), node}, "the array describes the message");
     expect_equal(infonode(), node);
     expect_equal(infoptype(), 0);
   }
@@ -49,7 +49,7 @@ RULE(irecvx_by_sender, "irecvx likewise; its array is filled when the id is done
   send_long(81, 2, mynode());
   msgwait(from_me);
   expect_equal(own, 2);
-  expect(info == Info{81, sizeof(long), mynode()}, "the array tells of the message");
+  expect(info == Info{81, sizeof(long), mynode()}, "the array describes the message");
 }
 
 RULE(probes_by_sender, "cprobex and iprobex find messages of the node they name", "0 where only others' wait") {
@@ -57,7 +57,7 @@ RULE(probes_by_sender, "cprobex and iprobex find messages of the node they name"
   if (is_host()) return;
   Info info = {};
   cprobex(82, myhost(), -1, info.data());
-  expect(info == Info{82, sizeof(long), myhost()}, "the array tells of the message");
+  expect(info == Info{82, sizeof(long), myhost()}, "the array describes the message");
   expect_equal(iprobex(82, mynode(), -1, info.data()), 0);
   expect_equal(iprobex(82, myhost(), 0, nullptr), 1);
   receive_long(82);

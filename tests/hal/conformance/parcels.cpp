@@ -1,13 +1,13 @@
-// The crystal router: parcels for some nodes, who do not know of them.
+// The crystal router: parcels for some nodes, which do not know of them.
 #include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "hal/messages/collective_method.h"
 #include "hal/collectives/crystal_router.h"
-#include "hal/nx/nx_messages.h"
+#include "hal/messages/collective_method.h"
 #include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"

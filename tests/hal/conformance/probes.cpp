@@ -74,7 +74,7 @@ RULE(posted_receives_come_before_probes, "a probe does not see a message that a 
   expect_equal(value, 1);
 }
 
-RULE(the_probed_is_received, "the receive after a probe gets the message that the probe told of",
+RULE(the_probed_is_received, "the receive after a probe gets the message that the probe found",
      "also while others send to the same rank") {
   constexpr int kMessages = 50;
   if (!is_host()) {

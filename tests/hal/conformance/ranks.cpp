@@ -1,4 +1,4 @@
-// Who is who: ids of nodes, the host among the ranks, neighbours in the cube.
+// Ids of nodes, the host among the ranks, neighbours in the cube.
 #include <set>
 
 #include "hal/nx/nx_global.h"

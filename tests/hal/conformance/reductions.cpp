@@ -2,9 +2,9 @@
 #include <vector>
 
 #include "hal/messages/collective_method.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/messages/process.h"
 #include "tests/hal/conformance/expect.h"
 #include "tests/hal/conformance/rules.h"
 #include "tests/hal/conformance/talk.h"
@@ -168,7 +168,7 @@ long higher_peak(void* x, void* work) {
 }
 
 RULE(gopf_of_a_struct, "gopf combines with an operation of one's own, the result on every node",
-     "ties do not depend on who asks") {
+     "ties do not depend on the node") {
   if (is_host()) return;
   Peak x{static_cast<double>(mynode() * 5 % 3), mynode()}, work{};
   gopf(&x, sizeof x, &work, higher_peak);

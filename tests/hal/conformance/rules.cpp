@@ -4,11 +4,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <tuple>
 
 #include "hal/failure/failure.h"
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
 #include "tests/hal/conformance/talk.h"
 
 namespace mars::conformance {

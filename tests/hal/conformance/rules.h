@@ -29,7 +29,7 @@ struct Rule {
 const std::vector<Rule>& rules();
 
 // Every rank of a world calls it. Runs all rules; throws a Failure that names the first one broken on this rank. The
-// host tells standard output which one runs and how long it took.
+// host prints which one runs and how long it took.
 void run_rules();
 
 // The page of all rules, as Markdown.

@@ -1,4 +1,5 @@
 // Sends: to whom, in which order, and that none waits for its receiver.
+#include <algorithm>
 #include <vector>
 
 #include "hal/nx/nx_messages.h"
@@ -9,7 +10,7 @@
 namespace mars::conformance {
 namespace {
 
-RULE(round_a_ring, "csend and crecv carry a message; info* tell its sender, type, length and pid 0",
+RULE(round_a_ring, "csend and crecv carry a message; info* give its sender, type, length and pid 0",
      "a message of another node is not received") {
   if (is_host()) return;
   send_long(7, 100 + mynode(), next_node());

@@ -1,9 +1,10 @@
-// What is said of exceptions that are no Failure.
+// The Failures that stand for other exceptions.
 #include "hal/failure/explain.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <exception>
 #include <new>
 
 namespace mars {
@@ -23,6 +24,7 @@ TEST(Explain, NamesTheLimitThatMemoryRanOutOf) {
 TEST(Explain, KnowsABrokenRule) {
   try {
     check(false, "two is one");
+    FAIL() << "a broken rule throws";
   } catch (const std::exception& failure) {
     EXPECT_EQ(explain(failure).problem.find("a rule of MARS itself is broken: two is one ("), 0u);
   }

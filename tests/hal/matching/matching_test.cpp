@@ -1,16 +1,20 @@
-// Matching as a process does it against a naive model: random arrivals and calls, each call's result foretold.
-#include <array>
+// Matching as a process does it against a naive model: random arrivals and calls, each call's result predicted.
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
+#include <list>
 #include <map>
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/nx/nx_paragon.h"
-#include "hal/messages/process.h"
 #include "tests/hal/matching/model.h"
 #include "tests/hal/matching/scripted_backend.h"
 
@@ -21,7 +25,7 @@ using model::Message;
 using model::Model;
 using model::Receive;
 
-constexpr std::size_t kRoom = 24;
+constexpr std::size_t kCapacity = 24;
 constexpr long kNever = 77;
 
 struct Ran {
@@ -90,22 +94,22 @@ class Game {
   }
 
   void post() {
-    Receive receive{Receive::by_id, -1, any_typesel(), any_node(), below(kRoom)};
-    auto bytes = std::make_unique<Bytes>(kRoom, 0xee);
-    const long room = static_cast<long>(receive.room);
+    Receive receive{Receive::by_id, -1, any_typesel(), any_node(), below(kCapacity)};
+    auto bytes = std::make_unique<Bytes>(kCapacity, 0xee);
+    const long capacity = static_cast<long>(receive.capacity);
     receive.name = receive.node == -1 && below(2) == 0
-                       ? irecv(receive.typesel, bytes->data(), room)
-                       : irecvx(receive.typesel, bytes->data(), room, receive.node, -1, nullptr);
+                       ? irecv(receive.typesel, bytes->data(), capacity)
+                       : irecvx(receive.typesel, bytes->data(), capacity, receive.node, -1, nullptr);
     posted_[receive.name] = std::move(bytes);
     model_.post(receive);
   }
 
   void post_handler() {
     settle();  // handlers run in the order in which messages are seen
-    const Receive receive{Receive::by_handler, ++handlers_, any_typesel(), any_node(), kRoom};
-    handed_[receive.name].assign(kRoom, 0xee);
+    const Receive receive{Receive::by_handler, ++handlers_, any_typesel(), any_node(), kCapacity};
+    handed_[receive.name].assign(kCapacity, 0xee);
     model_.post(receive);
-    hrecvx(receive.typesel, handed_[receive.name].data(), static_cast<long>(receive.room), receive.node, -1, note,
+    hrecvx(receive.typesel, handed_[receive.name].data(), static_cast<long>(receive.capacity), receive.node, -1, note,
            receive.name);
   }
 
@@ -125,7 +129,7 @@ class Game {
     if (at->too_short) {
       EXPECT_LT(result, 0);
       EXPECT_EQ(errno, EQMSGLONG);
-      EXPECT_EQ(*posted_[at->name], Bytes(kRoom, 0xee));
+      EXPECT_EQ(*posted_[at->name], Bytes(kCapacity, 0xee));
     } else if (!at->got) {
       EXPECT_EQ(result, 0);
       return;
@@ -153,15 +157,15 @@ class Game {
     const Message* first = model_.first(typesel, node);
     if (first == nullptr) return;
     const Message message = *first;
-    const std::size_t room = below(kRoom);
-    Bytes bytes(kRoom, 0xee);
+    const std::size_t capacity = below(kCapacity);
+    Bytes bytes(kCapacity, 0xee);
     errno = 0;
-    const long result = node == -1 ? _crecv(typesel, bytes.data(), static_cast<long>(room))
-                                   : _crecvx(typesel, bytes.data(), static_cast<long>(room), node, -1, nullptr);
-    if (message.length > room) {
+    const long result = node == -1 ? _crecv(typesel, bytes.data(), static_cast<long>(capacity))
+                                   : _crecvx(typesel, bytes.data(), static_cast<long>(capacity), node, -1, nullptr);
+    if (message.length > capacity) {
       EXPECT_EQ(result, -1);
       EXPECT_EQ(errno, EQMSGLONG);
-      EXPECT_EQ(bytes, Bytes(kRoom, 0xee));
+      EXPECT_EQ(bytes, Bytes(kCapacity, 0xee));
       return;
     }
     EXPECT_EQ(result, 0);
@@ -201,7 +205,7 @@ class Game {
   }
 
   static void expect_contents(const Message& message, const Bytes& bytes) {
-    Bytes wanted(kRoom, 0xee);
+    Bytes wanted(kCapacity, 0xee);
     std::fill_n(wanted.begin(), message.length, static_cast<unsigned char>(message.number));
     EXPECT_EQ(bytes, wanted);
   }

@@ -34,7 +34,7 @@ struct Receive {
   long name;  // its id, or its handler's number
   long typesel;
   long node;  // -1: any
-  std::size_t room;
+  std::size_t capacity;
   std::optional<Message> got = {};
   bool too_short = false;
 
@@ -58,7 +58,7 @@ class Model {
   void arrives(const Message& message) {
     for (Receive& receive : receives) {
       if (receive.got || receive.too_short || !receive.selects(message)) continue;
-      if (receive.room < message.length) {
+      if (receive.capacity < message.length) {
         receive.too_short = true;
         continue;
       }
@@ -76,7 +76,7 @@ class Model {
     const Message* message = first(receive.typesel, receive.node);
     receives.push_back(receive);
     if (message == nullptr) return;
-    receives.back().too_short = message->length > receive.room;
+    receives.back().too_short = message->length > receive.capacity;
     if (receives.back().too_short) return;
     receives.back().got = *message;
     if (receive.kind == Receive::by_handler) due.push_back(receive.name);

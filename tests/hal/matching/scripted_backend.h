@@ -2,9 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <deque>
 #include <exception>
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 

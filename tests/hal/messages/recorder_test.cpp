@@ -1,9 +1,12 @@
+#include <functional>
+#include <vector>
+
 #include "hal/messages/recorder.h"
 
 #include <gtest/gtest.h>
 
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::messages {

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 
+#include <cstdlib>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -77,17 +77,17 @@ TEST_F(SettingsTest, OfMessagesAreRead) {
   EXPECT_THROW(read_settings(), Failure);
 }
 
-TEST_F(SettingsTest, ThatAreUnknownAreToldWithTheNearestName) {
+TEST_F(SettingsTest, ThatAreUnknownAreReportedWithTheNearestName) {
   const Variable known("MARS_SIMD", "avx2");
   const Variable memory("MARS_MEMROY", "1");
   const Variable simd("MARS_SIM", "x");
   const Variable foreign("MARSH", "1");
-  std::string told;
-  for (const std::string& line : unknown_settings()) told += line + "\n";
-  EXPECT_NE(told.find("MARS_MEMROY means nothing to MARS (did you mean MARS_MEMORY?)"), std::string::npos) << told;
-  EXPECT_NE(told.find("MARS_SIM means nothing to MARS (did you mean MARS_SIMD?)"), std::string::npos) << told;
-  EXPECT_EQ(told.find("variable MARS_SIMD "), std::string::npos) << told;
-  EXPECT_EQ(told.find("MARSH"), std::string::npos) << told;
+  std::string lines;
+  for (const std::string& line : unknown_settings()) lines += line + "\n";
+  EXPECT_NE(lines.find("MARS_MEMROY means nothing to MARS (did you mean MARS_MEMORY?)"), std::string::npos) << lines;
+  EXPECT_NE(lines.find("MARS_SIM means nothing to MARS (did you mean MARS_SIMD?)"), std::string::npos) << lines;
+  EXPECT_EQ(lines.find("variable MARS_SIMD "), std::string::npos) << lines;
+  EXPECT_EQ(lines.find("MARSH"), std::string::npos) << lines;
 }
 
 TEST_F(SettingsTest, TextNamesEach) {

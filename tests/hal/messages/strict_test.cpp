@@ -1,8 +1,8 @@
 // Strict mode: what is longer than 100 bytes has been received when its send is done.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
-#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 
 namespace mars::messages {
@@ -89,7 +89,7 @@ TEST(Strict, NoProgramThatPostsItsReceivesFirstIsHeld) {
   });
 }
 
-// Who flushes a message lets its sender go; a cancelled receive has had it.
+// flushmsg lets the sender of a message go; a cancelled receive has had it.
 TEST(Strict, MessagesThatAreThrownAwayHoldNobody) {
   run_strictly(2, idle_host, [] {
     std::vector<char> in(1000);
@@ -110,19 +110,19 @@ TEST(Strict, MessagesThatAreThrownAwayHoldNobody) {
   });
 }
 
-// Whoever ended the world knew nothing of that.
-TEST(Strict, TellsWhoWaitedWhenTheWorldEnds) {
+// The end of the world comes from elsewhere.
+TEST(Strict, WaitsAreReportedWhenTheWorldEnds) {
   testing::internal::CaptureStderr();
   const auto end_it = [] {
     std::this_thread::sleep_for(milliseconds(300));
     throw Failure("nothing moves", "", "");
   };
   EXPECT_THROW(run_strictly(1, end_it, [] { csend(7, buffer_of_all, 200, 0, 0); }), Failure);
-  const std::string told = testing::internal::GetCapturedStderr();
-  EXPECT_NE(told.find("in csend until node 0 receives 200 bytes"), std::string::npos) << told;
+  const std::string printed = testing::internal::GetCapturedStderr();
+  EXPECT_NE(printed.find("in csend until node 0 receives 200 bytes"), std::string::npos) << printed;
 }
 
-TEST(Strict, TellsWhoWaitsForWhom) {
+TEST(Strict, LongWaitsAreReported) {
   testing::internal::CaptureStderr();
   const auto end_it = [] {
     std::this_thread::sleep_for(milliseconds(1000));
@@ -137,13 +137,13 @@ TEST(Strict, TellsWhoWaitsForWhom) {
     }
   };
   EXPECT_THROW(run_strictly(3, end_it, head_to_head, milliseconds(100)), Failure);
-  const std::string told = testing::internal::GetCapturedStderr();
+  const std::string printed = testing::internal::GetCapturedStderr();
   for (const std::string line :
        {"s in csend until node 1 receives 200 bytes, type 7", "s in csend until node 0 receives 200 bytes, type 7",
         "s in crecv for a message, typesel 77", "node 0 has waited", "node 1 has waited", "strict mode"}) {
-    EXPECT_NE(told.find(line), std::string::npos) << told;
+    EXPECT_NE(printed.find(line), std::string::npos) << printed;
   }
-  EXPECT_EQ(told.find("node 0 has"), told.rfind("node 0 has")) << "told once:\n" << told;
+  EXPECT_EQ(printed.find("node 0 has"), printed.rfind("node 0 has")) << "printed once:\n" << printed;
 }
 
 }  // namespace

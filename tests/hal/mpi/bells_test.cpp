@@ -11,7 +11,8 @@
 namespace mars::mpi {
 namespace {
 
-// Whoever has waited long sleeps up to ten milliseconds at a time: a bell that was not heard would cost five of them.
+// A rank that has waited long sleeps up to ten milliseconds at a time: a bell that was not heard would cost five of
+// them.
 TEST(Bells, ASleeperWakesAtOnce) {
   constexpr int kRounds = 9;
   std::vector<double> delays;

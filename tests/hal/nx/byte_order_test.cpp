@@ -1,8 +1,10 @@
 #include "hal/nx/byte_order.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <type_traits>
 
 #include <gtest/gtest.h>

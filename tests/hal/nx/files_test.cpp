@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
@@ -17,9 +18,9 @@
 #include <gtest/gtest.h>
 
 #include "hal/messages/call_failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_files.h"
 #include "hal/nx/nx_global.h"
-#include "hal/messages/process.h"
 #include "hal/threads/run_threads.h"
 #include "tests/hal/machines_backend.h"
 
@@ -117,7 +118,7 @@ TEST_P(FilesTest, APrivatePointerIsTheSystemsOwn) {
   });
 }
 
-TEST_P(FilesTest, InMode1EveryStretchIsSomebodysOwn) {
+TEST_P(FilesTest, InMode1EveryStretchIsOneNodes) {
   constexpr long kEach = 50;
   const auto body = [](int fd) {
     setiomode(fd, 1);
@@ -203,7 +204,7 @@ TEST_P(FilesTest, InMode3EqualStretchesLieInOrderOfNodesWithoutMessages) {
   EXPECT_EQ(content(), expected);
 }
 
-TEST_P(FilesOfSeveralTest, UnequalLengthsInMode3AreToldToAll) {
+TEST_P(FilesOfSeveralTest, UnequalLengthsInMode3FailOnAll) {
   run([](int fd) {
     setiomode(fd, 3);
     const std::string said = failure_of([&] { write_text(fd, letters(0, mynode() == 1 ? 5 : 4)); }, EINVAL);
@@ -275,23 +276,23 @@ TEST_P(FilesTest, AReadThatIsUnderWayEndsWhereTheFileEnds) {
   });
 }
 
-TEST_P(FilesTest, AFileOpenedAnewIsInMode0) {
+TEST_P(FilesTest, AFileOpenedAgainIsInMode0) {
   put("0123456789");
   run([&](int fd) {
     setiomode(fd, 2);
-    const int moved = ::fcntl(fd, F_DUPFD, fd);  // keeps the number from the other nodes
-    const int anew = ::open(path_.c_str(), O_RDONLY);
-    ::dup2(anew, fd);
+    const int moved = ::fcntl(fd, F_DUPFD, fd);  // so that the other nodes do not get the number
+    const int reopened = ::open(path_.c_str(), O_RDONLY);
+    ::dup2(reopened, fd);
     EXPECT_EQ(iomode(fd), 0);
     if (mynode() == 0) {
       EXPECT_EQ(read_text(fd, 3), "012");
     }
-    ::close(anew);
+    ::close(reopened);
     ::close(moved);
   });
 }
 
-TEST_P(FilesOfSeveralTest, NodesThatDoNotAgreeAreToldSo) {
+TEST_P(FilesOfSeveralTest, DisagreementFailsOnAll) {
   put("0123456789");
   run([](int fd) {
     std::string said = failure_of([&] { setiomode(fd, mynode() == 1 ? 2 : 3); }, EINVAL);

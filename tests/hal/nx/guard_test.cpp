@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ TEST(Guard, PlainCallsEndCPrograms) {
               "node 1, msgwait: there is no message id 7");
 }
 
-TEST(Guard, TwinsDoNotAndNxPerrorTellsThem) {
+TEST(Guard, TwinsDoNotAndNxPerrorPrintsThem) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(as_a_c_program([] {
                 nx_perror("first");

@@ -1,7 +1,6 @@
 #include "tests/hal/storm/handlers.h"
 
 #include <array>
-#include <utility>
 
 #include "tests/hal/storm/rank.h"
 

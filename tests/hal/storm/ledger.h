@@ -11,7 +11,7 @@
 
 namespace mars::storm {
 
-// What a receive or a probe told.
+// The message that a receive or a probe reported.
 struct Came {
   int from = 0;
   std::int32_t type = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -97,7 +98,7 @@ void Rank::send_next() {
   } else {
     sending_by_[free] = true;
     handed_[free] = std::move(bytes);
-    told_[free] = {send.to, send.type, send.length};
+    reported_[free] = {send.to, send.type, send.length};
     hsend(send.type, handed_[free].data(), length, send.to, 0, send_handler(static_cast<int>(free)));
   }
   ++next_send_;
@@ -118,7 +119,7 @@ void Rank::post() {
   const Masked masked(*this);  // or a handler's hrecv could come before
   Receive* receive = new_receive();
   if (receive == nullptr) return;
-  receive->mid = irecv(receive->taker.typesel, receive->buffer.get(), static_cast<long>(receive->room));
+  receive->mid = irecv(receive->taker.typesel, receive->buffer.get(), static_cast<long>(receive->capacity));
 }
 
 void Rank::post_handler() {
@@ -128,17 +129,17 @@ void Rank::post_handler() {
   if (receive == nullptr) return;
   receive->handler = static_cast<int>(free);
   receiving_by_[free] = receive;
-  hrecv(receive->taker.typesel, receive->buffer.get(), static_cast<long>(receive->room),
+  hrecv(receive->taker.typesel, receive->buffer.get(), static_cast<long>(receive->capacity),
         receive_handler(receive->handler));
 }
 
 // With a random typesel; nullptr where there is no buffer for it.
 Receive* Rank::new_receive() {
   const std::int32_t typesel = any_typesel(random_);
-  const std::size_t room = room_for(typesel);
-  const Buffers::Buffer buffer = buffers_.get(room);
+  const std::size_t capacity = capacity_for(typesel);
+  const Buffers::Buffer buffer = buffers_.get(capacity);
   if (buffer == nullptr) return nullptr;
-  return &receives_.emplace_back(Receive{{++order_, typesel}, room, buffer, -1, -1});
+  return &receives_.emplace_back(Receive{{++order_, typesel}, capacity, buffer, -1, -1});
 }
 
 void Rank::received(int handler, const Came& came) {
@@ -154,18 +155,18 @@ void Rank::received(int handler, const Came& came) {
 void Rank::sent(int handler, const Came& came) {
   expect(masked_ == 0, "a handler ran though masked");
   expect(sending_by_[handler], "the handler of an hsend ran twice");
-  expect(came == told_[handler], "the handler of an hsend was told of " + text_of(came));
+  expect(came == reported_[handler], "the handler of an hsend got " + text_of(came));
   sending_by_[handler] = false;
 }
 
 void Rank::probe_and_receive() {
-  const Masked masked(*this);  // or a handler's hrecv could take what the probe told of
+  const Masked masked(*this);  // or a handler's hrecv could take what the probe found
   const std::int32_t typesel = any_typesel(random_);
   if (iprobe(typesel) == 1) {
     const Came probed = info();
-    expect(messages::selects(typesel, probed.type), "a probe told of " + text_of(probed));
-    expect(!kind_of(probed.type).force(), "a probe told of a force message");
-    expect(!maybe(4) || (iprobe(typesel) == 1 && info() == probed), "a second probe told of " + text_of(info()));
+    expect(messages::selects(typesel, probed.type), "a probe found " + text_of(probed));
+    expect(!kind_of(probed.type).force(), "a probe found a force message");
+    expect(!maybe(4) || (iprobe(typesel) == 1 && info() == probed), "a second probe found " + text_of(info()));
     if (maybe(4) && probed.length > 0) expect_untouched_by_short(typesel, probed);
     receive_now(typesel, probed.length, &probed);
   }
@@ -180,12 +181,12 @@ void Rank::expect_untouched_by_short(std::int32_t typesel, const Came& probed) {
   expect(bytes == untouched, "a receive that is too short wrote to its buffer");
 }
 
-// By crecv; where a probe has told of the message it is that one.
-void Rank::receive_now(std::int32_t typesel, std::size_t room, const Came* probed) {
-  const Buffers::Buffer bytes = for_now_.get(room);
-  crecv(typesel, bytes.get(), static_cast<long>(room));
+// By crecv; where a probe has found a message it is that one.
+void Rank::receive_now(std::int32_t typesel, std::size_t capacity, const Came* probed) {
+  const Buffers::Buffer bytes = for_now_.get(capacity);
+  crecv(typesel, bytes.get(), static_cast<long>(capacity));
   const Came came = info();
-  expect(probed == nullptr || came == *probed, "not what the probe told of was received but " + text_of(came));
+  expect(probed == nullptr || came == *probed, "not what the probe found was received but " + text_of(came));
   account({++order_, typesel}, came, bytes.get());
 }
 

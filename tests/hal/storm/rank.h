@@ -60,7 +60,7 @@ class Rank {
   void wait_for_a_send();
 
   // The end of a round.
-  void tell_all(std::int32_t type);
+  void send_to_all(std::int32_t type);
   void await_all_sent();
   void await_the_owed();
   void drain();
@@ -68,7 +68,7 @@ class Rank {
   void cancel_all();
 
   Receive* new_receive();
-  void receive_now(std::int32_t typesel, std::size_t room, const Came* probed);
+  void receive_now(std::int32_t typesel, std::size_t capacity, const Came* probed);
   void expect_untouched_by_short(std::int32_t typesel, const Came& probed);
   bool ask(Receives::iterator receive);
   void account(const Taker& taker, const Came& came, const unsigned char* bytes);
@@ -90,7 +90,7 @@ class Rank {
   std::vector<std::pair<long, Bytes>> sending_;  // by id
   std::array<Bytes, kHandlers> handed_;          // bytes of hsends
   std::array<bool, kHandlers> sending_by_ = {};
-  std::array<Came, kHandlers> told_ = {};  // what the hsend's handler must tell
+  std::array<Came, kHandlers> reported_ = {};  // what the hsend's handler must get
 
   Buffers buffers_;
   Buffers for_now_;

@@ -8,7 +8,7 @@
 namespace mars::storm {
 
 void Rank::finish() {
-  tell_all(kSentAll);
+  send_to_all(kSentAll);
   await_all_sent();
   masked_ = 0;
   masktrap(0);
@@ -22,11 +22,11 @@ void Rank::finish() {
     flick();
   }
   ledger_.close();
-  tell_all(kGotAll);
+  send_to_all(kGotAll);
   for (; !got_all_.empty(); got_all_.pop_back()) msgwait(got_all_.back());
 }
 
-void Rank::tell_all(std::int32_t type) {
+void Rank::send_to_all(std::int32_t type) {
   for (int rank = 0; rank <= nodes_; ++rank)
     if (rank != me_) csend(type, nullptr, 0, rank, 0);
 }
@@ -54,7 +54,7 @@ void Rank::await_the_owed() {
     check_time();
     collect_fired();
     if (receives_.empty() && ledger_.owed() > 0) {
-      receive_now(-1, room_for(-1), nullptr);
+      receive_now(-1, capacity_for(-1), nullptr);
       continue;
     }
     for (std::size_t asked = receives_.size(); asked > 0; --asked) ask();

@@ -26,19 +26,19 @@ constexpr std::size_t kLongs = 4;
 
 }  // namespace
 
-Buffers::Buffer Buffers::get(std::size_t room) {
-  if (room <= kLong) return std::make_unique_for_overwrite<unsigned char[]>(room);
+Buffers::Buffer Buffers::get(std::size_t capacity) {
+  if (capacity <= kLong) return std::make_unique_for_overwrite<unsigned char[]>(capacity);
   const auto free = std::find_if(long_.begin(), long_.end(), [](const Buffer& one) { return one.use_count() == 1; });
   if (free != long_.end()) return *free;
   if (long_.size() == kLongs) return nullptr;
-  return long_.emplace_back(std::make_unique_for_overwrite<unsigned char[]>(room_for(-1)));
+  return long_.emplace_back(std::make_unique_for_overwrite<unsigned char[]>(capacity_for(-1)));
 }
 
-std::size_t room_for(std::int32_t typesel) {
-  std::size_t room = 0;
+std::size_t capacity_for(std::int32_t typesel) {
+  std::size_t capacity = 0;
   for (const Kind& kind : kinds())
-    if (messages::selects(typesel, kind.type)) room = std::max(room, kind.longest);
-  return room;
+    if (messages::selects(typesel, kind.type)) capacity = std::max(capacity, kind.longest);
+  return capacity;
 }
 
 std::int32_t any_typesel(Random& random) {

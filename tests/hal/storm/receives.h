@@ -12,15 +12,15 @@
 namespace mars::storm {
 
 // The most bytes of a message that `typesel` can select.
-std::size_t room_for(std::int32_t typesel);
+std::size_t capacity_for(std::int32_t typesel);
 
 // Buffers of one rank. Long ones are few and used again: to get one costs much under a sanitizer.
 class Buffers {
  public:
   using Buffer = std::shared_ptr<unsigned char[]>;
 
-  // Of at least `room` bytes, with anything in them; nullptr where too many long ones are out.
-  Buffer get(std::size_t room);
+  // Of at least `capacity` bytes, with anything in them; nullptr where too many long ones are out.
+  Buffer get(std::size_t capacity);
 
  private:
   std::vector<Buffer> long_;  // those that only it has are free
@@ -28,7 +28,7 @@ class Buffers {
 
 struct Receive {
   Taker taker;
-  std::size_t room;
+  std::size_t capacity;
   Buffers::Buffer buffer;  // only touched where a message comes
   long mid;                // of an irecv, or -1
   int handler;             // of an hrecv, or -1

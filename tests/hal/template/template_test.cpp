@@ -4,10 +4,10 @@
 #include <cstring>
 #include <vector>
 
-#include "hal/nx/nx_global.h"
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/template/template_backend.h"
 
 namespace mars::transport_template {
@@ -68,7 +68,7 @@ TEST_F(Template, ThrowsAwayAtTheEndWhatNobodyReceived) {
   EXPECT_FALSE(backend.peek());
 }
 
-TEST(TemplateDeathTest, AbortTellsTheReason) {
+TEST(TemplateDeathTest, AbortPrintsTheReason) {
   TemplateBackend backend;
   EXPECT_EXIT(backend.abort("node 0 has had enough"), testing::ExitedWithCode(1), "node 0 has had enough");
 }

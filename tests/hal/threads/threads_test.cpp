@@ -1,5 +1,6 @@
 // How a run of threads ends, what goes between a rank and its backend, and calls on foreign threads.
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -10,10 +11,10 @@
 
 #include "hal/failure/failure.h"
 #include "hal/messages/message_types.h"
-#include "hal/nx/nx_global.h"
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_global.h"
+#include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
 #include "tests/hal/counting_backend.h"
 
@@ -89,7 +90,7 @@ TEST(Threads, AMessageOnItsWayFromARankThatEnds) {
   }
 }
 
-TEST(Threads, AbortTellsItsReason) {
+TEST(Threads, AbortThrowsItsReason) {
   const auto node = [] {
     if (mynode() == 2) messages::process().backend().abort("enough");
     wait_for_ever();
@@ -129,7 +130,7 @@ TEST(Threads, SharedMemoryOfDifferentSizesIsFoundOut) {
                std::logic_error);
 }
 
-TEST(Counting, TellsWhoSentWhatToWhom) {
+TEST(Counting, IsBySenderReceiverAndType) {
   messages::Counts counts;
   const auto host = [] {
     char bytes[20];

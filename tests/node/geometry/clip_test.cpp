@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -195,7 +197,7 @@ TEST(Clip, NeighboursAreCutAtTheSamePlaces) {
   const Projection view = narrow(0.5, 6);
   std::size_t seen = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    const float deep = trial % 4 ? 1 : 1e8f;  // on long edges rounding tells in which direction they were cut
+    const float deep = trial % 4 ? 1 : 1e8f;  // on long edges rounding shows in which direction they were cut
     const ClipVertex a = marked(random, deep, 0), b = marked(random, deep, 1);
     ClipPolygon one = triangle(a, b, marked(random, deep, 2)), other = triangle(b, a, marked(random, deep, 2));
     if (trial % 2) std::rotate(other.vertex.begin(), other.vertex.begin() + 1, other.vertex.begin() + 3);

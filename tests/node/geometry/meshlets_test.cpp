@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
-#include "tests/node/simd/instruction_sets.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/wire/small_film.h"
 
 namespace mars::geometry {
@@ -160,7 +163,7 @@ TEST(Meshlets, WithoutANormalThereIsNone) {
   }
 }
 
-// Whoever is dropped would have left no mark, by the plain twin; and most of those without a mark are dropped.
+// A dropped meshlet would leave no mark, by the plain twin; and most of those without a mark are dropped.
 TEST(Meshlets, OnlyTheUnseenAreDropped) {
   shape::Random random(4);
   const raster::PatchIdentity identity{0, 0, false, false, false};

@@ -1,5 +1,5 @@
-// How many passes a frame takes: bounds on memory against an arena that is used as a frame uses it, and one number that
-// all nodes of a group agree on.
+// The number of passes of a frame: bounds on memory against an arena that is used as a frame uses it, and one number
+// for all nodes of a group.
 #include "node/group/passes.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/failure/failure.h"
@@ -209,7 +210,7 @@ TEST(Passes, AllNodesTakeThoseOfTheShortest) {
   EXPECT_GT(agreement.messages, 0u);
 }
 
-TEST(Passes, NobodyAsksWhereOnePassFitsAll) {
+TEST(Passes, NoMessageWhereOnePassFitsAll) {
   const std::vector<std::uint32_t> few(32, 1), many(32, 1000);
   const Agreement agreement = agree(Frame({few, many, few}, {20, 32'000, 20}), 64 << 20);
   EXPECT_EQ(agreement.passes, (std::vector<std::uint32_t>{1, 1, 1}));

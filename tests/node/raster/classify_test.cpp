@@ -1,16 +1,16 @@
-// The classifying kernel of every instruction set against 64-bit integers: which of sixteen triangles are decided, and
+// The classifying kernel of every instruction set against 64-bit integers: the decided ones of sixteen triangles, and
 // their columns row by row.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
-#include "tests/node/simd/instruction_sets.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 
 namespace mars::raster {
 namespace {
@@ -61,9 +61,9 @@ class Batch16 {
 
 enum State { kDropped, kDecided, kUndecided, kStates };
 
-State state_of(const Classified& e, std::uint32_t lane) {
-  EXPECT_EQ(e.decided & e.undecided, 0u);
-  return e.decided >> lane & 1 ? kDecided : e.undecided >> lane & 1 ? kUndecided : kDropped;
+State state_of(const Classified& c, std::uint32_t lane) {
+  EXPECT_EQ(c.decided & c.undecided, 0u);
+  return c.decided >> lane & 1 ? kDecided : c.undecided >> lane & 1 ? kUndecided : kDropped;
 }
 
 // Of two sides' extents.
@@ -89,23 +89,23 @@ bool right_state(State state, const Corners& t, const ClassifyTask& task, bool c
 }
 
 // Whether a decided triangle's columns are these edge boxes and nothing else, and its numbers those of its corners.
-bool right_columns(const Classified& e, std::uint32_t lane, const Corners& t,
+bool right_columns(const Classified& c, std::uint32_t lane, const Corners& t,
                    const std::vector<UnsortedEdgeBox>& boxes) {
   auto next = boxes.begin();
-  for (std::int32_t row = e.first_row[lane]; row < e.last_row[lane]; ++row) {
-    const std::uint32_t columns = e.columns[row - e.first_row[lane]][lane];
+  for (std::int32_t row = c.first_row[lane]; row < c.last_row[lane]; ++row) {
+    const std::uint32_t columns = c.columns[row - c.first_row[lane]][lane];
     if (columns == 0) continue;
     if (next == boxes.end() || next->line != row ||
         (next->box.first | static_cast<std::uint32_t>(next->box.last) << 16) != columns)
       return false;
     ++next;
   }
-  const float numbers[] = {e.x1[lane], e.y1[lane], e.x2[lane], e.y2[lane], e.inverse[lane]};
+  const float numbers[] = {c.x1[lane], c.y1[lane], c.x2[lane], c.y2[lane], c.inverse[lane]};
   const float expected[] = {static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
                             static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0]),
                             1.0f / static_cast<float>(area(t))};
   return next == boxes.end() && std::equal(numbers, numbers + 5, expected) &&
-         (e.faces >> lane & 1) == (area(t) < 0 ? 1u : 0u);
+         (c.faces >> lane & 1) == (area(t) < 0 ? 1u : 0u);
 }
 
 struct Tally {
@@ -119,13 +119,13 @@ void expect_right(const std::vector<Corners>& triangles, const ClassifyTask& tas
   for (const Corners& t : triangles) boxes.push_back(plain_edge_boxes(t, task.width, task.height));
   Batch16 batch(triangles, random.whole(0, 1) == 1, random);
   for (const simd::InstructionSet set : simd::all_sets()) {
-    const Classified e = batch.classify(set, task, count);
+    const Classified classified = batch.classify(set, task, count);
     for (std::uint32_t lane = 0; lane < kBatchTriangles; ++lane) {
       const Corners& t = triangles[lane];
-      const State state = state_of(e, lane);
+      const State state = state_of(classified, lane);
       const bool right = lane >= count ? state == kDropped
                                        : right_state(state, t, task, !boxes[lane].empty()) &&
-                                             (state != kDecided || right_columns(e, lane, t, boxes[lane]));
+                                             (state != kDecided || right_columns(classified, lane, t, boxes[lane]));
       ASSERT_TRUE(right) << simd::name_of(set) << ", lane " << lane << " of " << count << ", state " << state << ": "
                          << t.x[0] << ',' << t.y[0] << ' ' << t.x[1] << ',' << t.y[1] << ' ' << t.x[2] << ',' << t.y[2]
                          << " in " << task.width << " x " << task.height;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::raster {
 namespace {

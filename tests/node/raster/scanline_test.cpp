@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <random>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -65,10 +66,10 @@ std::multiset<Box> expected_on(const Sent& sent, std::uint32_t line, bool moving
   std::multiset<Box> boxes;
   for (const Polygons& sender : sent.senders)
     for (const auto& part : {sender.stationary, sender.moving})
-      for (const UnsortedEdgeBox& c : part)
-        if (c.line == line && (c.moving != 0) == moving)
-          boxes.emplace(static_cast<std::uint32_t>(sender.triangles - sent.triangles.data()) + c.box.triangle,
-                        c.box.first, c.box.last);
+      for (const UnsortedEdgeBox& unsorted : part)
+        if (unsorted.line == line && (unsorted.moving != 0) == moving)
+          boxes.emplace(static_cast<std::uint32_t>(sender.triangles - sent.triangles.data()) + unsorted.box.triangle,
+                        unsorted.box.first, unsorted.box.last);
   return boxes;
 }
 
@@ -78,7 +79,7 @@ std::multiset<Box> boxes_of(std::span<const EdgeBox> boxes) {
   return out;
 }
 
-// Of all lines and of some, from one sender and from many, some of whom have nothing.
+// Of all lines and of some, from one sender and from many, some of which have nothing.
 TEST(LineFiller, PutsEachBoxIntoItsLine) {
   shape::Random random(90);
   Arena arena(1 << 20);

@@ -11,9 +11,9 @@
 
 #include "node/shape/dice.h"
 #include "node/simd/instruction_set.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
+#include "tests/node/shape/patches.h"
 
 namespace mars::raster {
 namespace {
@@ -27,7 +27,7 @@ using shape::Value;
 constexpr std::int32_t kWidth = 640, kHeight = 480;
 const shape::Projection kView = shape::projection(kWidth, kHeight, 2);
 
-// What set-up makes, with what a triangle does not tell of itself any more.
+// Set-ups, with the corners and numbers that they no longer have.
 struct Emitted : Made {
   std::vector<Corners> corners;        // of each triangle
   std::vector<std::uint32_t> indices;  // in the patch's dicing

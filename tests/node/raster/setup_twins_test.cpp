@@ -2,20 +2,20 @@
 // edge boxes in the same order with the same bits, from every instruction set.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "node/shape/dice.h"
-#include "tests/node/simd/instruction_sets.h"
-#include "tests/node/shape/patches.h"
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
+#include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 
 namespace mars::raster {
 namespace {
@@ -53,7 +53,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-// Which ways triangles went, so that a test can tell that it tested them.
+// The ways that triangles went, so that a test can check that it tested them.
 struct Paths {
   int decided = 0;
   int undecided = 0;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "node/shading/kernels.h"
-#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 
 namespace mars::shading {
 

@@ -5,11 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
-#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 
 namespace mars::shape {
 namespace {

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "node/simd/instruction_set.h"
 #include "tests/node/shape/diced.h"

@@ -1,5 +1,7 @@
 #include "tests/node/shape/diced.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace mars::shape {

@@ -1,10 +1,9 @@
-// A diced patch as a mesh: vertices that lie at the same place are one, whoever made them.
+// A diced patch as a mesh: vertices that lie at the same place are one.
 #pragma once
 
+#include <array>
 #include <map>
 #include <set>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "node/shape/dice.h"

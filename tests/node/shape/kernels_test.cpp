@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "node/shape/bezier.h"
-#include "tests/node/simd/instruction_sets.h"
 #include "tests/node/shape/patches.h"
+#include "tests/node/simd/instruction_sets.h"
 
 namespace mars::shape {
 namespace {

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string_view>
-
 #include "hal/failure/failure.h"
 #include "tests/node/simd/instruction_sets.h"
 

@@ -6,6 +6,8 @@
 
 #include <cstring>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "hal/failure/failure.h"

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "node/wire/film.h"
@@ -178,9 +180,9 @@ TEST(FilmBlock, RefusesBrokenIndices) {
        }},
       {"a motion goes back", [](FilmData& f) { f.changes[3].frame = 0; }},
       {"a motion stays", [](FilmData& f) { f.changes[3].frame = 1; }},
-      {"a look has no such material",
+      {"a segment has no such material",
        [](FilmData& f) {
-         f.segments[0].look = {1, 3};
+         f.segments[0].material = {1, 3};
        }},
       {"a light has no such value",
        [](FilmData& f) {

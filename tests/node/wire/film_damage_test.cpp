@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <vector>
 
 #include "hal/failure/failure.h"
-#include "node/wire/film.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
 #include "node/simd/instruction_set.h"
+#include "node/wire/film.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/wire/small_film.h"
 

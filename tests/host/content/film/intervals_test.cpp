@@ -32,7 +32,7 @@ Starts movers_between(const wire::FilmView& film, std::uint32_t first, std::uint
   Starts movers;
   for (std::uint32_t i = 0; i < film.segments().size(); ++i) {
     const wire::Segment& segment = film.segments()[i];
-    if (all || changes_within(film, segment.motion, first, end) || changes_within(film, segment.look, first, end))
+    if (all || changes_within(film, segment.motion, first, end) || changes_within(film, segment.material, first, end))
       movers.push_back(i);
   }
   return movers;

@@ -1,5 +1,5 @@
 ! NX/2 for Fortran: INCLUDE 'fcube.h' in every unit that calls a function of NX, for
-! some have types that their names do not tell. All arguments are INTEGER*4, but the
+! some have types that their names do not imply. All arguments are INTEGER*4, but the
 ! data: buffers of any type, with lengths in bytes. Works in fixed and in free form.
       INTEGER CSENDRECV, GINV, GRAY, MSGMERGE, MYPTYPE
       INTEGER INFOPTYPE, IPROBEX, IRECVX
