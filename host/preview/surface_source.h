@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/preview/pictures.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::preview {
 

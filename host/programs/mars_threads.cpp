@@ -4,10 +4,10 @@
 
 #include "hal/failure/explain.h"
 #include "hal/threads/run_threads.h"
-#include "host/shell/options/command_line.h"
 #include "host/programs/node_job.h"
-#include "host/shell/job/render_job.h"
 #include "host/programs/standard_streams.h"
+#include "host/shell/job/render_job.h"
+#include "host/shell/options/command_line.h"
 #include "topology/machine.h"
 
 int main(int argc, char** argv) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "node/shape/dice.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/shape/dice.h"
 #include "node/simd/instruction_set.h"
 
 namespace mars::test {

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/limits_left.h"
-#include "host/content/animator/things.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
 

@@ -3,7 +3,6 @@
 #include <set>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/edit.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"

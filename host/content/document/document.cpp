@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/text.h"
 #include "host/content/document/file.h"
+#include "host/content/document/text.h"
 
 namespace mars::document {
 namespace {

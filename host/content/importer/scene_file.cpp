@@ -14,7 +14,6 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 #include "host/content/importer/mesh_builder.h"
 #include "host/content/importer/promised.h"
 #include "host/content/importer/scene_sources.h"

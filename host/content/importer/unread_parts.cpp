@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 
 namespace mars::importer {
 namespace {

@@ -11,8 +11,8 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
-#include "host/render/sinks/claim.h"
 #include "host/images/png_file.h"
+#include "host/render/sinks/claim.h"
 #include "host/render/sinks/record.h"
 
 namespace mars::sinks {

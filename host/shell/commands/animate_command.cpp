@@ -12,8 +12,8 @@
 #include "host/content/animator/keys_table.h"
 #include "host/content/animator/pose.h"
 #include "host/content/film/film_json.h"
-#include "host/shell/options/command_line.h"
 #include "host/shell/commands/motion_command.h"
+#include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
 
 namespace mars::commands {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/shell/launch/command.h"
+#include "host/child/command.h"
 
 namespace mars::launch {
 

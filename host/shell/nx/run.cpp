@@ -11,7 +11,6 @@
 #include "host/child/programs.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/session_folders.h"
-#include "host/shell/options/command_line.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/fields.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::motion {
 
