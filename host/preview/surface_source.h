@@ -1,4 +1,4 @@
-// Rendered frames for a viewer. Who renders is not the preview's business: only programs link host and nodes.
+// Rendered frames for a viewer. The preview does not know how they are rendered: only programs link host and nodes.
 #pragma once
 
 #include <cstdint>

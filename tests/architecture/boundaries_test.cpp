@@ -175,11 +175,11 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
     }
 }
 
-// Of node/, each room knows only those before it; firmware, renderer and tessellator know them all.
-TEST(Boundaries, NodesRoomsStandOnOneAnother) {
+// Of node/, each folder knows only those before it; firmware, renderer and tessellator know them all.
+TEST(Boundaries, NodesFoldersStandOnOneAnother) {
   std::vector<std::string> known;
-  for (const char* room : {"wire", "simd", "shape", "geometry", "shading", "raster", "group"}) {
-    known.push_back("node/" + std::string(room) + "/");
+  for (const char* folder : {"wire", "simd", "shape", "geometry", "shading", "raster", "group"}) {
+    known.push_back("node/" + std::string(folder) + "/");
     expect_includes(known.back(), [&](const std::string& include) {
       return !begins(include, "node/") ||
              std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
@@ -203,8 +203,8 @@ Files reached_from(const Source& file) {
 
 // What a film is needs no messages: of hal only failures, of node/ only what both sides share.
 TEST(Boundaries, ContentKnowsNoMessages) {
-  for (const char* room : {"host/child/", "host/content/", "host/images/"})
-    expect_includes(room, [](const std::string& i) {
+  for (const char* folder : {"host/child/", "host/content/", "host/images/"})
+    expect_includes(folder, [](const std::string& i) {
       return begins(i, "host/") || begins(i, "hal/failure/") || begins(i, "topology/") || begins(i, "node/wire/") ||
              begins(i, "node/shape/");
     });

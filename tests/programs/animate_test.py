@@ -141,9 +141,9 @@ class Animate(ProgramTest):
         rendered = self.mars("render", "film.json", "-o", "frames", "--backend", "threads", "--nodes", 1, "--frames", 0,
                              "--size", "32x18", "--quiet")
         self.assertEqual((rendered.returncode, rendered.stdout, rendered.stderr), (0, "", compiled.stderr))
-        mend = re.search(r"mend it with: (.*)\)", ended.stdout)[1]
+        fix = re.search(r"fix it with: (.*)\)", ended.stdout)[1]
         worst = self.degrees_outside(ended.stdout)
-        self.assertIn("is beyond its limits -81 to 81: keyed as ", self.animate(*mend.split()).stderr)
+        self.assertIn("is beyond its limits -81 to 81: keyed as ", self.animate(*fix.split()).stderr)
         after = self.animate("check").stdout
         self.assertLess(self.degrees_outside(after) if "turns" in after else 0, worst / 2)
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/content/modeler/joint.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

@@ -105,10 +105,10 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const topology::Machine machine = topology::Machine::here();
   const farm::HostMemory memory = memory_for(machine, settings, plan);
 
-  if (!job.report.empty()) document::check_can_write(job.report);  // likewise early
+  if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Destination destination(job, film, request.frames);
-  reporter.report(events::Loaded{
-      load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
+  // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
+  reporter.report(events::Loaded{load_seconds});
   sinks::SinkPool pool(destination.sink(), pool_shape(machine, settings, job.block, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), pool,
                                                     reporter.listener(view.intervals().size()));

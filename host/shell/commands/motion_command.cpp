@@ -66,7 +66,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
           ->check(CLI::Range(0u, wire::kMostFrames).description(""));
   command->add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
   command->callback([&film, &action, typed, at] {
-    motion::Wishes::Values values;
+    motion::Arguments::Values values;
     for (std::size_t i = 0; i < typed->values.size(); ++i) {
       require_all(action, action.parameters[i], typed->values[i]);
       if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
@@ -75,7 +75,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
     std::string note;
     film::change_film(film, [&](document::Json& json, const animator::Film&) {
       done = motion::perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
-                             motion::Wishes(values, std::string(action.name)));
+                             motion::Arguments(values, std::string(action.name)));
       note = grown(json, done.last, typed->lengthen);
     });
     std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report)

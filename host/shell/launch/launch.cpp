@@ -62,7 +62,7 @@ class Run {
     remains_.passed_on = child.passed_on();
   }
 
-  bool well() const { return done_ && remains_.ending.code == 0 && remains_.ending.signal == 0; }
+  bool well() const { return done_ && remains_.ending.well(); }
   const events::Done& done() const { return *done_; }
   const Remains& remains() const { return remains_; }
   double boot_seconds() const { return boot_seconds_; }

@@ -8,16 +8,16 @@
 
 #include "host/content/animator/edit.h"
 #include "host/content/animator/film.h"
-#include "host/content/animator/motion/wishes.h"
+#include "host/content/animator/motion/arguments.h"
 
 namespace mars::motion {
 
-// Who acts, and from which frame on.
+// The actor that acts, and the frame from which on it does.
 struct Scene {
   const animator::Film& film;
   const animator::Actor& actor;
   std::uint32_t at;
-  const Wishes& wishes;
+  const Arguments& arguments;
   std::string_view action;  // its name
 
   std::string who() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
