@@ -56,6 +56,7 @@ bool set_up(const ProcessSetup& setup, pid_t parent, std::vector<int>& sources) 
 struct Preparation {
   explicit Preparation(const ProcessSetup& wanted) : setup(wanted), sources(wanted.streams.size()) {
     if (setup.limits) setup.limits->memory += topology::process_memory().addresses;
+    std::signal(SIGCHLD, SIG_DFL);  // ignored, as our parent may have left it, it would hide how children end
   }
 
   ProcessSetup setup;

@@ -135,6 +135,17 @@ events::Fault fault_of(const std::exception& reason, const RenderJob& job) {
   return fault;
 }
 
+// What was traced until a run failed. Where that cannot be written, the run's own failure stays the one that is thrown.
+void write_failed_trace(const std::string& reason, const RenderJob& job, const EventReporter& reporter,
+                        trace::Trace& trace) {
+  trace.fail(reason, dclock());
+  try {
+    trace::write_trace(job.trace, {job.film, job.backend}, trace);
+  } catch (const std::exception& failure) {
+    reporter.report(events::Warning{reason_of(failure)});
+  }
+}
+
 }  // namespace
 
 void run_session(const RenderJob& job) {
@@ -145,10 +156,7 @@ void run_session(const RenderJob& job) {
     render(job, reporter, trace.get());
   } catch (const std::exception& reason) {
     reporter.report(fault_of(reason, job));
-    if (trace && trace->begun()) {
-      trace->fail(reason_of(reason), dclock());
-      trace::write_trace(job.trace, {job.film, job.backend}, *trace);
-    }
+    if (trace && trace->begun()) write_failed_trace(reason_of(reason), job, reporter, *trace);
     throw;
   }
 }
