@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hal/failure/explain.h"
+#include "host/child/standard_streams.h"
 #include "host/programs/node_job.h"
-#include "host/programs/standard_streams.h"
 #include "host/programs/surface_frames.h"
 #include "host/shell/commands/animate_command.h"
 #include "host/shell/commands/bench_command.h"
@@ -92,7 +92,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace mars::programs;
-  open_standard_streams();
+  mars::child::open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // beyond ulimit -f a write fails then, and MARS says so
   try {
     return mars::launch::exit_code(run(argc, argv));

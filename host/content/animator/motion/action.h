@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "host/content/animator/edit.h"
-#include "host/content/animator/motion/scene.h"
 #include "host/content/animator/motion/arguments.h"
+#include "host/content/animator/motion/scene.h"
 
 namespace mars::motion {
 
