@@ -10,7 +10,7 @@ namespace mars::motion {
 std::uint32_t Scene::last_after(double frames) const {
   const double last = at + std::ceil(frames);
   if (last < wire::kMostFrames) return static_cast<std::uint32_t>(last);
-  throw Failure("would end at frame " + document::shown(last), who(),
+  throw Failure("would end at frame " + document::shown(last), where(),
                 "begin earlier, or make it shorter: a film has at most " + std::to_string(wire::kMostFrames) +
                     " frames");
 }

@@ -12,7 +12,7 @@
 
 namespace mars::motion {
 
-// The actor that acts, and the frame from which on it does.
+// The actor of the action, and the frame at which it begins.
 struct Scene {
   const animator::Film& film;
   const animator::Actor& actor;
@@ -20,7 +20,7 @@ struct Scene {
   const Arguments& arguments;
   std::string_view action;  // its name
 
-  std::string who() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
+  std::string where() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
   const modeler::Model& model() const { return film.models[actor.model]; }
   double frames(double seconds) const { return seconds * film.rate; }
   // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.

@@ -133,7 +133,7 @@ class Player {
     if (verb != "cut" && verb != "move")
       line.refuse("has '" + verb + "' after camera",
                   document::did_you_mean(verb, verbs, "write camera cut or camera move"));
-    std::vector<std::string> arguments;
+    std::vector<std::string> settings;
     double seconds = 1;
     while (!line.empty() && !line.next_is("as")) {
       const std::string part = line.take("");
@@ -142,12 +142,12 @@ class Player {
       else if (part == "seconds" && verb == "move")
         seconds = line.take_time(times_, 1);
       else if (part == "eye" || part == "at" || part == "fov")
-        arguments.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
+        settings.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
       else
         line.refuse("has '" + part + "', which the camera does not know",
                     document::did_you_mean(part, parts, "write eye, at or fov"));
     }
-    if (arguments.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
+    if (settings.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
     if (begun_.insert(kCamera).second) clear_camera_after(at);
     const double last = verb == "cut" ? at : at + std::max(1.0, std::round(seconds * rate_));
     if (last >= wire::kMostFrames)
@@ -157,9 +157,9 @@ class Player {
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(arguments)}, before,
+        animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(settings)}, before,
                             verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
-      animator::pose(film_, meaning_of(film_, path_), kCamera, arguments, end, animator::kLinear,
+      animator::pose(film_, meaning_of(film_, path_), kCamera, settings, end, animator::kLinear,
                      animator::Beyond::refused);
       return meaning_of(film_, path_).frames;
     });
@@ -167,9 +167,9 @@ class Player {
     return end;
   }
 
-  static std::vector<std::string> parts_of(const std::vector<std::string>& arguments) {
+  static std::vector<std::string> parts_of(const std::vector<std::string>& settings) {
     std::vector<std::string> parts;
-    for (const std::string& argument : arguments) parts.push_back(argument.substr(0, argument.find('=')));
+    for (const std::string& argument : settings) parts.push_back(argument.substr(0, argument.find('=')));
     return parts;
   }
 

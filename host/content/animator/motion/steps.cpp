@@ -172,7 +172,7 @@ class Going {
       if (const double step = glm::distance(gait.steps[i].to.place, gait.steps[i - 1].to.place); step > reach)
         throw Failure("would take a step of " + document::shown(step) + ", where two legs of " +
                           document::shown(body_.leg_length()) + " reach " + document::shown(reach) + " at most",
-                      scene_.who(), remedy);
+                      scene_.where(), remedy);
   }
 
   void go(const Gait& gait, const char* remedy) {
