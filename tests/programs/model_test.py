@@ -194,12 +194,12 @@ class Model(ProgramTest):
         self.model("set", "dog.json", "leg", "--place", 7, 7, 7)
         self.assertEqual(self.joints()["leg"]["place"], [7, 7, 7])
 
-    def test_check_tells_what_is_probably_not_meant(self):
+    def test_check_prints_what_is_probably_not_meant(self):
         self.dog()
         self.model("set", "dog.json", "leg", "--place", 3, 0, 0)
-        told = self.model("check", "dog.json")
-        self.assertIn("dog.json: joint 'leg' has its segment 2.34 away from that of 'body'", told)
-        self.assertIn("a model of 3 joints, 1 warning\n", told)
+        printed = self.model("check", "dog.json")
+        self.assertIn("dog.json: joint 'leg' has its segment 2.34 away from that of 'body'", printed)
+        self.assertIn("a model of 3 joints, 1 warning\n", printed)
 
 
 if __name__ == "__main__":

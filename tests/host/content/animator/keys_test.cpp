@@ -118,19 +118,19 @@ TEST(Pose, LimitsAreHeldAndTold) {
 
 TEST(Pose, TellsWhatItDoesNotUnderstand) {
   Scene scene(kMoving);
-  const auto told = [&](const std::string& setting) {
+  const auto reported = [&](const std::string& setting) {
     const std::vector<std::string> settings = {setting};
     return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, 10, {}, Beyond::refused); });
   };
-  EXPECT_TRUE(document::holds(told("elbow"), "write it like elbow.y=90"));
-  EXPECT_TRUE(document::holds(told("elbow=1"), "one number for one axis"));
-  EXPECT_TRUE(document::holds(told("elbow.y=1,2"), "has 2 numbers"));
-  EXPECT_TRUE(document::holds(told("elbow.y=nan"), "where a number belongs"));
-  EXPECT_TRUE(document::holds(told("elbow.y="), "where a number belongs"));
-  EXPECT_TRUE(document::holds(told("elbwo.y=1"), "did you mean"));
-  EXPECT_TRUE(document::holds(told("=1"), "write it like"));
-  EXPECT_TRUE(document::holds(told("-knee"), "'-knee': is not PART=NUMBERS"));
-  EXPECT_TRUE(document::holds(told("place=2"), "like place.y=0, or three for all: place="));
+  EXPECT_TRUE(document::holds(reported("elbow"), "write it like elbow.y=90"));
+  EXPECT_TRUE(document::holds(reported("elbow=1"), "one number for one axis"));
+  EXPECT_TRUE(document::holds(reported("elbow.y=1,2"), "has 2 numbers"));
+  EXPECT_TRUE(document::holds(reported("elbow.y=nan"), "where a number belongs"));
+  EXPECT_TRUE(document::holds(reported("elbow.y="), "where a number belongs"));
+  EXPECT_TRUE(document::holds(reported("elbwo.y=1"), "did you mean"));
+  EXPECT_TRUE(document::holds(reported("=1"), "write it like"));
+  EXPECT_TRUE(document::holds(reported("-knee"), "'-knee': is not PART=NUMBERS"));
+  EXPECT_TRUE(document::holds(reported("place=2"), "like place.y=0, or three for all: place="));
   const auto told_twice = [&](const std::vector<std::string>& settings) {
     return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, 10, {}, Beyond::refused); });
   };
@@ -338,7 +338,7 @@ TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
   });
   ASSERT_EQ(deleted.size(), 1u);
   EXPECT_TRUE(document::holds(deleted[0], "goes 90 degrees back from frame 0 to 20")) << deleted[0];
-  // What was so before is not told again.
+  // What was so before is not reported again.
   EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
                 return make_keys(j, f, {false, "it", {"turn"}}, 8, {}, Beyond::refused);
               }).empty());
@@ -349,7 +349,7 @@ TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
 
 struct Turned {
   const char* setting;
-  const char* told;
+  const char* reported;
 };
 
 class OtherWay : public testing::TestWithParam<Turned> {};
@@ -357,11 +357,11 @@ class OtherWay : public testing::TestWithParam<Turned> {};
 TEST_P(OtherWay, IsTold) {
   Scene scene("");
   const Remarks remarks = posed(scene, GetParam().setting, 20);
-  if (std::string(GetParam().told).empty()) {
+  if (std::string(GetParam().reported).empty()) {
     EXPECT_TRUE(remarks.empty()) << remarks[0];
   } else {
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_TRUE(document::holds(remarks[0], GetParam().told)) << remarks[0];
+    EXPECT_TRUE(document::holds(remarks[0], GetParam().reported)) << remarks[0];
   }
 }
 

@@ -145,10 +145,10 @@ class ImportTest : public testing::Test {
   std::string failure(const std::string& name, const std::string& text) const {
     ImportOptions options = options(write(name, text));
     options.to = folder_ / "none.json";
-    const std::string told = document::failure_of([&] { import_model(options); });
+    const std::string reported = document::failure_of([&] { import_model(options); });
     EXPECT_FALSE(fs::exists(options.to));
-    EXPECT_TRUE(document::holds(told, name)) << told;
-    return told;
+    EXPECT_TRUE(document::holds(reported, name)) << reported;
+    return reported;
   }
 
   // Six times the volume of what the mesh encloses, in the unit cube: its faces run outward.
@@ -261,10 +261,10 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
   EXPECT_TRUE(document::holds(failure("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "has no faces"));
   EXPECT_TRUE(document::holds(failure("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n"), "within 1e9"));
   for (const std::string number : {"nan", "1e999"}) {
-    const std::string told = failure("a.obj", "v 0 0 0\nv " + number + " 3 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string reported = failure("a.obj", "v 0 0 0\nv " + number + " 3 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_TRUE(
-        document::holds(told, "has a vertex that is not at numbers, or at too large ones (the file may be damaged"))
-        << told;
+        document::holds(reported, "has a vertex that is not at numbers, or at too large ones (the file may be damaged"))
+        << reported;
   }
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options(folder_ / "no.obj")); }), "no.obj"));
   ImportOptions options = options(write("b.obj", obj_box()));
@@ -317,11 +317,11 @@ TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
   EXPECT_TRUE(document::holds(empty, "is no sound mesh file: it has no scene (")) << empty;
   for (const std::string& text : {std::string("v 0 0 0\nf 1 2 9\n"), std::string("{"), std::string(9, '\xff')}) {
     for (const char* name : {"b.obj", "b.stl", "b.gltf", "b.glb"}) {
-      if (text == "{" && document::holds(name, "glb")) continue;  // its name is told to be wrong
-      const std::string told = failure(name, text);
+      if (text == "{" && document::holds(name, "glb")) continue;  // its name is reported to be wrong
+      const std::string reported = failure(name, text);
       for (const char* theirs :
            {"aiMesh", "aiScene", "suitable reader", "Validation", "OBJ:", "GLTF:", "STL:", "JSON parse"})
-        EXPECT_FALSE(document::holds(told.substr(told.find(": ")), theirs)) << told;
+        EXPECT_FALSE(document::holds(reported.substr(reported.find(": ")), theirs)) << reported;
     }
   }
 }
