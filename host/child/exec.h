@@ -1,4 +1,4 @@
-// A command as exec takes it.
+// A command in place of this process.
 #pragma once
 
 #include <string>

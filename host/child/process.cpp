@@ -56,6 +56,7 @@ bool set_up(const ProcessSetup& setup, pid_t parent, std::vector<int>& sources) 
 struct Preparation {
   explicit Preparation(const ProcessSetup& wanted) : setup(wanted), sources(wanted.streams.size()) {
     if (setup.limits) setup.limits->memory += topology::process_memory().addresses;
+    std::signal(SIGCHLD, SIG_DFL);  // ignored, as our parent may have left it, it would hide how children end
   }
 
   ProcessSetup setup;
@@ -122,14 +123,14 @@ void Process::send(int signal) const { kill(leads_group_ ? -id_ : id_, signal); 
 
 void run_detached(const std::function<void()>& work) {
   const auto leave = [&] {
-    if (fork() != 0) return 0;
+    if (const pid_t left = fork(); left != 0) return left > 0 ? 0 : errno;
     setsid();
     closefrom(0);
-    if (chdir("/") != 0) return 1;
-    work();
+    if (chdir("/") == 0) work();
     return 0;
   };
-  Process(leave, {}).wait();
+  if (const Ending ending = Process(leave, {}).wait(); ending.code != 0)
+    throw Failure(std::strerror(ending.code), "starting a process", "");
 }
 
 }  // namespace mars::child

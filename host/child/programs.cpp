@@ -9,6 +9,8 @@ namespace mars::child {
 
 namespace fs = std::filesystem;
 
+fs::path own_file() { return fs::read_symlink("/proc/self/exe"); }
+
 bool runnable(const fs::path& file) {
   std::error_code ignored;
   return fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0;

@@ -9,6 +9,9 @@
 
 namespace mars::child {
 
+// The file of the program that runs here.
+std::filesystem::path own_file();
+
 // A file that may be executed. Folders that we may not look into have none for us.
 bool runnable(const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ class SignalRelay {
  public:
   // From the first signal to the end of this process, whatever it is doing then: longer than Child::wait takes.
   static constexpr std::chrono::seconds kLongest{15};
-  // The same from the second signal: a person who asks twice does not want to wait.
+  // The same from the second signal: then a person does not want to wait.
   static constexpr std::chrono::seconds kLongestOnceMore{6};
 
   // `group`: the process group that gets the signals. One relay at a time in a process. A SIGHUP that is ignored, as

@@ -5,7 +5,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::images {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/preview/view.h"
 #include "host/images/png_file.h"
+#include "host/preview/view.h"
 
 namespace mars::preview {
 

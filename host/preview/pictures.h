@@ -1,4 +1,4 @@
-// Where the pictures of a film come from, for who shows them one after the other: drawn, rendered, or read from a
+// Where the pictures of a film come from, for the player and the writers of files: drawn, rendered, or read from a
 // folder. Only renew() changes their number, rate and size.
 #pragma once
 
@@ -33,7 +33,7 @@ class Pictures {
   // Why they cannot follow it now, in one line; "": they do.
   virtual std::string trouble() const { return ""; }
 
-  // A person's wish: true if it changes what is to be seen.
+  // Obeys a key: true if it changes the picture.
   virtual bool obey(const KeyPress&) { return false; }
   virtual std::string state() const { return ""; }  // in a few words, for a status line
   virtual std::string keys() const { return ""; }   // what obey() knows, in lines of 80 characters at most

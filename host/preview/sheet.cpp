@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::preview {
 namespace {

@@ -25,14 +25,14 @@ class Palette {
     used_.clear();
     for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
       if (counts_[bucket] > 0) used_.push_back(static_cast<std::uint16_t>(bucket));
-    const std::size_t kept = std::min(used_.size(), kColors);
-    std::partial_sort(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(kept), used_.end(),
+    const std::size_t chosen = std::min(used_.size(), kColors);
+    std::partial_sort(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(chosen), used_.end(),
                       [this](std::uint16_t a, std::uint16_t b) {
                         return counts_[a] != counts_[b] ? counts_[a] > counts_[b] : a < b;
                       });
-    colors_.assign(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(kept));
-    for (std::size_t i = 0; i < kept; ++i) nearest_[used_[i]] = static_cast<std::uint8_t>(i);
-    for (std::size_t i = kept; i < used_.size(); ++i) nearest_[used_[i]] = find_nearest(used_[i]);
+    colors_.assign(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(chosen));
+    for (std::size_t i = 0; i < chosen; ++i) nearest_[used_[i]] = static_cast<std::uint8_t>(i);
+    for (std::size_t i = chosen; i < used_.size(); ++i) nearest_[used_[i]] = find_nearest(used_[i]);
   }
 
   std::uint8_t number_of(std::uint32_t pixel) const { return nearest_[bucket_of(pixel)]; }

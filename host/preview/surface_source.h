@@ -1,4 +1,4 @@
-// Rendered frames for a viewer. Who renders is not the preview's business: only programs link host and nodes.
+// Rendered frames for a viewer. The preview does not know how they are rendered: only programs link host and nodes.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/preview/pictures.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::preview {
 

@@ -42,8 +42,8 @@ bool is_complete(const std::string& answer) {
   return start != std::string::npos && answer.find('c', start) != std::string::npos;
 }
 
-// Standard output, opened once more so that writing never blocks: who shares it is not to notice. Where that is not
-// allowed, as in another user's terminal, it does block.
+// Standard output, opened once more so that writing never blocks and other programs that share it do not notice. Where
+// that is not allowed, as in another user's terminal, it does block.
 int open_output() {
   const int own = open("/proc/self/fd/1", O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   return own >= 0 ? own : fcntl(1, F_DUPFD_CLOEXEC, 0);
@@ -205,7 +205,7 @@ void Terminal::read_signals() {
     }
 }
 
-// Whoever continues us may have changed the terminal's modes and screen meanwhile.
+// The shell that continues us may have changed the terminal's modes and screen meanwhile.
 void Terminal::obey_signals() {
   if (stop_) suspend();
   if (ended_by_ != 0) return;

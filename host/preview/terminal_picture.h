@@ -14,7 +14,7 @@ class TerminalPicture {
  public:
   virtual ~TerminalPicture() = default;
 
-  // Room of the terminal for pictures, without `lines` lines of text beneath, in pixels.
+  // The terminal's space for pictures, without `lines` lines of text beneath, in pixels.
   virtual images::PictureSize space(const Terminal& terminal, std::uint32_t lines) const = 0;
   // What shows `image` in the upper left corner, where the last one stood.
   virtual const std::string& shown(const images::Image& image) = 0;

@@ -8,7 +8,7 @@
 
 #include "host/content/film/compile.h"
 #include "host/preview/view.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::preview {
 

@@ -13,7 +13,7 @@ namespace {
 constexpr images::PictureSize kLargestGif{960, 540};  // unless a size is asked for: they are large files
 constexpr images::PictureSize kOnSheet{320, 180};
 
-bool is_picture(const WriteWishes& wishes) { return wishes.file.extension() == ".png"; }
+bool is_picture(const WriteOptions& options) { return options.file.extension() == ".png"; }
 
 void write_png(const std::filesystem::path& file, const images::Image& image) {
   document::write_whole_file(file, images::encode_png(image.width, image.height, image.pixels));
@@ -25,10 +25,10 @@ SharedImage ready(Pictures& pictures, std::uint32_t frame, images::PictureSize e
   return image;
 }
 
-void write_video(Pictures& pictures, const WriteWishes& wishes, const std::vector<std::uint32_t>& frames,
+void write_video(Pictures& pictures, const WriteOptions& options, const std::vector<std::uint32_t>& frames,
                  images::PictureSize extent) {
   SharedImage image = ready(pictures, frames.front(), extent);
-  Video video(wishes.file, {image->width, image->height}, pictures.rate() / wishes.every);
+  Video video(options.file, {image->width, image->height}, pictures.rate() / options.every);
   for (const std::uint32_t frame : frames)
     video.add(*(frame == frames.front() ? image : ready(pictures, frame, extent)));
   video.finish();
@@ -43,31 +43,31 @@ void check_kind(const std::filesystem::path& file) {
                   "name a picture or contact sheet like sheet.png, or a video like film.mp4");
 }
 
-std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint32_t film_frames) {
-  const std::vector<std::uint32_t> asked = wishes.frames.value_or(film::FrameSet()).of_film(film_frames);
+std::vector<std::uint32_t> frames_to_write(const WriteOptions& options, std::uint32_t film_frames) {
+  const std::vector<std::uint32_t> asked = options.frames.value_or(film::FrameSet()).of_film(film_frames);
   std::vector<std::uint32_t> frames;
-  for (std::size_t i = 0; i < asked.size(); i += wishes.every) frames.push_back(asked[i]);
-  if (!is_picture(wishes) || wishes.frames || wishes.every > 1 || frames.size() <= kSheetFrames) return frames;
+  for (std::size_t i = 0; i < asked.size(); i += options.every) frames.push_back(asked[i]);
+  if (!is_picture(options) || options.frames || options.every > 1 || frames.size() <= kSheetFrames) return frames;
   std::vector<std::uint32_t> some;  // the first, the last, and evenly between
   for (std::size_t i = 0; i < kSheetFrames; ++i) some.push_back(frames[i * (frames.size() - 1) / (kSheetFrames - 1)]);
   return some;
 }
 
-images::PictureSize extent_to_write(const WriteWishes& wishes, images::PictureSize film, std::size_t frames) {
-  if (wishes.extent) return *wishes.extent;
-  if (is_picture(wishes) && frames > 1) return fitted(film, kOnSheet);
+images::PictureSize extent_to_write(const WriteOptions& options, images::PictureSize film, std::size_t frames) {
+  if (options.extent) return *options.extent;
+  if (is_picture(options) && frames > 1) return fitted(film, kOnSheet);
   const bool large = film.width > kLargestGif.width || film.height > kLargestGif.height;
-  return large && wishes.file.extension() == ".gif" ? fitted(film, kLargestGif) : film;
+  return large && options.file.extension() == ".gif" ? fitted(film, kLargestGif) : film;
 }
 
-void write_pictures(Pictures& pictures, const WriteWishes& wishes) {
-  const std::vector<std::uint32_t> frames = frames_to_write(wishes, pictures.frames());
-  const images::PictureSize extent = extent_to_write(wishes, pictures.extent(), frames.size());
-  document::check_can_write(wishes.file);  // better now than after the last frame
-  if (!is_picture(wishes)) return write_video(pictures, wishes, frames, extent);
+void write_pictures(Pictures& pictures, const WriteOptions& options) {
+  const std::vector<std::uint32_t> frames = frames_to_write(options, pictures.frames());
+  const images::PictureSize extent = extent_to_write(options, pictures.extent(), frames.size());
+  document::check_can_write(options.file);  // better now than after the last frame
+  if (!is_picture(options)) return write_video(pictures, options, frames, extent);
   std::vector<SheetPicture> shown;
   for (const std::uint32_t frame : frames) shown.push_back({frame, ready(pictures, frame, extent)});
-  write_png(wishes.file, shown.size() == 1 ? *shown.front().image : contact_sheet(shown, wishes.columns));
+  write_png(options.file, shown.size() == 1 ? *shown.front().image : contact_sheet(shown, options.columns));
 }
 
 }  // namespace mars::preview

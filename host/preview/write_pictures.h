@@ -11,10 +11,10 @@
 
 namespace mars::preview {
 
-struct WriteWishes {
+struct WriteOptions {
   std::filesystem::path file;                 // .png, .gif or .mp4
   std::optional<film::FrameSet> frames;       // none: all, or for a sheet kSheetFrames at most
-  std::uint32_t every = 1;                    // of these, each so manieth
+  std::uint32_t every = 1;                    // of these, only each Nth
   std::uint32_t columns = 0;                  // of a sheet; 0: about as many as rows
   std::optional<images::PictureSize> extent;  // of each picture; none: the film's, smaller on a sheet and in a GIF
 };
@@ -24,11 +24,11 @@ inline constexpr std::uint32_t kSheetFrames = 12;
 // Throws Failure unless the file's ending is one of those.
 void check_kind(const std::filesystem::path& file);
 
-// What is written of so many frames, ascending.
-std::vector<std::uint32_t> frames_to_write(const WriteWishes& wishes, std::uint32_t film_frames);
-images::PictureSize extent_to_write(const WriteWishes& wishes, images::PictureSize film, std::size_t frames);
+// The frames that are written of a film with `film_frames`, ascending.
+std::vector<std::uint32_t> frames_to_write(const WriteOptions& options, std::uint32_t film_frames);
+images::PictureSize extent_to_write(const WriteOptions& options, images::PictureSize film, std::size_t frames);
 
 // `pictures` must have every picture ready.
-void write_pictures(Pictures& pictures, const WriteWishes& wishes);
+void write_pictures(Pictures& pictures, const WriteOptions& options);
 
 }  // namespace mars::preview

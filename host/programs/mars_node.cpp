@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "hal/mpi/start.h"
-#include "host/shell/options/command_line.h"
 #include "host/programs/node_job.h"
+#include "host/shell/options/command_line.h"
 
 int main(int argc, char** argv) {
   using namespace mars;

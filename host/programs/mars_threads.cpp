@@ -4,15 +4,15 @@
 
 #include "hal/failure/explain.h"
 #include "hal/threads/run_threads.h"
-#include "host/shell/options/command_line.h"
+#include "host/child/standard_streams.h"
 #include "host/programs/node_job.h"
 #include "host/shell/job/render_job.h"
-#include "host/programs/standard_streams.h"
+#include "host/shell/options/command_line.h"
 #include "topology/machine.h"
 
 int main(int argc, char** argv) {
   using namespace mars;
-  programs::open_standard_streams();
+  child::open_standard_streams();
   constexpr const char* kPurpose = "Host and nodes in one process: mars-threads FILM -o DIR --nodes 4";
   options::RenderOptions options;
   if (const auto code =

@@ -9,8 +9,8 @@ namespace mars::programs {
 // Left to the host's sinks on a machine that has more cores than nodes.
 inline constexpr int kCoresForHost = 1;
 
-// Throws Failure where this process may have too few addresses (ulimit -v) for so many nodes as threads: the libraries
-// below would end it without a word.
+// Throws Failure where this process may have too few addresses (ulimit -v) for this number of nodes as threads: the
+// libraries below would end it without a message.
 void check_memory_limit(std::uint32_t nodes);
 
 // `threads`: of the nodes, how many are threads of this process.

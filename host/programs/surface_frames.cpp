@@ -4,10 +4,10 @@
 
 #include "hal/failure/failure.h"
 #include "hal/threads/run_threads.h"
-#include "host/render/farm/farm.h"
+#include "host/images/png_file.h"
 #include "host/preview/viewpoint.h"
 #include "host/programs/node_job.h"
-#include "host/images/png_file.h"
+#include "host/render/farm/farm.h"
 #include "topology/machine.h"
 
 namespace mars::programs {

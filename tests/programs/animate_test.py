@@ -1,4 +1,4 @@
-"""mars animate and mars plot, as a person types them: what the film file says afterwards, and what is told."""
+"""mars animate and mars plot, as a person types them: what the film file says afterwards, and what is printed."""
 
 import json
 import os
@@ -35,7 +35,7 @@ class Animate(ProgramTest):
         return json.loads((self.folder / "film.json").read_text())["actors"][0]
 
     def refused(self, *words):
-        """What is told; the film stays, byte for byte."""
+        """What is printed; the film stays, byte for byte."""
         before = (self.folder / "film.json").read_bytes()
         ended = self.animate(*words)
         self.assertEqual(ended.returncode, 1, ended.stderr)
@@ -62,9 +62,9 @@ class Animate(ProgramTest):
         self.assertEqual(self.frames(), [6])
 
     def test_limits(self):
-        told = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
-        self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", told)
-        self.assertIn("--clamp", told)
+        printed = self.refused("pose", "robot", "elbow.y=170", "--frame", 24)
+        self.assertIn("actor 'robot', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150", printed)
+        self.assertIn("--clamp", printed)
         clamped = self.animate("pose", "robot", "elbow.y=170", "--frame", 24, "--clamp")
         self.assertEqual((clamped.returncode, clamped.stderr),
                          (0, "mars: actor 'robot', joint 'elbow': 170 degrees about y is beyond its limits 0 to 150: "
@@ -85,7 +85,7 @@ class Animate(ProgramTest):
         actor = self.changed("time", "robot", "--frame", 0, "--anticipate", 10, "--overshoot", 20)
         self.assertEqual(len(actor["keys"][0]["ease"]), 4)
 
-    def test_keys_behind_the_end_are_told_or_the_film_grows(self):
+    def test_keys_behind_the_end_are_reported_or_the_film_grows(self):
         ended = self.animate("pose", "robot", "elbow.y=90", "--frame", 60)
         self.assertEqual(ended.returncode, 0)
         self.assertEqual(ended.stderr, "")
@@ -95,7 +95,7 @@ class Animate(ProgramTest):
         self.changed("move", "robot", "--frame", 60, "--to", 61, "--lengthen")
         self.assertEqual(json.loads((self.folder / "film.json").read_text())["frames"], 62)
 
-    def test_a_motion_behind_the_end_is_told_and_done_again_from_where_it_began(self):
+    def test_a_motion_behind_the_end_is_reported_and_done_again_from_where_it_began(self):
         ended = self.animate("spin", "robot", "--at", 12)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
         self.assertEqual(ended.stdout, "frames 12 to 60; the film shows only its 48 frames: set its frames to 61, "
@@ -141,22 +141,22 @@ class Animate(ProgramTest):
         rendered = self.mars("render", "film.json", "-o", "frames", "--backend", "threads", "--nodes", 1, "--frames", 0,
                              "--size", "32x18", "--quiet")
         self.assertEqual((rendered.returncode, rendered.stdout, rendered.stderr), (0, "", compiled.stderr))
-        mend = re.search(r"mend it with: (.*)\)", ended.stdout)[1]
+        fix = re.search(r"fix it with: (.*)\)", ended.stdout)[1]
         worst = self.degrees_outside(ended.stdout)
-        self.assertIn("is beyond its limits -81 to 81: keyed as ", self.animate(*mend.split()).stderr)
+        self.assertIn("is beyond its limits -81 to 81: keyed as ", self.animate(*fix.split()).stderr)
         after = self.animate("check").stdout
         self.assertLess(self.degrees_outside(after) if "turns" in after else 0, worst / 2)
 
     def test_a_film_in_which_nobody_acts_is_warned_of(self):
         self.write("film.json", film(actors=[]))
         compiled = self.mars("compile", "film.json", "-o", "film.mars")
-        told = "film.json: has no actors: every frame shows the background alone (give the film actors)\n"
-        self.assertEqual((compiled.returncode, compiled.stderr), (0, f"mars: warning: {told}"))
-        self.assertTrue(self.succeed("mars", "info", "film.json").endswith(f"\nwarning     {told}"))
+        printed = "film.json: has no actors: every frame shows the background alone (give the film actors)\n"
+        self.assertEqual((compiled.returncode, compiled.stderr), (0, f"mars: warning: {printed}"))
+        self.assertTrue(self.succeed("mars", "info", "film.json").endswith(f"\nwarning     {printed}"))
         rendered = self.mars("render", "film.mars", "-o", "frames", "--backend", "threads", "--nodes", 1, "--frames", 0,
                              "--size", "32x18")
         self.assertEqual((rendered.returncode, rendered.stderr),
-                         (0, f"mars: warning: {told.replace('json', 'mars')}"))
+                         (0, f"mars: warning: {printed.replace('json', 'mars')}"))
 
     def test_what_a_pose_does_besides_is_told(self):
         ended = self.animate("pose", "robot", "turn.z=270", "--frame", 20)
@@ -166,8 +166,8 @@ class Animate(ProgramTest):
         ended = self.animate("key", "robot", "elbow", "--frame", 10, "--ease", "both")
         self.assertIn("the ease at frame 10 also changes how these move on from there: turn (", ended.stderr)
 
-    def degrees_outside(self, told):
-        return float(re.search(r"turns (\S+) degrees", told)[1]) - 81
+    def degrees_outside(self, printed):
+        return float(re.search(r"turns (\S+) degrees", printed)[1]) - 81
 
     def test_what_cannot_be_done_is_told(self):
         self.changed("pose", "robot", "elbow.y=90", "--frame", 12)
@@ -232,16 +232,16 @@ class Animate(ProgramTest):
         page = (SOURCES / "docs/animating.md").read_text()
         blocks = re.findall(r"^```(\w+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
         self.assertGreater(len(blocks), 8)
-        told = ""
+        printed = ""
         for kind, text in blocks:
             if kind == "text":
-                self.assertEqual(told, text)
+                self.assertEqual(printed, text)
                 continue
             path = {**ENVIRONMENT, "PATH": f"{PROGRAMS}:{os.environ['PATH']}"}
             ended = subprocess.run(["bash", "-ec", text], cwd=self.folder, env=path, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
             self.assertEqual(ended.returncode, 0, ended.stdout)
-            told = ended.stdout
+            printed = ended.stdout
         self.assertTrue((self.folder / "lamp.png").exists())
 
     @needs("gnuplot")

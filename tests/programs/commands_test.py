@@ -32,10 +32,10 @@ def vase():
 
 class Commands(ProgramTest):
     def test_the_way_in(self):
-        told = self.succeed("mars")
-        self.assertIn("mars render examples/demo.json", told)
+        printed = self.succeed("mars")
+        self.assertIn("mars render examples/demo.json", printed)
         for command in ["render", "compile", "info", "preview", "play", "verify", "import", "bench"]:
-            self.assertIn(f"mars {command} ", told)
+            self.assertIn(f"mars {command} ", printed)
             self.assertIn("Example: ", self.succeed("mars", command, "--help"))
 
     def test_every_option_of_every_command_has_an_example(self):
@@ -47,7 +47,7 @@ class Commands(ProgramTest):
                 self.assertIn(command, of)
                 self.assertIn("Example: ", fields[-1], f"{command} {name}")
 
-    def test_a_command_that_only_holds_others_tells_them(self):
+    def test_a_command_that_only_holds_others_lists_them(self):
         self.assertIn("Usage: mars model ", self.succeed("mars", "model"))
         self.assertIn("Usage: mars model show ", self.succeed("mars", "help", "model", "show"))
         self.fail_clearly(2, "model", "shwo", "dog.json", says="'shwo' is not a command (did you mean 'show'?)")
@@ -57,20 +57,20 @@ class Commands(ProgramTest):
 
     def test_help_of_a_command_within_another_is_its_own(self):
         for words in [["pose", "--help"], ["film.json", "pose", "--help"]]:
-            told = self.succeed("mars", "animate", *words)
-            self.assertIn("Usage: mars animate FILM pose [OPTIONS] ACTOR PART=NUMBERS...\n", told)
-            self.assertNotIn("docs/animating.md", told)  # which stands below that of animate
+            printed = self.succeed("mars", "animate", *words)
+            self.assertIn("Usage: mars animate FILM pose [OPTIONS] ACTOR PART=NUMBERS...\n", printed)
+            self.assertNotIn("docs/animating.md", printed)  # which stands below that of animate
         self.assertIn("docs/animating.md", self.succeed("mars", "animate", "--help"))
         self.assertIn("Usage: mars model scale [OPTIONS] MODEL [FACTOR...]\n",
                       self.succeed("mars", "model", "scale", "--help"))
 
-    def test_help_tells_exit_codes_and_settings(self):
+    def test_help_prints_exit_codes_and_settings(self):
         for words in [["--help"], ["render", "--help"]]:
             self.assertIn("Exit codes: 0", self.succeed("mars", *words))
         self.assertIn("MARS_MEMORY", self.succeed("mars", "render", "--help"))
 
     @needs_mpi
-    def test_programs_of_a_job_tell_what_they_are(self):
+    def test_programs_of_a_job_print_what_they_are(self):
         for program in ["mars-host", "mars-node", "mars-ranks"]:
             self.assertRegex(self.succeed(program, "--help"), "mpirun -n .*mars-")
 
@@ -106,8 +106,8 @@ class Commands(ProgramTest):
     def test_import_takes_meshes(self):
         self.write("tent.obj", "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 0 1.5 2\nv 4 1.5 2\n"
                                "f 1 2 6 5\nf 3 4 5 6\nf 2 3 6\nf 4 1 5\nf 4 3 2 1\n")
-        told = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--up", "z")
-        self.assertEqual(told, "tent.json: model of one joint 'tent'\n"
+        printed = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--up", "z")
+        self.assertEqual(printed, "tent.json: model of one joint 'tent'\n"
                                "  box        4 x 3 x 2, the file's z upward\n"
                                "  read       6 vertices, 5 faces\n"
                                "  not read   nothing: all of the file was read\n")
@@ -118,8 +118,8 @@ class Commands(ProgramTest):
         self.succeed("mars", "render", film, "-o", "out", "--backend", "threads")
         self.write("tent.mtl", "newmtl canvas\nKs 1 1 1\n")
         self.write("tent.obj", "mtllib tent.mtl\nusemtl canvas\n" + (self.folder / "tent.obj").read_text())
-        told = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--force")
-        remedy = re.search(r"1 material's gloss \((mars model set .*)\)", told).group(1)
+        printed = self.succeed("mars", "import", "tent.obj", "-o", "tent.json", "--force")
+        remedy = re.search(r"1 material's gloss \((mars model set .*)\)", printed).group(1)
         self.assertEqual(remedy, "mars model set tent.json tent --material color --specular 0.3")
         self.succeed(*remedy.split())
         self.fail_clearly(1, "import", self.write("bad.obj", "f 1 2 3\n"), "-o", "bad.json", says="bad.obj")
@@ -201,7 +201,7 @@ class Commands(ProgramTest):
             self.succeed("mars", "render", TEAPOT, "-o", "out", *SMALL, "--frames", frames)
             self.verified_hash("out")
 
-    def test_verify_tells_missing_and_torn_frames(self):
+    def test_verify_prints_missing_and_torn_frames(self):
         self.succeed("mars", "render", TEAPOT, "-o", "out", *SMALL, "--frames", "0-5")
         torn = self.folder / "out/frame-0003.png"
         torn.write_bytes(torn.read_bytes()[:-30])

@@ -31,30 +31,30 @@ class Doctor(ProgramTest):
 
     @needs_mpi
     def test_a_sound_machine(self):
-        told = self.doctor("--nodes", 2)
+        printed = self.doctor("--nodes", 2)
         for about in ["MPI", "programs", "processors", "slots", "memory", "/dev/shm", "copies", "user", "TMPDIR",
                       "ffmpeg", "a start"]:
-            self.assertRegex(told, rf"(?m)^  (ok|note) +{about} ")
-        self.assertIn("2 nodes on 1 machine (mpi) booted in", plain(told))
-        self.assertIn("No trouble found", told)
+            self.assertRegex(printed, rf"(?m)^  (ok|note) +{about} ")
+        self.assertIn("2 nodes on 1 machine (mpi) booted in", plain(printed))
+        self.assertIn("No trouble found", printed)
 
     @needs_mpi
     def test_a_start_that_fails(self):
         path = self.fake_mpirun("A call to mkdir was unable to create the desired directory:")
-        told = self.doctor(code=1, PATH=path)
-        self.assertRegex(told, r"TROUBLE +a start +Open MPI cannot write its temporary files")
-        self.assertIn("set TMPDIR", told)
+        printed = self.doctor(code=1, PATH=path)
+        self.assertRegex(printed, r"TROUBLE +a start +Open MPI cannot write its temporary files")
+        self.assertIn("set TMPDIR", printed)
 
     def test_temporary_files_have_no_place(self):
         self.assertRegex(self.doctor(code=1, TMPDIR="/proc/nowhere"), r"TROUBLE +TMPDIR +/proc/nowhere cannot be written")
 
     @needs_mpi
-    def test_render_tells_the_same(self):
-        told = lambda **environment: plain(self.mars("render", EXAMPLES / "teapot.json", "-o", "out", "--frames", 0,
+    def test_render_prints_the_same(self):
+        printed = lambda **environment: plain(self.mars("render", EXAMPLES / "teapot.json", "-o", "out", "--frames", 0,
                                                      env=dict(ENVIRONMENT, **environment)).stderr)
         self.assertIn("Open MPI cannot write its temporary files (set TMPDIR",
-                      told(PATH=self.fake_mpirun("A call to mkdir was unable to create the desired directory:")))
-        unknown = told(PATH=self.fake_mpirun("Something that nobody has seen"), TMPDIR="/proc/nowhere")
+                      printed(PATH=self.fake_mpirun("A call to mkdir was unable to create the desired directory:")))
+        unknown = printed(PATH=self.fake_mpirun("Something that nobody has seen"), TMPDIR="/proc/nowhere")
         self.assertIn("Something that nobody has seen", unknown)
         self.assertIn("TMPDIR: /proc/nowhere cannot be written", unknown)
         self.assertIn("mars doctor", unknown)

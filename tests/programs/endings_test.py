@@ -21,9 +21,9 @@ class Endings(ProgramTest):
         return [p for p, (_, _, executable) in self.family.items() if executable.endswith("/" + program)]
 
     def assertEndsClearly(self, says):
-        _, told = self.process.communicate(timeout=SOON)
-        self.assertEqual(self.process.returncode, 1, told)
-        self.assertClear(told, says)
+        _, printed = self.process.communicate(timeout=SOON)
+        self.assertEqual(self.process.returncode, 1, printed)
+        self.assertClear(printed, says)
         self.assertEqual(living(self.family), [])
         self.assertNothingTorn(self.folder / "out")
 

@@ -71,7 +71,7 @@ class Films(ProgramTest):
         self.fail_with_film(self.write("misspelt.json", film), "camera")
 
     def test_damaged(self):
-        """Every kind of damage, told in words of our own."""
+        """Every kind of damage, printed in words of our own."""
         film = (EXAMPLES / "teapot.json").read_bytes()
         self.succeed("mars", "compile", TEAPOT, "-o", "whole.mars")
         whole = (self.folder / "whole.mars").read_bytes()
@@ -149,8 +149,8 @@ class Memory(ProgramTest):
         for nodes in [1, 3]:
             draw = ["render", TEAPOT, "--sink", "none", "--nodes", nodes, "--frames", "0", "--backend", "threads"]
             limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (300000 << 10, 300000 << 10))
-            told = self.fail_clearly(1, *draw, says="ulimit -v: the limit of 300000 kB", preexec_fn=limit).stderr
-            self.assertTrue(self.within(int(re.search(r"raise it to (\d+) or more", told)[1]), "mars", *draw))
+            printed = self.fail_clearly(1, *draw, says="ulimit -v: the limit of 300000 kB", preexec_fn=limit).stderr
+            self.assertTrue(self.within(int(re.search(r"raise it to (\d+) or more", printed)[1]), "mars", *draw))
 
     def test_a_limit_of_data_is_named(self):
         limit = lambda: resource.setrlimit(resource.RLIMIT_DATA, (100000 << 10, 100000 << 10))
@@ -222,9 +222,9 @@ class Starting(ProgramTest):
                           env=self.path_of_its_own())
 
     def test_threads_stand_in_where_mpirun_is_missing(self):
-        told = self.succeed("mars", "render", TEAPOT, "-o", "out", "--frames", "0",
+        printed = self.succeed("mars", "render", TEAPOT, "-o", "out", "--frames", "0",
                             env=self.path_of_its_own())
-        self.assertIn("mars-threads", told)
+        self.assertIn("mars-threads", printed)
 
     @needs_mpi
     def test_no_remote_shell(self):

@@ -44,8 +44,8 @@ class Folders(ProgramTest):
         long = self.start("0-999")
         for frame in range(5000, 5004):
             self.succeed("mars", "render", self.film, "-o", "out", *SMALL, "--frames", frame)
-        told = long.communicate(timeout=SECONDS)
-        self.assertEqual((long.returncode, told[1]), (0, ""))
+        printed = long.communicate(timeout=SECONDS)
+        self.assertEqual((long.returncode, printed[1]), (0, ""))
         self.assertIn("1004 frames, all there and whole", self.succeed("mars", "verify", "out"))
         self.assertOnlyFrames()
 
@@ -73,8 +73,8 @@ class Folders(ProgramTest):
         words = [PROGRAMS / "mars-threads", self.film, "-o", "out", "--nodes", "1"]
         runs = []
         for name in range(6):
-            with open(self.folder / f"{name}.txt", "w") as told:
-                runs.append(subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=told, env=ENVIRONMENT,
+            with open(self.folder / f"{name}.txt", "w") as printed:
+                runs.append(subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=printed, env=ENVIRONMENT,
                                              cwd=self.folder))
             self.addCleanup(self.end, runs[-1])
         wait_until(lambda: sum(run.poll() is not None for run in runs) >= 5, SECONDS, "more than one goes on")
@@ -137,9 +137,9 @@ class Folders(ProgramTest):
         (self.out / "frame-00003.png").unlink()
         (self.out / "frame-00004.png").write_bytes((self.out / "frame-00005.png").read_bytes())
         (self.out / "frame-00008.png").write_bytes(b"torn")
-        told = self.mars("verify", "out")
-        self.assertEqual(told.returncode, 1)
-        self.assertIn("frame 4: other pixels than were rendered\n", told.stdout)
+        printed = self.mars("verify", "out")
+        self.assertEqual(printed.returncode, 1)
+        self.assertIn("frame 4: other pixels than were rendered\n", printed.stdout)
         self.assertEqual(self.missing(), "3-4,8")
         self.assertEqual(self.render(self.film, self.missing()).returncode, 0)
         self.assertEqual(self.verified_hash("out"), expected)

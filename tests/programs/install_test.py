@@ -56,9 +56,9 @@ class Installed(Installation):
         film = self.prefix / "share/doc/mars/examples/robot-arm.json"
         hashes = set()
         for backend in self.backends():
-            told = self.succeed("mars", "render", film, "-o", backend, "--backend", backend, "--nodes", 2,
+            printed = self.succeed("mars", "render", film, "-o", backend, "--backend", backend, "--nodes", 2,
                                 "--frames", "0-3", "--size", "96x54")
-            self.assertIn(str(harness.PROGRAMS / ("mars-host" if backend == "mpi" else "mars-threads")), told)
+            self.assertIn(str(harness.PROGRAMS / ("mars-host" if backend == "mpi" else "mars-threads")), printed)
             hashes.add(self.verified_hash(self.folder / backend))
         self.assertEqual(len(hashes), 1)
 
@@ -138,10 +138,10 @@ class Installed(Installation):
         self.write("dog.json", "")
         for typed, offered in [("mars mod", ["model"]), ("mars model sh", ["show"]), ("mars model show d", ["dog.json"]),
                                ("mars render --backend thr", ["threads"]), ("mars model show --h", ["--help"])]:
-            told = self.succeed("fish", "--no-config", "-c", f"source '{script}'; complete -C '{typed}'",
+            printed = self.succeed("fish", "--no-config", "-c", f"source '{script}'; complete -C '{typed}'",
                                 env=dict(os.environ, PATH=f"{harness.PROGRAMS}:{os.environ['PATH']}",
                                          HOME=str(self.folder)))
-            self.assertEqual([line.split("\t")[0] for line in told.splitlines()], offered, typed)
+            self.assertEqual([line.split("\t")[0] for line in printed.splitlines()], offered, typed)
 
     @needs("zsh")
     def test_zsh_completes_commands_within_commands(self):
@@ -156,11 +156,11 @@ class Installed(Installation):
 
         def shows(typed, wanted):
             os.write(terminal, typed.encode())
-            told, end = "", time.monotonic() + 20
-            while wanted not in told and time.monotonic() < end:
+            printed, end = "", time.monotonic() + 20
+            while wanted not in printed and time.monotonic() < end:
                 if select.select([terminal], [], [], 0.1)[0]:
-                    told += os.read(terminal, 65536).decode(errors="replace")
-            self.assertIn(wanted, told, typed)
+                    printed += os.read(terminal, 65536).decode(errors="replace")
+            self.assertIn(wanted, printed, typed)
 
         functions = self.prefix / "share/zsh/site-functions"
         shows(f"fpath=('{functions}' $fpath); autoload -U compinit; compinit -u; echo rea''dy\n", "ready\r\n")
@@ -193,7 +193,7 @@ class Manual(Installation):
         for page in text.values():
             self.assertIsNone(re.search("@[A-Z]+", page))
 
-    def test_tells_commands_as_they_are_typed(self):
+    def test_prints_commands_as_they_are_typed(self):
         text = gzip.decompress(self.page("mars").read_bytes()).decode()
         self.assertIn(".Nm Cm animate Ar FILM Cm walk Oo Ar options Oc Ar ACTOR\n", text)
         self.assertIn(".Nm Cm model Cm scale Oo Ar options Oc Ar MODEL Oo Ar FACTOR... Oc\n", text)

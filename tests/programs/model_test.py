@@ -38,7 +38,7 @@ class Model(ProgramTest):
         film = {"frames": 1, "size": [64, 64], "camera": {"eye": [0, -3, 0], "at": [0, 0, -0.2]},
                 "models": {"dog": "dog.json"}, "actors": [{"name": "dog", "model": "dog", "pose": {"leg": [0, 60, 0]}}]}
         self.succeed("mars", "render", self.write("film.json", film), "-o", "out", "--backend", "threads")
-        self.assertEqual(self.model("check", "dog.json"), "dog.json: a model of 3 joints, nothing to remark\n")
+        self.assertEqual(self.model("check", "dog.json"), "dog.json: a model of 3 joints, no warnings\n")
         shown = self.model("show", "dog.json")
         self.assertRegex(shown, r"\n  leg +y -60\.\.60 +- +capsule +\d+ +0\.12 x 0\.12 x 0\.56 +fur\n    paw +fixed ")
         self.assertRegex(shown, r"joints +3 with 4 freedoms\n")
@@ -47,7 +47,7 @@ class Model(ProgramTest):
         script, text = (SOURCES / "docs/modeling.md").read_text().split("```sh\n")[1].split("```")
         self.write("dog.sh", script)
         env = dict(os.environ, PATH=f"{PROGRAMS}:{os.environ['PATH']}")
-        self.assertEqual(self.succeed("sh", "-e", "dog.sh", env=env), "dog.json: a model of 15 joints, nothing to remark\n")
+        self.assertEqual(self.succeed("sh", "-e", "dog.sh", env=env), "dog.json: a model of 15 joints, no warnings\n")
         lines = [line.split("#")[0].replace("'", "").split() for line in text.splitlines() if line.startswith("    mars model")]
         self.assertGreater(len(lines), 8)
         for words in lines:
@@ -194,12 +194,12 @@ class Model(ProgramTest):
         self.model("set", "dog.json", "leg", "--place", 7, 7, 7)
         self.assertEqual(self.joints()["leg"]["place"], [7, 7, 7])
 
-    def test_check_tells_what_is_probably_not_meant(self):
+    def test_check_prints_what_is_probably_not_meant(self):
         self.dog()
         self.model("set", "dog.json", "leg", "--place", 3, 0, 0)
-        told = self.model("check", "dog.json")
-        self.assertIn("dog.json: joint 'leg' has its segment 2.34 away from that of 'body'", told)
-        self.assertIn("a model of 3 joints, 1 to look at\n", told)
+        printed = self.model("check", "dog.json")
+        self.assertIn("dog.json: joint 'leg' has its segment 2.34 away from that of 'body'", printed)
+        self.assertIn("a model of 3 joints, 1 warning\n", printed)
 
 
 if __name__ == "__main__":

@@ -73,8 +73,8 @@ class Library(NxInstallation):
     @harness.needs_mpi
     def test_a_job_of_mpirun(self):
         self.build("rank", RANK)
-        told = self.succeed(*harness.OWN_MPIRUN, "-n", 3, "./rank", env=self.nx_environment())
-        self.assertEqual(sorted(told.splitlines()), RANKS)
+        printed = self.succeed(*harness.OWN_MPIRUN, "-n", 3, "./rank", env=self.nx_environment())
+        self.assertEqual(sorted(printed.splitlines()), RANKS)
 
     def test_a_program_alone(self):
         self.build("rank", RANK)

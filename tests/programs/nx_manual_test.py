@@ -36,19 +36,19 @@ class Manual(NxInstallation):
         calls, seen = self.prototypes(), 0
         for name, page in self.pages.items():
             for result, call, arguments in re.findall(r"^\.Ft (.*)\n\.Fo (.*)\n((?:\.Fa .*\n)*)\.Fc", page, re.M):
-                told = f"{result} {call}({', '.join(re.findall(r'.Fa .(.*).$', arguments, re.M))})"
-                self.assertEqual(told, re.sub(r"(\w)\* ", r"\1 *", calls[call]), name)
+                printed = f"{result} {call}({', '.join(re.findall(r'.Fa .(.*).$', arguments, re.M))})"
+                self.assertEqual(printed, re.sub(r"(\w)\* ", r"\1 *", calls[call]), name)
                 seen += 1
         self.assertGreater(seen, 50)
 
     def test_errors_exist(self):
         ours = re.findall(r"#define (EQ\w+)", (self.prefix / "include/mars-nx/nx_errno.h").read_text())
-        told = set()
+        printed = set()
         for name, page in self.pages.items():
             for error in re.findall(r"\.Er (\w+)|Bq Er (\w+)", page):
-                told.add("".join(error))
-        self.assertEqual(told & set(ours), set(ours))
-        self.assertEqual({each for each in told - set(ours) if not hasattr(errno, each)}, set())
+                printed.add("".join(error))
+        self.assertEqual(printed & set(ours), set(ours))
+        self.assertEqual({each for each in printed - set(ours) if not hasattr(errno, each)}, set())
 
     def test_references_lead_somewhere(self):
         seen = 0
@@ -66,8 +66,8 @@ class Manual(NxInstallation):
     @needs("mandoc")
     def test_mandoc_finds_no_fault(self):
         for name in self.pages:
-            told = self.run_program("mandoc", "-T", "lint", "-W", "warning", self.files[name]).stdout
-            faults = [line for line in told.splitlines() if "unknown manual section: Dt ... 3nx" not in line]
+            printed = self.run_program("mandoc", "-T", "lint", "-W", "warning", self.files[name]).stdout
+            faults = [line for line in printed.splitlines() if "unknown manual section: Dt ... 3nx" not in line]
             self.assertEqual(faults, [])
 
     @needs("groff")
@@ -84,8 +84,8 @@ class Manual(NxInstallation):
                 program = ["--host", "./example"] if 'load("node"' in example else ["./example"]
                 for nodes in 1, 4:
                     done = self.run_nx("--nodes", nodes, *program)
-                    told = "" if "nx_perror(" in example else done.stderr
-                    self.assertEqual((done.returncode, told), (0, ""), f"{name}, {nodes} nodes\n{done.stderr}")
+                    printed = "" if "nx_perror(" in example else done.stderr
+                    self.assertEqual((done.returncode, printed), (0, ""), f"{name}, {nodes} nodes\n{done.stderr}")
                 ran += 1
         self.assertGreater(ran, 15)
 

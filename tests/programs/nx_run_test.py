@@ -41,7 +41,7 @@ static void work(const char* what) {
   if (!strcmp(what, "sleep")) { mynode(); printf("sleeping\n"); sleep(100); }
   if (!strcmp(what, "sum")) {
     double one = 1, work;
-    if (_gdsum(&one, mynode() == 1 ? -1 : 1, &work) < 0) nx_perror("told");
+    if (_gdsum(&one, mynode() == 1 ? -1 : 1, &work) < 0) nx_perror("printed");
     exit(0);
   }
   if (!strcmp(what, "to-pid")) csend(11, &x, sizeof x, myhost(), 100);
@@ -256,15 +256,15 @@ class Starts(NxRun):
     def test_nodes_alone(self):
         for over in self.transports():
             for count in [1, 2, 5]:
-                told = self.well("--nodes", count, "./node", over=over)
+                printed = self.well("--nodes", count, "./node", over=over)
                 expected = {f"{i} of {count} has word of {(i - 1) % count}, call 1" for i in range(count)}
-                self.assertEqual(set(told.splitlines()), expected)
+                self.assertEqual(set(printed.splitlines()), expected)
 
     def test_host_and_nodes(self):
         for over in self.transports():
             for count in [1, 3, 8]:
-                told = self.well("--nodes", count, "./host", "./node", "sum", "square", over=over)
-                self.assertEqual(told, f"sum {sum(i * i for i in range(count))}\n")
+                printed = self.well("--nodes", count, "./host", "./node", "sum", "square", over=over)
+                self.assertEqual(printed, f"sum {sum(i * i for i in range(count))}\n")
 
     def test_arguments_after_dashes(self):
         self.assertEqual(self.well("--nodes", 2, "./host", "./node", "--", "sum", "square"), "sum 1\n")
@@ -280,12 +280,12 @@ class Starts(NxRun):
 
     @needs_mpi
     def test_own_mpirun(self):
-        told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "sum", ":", "-n", 3, "./node", "square")
-        self.assertEqual(told, "sum 5\n")
-        told = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "two", ":", "-n", 3, "./node", "square")
-        self.assertEqual(told, "two 1\n")
-        told = self.succeed(*OWN_MPIRUN, "-n", 3, "./node")
-        self.assertIn("2 of 3 has word of 1", told)
+        printed = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "sum", ":", "-n", 3, "./node", "square")
+        self.assertEqual(printed, "sum 5\n")
+        printed = self.succeed(*OWN_MPIRUN, "-n", 1, "./host", "two", ":", "-n", 3, "./node", "square")
+        self.assertEqual(printed, "two 1\n")
+        printed = self.succeed(*OWN_MPIRUN, "-n", 3, "./node")
+        self.assertIn("2 of 3 has word of 1", printed)
 
     @needs_mpi
     def test_the_setting_says_who_is_the_host(self):
@@ -323,8 +323,8 @@ class Starts(NxRun):
 class Cubes(NxRun):
     def test_the_host_gets_a_cube_and_loads(self):
         for over in self.transports():
-            told = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
-            self.assertEqual(told, "1 cube mine of 2, host 2, me 2\nsum 1\n")
+            printed = self.well("--nodes", 4, "./host", "./node", "cube", "square", over=over)
+            self.assertEqual(printed, "1 cube mine of 2, host 2, me 2\nsum 1\n")
 
     def test_a_node_that_is_not_loaded_never_begins(self):
         for over in self.transports():
@@ -335,12 +335,12 @@ class Cubes(NxRun):
             self.assertEqual(self.well("--nodes", 2, "./host", "./node", "pid", "to-pid", over=over), "0 100 -1\n")
 
     def test_loads_without_a_program_of_the_command_line(self):
-        told = self.well("--nodes", 4, "--host", "./host", "--", "cube", "square")
-        self.assertIn("sum 1", told)
+        printed = self.well("--nodes", 4, "--host", "./host", "--", "cube", "square")
+        self.assertIn("sum 1", printed)
 
     def test_other_programs_on_the_same_nodes(self):
-        told = self.well("--nodes", 4, "--host", "./host", "--", "again", "square")
-        self.assertEqual(told, "sum 14\n" * 3 + "killed -9\nsum 14\n")
+        printed = self.well("--nodes", 4, "--host", "./host", "--", "again", "square")
+        self.assertEqual(printed, "sum 14\n" * 3 + "killed -9\nsum 14\n")
 
     def test_messages_to_a_node_that_is_about_to_be_loaded_again(self):
         self.well("--nodes", 3, "--host", "./host", "--", "rounds")
@@ -357,7 +357,7 @@ class Cubes(NxRun):
             self.assertEqual(sorted(done.stdout.splitlines()), [f"node {i} pid 0 code {i + 3}" for i in range(3)], done.stderr)
             self.assertNotEqual(done.returncode, 0)
 
-    def test_a_death_is_told_and_the_host_goes_on(self):
+    def test_a_death_is_reported_and_the_host_goes_on(self):
         done = self.run_nx("--nodes", 4, "--host", "./host", "--", "ends-and-again", "crash")
         lines = done.stdout.splitlines()
         self.assertIn("node 2 pid 0 code -11", lines)
@@ -425,9 +425,9 @@ class Ends(NxRun):
 
     def test_a_global_operation_fails(self):
         for over in self.transports():
-            told = sorted(self.run_nx("--over", over, "--nodes", 3, "./node", "--", "sum").stderr.splitlines())
+            printed = sorted(self.run_nx("--over", over, "--nodes", 3, "./node", "--", "sum").stderr.splitlines())
             for node, says in enumerate(["another node's gdsum failed (", "length -1 is negative (", "another node's gdsum failed ("]):
-                self.assertIn(f"told: node {node}, gdsum: {says}", told[node])
+                self.assertIn(f"printed: node {node}, gdsum: {says}", printed[node])
 
     def test_a_message_to_a_host_that_is_not_there(self):
         says = "node 0, csend: there is no node 1 (nodes are 0 to 0, and this job has no host"

@@ -19,20 +19,20 @@ class Output(ProgramTest):
     def test_the_line_shown_can_be_pasted(self):
         film = self.write("it's a film.json", TEAPOT.read_text())
         for backend in self.backends():
-            told = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2)
+            printed = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2)
             expected = self.verified_hash("a b")
             (self.folder / "a b/frame-0000.png").unlink()
-            events = self.succeed("sh", "-c", told.splitlines()[0])
+            events = self.succeed("sh", "-c", printed.splitlines()[0])
             self.assertIn('"event":"done"', events)
             self.assertEqual(self.verified_hash("a b"), expected)
 
     def test_plain_lines_in_a_pipe(self):
         film = self.write("film.json", spinning_teapot(1500, [160, 90]))
-        told = self.succeed("mars", "render", film, "-o", "out", "--nodes", 1, "--backend", "threads",
+        printed = self.succeed("mars", "render", film, "-o", "out", "--nodes", 1, "--backend", "threads",
                             "--frames", "0-1199")
-        self.assertNotIn("\r", told)
-        self.assertNotIn("\x1b", told)
-        lines = told.splitlines()
+        self.assertNotIn("\r", printed)
+        self.assertNotIn("\x1b", printed)
+        lines = printed.splitlines()
         self.assertLess(len(lines), 40)
         self.assertRegex(lines[1], r"^1 node on 1 machine \(threads\)")
         for line in lines[2:-1]:

@@ -261,9 +261,9 @@ class Written(ProgramTest):
         self.succeed("mars", "preview", "large.json", "--frames", "3", "--size", "96x54", "-o", "large.png")
 
     def probe(self, file):
-        told = self.run_program("ffprobe", "-v", "error", "-count_frames", "-show_entries",
+        printed = self.run_program("ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                 "stream=codec_name,width,height,nb_read_frames,r_frame_rate", "-of", "json", file)
-        return json.loads(told.stdout)["streams"][0]
+        return json.loads(printed.stdout)["streams"][0]
 
     @needs_ffmpeg
     def test_videos(self):

@@ -36,9 +36,9 @@ class SlowStart(ProgramTest):
     def assertStopped(self, process, sent, before):
         kin = family(process.pid)
         process.send_signal(sent)
-        output, told = process.communicate(timeout=SOON)
+        output, printed = process.communicate(timeout=SOON)
         self.assertEqual(process.returncode, 1, before)
-        self.assertClear(told, f"stopped by {signal.strsignal(sent)}")
+        self.assertClear(printed, f"stopped by {signal.strsignal(sent)}")
         self.assertEqual(living(kin), [], before)
         return output
 
@@ -54,16 +54,16 @@ class SlowStart(ProgramTest):
         time.sleep(HINT_AFTER + 1)
         for process, sent in zip(stopped, [signal.SIGTERM, signal.SIGINT]):
             self.assertIn("open files: a process may have 30", self.assertStopped(process, sent, "the hint is there"))
-        told = {}
+        printed = {}
         for name, process in runs.items():
-            told[name], complaint = process.communicate(timeout=60)
-            self.assertEqual((process.returncode, complaint), (0, ""), told[name])
-            self.assertIn("4 frames in ", told[name])
+            printed[name], complaint = process.communicate(timeout=60)
+            self.assertEqual((process.returncode, complaint), (0, ""), printed[name])
+            self.assertIn("4 frames in ", printed[name])
         self.assertGreater(time.monotonic() - began, HINT_AFTER)
-        self.assertIn("no node has answered for 20 seconds", told["late"])
-        self.assertIn("for more run mars doctor", told["late"])
-        self.assertNotIn("no node has answered", told["compiling"])
-        self.assertIn("loading long.json ...\nloaded in 0:22", told["compiling"])
+        self.assertIn("no node has answered for 20 seconds", printed["late"])
+        self.assertIn("for more run mars doctor", printed["late"])
+        self.assertNotIn("no node has answered", printed["compiling"])
+        self.assertIn("loading long.json ...\nloaded in 0:22", printed["compiling"])
 
     def test_a_signal_ends_it_at_any_moment(self):
         for sent in [signal.SIGTERM, signal.SIGINT]:

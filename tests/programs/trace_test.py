@@ -1,4 +1,4 @@
-"""--trace FILE: a whole file in every backend, of a run that fails too, and told before rendering if it cannot be."""
+"""--trace FILE: a whole file in every backend, of a run that fails too, and printed before rendering if it cannot be."""
 
 import json
 import subprocess
@@ -85,13 +85,13 @@ class Traces(ProgramTest):
 
     def test_of_a_film_too_long_for_it(self):
         film = self.write("film.json", spinning_teapot(40000, [8, 8]))
-        told = self.succeed("mars", "render", film, "--sink", "none", "--backend", "threads", "--nodes", 2,
+        printed = self.succeed("mars", "render", film, "--sink", "none", "--backend", "threads", "--nodes", 2,
                             "--trace", "trace.json")
         with open(self.folder / "trace.json") as file:  # its first line says what is in it
             told_by_file = json.loads(file.readline().removesuffix(',"traceEvents":[\n') + "}")
         lacks = told_by_file["otherData"]["events_beyond_bound"]
         self.assertGreater(lacks, 0)
-        self.assertIn(f"the trace was full: it lacks {lacks} later events", told.splitlines()[-1])
+        self.assertIn(f"the trace was full: it lacks {lacks} later events", printed.splitlines()[-1])
         self.assertLess((self.folder / "trace.json").stat().st_size, 200e6)
 
 

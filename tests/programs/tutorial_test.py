@@ -1,6 +1,6 @@
 """The tutorial holds what it says (pages.py), and its pictures are those its commands make: a picture
 images/PAGE/NAME.png is made by the commands as NAME.png.
-To make the pictures anew: tutorial_test.py PROGRAMS SOURCES --make-pictures
+To make the pictures again: tutorial_test.py PROGRAMS SOURCES --make-pictures
 """
 
 import os

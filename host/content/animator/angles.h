@@ -6,7 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "host/content/modeler/model.h"
+#include "host/content/modeler/joint.h"
 
 namespace mars::animator {
 

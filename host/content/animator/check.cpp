@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/limits_left.h"
-#include "host/content/animator/things.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
 
@@ -37,7 +36,7 @@ std::string words_of(const Film& film, const WorstExcess& worst) {
 std::string remedy_of(const Film& film, const WorstExcess& worst, const std::string& program) {
   const Actor& actor = film.actors[worst.actor];
   const modeler::Joint& joint = film.models[actor.model].joints[worst.joint];
-  return " (mend it with: " + program + "key " + document::shell_word(actor.name) + " " +
+  return " (fix it with: " + program + "key " + document::shell_word(actor.name) + " " +
          document::shell_word(joint.name) + " --frame " + std::to_string(worst.frame) + " --clamp)";
 }
 

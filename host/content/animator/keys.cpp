@@ -89,13 +89,13 @@ std::uint32_t frame_from(std::int64_t frame, const std::string& where) {
 }
 
 Remarks displace(document::Json& film, const Film& meaning, const Choice& choice, FrameRange range, std::uint32_t to,
-                 bool keep) {
+                 bool copies) {
   const std::int64_t by = std::int64_t{to} - range.first;
   return change_tracks(film, meaning, choice, words_of(range),
                        [&](const Chosen& one, const std::string&, Track& track) {
                          const Track whole = track;
                          const Track moved = taken(track, range);
-                         if (keep) track = whole;
+                         if (copies) track = whole;
                          for (TrackKey key : moved) {
                            key.frame = frame_from(key.frame + by, one.thing.name);
                            key.changed = true;

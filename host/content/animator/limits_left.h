@@ -25,7 +25,7 @@ struct WorstExcess {
 // All frames in which a joint is outside its limits by more than kExcessNoticed.
 struct LimitsLeft {
   WorstExcess worst;
-  std::uint32_t frames;  // so many
+  std::uint32_t frames;  // how many
   std::uint32_t first, last;
 };
 std::vector<LimitsLeft> limits_left(const Film& film);

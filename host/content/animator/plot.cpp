@@ -33,7 +33,7 @@ bool drawn(const KeyedPart& part, const document::Json& value, int axis) {
 }
 
 // In gnuplot's double quotes, with nothing that its enhanced text would take as a command.
-std::string quoted(const std::string& text) {
+std::string gnuplot_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' || c == '\\' ? std::string("'") : std::string(1, c);
   return quoted + "\"";
@@ -89,7 +89,8 @@ std::string bands_of(const Panel& panel, const document::Json& value) {
 
 std::string panel_text(const Panel& panel, std::size_t i) {
   const document::Json value = panel.part->value_at(0);
-  std::string text = "unset object\nunset arrow\nset title " + quoted(panel.title) + "\n" + bands_of(panel, value);
+  std::string text =
+      "unset object\nunset arrow\nset title " + gnuplot_text(panel.title) + "\n" + bands_of(panel, value);
   text += panel.part->joint || panel.part->name == "turn" ? "set ylabel \"degrees\"\n" : "unset ylabel\n";
   std::string plots;
   const std::string number = std::to_string(i);

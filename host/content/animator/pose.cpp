@@ -3,7 +3,6 @@
 #include <set>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/edit.h"
 #include "host/content/animator/tracks.h"
 #include "host/content/animator/written.h"
 #include "host/content/document/fields.h"
@@ -11,7 +10,7 @@
 namespace mars::animator {
 namespace {
 
-[[noreturn]] void refuse_wish(const std::string& text) {
+[[noreturn]] void refuse_setting(const std::string& text) {
   throw Failure("is not PART=NUMBERS", "'" + text + "'",
                 "write it like elbow.y=90, elbow=0,90,0, place=2,0,0 or turn.z=45");
 }
@@ -47,21 +46,21 @@ bool has_part(const Thing& thing, const std::string& name) {
   return false;
 }
 
-// What the part is to be: its numbers at the frame, those wished for exchanged.
-document::Json wished(const Wish& wish, const Thing& thing, const KeyedPart& part, std::uint32_t frame, Beyond beyond,
-                      Remarks& remarks) {
+// What the part is to be: its numbers at the frame, those given exchanged.
+document::Json value_after(const PartSetting& setting, const Thing& thing, const KeyedPart& part, std::uint32_t frame,
+                           Beyond beyond, Remarks& remarks) {
   document::Json value = part.value_at(frame);
-  if (!value.is_array()) return written(*wish.numbers[0]);
+  if (!value.is_array()) return written(*setting.numbers[0]);
   glm::dvec3 numbers = vector_of(value);
-  for (int axis = 0; axis < 3; ++axis) numbers[axis] = wish.numbers[axis].value_or(numbers[axis]);
+  for (int axis = 0; axis < 3; ++axis) numbers[axis] = setting.numbers[axis].value_or(numbers[axis]);
   if (part.joint) numbers = within_limits(thing.name, *part.joint, numbers, beyond, remarks);
   return written(numbers);
 }
 
-// Refuses an axis that an earlier wish has set; `set` are the parts and axes of those.
-void refuse_twice(const Wish& wish, const std::string& text, std::set<std::pair<std::string, int>>& set) {
+// Refuses an axis that an earlier setting has set; `set` are the parts and axes of those.
+void refuse_twice(const PartSetting& setting, const std::string& text, std::set<std::pair<std::string, int>>& set) {
   for (int axis = 0; axis < 3; ++axis)
-    if (wish.numbers[axis] && !set.emplace(wish.part, axis).second)
+    if (setting.numbers[axis] && !set.emplace(setting.part, axis).second)
       throw Failure("sets what an earlier word has set", "'" + text + "'", "give each part and axis once");
 }
 
@@ -74,28 +73,28 @@ Ease ease_there(const Track& track, std::uint32_t frame) {
 
 }  // namespace
 
-Wish Wish::read(const std::string& text, const Thing& thing) {
+PartSetting PartSetting::read(const std::string& text, const Thing& thing) {
   const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos || equals == 0) refuse_wish(text);
-  Wish wish{text.substr(0, equals), {}};
-  const bool with_axis = wish.part.size() > 2 && wish.part[wish.part.size() - 2] == '.' && wish.part.back() >= 'x' &&
-                         wish.part.back() <= 'z' && !has_part(thing, wish.part);
-  const std::size_t axis = with_axis ? std::size_t(wish.part.back() - 'x') : 0;
-  if (with_axis) wish.part.resize(wish.part.size() - 2);
-  const std::string typed = wish.part;
-  wish.part = part_named(thing, typed);
-  const document::Json now = thing.part(wish.part).value_at(0);
+  if (equals == std::string::npos || equals == 0) refuse_setting(text);
+  PartSetting setting{text.substr(0, equals), {}};
+  const bool with_axis = setting.part.size() > 2 && setting.part[setting.part.size() - 2] == '.' &&
+                         setting.part.back() >= 'x' && setting.part.back() <= 'z' && !has_part(thing, setting.part);
+  const std::size_t axis = with_axis ? std::size_t(setting.part.back() - 'x') : 0;
+  if (with_axis) setting.part.resize(setting.part.size() - 2);
+  const std::string typed = setting.part;
+  setting.part = part_named(thing, typed);
+  const document::Json now = thing.part(setting.part).value_at(0);
   const std::string remedy = remedy_for(typed, now);
   const std::vector<double> numbers = numbers_of(text.substr(equals + 1), text, remedy);
   const bool three = now.is_array();
   const std::size_t needed = with_axis || !three ? 1 : 3;
   if (numbers.size() != needed || (with_axis && !three))
     throw Failure("has " + document::counted(numbers.size(), "number"), "'" + text + "'", remedy);
-  for (std::size_t i = 0; i < needed; ++i) wish.numbers[axis + i] = numbers[i];
-  return wish;
+  for (std::size_t i = 0; i < needed; ++i) setting.numbers[axis + i] = numbers[i];
+  return setting;
 }
 
-Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,
+Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond) {
   Chosen chosen = std::move(choose(film, meaning, {false, name, {}}).front());
   const Thing& thing = chosen.thing;
@@ -103,17 +102,17 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
   std::set<std::string> touched;
   std::set<std::pair<std::string, int>> set;
   Remarks remarks;
-  for (const std::string& text : wishes) {
-    const Wish wish = Wish::read(text, thing);
-    refuse_twice(wish, text, set);
-    const KeyedPart& part = thing.part(wish.part);
+  for (const std::string& text : settings) {
+    const PartSetting setting = PartSetting::read(text, thing);
+    refuse_twice(setting, text, set);
+    const KeyedPart& part = thing.part(setting.part);
     Track& track = tracks[part.name];
     if (track.empty() && frame > 0) track.push_back({0, part.value_at(0), kLinear, true});
-    document::Json value = wished(wish, thing, part, frame, beyond, remarks);
+    document::Json value = value_after(setting, thing, part, frame, beyond, remarks);
     if (TrackKey* key = key_at(track, frame)) {
-      // A second wish for the part keeps what the first one set.
+      // A second setting for the part keeps what the first one set.
       for (std::size_t axis = 0; touched.contains(part.name) && axis < 3 && value.is_array(); ++axis)
-        if (!wish.numbers[axis]) value[axis] = key->value[axis];
+        if (!setting.numbers[axis]) value[axis] = key->value[axis];
       key->value = std::move(value);
     } else {
       put_key(track, {frame, std::move(value), ease_there(track, frame), true});

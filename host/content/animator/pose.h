@@ -1,5 +1,5 @@
 // Posing: a figure, or the camera, set at one frame by what a person wants of its parts; the limits of joints are
-// held. The thesis's quadruple (model, segment, axis, angle) is one of these wishes.
+// held. The thesis's quadruple (model, segment, axis, angle) is one of these settings.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 namespace mars::animator {
 
 // One part and its new numbers; what is none stays as it is at the frame.
-struct Wish {
+struct PartSetting {
   std::string part;  // as a person names it: "elbow", "place", "fov"
   std::array<std::optional<double>, 3> numbers;
 
   // "elbow.y=90", "elbow=0,90,0", "place.z=1.5", "fov=30". Throws where it is none of these.
-  static Wish read(const std::string& text, const Thing& thing);
+  static PartSetting read(const std::string& text, const Thing& thing);
 };
 
 // Sets the thing (an actor, or "camera") at the frame, with an ease from there if given. A part without keys also
 // gets one at frame 0, as it was, so that it moves from there.
-Remarks pose(document::Json& film, const Film& meaning, const std::string& thing, std::span<const std::string> wishes,
+Remarks pose(document::Json& film, const Film& meaning, const std::string& thing, std::span<const std::string> settings,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
 
 }  // namespace mars::animator

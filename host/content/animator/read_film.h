@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <span>
 
-#include "host/content/document/fields.h"
 #include "host/content/animator/film.h"
+#include "host/content/document/fields.h"
 
 namespace mars::animator {
 

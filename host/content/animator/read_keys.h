@@ -8,7 +8,7 @@
 
 #include "host/content/animator/channel.h"
 #include "host/content/document/fields.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::animator {
 

@@ -75,7 +75,7 @@ std::string typed_part(const std::string& part) {
   return part == "/turn" || part == "/place" ? part : shown_part(part);
 }
 
-std::string wish_for(const std::string& part, const glm::dvec3& change, const glm::dvec3& pose) {
+std::string setting_for(const std::string& part, const glm::dvec3& change, const glm::dvec3& pose) {
   const auto number = [](double value) { return document::shown(std::round(value * 100) / 100); };
   if (const int axis = only_axis(change); axis < 3)
     return typed_part(part) + "." + "xyz"[axis] + "=" + number(pose[axis]);
@@ -93,7 +93,7 @@ std::string way_round(const Thing& thing, const std::string& part, const Way& wa
   for (int i = 1; i < pieces; ++i) {
     if (i > kMostKeysShown) return text + ", and so on";
     const double share = double(i) / pieces;
-    text += (i == 1 ? "" : ", ") + pose + wish_for(part, change, way.start() + share * change) + " --frame " +
+    text += (i == 1 ? "" : ", ") + pose + setting_for(part, change, way.start() + share * change) + " --frame " +
             std::to_string(way.from.frame + std::lround(share * frames));
   }
   return text;

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/angles.h"
 #include "host/content/animator/direction.h"
 #include "host/content/animator/edit.h"
 #include "host/content/animator/written.h"

@@ -2,7 +2,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/angles.h"
-#include "host/content/animator/check.h"
+#include "host/content/animator/figure.h"
 #include "host/content/document/fields.h"
 
 namespace mars::animator {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/content/modeler/model.h"
+#include "host/content/modeler/joint.h"
 
 namespace mars::animator {
 

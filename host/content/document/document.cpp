@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/text.h"
 #include "host/content/document/file.h"
+#include "host/content/document/text.h"
 
 namespace mars::document {
 namespace {
@@ -90,7 +90,7 @@ class Builder {
   bool number_float(double value, const std::string&) { return add(Kind::number).number = value, true; }
   bool string(std::string& value) {
     require_sound(value, "text");
-    const std::uint64_t offset = keep(value);
+    const std::uint64_t offset = store(value);
     add(Kind::text).text = offset;
     return true;
   }
@@ -99,7 +99,7 @@ class Builder {
   bool start_array(std::size_t) { return open(Kind::list); }
   bool key(std::string& value) {
     require_sound(value, "key");
-    key_ = static_cast<std::uint32_t>(keep(value));
+    key_ = static_cast<std::uint32_t>(store(value));
     return true;
   }
   bool end_array() { return close(), true; }
@@ -150,7 +150,7 @@ class Builder {
       fail_here("has a " + what + " with a control character", "take it out");
   }
 
-  std::uint64_t keep(const std::string& text) {
+  std::uint64_t store(const std::string& text) {
     if (text.empty()) return 0;
     const std::uint64_t offset = document_.texts_.size();
     if (offset + text.size() > 0xf000'0000u) fail("has too much text", "use fewer or shorter names");

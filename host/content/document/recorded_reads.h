@@ -10,7 +10,7 @@
 
 namespace mars::document {
 
-// A file as it stands: whoever writes, replaces or removes it, or lets others read it, changes its stamp.
+// A file as it stands: writing, replacing or removing it, or changing its permissions, changes its stamp.
 struct FileStamp {
   bool exists = false;  // and can be reached
   dev_t device = 0;

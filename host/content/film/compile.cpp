@@ -154,7 +154,7 @@ class Compiler {
             motion.sides};
   }
 
-  wire::Track look_of(const animator::MaterialMotion& motion) {
+  wire::Track material_track(const animator::MaterialMotion& motion) {
     TrackWriter<wire::Material> track(data_.materials);
     const std::uint32_t frames =
         frames_to_see(motion.color, motion.ambient, motion.diffuse, motion.specular, motion.exponent);
@@ -162,7 +162,7 @@ class Compiler {
     return track.write(data_.changes);
   }
 
-  wire::Track look_of(const wire::Material& material) {
+  wire::Track material_track(const wire::Material& material) {
     TrackWriter<wire::Material> track(data_.materials);
     track.add(0, material);
     return track.write(data_.changes);
@@ -170,12 +170,13 @@ class Compiler {
 
   // Segments of one material share a track. `key` names the material among all of the film's and its models'.
   template <typename Material>
-  wire::Track shared_look(const std::string& key, const Material& material) {
-    const auto known = looks_.find(key);
-    return known != looks_.end() ? known->second : looks_.emplace(key, look_of(material)).first->second;
+  wire::Track shared_material(const std::string& key, const Material& material) {
+    const auto known = material_tracks_.find(key);
+    return known != material_tracks_.end() ? known->second
+                                           : material_tracks_.emplace(key, material_track(material)).first->second;
   }
 
-  wire::Track find_look(const animator::Actor& actor, std::string name) {
+  wire::Track find_material(const animator::Actor& actor, std::string name) {
     bool of_film = !actor.material.empty();
     if (of_film) name = actor.material;
     const auto instead = std::find_if(actor.materials.begin(), actor.materials.end(),
@@ -184,12 +185,12 @@ class Compiler {
       name = instead->second;
       of_film = true;
     }
-    if (name.empty()) return shared_look("", modeler::kDefaultMaterial);
+    if (name.empty()) return shared_material("", modeler::kDefaultMaterial);
     if (!of_film)
       for (const modeler::NamedMaterial& own : film_.models[actor.model].materials)
-        if (own.name == name) return shared_look(std::to_string(actor.model) + "/" + name, own.material);
+        if (own.name == name) return shared_material(std::to_string(actor.model) + "/" + name, own.material);
     if (const auto found = film_materials_.find(name); found != film_materials_.end())
-      return shared_look("/" + name, *found->second);
+      return shared_material("/" + name, *found->second);
     fail("uses the material '" + name + "', which there is not", "actor '" + actor.name + "'",
          "add it to the film's materials");
   }
@@ -209,7 +210,7 @@ class Compiler {
       data_.segments.push_back({shapes[joint.segment->shape],
                                 add_name(actor.name + "/" + joint.name),
                                 {},
-                                find_look(actor, joint.segment->material)});
+                                find_material(actor, joint.segment->material)});
       instances_ += data_.shapes[data_.segments.back().shape].size();
     }
     joints_ += model.joints.size();
@@ -234,7 +235,7 @@ class Compiler {
     add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov);
     for (const animator::LightMotion& light : film_.lights) add_all(light.vector, light.color, light.intensity);
     for (const animator::MaterialMotion& m : film_.materials)
-      if (looks_.contains("/" + m.name)) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
+      if (material_tracks_.contains("/" + m.name)) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
     for (const animator::Actor& actor : film_.actors) {
       add_all(actor.motion.place, actor.motion.turn);
       for (const auto& poses : actor.motion.pose) add(poses);
@@ -260,7 +261,7 @@ class Compiler {
   wire::FilmData data_;
   ShapeWriter shapes_{data_};
   std::unordered_map<std::string_view, const animator::MaterialMotion*> film_materials_;
-  std::unordered_map<std::string, wire::Track> looks_;
+  std::unordered_map<std::string, wire::Track> material_tracks_;
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> model_shapes_;
   std::uint64_t instances_ = 0;  // patches and meshlets of all segments
   std::uint64_t joints_ = 0;     // of all actors

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/file.h"
 #include "host/content/document/checksum.h"
+#include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 
 namespace mars::film {

@@ -10,8 +10,8 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/json_file.h"
 #include "host/content/document/shell_word.h"
-#include "host/content/document/whole_file.h"
 #include "host/content/document/text.h"
+#include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
 #include "host/content/importer/file_kind.h"
 #include "host/content/importer/import_report.h"
@@ -72,14 +72,14 @@ std::vector<std::string> read_of(const MeshFile& file) {
 }
 
 // Of the first joint, whether it has a colour or not.
-std::string set_look(const ImportOptions& options) {
+std::string set_material(const ImportOptions& options) {
   return "mars model set " + document::shell_word(options.to.string()) + " " + document::shell_word(options.joint) +
          " --material " + material_name(0);
 }
 
 Imported import_mesh(const ImportOptions& options, FileKind kind, char up) {
-  const MeshWishes wishes{upright(up), options.scale, options.crease, set_look(options)};
-  const MeshFile file = read_mesh_file(options.from, kind, wishes);
+  const MeshOptions mesh{upright(up), options.scale, options.crease, set_material(options)};
+  const MeshFile file = read_mesh_file(options.from, kind, mesh);
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   std::vector<ImportedPart> parts;
   for (const MeshPart& part : file.parts) parts.push_back({shape_text(part.mesh), part.color});

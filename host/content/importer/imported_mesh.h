@@ -15,11 +15,11 @@
 namespace mars::importer {
 
 // How a person wants the file read.
-struct MeshWishes {
+struct MeshOptions {
   glm::dmat3 upright{1};  // turns the file's axes into ours
   double scale = 1;
   std::optional<double> crease;  // degrees; given: normals follow from the faces, whatever the file says
-  std::string set_look;          // "mars model set rock.json rock --material color": remedies begin so
+  std::string set_material;      // "mars model set rock.json rock --material color": remedies begin so
 };
 
 // The faces of one colour.

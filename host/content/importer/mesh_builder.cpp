@@ -9,7 +9,6 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 
 namespace mars::importer {
 namespace {
@@ -57,8 +56,8 @@ std::size_t MeshBuilder::part_of(const Color& color) {
 }
 
 MeshBuilder::Vertex MeshBuilder::placed(const glm::dvec3& place, const glm::dvec3& normal) const {
-  Vertex vertex{wishes_.upright * place * wishes_.scale, {}};
-  if (takes_normals_) vertex.normal = wishes_.upright * normal;
+  Vertex vertex{options_.upright * place * options_.scale, {}};
+  if (takes_normals_) vertex.normal = options_.upright * normal;
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(place[axis]))
       fail("has a vertex that is not at numbers, or at too large ones", "the file may be damaged: export it again");
@@ -129,7 +128,7 @@ MeshFile MeshBuilder::finish(double default_crease) {
   MeshFile file{{}, modeler::thickened(box), box.max - box.min, 0, {}, {}};
   for (Part& part : parts_) {
     part.numbers = {};  // its memory is wanted for the mesh
-    file.parts.push_back({part.color, mesh_of(part, file.bounds, wishes_.crease.value_or(default_crease))});
+    file.parts.push_back({part.color, mesh_of(part, file.bounds, options_.crease.value_or(default_crease))});
   }
   if (faces_left_out_ > 0)
     file.not_read.push_back(document::counted(faces_left_out_, "face", "faces") + " without three different corners");

@@ -20,11 +20,11 @@ class MeshBuilder {
   using Color = std::optional<std::array<double, 3>>;
 
   // `file` is what failures name. Without normals those given to vertex() are passed over.
-  MeshBuilder(std::string file, const MeshWishes& wishes, bool has_normals)
+  MeshBuilder(std::string file, const MeshOptions& options, bool has_normals)
       : file_(std::move(file)),
-        wishes_(wishes),
+        options_(options),
         has_normals_(has_normals),
-        takes_normals_(has_normals && !wishes.crease) {}
+        takes_normals_(has_normals && !options.crease) {}
 
   // The number of the part of this colour.
   std::size_t part_of(const Color& color);
@@ -59,7 +59,7 @@ class MeshBuilder {
   modeler::Mesh mesh_of(const Part& part, const modeler::Box& bounds, double crease) const;
 
   std::string file_;
-  MeshWishes wishes_;
+  MeshOptions options_;
   bool has_normals_, takes_normals_;
   std::vector<Part> parts_;
   std::size_t faces_left_out_ = 0;

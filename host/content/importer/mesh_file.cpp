@@ -9,9 +9,9 @@
 namespace mars::importer {
 namespace {
 
-MeshFile read_ply(const std::filesystem::path& path, const MeshWishes& wishes) {
+MeshFile read_ply(const std::filesystem::path& path, const MeshOptions& options) {
   const PlyFile ply = read_ply_file(path);
-  MeshBuilder builder(path.string(), wishes, !ply.normals.empty());
+  MeshBuilder builder(path.string(), options, !ply.normals.empty());
   const std::size_t part = builder.part_of({});
   constexpr auto kNew = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> numbers(ply.places.size(), kNew), face;
@@ -33,8 +33,8 @@ MeshFile read_ply(const std::filesystem::path& path, const MeshWishes& wishes) {
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes) {
-  return kind == FileKind::ply ? read_ply(path, wishes) : read_scene_file(path, kind, wishes);
+MeshFile read_mesh_file(const std::filesystem::path& path, FileKind kind, const MeshOptions& options) {
+  return kind == FileKind::ply ? read_ply(path, options) : read_scene_file(path, kind, options);
 }
 
 }  // namespace mars::importer

@@ -35,7 +35,7 @@ void append_places(std::string& text, const std::vector<modeler::Mesh::Place>& p
   append_rows(text, places.size(), [&](std::size_t i) { append_row(text, places[i].data(), 3); });
 }
 
-std::string quoted(const std::string& name) { return nlohmann::json(name).dump(); }
+std::string json_text(const std::string& name) { return nlohmann::json(name).dump(); }
 
 std::string numbered(const std::string& name, std::size_t number) {
   return number == 0 ? name : name + "-" + std::to_string(number + 1);
@@ -81,9 +81,9 @@ std::string model_text(const std::vector<ImportedPart>& parts, const modeler::Bo
   append_row(sbb, &bounds.max.x, 3);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string comma = i == 0 ? "\n    " : ",\n    ";
-    const std::string shape = quoted(numbered("imported", i)), material = quoted(material_name(i));
-    joints += comma + "{\"name\": " + quoted(numbered(joint, i));
-    if (i > 0) joints += ", \"parent\": " + quoted(joint) + ", \"limits\": {}";
+    const std::string shape = json_text(numbered("imported", i)), material = json_text(material_name(i));
+    joints += comma + "{\"name\": " + json_text(numbered(joint, i));
+    if (i > 0) joints += ", \"parent\": " + json_text(joint) + ", \"limits\": {}";
     joints += ", \"segment\": {\"shape\": " + shape + ", \"sbb\": " + sbb + "]";
     if (parts[i].color) {
       joints += ", \"material\": " + material;

@@ -12,7 +12,6 @@
 
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 #include "host/content/importer/ply_header.h"
 
 namespace mars::importer {

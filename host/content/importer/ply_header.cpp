@@ -5,7 +5,6 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 
 namespace mars::importer {
 namespace {

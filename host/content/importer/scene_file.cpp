@@ -14,7 +14,6 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 #include "host/content/importer/mesh_builder.h"
 #include "host/content/importer/promised.h"
 #include "host/content/importer/scene_sources.h"
@@ -67,15 +66,15 @@ std::string reason_in_our_words(std::string_view message) {
 
 class SceneReader {
  public:
-  SceneReader(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes)
+  SceneReader(const std::filesystem::path& path, FileKind kind, const MeshOptions& options)
       : path_(path),
         kind_(kind),
-        set_look_(wishes.set_look),
+        set_material_(options.set_material),
         is_gltf_(kind == FileKind::gltf || kind == FileKind::glb),
         promised_(promised_by(path, kind)),
         sources_(handed_over(std::make_unique<SceneSources>(path))),
         scene_(load()),
-        builder_(path.string(), wishes, has_normals()) {}
+        builder_(path.string(), options, has_normals()) {}
 
   MeshFile read() {
     check_faces();
@@ -83,11 +82,11 @@ class SceneReader {
     MeshFile file = builder_.finish(is_gltf_ ? 0 : modeler::kDefaultCrease);
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
     file.vertices = promised_.vertices.value_or(file.vertices);
-    append(file.not_read, unread_parts(scene_, is_gltf_, set_look_));
+    append(file.not_read, unread_parts(scene_, is_gltf_, set_material_));
     append(file.not_read, promised_.not_read);
     if (!cut_colors_.empty())
       file.not_read.push_back(document::counted(cut_colors_.size(), "colour", "colours") +
-                              " beyond 0 to 1: cut to that (another: " + set_look_ + " --color 0.8 0.6 0.4)");
+                              " beyond 0 to 1: cut to that (another: " + set_material_ + " --color 0.8 0.6 0.4)");
     file.companions = sources_.companions();
     return file;
   }
@@ -110,9 +109,9 @@ class SceneReader {
   }
 
   const SceneSources& handed_over(std::unique_ptr<SceneSources> sources) {
-    const SceneSources& kept = *sources;
+    const SceneSources& handed = *sources;
     importer_.SetIOHandler(sources.release());
-    return kept;
+    return handed;
   }
 
   // Those that the system and SceneSources threw; what Assimp says of its own load() puts in other words.
@@ -195,7 +194,7 @@ class SceneReader {
 
   std::filesystem::path path_;
   FileKind kind_;
-  std::string set_look_;
+  std::string set_material_;
   bool is_gltf_;
   Promised promised_;
   Assimp::Importer importer_;
@@ -208,8 +207,8 @@ class SceneReader {
 
 }  // namespace
 
-MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes) {
-  return SceneReader(path, kind, wishes).read();
+MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const MeshOptions& options) {
+  return SceneReader(path, kind, options).read();
 }
 
 }  // namespace mars::importer

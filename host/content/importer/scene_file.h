@@ -10,6 +10,6 @@
 namespace mars::importer {
 
 // As read_mesh_file().
-MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const MeshWishes& wishes);
+MeshFile read_scene_file(const std::filesystem::path& path, FileKind kind, const MeshOptions& options);
 
 }  // namespace mars::importer

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "host/content/document/text.h"
-#include "host/content/importer/import_report.h"
 
 namespace mars::importer {
 namespace {
@@ -87,14 +86,14 @@ Counts counts_of(const aiScene& scene) {
 
 }  // namespace
 
-std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const std::string& set_look) {
+std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const std::string& set_material) {
   const Counts counts = counts_of(scene);
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, std::string_view one, std::string_view several,
                        const std::string& remedy = "") {
     if (count > 0) parts.push_back(document::counted(count, one, several) + remedy);
   };
-  const std::string one_color = " (one colour instead: " + set_look + " --color 0.8 0.6 0.4)";
+  const std::string one_color = " (one colour instead: " + set_material + " --color 0.8 0.6 0.4)";
   add(has_tree && counts.nodes > 1 ? counts.nodes : 0, "node", "nodes", " as joints: all stand as one");
   add(counts.bones.size(), "bone", "bones", " (mars model add makes joints)");
   add(scene.mNumAnimations, "animation", "animations", " (mars animate sets keys)");
@@ -102,7 +101,7 @@ std::vector<std::string> unread_parts(const aiScene& scene, bool has_tree, const
   add(counts.textures.size(), "texture", "textures", one_color);
   add(counts.mapped_vertices, "vertex's place in a texture", "vertices' places in a texture");
   add(counts.colored_vertices, "vertex's colour", "vertices' colours", one_color);
-  add(counts.glosses, "material's gloss", "materials' gloss", " (" + set_look + " --specular 0.3)");
+  add(counts.glosses, "material's gloss", "materials' gloss", " (" + set_material + " --specular 0.3)");
   add(counts.transparencies, "material's transparency", "materials' transparency");
   add(counts.points, "point", "points");
   add(counts.lines, "line", "lines");

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

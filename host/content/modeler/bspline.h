@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/content/modeler/bspline.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

@@ -6,7 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <vector>
 
-#include "host/content/modeler/model.h"
+#include "host/content/modeler/joint.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/content/document/fields.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "host/content/modeler/model.h"
+#include "host/content/modeler/joint.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::modeler {
 

@@ -29,7 +29,7 @@ struct Loaded {
   bool operator==(const Loaded&) const = default;
 };
 
-// Something of the film that a person would want to mend; it is rendered nevertheless.
+// A probable mistake in the film, which is rendered nevertheless.
 struct Warning {
   std::string text;
 
@@ -64,7 +64,7 @@ struct FrameTaken {
   bool operator==(const FrameTaken&) const = default;
 };
 
-// The run ends here, and why.
+// The run fails, and why.
 struct Fault {
   std::string problem;
   std::string where;                  // file and element, node and frame; or ""

@@ -29,7 +29,7 @@ struct Progress {
   std::uint32_t of() const { return keyframes.of + inbetweens.of; }
   double seconds() const { return keyframes.seconds + inbetweens.seconds; }
 
-  // A frame of `kind` came, `seconds` after the start.
+  // A frame of `kind` came, `at_seconds` after the start.
   void count(FrameKind kind, std::uint32_t of_interval, double at_seconds);
 
   // Seconds that the rest of each kind will take; none before anything is known.

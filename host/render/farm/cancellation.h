@@ -1,5 +1,5 @@
-// How a rendering is ended before its last frame: by whoever holds this, from any thread, also from within a sink or a
-// listener. The farm then takes no more strips, all nodes end, and render_film returns what there is.
+// Ends a rendering before its last frame, from any thread, also from within a sink or a listener. The farm then takes
+// no more strips, all nodes end, and render_film returns what there is.
 #pragma once
 
 #include <atomic>

@@ -41,7 +41,7 @@ class Farm {
   void receive_strip();
   bool prepare_one();
   bool compose_one();
-  void submit(const GroupWork::Composed& frame);
+  void submit(const GroupWork::Composed& composed);
   void note_taken();
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 

@@ -59,7 +59,8 @@ struct FarmReport {
 };
 
 // The calling HAL process is the host. When all frames are with the sinks, or when it is cancelled, Stop has been sent
-// to all nodes. Throws Failure when a node or a sink fails; the nodes are then still waiting, for whoever ends the run.
+// to all nodes. Throws Failure when a node or a sink fails; the nodes are then still waiting, and the caller must end
+// the run.
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
                        sinks::SinkPool& sinks, const FarmListener& listener);
 

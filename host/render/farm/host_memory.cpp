@@ -22,9 +22,13 @@ std::uint64_t HostMemory::most_bytes() const {
 
 HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, std::uint32_t nodes,
                              std::uint32_t groups, std::uint32_t sink_threads) {
-  HostMemory memory{budget,       std::uint64_t{film.width} * film.height * sizeof(std::uint32_t),
-                    kLeastFrames, groups,
-                    nodes,        wire::kMaxCredits};
+  HostMemory memory;
+  memory.budget = budget;
+  memory.frame_bytes = std::uint64_t{film.width} * film.height * sizeof(std::uint32_t);
+  memory.frames = kLeastFrames;
+  memory.backgrounds = groups;
+  memory.nodes = nodes;
+  memory.credits = wire::kMaxCredits;
   while (memory.credits > 1 && memory.most_bytes() > budget) --memory.credits;
   const std::uint64_t left = budget - std::min(budget, memory.most_bytes());
   const std::uint64_t for_frames = std::min(kMostForFrames, left + kLeastFrames * memory.frame_bytes);

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::farm {
 

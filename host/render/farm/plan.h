@@ -1,6 +1,6 @@
-// Who draws what, decided once before a rendering: the frames asked for, cut into tasks of one interval each, and the
-// machine's nodes, cut into groups. Each group takes one task after another, whichever is next; within its group a task
-// says by itself who draws which frame (contributor_of_inbetween).
+// Which nodes draw which frames, decided once before a rendering: the frames asked for, cut into tasks of one interval
+// each, and the machine's nodes, cut into groups. Each group takes one task after another, whichever is next; within
+// its group a task determines which node draws which frame (contributor_of_inbetween).
 #pragma once
 
 #include <cstdint>

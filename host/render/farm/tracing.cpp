@@ -1,7 +1,7 @@
 #include "host/render/farm/tracing.h"
 
-#include "hal/nx/nx_messages.h"
 #include "hal/messages/process.h"
+#include "hal/nx/nx_messages.h"
 
 namespace mars::farm {
 namespace {

@@ -1,4 +1,4 @@
-// What `--report FILE` holds: who rendered, and for each frame and node the seconds of every step and the
+// What `--report FILE` holds: the nodes, and for each frame and node the seconds of every step and the
 // work that was counted, as JSON (docs/rendering.md names the keys).
 #pragma once
 

@@ -14,7 +14,7 @@ class EventReporter {
   explicit EventReporter(std::string backend) : backend_(std::move(backend)) {}
 
   void report(const events::Event& event) const;
-  // What the farm's listener hears, of a film of so many intervals. The reporter outlives the listener.
+  // A listener for render_film, of a film with this number of intervals. The reporter must outlive it.
   farm::FarmListener listener(std::size_t intervals);
 
  private:

@@ -105,10 +105,10 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const topology::Machine machine = topology::Machine::here();
   const farm::HostMemory memory = memory_for(machine, settings, plan);
 
-  if (!job.report.empty()) document::check_can_write(job.report);  // likewise early
+  if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Destination destination(job, film, request.frames);
-  reporter.report(events::Loaded{
-      load_seconds});  // only now: nobody waits for nodes while the host waits for its turn in the folder
+  // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
+  reporter.report(events::Loaded{load_seconds});
   sinks::SinkPool pool(destination.sink(), pool_shape(machine, settings, job.block, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), pool,
                                                     reporter.listener(view.intervals().size()));
@@ -135,6 +135,17 @@ events::Fault fault_of(const std::exception& reason, const RenderJob& job) {
   return fault;
 }
 
+// What was traced until a run failed. Where that cannot be written, the run's own failure stays the one that is thrown.
+void write_failed_trace(const std::string& reason, const RenderJob& job, const EventReporter& reporter,
+                        trace::Trace& trace) {
+  trace.fail(reason, dclock());
+  try {
+    trace::write_trace(job.trace, {job.film, job.backend}, trace);
+  } catch (const std::exception& failure) {
+    reporter.report(events::Warning{reason_of(failure)});
+  }
+}
+
 }  // namespace
 
 void run_session(const RenderJob& job) {
@@ -145,10 +156,7 @@ void run_session(const RenderJob& job) {
     render(job, reporter, trace.get());
   } catch (const std::exception& reason) {
     reporter.report(fault_of(reason, job));
-    if (trace && trace->begun()) {
-      trace->fail(reason_of(reason), dclock());
-      trace::write_trace(job.trace, {job.film, job.backend}, *trace);
-    }
+    if (trace && trace->begun()) write_failed_trace(reason_of(reason), job, reporter, *trace);
     throw;
   }
 }

@@ -16,7 +16,7 @@ namespace mars::session {
 
 struct RenderJob {
   std::string film;  // its file, as the person gave it
-  // Reads and compiles it, which may take long; `warn` takes one line about what a person would want to mend.
+  // Reads and compiles it, which may take long; `warn` takes one line about a probable mistake.
   std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
   std::string folder;  // for the frames; "": they go nowhere
   film::FrameSet frames;
@@ -28,7 +28,7 @@ struct RenderJob {
   std::string trace;                   // file for a picture of the run; "": none
   std::string backend;                 // its name: mpi or threads
   std::vector<std::string> arguments;  // all this, as it was given to the host
-  // The command that does it again with so many nodes; of all frames, or of one.
+  // The command that renders again, all frames or one, with this number of nodes.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };
 

@@ -43,7 +43,7 @@ std::string frames_text(const std::vector<std::uint32_t>& frames) {
          std::to_string(frames.back());
 }
 
-// On one line of a terminal, whoever wrote it; of a long path the end, which says more.
+// On one line of a terminal, also where another program wrote it; of a long path the end, which says more.
 std::string film_text(const std::string& film) {
   constexpr std::size_t kLongestShown = 200;  // bytes
   std::size_t from = film.size() - std::min(film.size(), kLongestShown);

@@ -104,12 +104,12 @@ void FolderTurn::confirm() const {
 }
 
 void FolderTurn::fail_late() const {
-  std::string who = "another run";
+  std::string others = "another run";
   for (const RunFiles& rival : rivals()) {
     const ProcessName process = process_of(rival);
-    who += ", process " + std::to_string(process.number) + " on host " + process.host + ",";
+    others += ", process " + std::to_string(process.number) + " on host " + process.host + ",";
   }
-  throw Failure(who + " begins or ends in this folder, and does not go on", file_.parent_path().string(),
+  throw Failure(others + " begins or ends in this folder, and does not go on", file_.parent_path().string(),
                 "continue that process, or end it");
 }
 

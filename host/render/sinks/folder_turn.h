@@ -1,6 +1,6 @@
 // One run at a time decides what becomes of a folder of frames: which claims there are, and what frames.json says. This
-// is its turn. It needs no locks of the file system, which not all that several machines share have, but only that who
-// has made or renamed a file sees it, and those made before, in every later listing of the folder:
+// is its turn. It needs no locks of the file system, which not all that several machines share have, but only that a
+// process that has made or renamed a file sees it, and those made before, in every later listing of the folder:
 //   1. A run that wants the turn has a file NAME.waits. Once it sees no NAME.turn that is less than its own, it renames
 //      its file to NAME.turn, and lists the folder.
 //   2. If it sees another's .turn that is less than its own, it takes its own back (to .waits) and begins again.

@@ -11,8 +11,8 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
-#include "host/render/sinks/claim.h"
 #include "host/images/png_file.h"
+#include "host/render/sinks/claim.h"
 #include "host/render/sinks/record.h"
 
 namespace mars::sinks {
@@ -33,7 +33,7 @@ void create_folder(const fs::path& path) {
 }
 
 // What frames.json says; none where there is none. Throws Failure where it cannot be read or says nothing sound: then
-// nobody knows any more what belongs into the folder, and nobody may decide that nothing does.
+// it is unknown which frames belong into the folder, and no run may decide that none do.
 std::optional<Manifest> read_frames_json(const fs::path& folder) {
   const fs::path path = folder / kManifestName;
   const std::optional<std::string> text = document::read_file_if_there(path, kLargestRecord);

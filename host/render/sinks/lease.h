@@ -1,5 +1,6 @@
 // Keeps a file's time young while this process runs, so that processes on other machines, which see no more of it, know
-// that it does. A process that was stopped for so long that others may have given it up learns that before it goes on.
+// that it does. A process that was stopped for so long that others may take it for ended notices that before it goes
+// on.
 #pragma once
 
 #include <chrono>

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "hal/failure/failure.h"
-#include "host/content/film/frame_set.h"
 #include "host/content/document/checksum.h"
+#include "host/content/film/frame_set.h"
 #include "host/render/sinks/record.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::sinks {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/failure/failure.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::sinks {
 

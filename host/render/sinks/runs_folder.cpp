@@ -40,7 +40,7 @@ void refuse_other_kinds(const fs::directory_entry& entry) {
   std::error_code gone;
   const fs::file_type type = entry.symlink_status(gone).type();
   if (!gone && type != fs::file_type::regular && type != fs::file_type::not_found)
-    throw Failure("is not a regular file, and runs keep only such there", entry.path().string(), "remove it");
+    throw Failure("is not a regular file, but runs write only regular files there", entry.path().string(), "remove it");
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void RunsFolder::make() const {
   std::error_code none;
   const fs::file_type type = fs::symlink_status(path_, none).type();
   if (type != fs::file_type::directory && type != fs::file_type::not_found)
-    throw Failure("is not a folder, and runs keep their claims in one of this name", path_.string(), "remove it");
+    throw Failure("is not a folder, but runs write their claims to a folder of this name", path_.string(), "remove it");
 }
 
 fs::path RunsFolder::add_own_file(std::string_view ending, std::string_view text) const {
@@ -90,8 +90,8 @@ std::vector<RunFiles> RunsFolder::runs() const {
     found[run_of(entry->path())].files.push_back(entry->path());
   }
   if (error && error != std::errc::no_such_file_or_directory)  // the last run has removed it
-    throw Failure("cannot be listed, and who else renders into this folder stands there: " + error.message(),
-                  path_.string(), "change its permissions, or give another folder");
+    throw Failure("cannot be listed, so other runs in this folder are unknown: " + error.message(), path_.string(),
+                  "change its permissions, or give another folder");
   std::vector<RunFiles> runs;
   for (auto& [name, run] : found) runs.push_back({name, std::move(run.files)});
   return runs;

@@ -1,4 +1,4 @@
-// Where finished frames go: files, later a screen or a studio. A true seam: the sink pool knows no more.
+// Where finished frames go: files, later a screen or a studio. The sink pool knows only this class.
 #pragma once
 
 #include "host/render/compositor/frame.h"

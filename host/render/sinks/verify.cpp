@@ -6,8 +6,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
-#include "host/render/sinks/frame_folder.h"
 #include "host/images/png_file.h"
+#include "host/render/sinks/frame_folder.h"
 
 namespace mars::sinks {
 

@@ -1,5 +1,5 @@
 // Looks a folder of frames over: is every frame the manifest names there, whole, of the right size, and with the pixels
-// that were rendered? The hash over all pixels tells two renderings of one film apart, or the same.
+// that were rendered? The hash over all pixels is the same for two renderings of one film only if all their pixels are.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ void Trace::begin(std::span<const wire::Hello> nodes, int credits, double now) {
 }
 
 void Trace::add(int rank, std::span<const messages::Event> half) {
-  for (const messages::Event& event : half.first(half.size() - 1)) keep({event, rank});
+  for (const messages::Event& event : half.first(half.size() - 1)) store({event, rank});
   lost_.at(static_cast<std::size_t>(rank)) = half.back().value;
 }
 
@@ -29,12 +29,12 @@ void Trace::add(const sinks::SinkPool::Taken& frame) {
   event.value = frame.number;
   event.peer = static_cast<std::int32_t>(frame.thread);
   event.number = static_cast<std::uint32_t>((frame.begun - frame.submitted) * 1e6);
-  keep({event, host()});
+  store({event, host()});
 }
 
 void Trace::fail(const std::string& reason, double now) { fault_ = {reason, now}; }
 
-void Trace::keep(const Record& record) {
+void Trace::store(const Record& record) {
   if (records_.size() < most_) {
     records_.push_back(record);
     return;

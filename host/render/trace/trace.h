@@ -68,7 +68,7 @@ class Trace {
   const std::optional<Fault>& fault() const { return fault_; }
 
  private:
-  void keep(const Record& record);
+  void store(const Record& record);
 
   std::size_t most_;
   std::vector<Record> records_;

@@ -12,8 +12,8 @@
 #include "host/content/animator/keys_table.h"
 #include "host/content/animator/pose.h"
 #include "host/content/film/film_json.h"
-#include "host/shell/options/command_line.h"
 #include "host/shell/commands/motion_command.h"
+#include "host/shell/options/command_line.h"
 #include "node/wire/film.h"
 
 namespace mars::commands {
@@ -165,14 +165,14 @@ void add_key(CLI::App& animate, Words& words) {
   });
 }
 
-void add_displacing(CLI::App& animate, Words& words, const char* name, const char* purpose, bool keep) {
+void add_displacing(CLI::App& animate, Words& words, const char* name, const char* purpose, bool copies) {
   Command command(animate, words, name, purpose);
   command.thing(kThing).parts("PART", kParts).all().frame(kRange, "RANGE");
-  command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, keep] {
+  command.to("Where the range's first frame goes. Example: --to 60").lengthen().runs([&words, copies] {
     require_thing(words);
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return (keep ? animator::copy_keys : animator::move_keys)(json, film, words.choice(),
-                                                                animator::read_frame_range(words.frame), words.to);
+      return (copies ? animator::copy_keys : animator::move_keys)(json, film, words.choice(),
+                                                                  animator::read_frame_range(words.frame), words.to);
     });
   });
 }
@@ -224,11 +224,11 @@ void add_time(CLI::App& animate, Words& words) {
     app->add_option(name, *value, help)->type_name("PERCENT")->check(CLI::Range(0.0, 100.0).description(""));
   command.lengthen().runs([&words, app] {
     require_thing(words);
-    int wishes = 0;
-    for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) wishes += app->count(name) > 0;
-    wishes += app->count("--anticipate") + app->count("--overshoot") > 0;
-    if (wishes != 1)
-      throw Failure(wishes == 0 ? "is not given" : "is given twice", "the change of timing",
+    int changes = 0;
+    for (const char* name : {"--ease", "--hold", "--stretch", "--shift"}) changes += app->count(name) > 0;
+    changes += app->count("--anticipate") + app->count("--overshoot") > 0;
+    if (changes != 1)
+      throw Failure(changes == 0 ? "is not given" : "is given twice", "the change of timing",
                     "use one of --ease, --hold, --stretch, --shift, or --anticipate and --overshoot");
     edit(words, [&](document::Json& json, const animator::Film& film) { return retime(words, *app, json, film); });
   });

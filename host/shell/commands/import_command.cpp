@@ -14,7 +14,7 @@ constexpr const char* kAfterwards = R"(Prints at the end what was read and what 
 and textures. More: docs/model-format.md.
 )";
 
-// Not numbers are refused too.
+// Refuses NaN and what is no number, too.
 auto number_from(double least, double greatest, const char* what) {
   return [=](const std::string& word) {
     double number = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "host/content/modeler/describe.h"
 #include "host/content/modeler/edit.h"
 #include "host/content/modeler/model_file.h"
@@ -36,7 +37,7 @@ struct Words {
   std::vector<std::tuple<std::string, double, double>> limits;
   std::vector<std::string> options, resets, joints, branches;
   std::optional<double> height;
-  modeler::MaterialChange look;
+  modeler::MaterialChange material_change;
   bool fixed = false, free = false, branch = false, no_ground = false;
 };
 
@@ -80,10 +81,10 @@ modeler::JointChange change_of(const Words& words) {
   return change;
 }
 
-modeler::MaterialChange look_of(const Words& words) {
-  modeler::MaterialChange look = words.look;
-  look.color = vector_of(words.color);
-  return look;
+modeler::MaterialChange material_change_of(const Words& words) {
+  modeler::MaterialChange change = words.material_change;
+  change.color = vector_of(words.color);
+  return change;
 }
 
 bool of_a_joint(const Words& words) {
@@ -94,7 +95,7 @@ bool of_a_joint(const Words& words) {
 
 void require_sense_of_options(const Words& words) {
   if (words.fixed && words.free) throw Failure("cannot be both fixed and free", words.file, "leave one of them out");
-  if (words.material.empty() && look_of(words).any())
+  if (words.material.empty() && material_change_of(words).any())
     throw Failure("no material is named", words.file, "colours and light are a material's: name it, --material NAME");
 }
 
@@ -120,7 +121,7 @@ void run_new(const Words& words) {
   require_sense_of_options(words);
   document::Json model = modeler::empty_model();
   const std::string joint = words.joint.empty() ? "body" : words.joint;
-  if (look_of(words).any()) modeler::add_material(model, words.material, look_of(words));
+  if (material_change_of(words).any()) modeler::add_material(model, words.material, material_change_of(words));
   modeler::add_joint(model, joint, change_of(words));
   modeler::create_model(words.file, model);
 }
@@ -128,7 +129,8 @@ void run_new(const Words& words) {
 void run_add(const Words& words) {
   require_sense(words);
   modeler::change_model(words.file, [&](document::Json& model) {
-    if (words.joint.empty() || look_of(words).any()) modeler::add_material(model, words.material, look_of(words));
+    if (words.joint.empty() || material_change_of(words).any())
+      modeler::add_material(model, words.material, material_change_of(words));
     if (!words.joint.empty()) modeler::add_joint(model, words.joint, change_of(words));
   });
 }
@@ -136,11 +138,12 @@ void run_add(const Words& words) {
 void run_set(const Words& words) {
   require_sense(words);
   modeler::change_model(words.file, [&](document::Json& model) {
-    if (words.joint.empty()) return modeler::set_material(model, words.material, look_of(words), given(words.name));
-    if (look_of(words).any() && !has_material(model, words.material))
-      modeler::add_material(model, words.material, look_of(words));
-    else if (look_of(words).any())
-      modeler::set_material(model, words.material, look_of(words), std::nullopt);
+    if (words.joint.empty())
+      return modeler::set_material(model, words.material, material_change_of(words), given(words.name));
+    if (material_change_of(words).any() && !has_material(model, words.material))
+      modeler::add_material(model, words.material, material_change_of(words));
+    else if (material_change_of(words).any())
+      modeler::set_material(model, words.material, material_change_of(words), std::nullopt);
     modeler::set_joint(model, words.joint, change_of(words));
   });
 }
@@ -177,7 +180,7 @@ void run_check(const Words& words) {
   for (const std::string& doubt : doubts) std::cout << words.file << ": " << doubt << '\n';
   std::cout << words.file << ": a model of " << model.joints.size()
             << (model.joints.size() == 1 ? " joint, " : " joints, ")
-            << (doubts.empty() ? "nothing to remark" : std::to_string(doubts.size()) + " to look at") << '\n';
+            << (doubts.empty() ? "no warnings" : document::counted(doubts.size(), "warning")) << '\n';
 }
 
 std::string shapes_text() {
@@ -240,19 +243,20 @@ void add_joint_options(CLI::App& app, Words& words) {
   app.footer(shapes_text());
 }
 
-void add_look_options(CLI::App& app, Words& words) {
+void add_material_options(CLI::App& app, Words& words) {
   app.add_option("--material", words.material, "Its material. Example: --material fur")->type_name("NAME");
   add_numbers(app, "--color", words.color, 3, "R G B",
               "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
-  app.add_option("--ambient", words.look.ambient, "Ambient share of the colour. Example: --ambient 0.2")
+  app.add_option("--ambient", words.material_change.ambient, "Ambient share of the colour. Example: --ambient 0.2")
       ->type_name("SHARE");
-  app.add_option("--diffuse", words.look.diffuse, "Diffuse share of the colour. Example: --diffuse 0.7")
+  app.add_option("--diffuse", words.material_change.diffuse, "Diffuse share of the colour. Example: --diffuse 0.7")
       ->type_name("SHARE");
-  app.add_option("--specular", words.look.specular, "Strength of highlights. Example: --specular 0.1")
+  app.add_option("--specular", words.material_change.specular, "Strength of highlights. Example: --specular 0.1")
       ->type_name("SHARE");
-  app.add_option("--exponent", words.look.exponent, "Sharpness of highlights. Example: --exponent 16")
+  app.add_option("--exponent", words.material_change.exponent, "Sharpness of highlights. Example: --exponent 16")
       ->type_name("NUMBER");
-  app.add_option("--sides", words.look.sides, "1: seen from outside only. Example: --sides 1")->type_name("1|2");
+  app.add_option("--sides", words.material_change.sides, "1: seen from outside only. Example: --sides 1")
+      ->type_name("1|2");
 }
 
 struct Verb {
@@ -269,14 +273,14 @@ constexpr Verb kVerbs[] = {
        app.add_option("--from", words.from, "Another model file, relative to the new one. Example: --from human.json")
            ->type_name("MODEL");
        add_joint_options(app, words);
-       add_look_options(app, words);
+       add_material_options(app, words);
      }},
     {"show", "Show a model's joints, how they turn, and their segments", run_show, [](CLI::App&, Words&) {}},
     {"add", "Add a joint, or a material, or both", run_add,
      [](CLI::App& app, Words& words) {
        app.add_option("JOINT", words.joint, "The new joint; none: only a material. Example: leg");
        add_joint_options(app, words);
-       add_look_options(app, words);
+       add_material_options(app, words);
      }},
     {"set", "Change a joint, or a material, or both", run_set,
      [](CLI::App& app, Words& words) {
@@ -289,7 +293,7 @@ constexpr Verb kVerbs[] = {
                    "Example: --reset axes")
            ->check(CLI::IsMember(std::vector<std::string>(std::begin(modeler::kResets), std::end(modeler::kResets)))
                        .description(""));
-       add_look_options(app, words);
+       add_material_options(app, words);
      }},
     {"scale", "Make all, or some joints, larger or smaller along their own axes", run_scale,
      [](CLI::App& app, Words& words) {

@@ -44,20 +44,42 @@ void require_all(const motion::Action& action, const motion::Parameter& paramete
                 std::string(action.name), "write " + name + " " + std::string(parameter.example));
 }
 
-void add_action(CLI::App& animate, const std::string& film, const motion::Action& action) {
-  CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
-  const auto typed = std::make_shared<Typed>();
-  typed->values.resize(action.parameters.size());
-  command->add_option("ACTOR", typed->actor, "The actor. Example: anna")->required();
+void run_action(const std::string& film, const motion::Action& action, const Typed& typed,
+                std::optional<std::uint32_t> at) {
+  motion::Arguments::Values values;
+  for (std::size_t i = 0; i < typed.values.size(); ++i) {
+    require_all(action, action.parameters[i], typed.values[i]);
+    if (!typed.values[i].empty()) values[std::string(action.parameters[i].name)] = typed.values[i];
+  }
+  const motion::Arguments arguments(values, std::string(action.name));
+  motion::Performed done;
+  std::string note;
+  film::change_film(film, [&](document::Json& json, const animator::Film&) {
+    done = motion::perform(json, film, typed.actor, action, at, arguments);
+    note = grown(json, done.last, typed.lengthen);
+  });
+  std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report) << note
+            << (note.empty() ? "" : "--at " + std::to_string(done.first) + " --lengthen") << '\n';
+}
+
+void add_parameters(CLI::App& command, const motion::Action& action, Typed& typed) {
+  typed.values.resize(action.parameters.size());
   for (std::size_t i = 0; i < action.parameters.size(); ++i) {
     const motion::Parameter& parameter = action.parameters[i];
     const std::string name = "--" + std::string(parameter.name);
     std::string help(parameter.meaning);
     help[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(help[0])));
-    command->add_option(name, typed->values[i], help + ". Example: " + name + " " + std::string(parameter.example))
+    command.add_option(name, typed.values[i], help + ". Example: " + name + " " + std::string(parameter.example))
         ->expected(1, static_cast<int>(parameter.count()))
         ->type_name(std::string(parameter.value));
   }
+}
+
+void add_action(CLI::App& animate, const std::string& film, const motion::Action& action) {
+  CLI::App* command = animate.add_subcommand(std::string(action.name), std::string(action.purpose));
+  const auto typed = std::make_shared<Typed>();
+  command->add_option("ACTOR", typed->actor, "The actor. Example: anna")->required();
+  add_parameters(*command, action, *typed);
   const CLI::Option* at =
       command
           ->add_option("--at", typed->at,
@@ -66,20 +88,7 @@ void add_action(CLI::App& animate, const std::string& film, const motion::Action
           ->check(CLI::Range(0u, wire::kMostFrames).description(""));
   command->add_flag("--lengthen", typed->lengthen, "Give the film as many frames as this needs. Example: --lengthen");
   command->callback([&film, &action, typed, at] {
-    motion::Wishes::Values values;
-    for (std::size_t i = 0; i < typed->values.size(); ++i) {
-      require_all(action, action.parameters[i], typed->values[i]);
-      if (!typed->values[i].empty()) values[std::string(action.parameters[i].name)] = typed->values[i];
-    }
-    motion::Performed done;
-    std::string note;
-    film::change_film(film, [&](document::Json& json, const animator::Film&) {
-      done = motion::perform(json, film, typed->actor, action, at->count() ? std::optional(typed->at) : std::nullopt,
-                             motion::Wishes(values, std::string(action.name)));
-      note = grown(json, done.last, typed->lengthen);
-    });
-    std::cout << "frames " << done.first << " to " << done.last << (done.report.empty() ? "" : ": " + done.report)
-              << note << (note.empty() ? "" : "--at " + std::to_string(done.first) + " --lengthen") << '\n';
+    run_action(film, action, *typed, at->count() ? std::optional(typed->at) : std::nullopt);
   });
 }
 

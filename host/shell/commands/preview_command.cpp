@@ -20,9 +20,9 @@
 namespace mars::commands {
 namespace {
 
-struct Wishes {
+struct Words {
   std::string source;
-  preview::WriteWishes write;
+  preview::WriteOptions write;
   preview::Look look;
   preview::Graphics graphics = preview::Graphics::automatic;
 };
@@ -39,15 +39,15 @@ std::function<void(const std::string&)> taking(const char* name, Take take) {
   };
 }
 
-void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
-  preview::WriteWishes& write = wishes->write;
+void add_output(CLI::App& command, const std::shared_ptr<Words>& words) {
+  preview::WriteOptions& write = words->write;
   command
       .add_option_function<std::string>(
           "-o,--output",
           taking("--output",
-                 [wishes](const std::string& text) {
+                 [words](const std::string& text) {
                    preview::check_kind(text);
-                   wishes->write.file = text;
+                   words->write.file = text;
                  }),
           "Write this instead of playing: .gif or .mp4 (by the program ffmpeg), or .png, one "
           "frame or a contact sheet. Example: -o sheet.png")
@@ -55,16 +55,16 @@ void add_output(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
   command
       .add_option_function<std::string>("--size",
                                         taking("--size",
-                                               [wishes](const std::string& text) {
+                                               [words](const std::string& text) {
                                                  const images::PictureSize size = images::read_picture_size(text);
-                                                 wishes->write.extent = images::PictureSize{size.width, size.height};
+                                                 words->write.extent = images::PictureSize{size.width, size.height};
                                                }),
                                         "Pixels of each picture that is written; default: the film's own; on a sheet "
                                         "320x180, in a GIF at most 960x540. Example: --size 480x270")
       ->type_name("WxH");
   command
       .add_option_function<std::string>(
-          "--frames", taking("--frames", [wishes](const std::string& text) { wishes->write.frames.emplace(text); }),
+          "--frames", taking("--frames", [words](const std::string& text) { words->write.frames.emplace(text); }),
           "Frames that are written; default: all, on a sheet 12. Example: --frames 0-47")
       ->type_name("LIST");
   command.add_option("--every", write.every, "Only every Nth of these. Example: --every 8")
@@ -91,85 +91,84 @@ void add_choice(CLI::App& command, const char* name, const std::vector<std::stri
       ->type_name(type);
 }
 
-void add_graphics(CLI::App& command, const std::shared_ptr<Wishes>& wishes) {
+void add_graphics(CLI::App& command, const std::shared_ptr<Words>& words) {
   add_choice(
       command, "--graphics", {"auto", "kitty", "sixel", "blocks", "blocks256"},
-      [wishes](std::size_t number) { wishes->graphics = static_cast<preview::Graphics>(number); },
+      [words](std::size_t number) { words->graphics = static_cast<preview::Graphics>(number); },
       "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; "
       "default: asked of the terminal. Example: --graphics blocks");
 }
 
 // Plays until a person or a signal ends it; the signal then ends the program too, the terminal being given back.
-void play_in_terminal(const Wishes& wishes, const std::function<int(preview::Terminal&)>& play_in) {
+void play_in_terminal(const Words& words, const std::function<int(preview::Terminal&)>& play_in) {
   int ended_by = 0;
   {
     const messages::TerminalKind kind = messages::terminal_kind();
-    preview::Terminal terminal(wishes.graphics, kind.name, kind.colors24);
+    preview::Terminal terminal(words.graphics, kind.name, kind.colors24);
     ended_by = play_in(terminal);
   }
   if (ended_by != 0 && ended_by != SIGINT) raise(ended_by);
 }
 
-void write_preview(Wishes& wishes, const preview::Previewed& film, const MakeSurface& make_surface) {
+void write_preview(Words& words, const preview::Previewed& film, const MakeSurface& make_surface) {
   const auto surface = make_surface(film.film);
-  wishes.look.frames = preview::frames_to_write(wishes.write, film.view.frames);
-  wishes.look.smooth = wishes.look.wait = true;
-  preview::FilmPictures pictures(film.view, *surface, wishes.look);
-  preview::write_pictures(pictures, wishes.write);
+  words.look.frames = preview::frames_to_write(words.write, film.view.frames);
+  words.look.smooth = words.look.wait = true;
+  preview::FilmPictures pictures(film.view, *surface, words.look);
+  preview::write_pictures(pictures, words.write);
 }
 
-void preview(Wishes& wishes, const MakeSurface& make_surface) {
+void preview(Words& words, const MakeSurface& make_surface) {
   document::RecordedReads reads;
-  auto film = std::make_unique<preview::Previewed>(preview::load_previewed(wishes.source));
-  if (!wishes.write.file.empty()) return write_preview(wishes, *film, make_surface);
+  auto film = std::make_unique<preview::Previewed>(preview::load_previewed(words.source));
+  if (!words.write.file.empty()) return write_preview(words, *film, make_surface);
   std::optional<preview::ReloadingPictures> pictures;
-  play_in_terminal(wishes, [&](preview::Terminal& terminal) {
-    wishes.look.smooth =
+  play_in_terminal(words, [&](preview::Terminal& terminal) {
+    words.look.smooth =
         terminal.graphics() >= preview::Graphics::blocks;  // few pixels: they cost little, and need it most
-    pictures.emplace(wishes.source, std::move(film), reads.stamps(), make_surface, wishes.look);
+    pictures.emplace(words.source, std::move(film), reads.stamps(), make_surface, words.look);
     return preview::play(*pictures, terminal);
   });
   if (pictures->stop()) std::quick_exit(0);  // nobody wants the film any more: its end is not waited for
 }
 
-void play_folder(const Wishes& wishes) {
-  preview::FolderPictures pictures(wishes.source);
-  if (!wishes.write.file.empty()) return preview::write_pictures(pictures, wishes.write);
-  play_in_terminal(wishes, [&](preview::Terminal& terminal) { return preview::play(pictures, terminal); });
+void play_folder(const Words& words) {
+  preview::FolderPictures pictures(words.source);
+  if (!words.write.file.empty()) return preview::write_pictures(pictures, words.write);
+  play_in_terminal(words, [&](preview::Terminal& terminal) { return preview::play(pictures, terminal); });
 }
 
 }  // namespace
 
 void add_preview(CLI::App& app, const MakeSurface& make_surface) {
-  const auto wishes = std::make_shared<Wishes>();
+  const auto words = std::make_shared<Words>();
   CLI::App* command = app.add_subcommand("preview", "Play a film or a model in the terminal before it is rendered");
   command
-      ->add_option("FILM", wishes->source,
+      ->add_option("FILM", words->source,
                    "A film (.json, .mars) or a model; loaded again when it changes. Example: examples/demo.json")
       ->required();
   add_choice(
       *command, "--as", {"stick", "vertices", "prisms", "surface", "all"},
-      [wishes](std::size_t number) {
-        wishes->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
+      [words](std::size_t number) {
+        words->look.as = number < 4 ? std::optional(static_cast<preview::As>(number)) : std::nullopt;
       },
       "How models are shown first; default: prisms. Example: --as stick");
   add_choice(
       *command, "--view", {"camera", "front", "side", "top"},
-      [wishes](std::size_t number) { wishes->look.from = static_cast<preview::From>(number); },
+      [words](std::size_t number) { words->look.from = static_cast<preview::From>(number); },
       "Where it is seen from first; default: the film's camera. Example: --view side");
-  add_graphics(*command, wishes);
-  add_output(*command, wishes);
-  command->callback([wishes, make_surface] { preview(*wishes, make_surface); });
+  add_graphics(*command, words);
+  add_output(*command, words);
+  command->callback([words, make_surface] { preview(*words, make_surface); });
 }
 
 void add_play(CLI::App& app) {
-  const auto wishes = std::make_shared<Wishes>();
+  const auto words = std::make_shared<Words>();
   CLI::App* command = app.add_subcommand("play", "Play rendered frames in the terminal");
-  command->add_option("DIR", wishes->source, "The folder given to mars render with -o. Example: build/demo")
-      ->required();
-  add_graphics(*command, wishes);
-  add_output(*command, wishes);
-  command->callback([wishes] { play_folder(*wishes); });
+  command->add_option("DIR", words->source, "The folder given to mars render with -o. Example: build/demo")->required();
+  add_graphics(*command, words);
+  add_output(*command, words);
+  command->callback([words] { play_folder(*words); });
 }
 
 }  // namespace mars::commands

@@ -4,10 +4,10 @@
 #include <charconv>
 #include <iostream>
 
-#include "host/shell/doctor/show.h"
 #include "host/child/child.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
+#include "host/shell/doctor/show.h"
 
 namespace mars::doctor {
 namespace {

@@ -9,7 +9,7 @@
 
 namespace mars::job {
 
-// Takes one line about what a person would want to mend.
+// Takes one line about a probable mistake in the film.
 using Warn = std::function<void(const std::string& line)>;
 
 // `warn` is called before the film's motion is computed, as that may take long; of a .mars file, which has no keys,

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/text.h"
 #include "host/child/exec.h"
+#include "host/content/document/text.h"
 
 namespace mars::launch {
 namespace {

@@ -14,13 +14,12 @@
 #include "hal/failure/failure.h"
 #include "hal/failure/process_limit.h"
 #include "hal/messages/settings.h"
-#include "host/content/document/shell_word.h"
 #include "host/child/environment.h"
 #include "host/child/process.h"
 #include "host/child/programs.h"
+#include "host/content/document/shell_word.h"
 #include "host/shell/launch/text_reader.h"
 #include "topology/machine.h"
-#include "topology/memory_limit.h"
 
 namespace mars::launch {
 

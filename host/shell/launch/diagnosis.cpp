@@ -29,8 +29,8 @@ std::string join(const std::deque<std::string>& lines, std::size_t most) {
   return text;
 }
 
-std::string killed_by(const std::string& who, int signal) {
-  return who + " was killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+std::string killed_by(const std::string& process, int signal) {
+  return process + " was killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
 }
 
 std::string remedy_for(int signal) {
@@ -49,7 +49,7 @@ Failure failure_from(const events::Fault& fault) {
 }
 
 // Rank 0 is the host, as we start it; which node another is shows once they have booted.
-std::string who_is(int rank, const std::optional<events::Booted>& booted) {
+std::string name_of_rank(int rank, const std::optional<events::Booted>& booted) {
   if (rank == 0) return "the host";
   if (!booted) return "a node";
   for (const events::Booted::Node& node : booted->nodes)
@@ -65,7 +65,7 @@ std::optional<Failure> lost_rank(const std::string& line, const std::optional<ev
     const auto machine = words.word();
     if (!machine || !words.skip(" exited on signal ")) continue;
     const int signal = static_cast<int>(words.number().value_or(0));
-    return Failure(killed_by(who_is(static_cast<int>(*rank), booted), signal), "machine " + *machine,
+    return Failure(killed_by(name_of_rank(static_cast<int>(*rank), booted), signal), "machine " + *machine,
                    remedy_for(signal));
   }
   return std::nullopt;
@@ -143,7 +143,7 @@ Failure unknown(const Remains& remains) {
   return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
 }
 
-// Whatever kept it from starting is likely to be seen from here.
+// The reason why it did not start is likely to be seen from here, too.
 Failure with_advice(const Failure& failure, const Advice& advice) {
   std::string remedy = failure.remedy;
   const std::string more = advice();

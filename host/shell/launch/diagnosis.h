@@ -8,8 +8,8 @@
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "host/render/events/events.h"
 #include "host/child/child.h"
+#include "host/render/events/events.h"
 #include "host/shell/options/render_options.h"
 
 namespace mars::launch {

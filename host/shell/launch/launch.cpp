@@ -5,15 +5,14 @@
 #include <iostream>
 
 #include "hal/messages/settings.h"
-#include "host/render/events/events.h"
-#include "host/shell/launch/background_text.h"
 #include "host/child/child.h"
+#include "host/child/environment.h"
+#include "host/render/events/events.h"
+#include "host/render/sinks/frame_folder.h"
+#include "host/shell/launch/background_text.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/display.h"
-#include "host/child/environment.h"
 #include "host/shell/launch/session_folders.h"
-#include "host/render/sinks/frame_folder.h"
-#include "topology/machine.h"
 
 namespace mars::launch {
 
@@ -63,7 +62,7 @@ class Run {
     remains_.passed_on = child.passed_on();
   }
 
-  bool well() const { return done_ && remains_.ending.code == 0 && remains_.ending.signal == 0; }
+  bool well() const { return done_ && remains_.ending.well(); }
   const events::Done& done() const { return *done_; }
   const Remains& remains() const { return remains_; }
   double boot_seconds() const { return boot_seconds_; }

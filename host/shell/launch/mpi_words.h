@@ -1,5 +1,4 @@
-// What Open MPI's many words on standard error mean, where they are known to mean a thing that a person can
-// mend. docs/doctor.md lists them.
+// Messages of Open MPI on standard error whose cause is known and has a remedy. docs/doctor.md lists them.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,8 @@
 // Where Open MPI keeps its files while a job runs on this machine alone: a folder of the job's own among the temporary
 // files and one in shared memory, so that what a killed job left is known and goes.
 //
-// A folder is locked by whoever started the job and by its mpirun. The lock ends with them, however they end, and says
-// so to everybody who sees the folder: other jobs of the user, also those in containers that share it.
+// A folder is locked by the process that started the job and by its mpirun. The lock ends with them, however they end,
+// and says so to everybody who sees the folder: other jobs of the user, also those in containers that share it.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/shell/launch/command.h"
+#include "host/child/command.h"
 
 namespace mars::launch {
 
@@ -37,7 +37,6 @@ class SessionFolders {
     Folder& operator=(Folder&&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    int lock() const { return lock_; }
 
    private:
     std::filesystem::path path_;

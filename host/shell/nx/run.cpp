@@ -11,7 +11,6 @@
 #include "host/child/programs.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/session_folders.h"
-#include "host/shell/options/command_line.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -64,10 +63,12 @@ void check_mpi_can_start(const NxRun& job, const NxPrograms& programs) {
 child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t& nodes) {
   const std::string path = child::program_path(child::own_environment());
   launch::Programs starters;
-  starters.loopback = launch::find_loopback(fs::read_symlink("/proc/self/exe"));
+  starters.loopback = launch::find_loopback(child::own_file());
   starters.mpirun = launch::find_mpirun(starters.mpi, path);
   if (!starters.mpirun)
-    throw Failure("mpirun was not found", "", "install Open MPI (Debian: openmpi-bin), or use --over processes");
+    throw Failure("mpirun was not found", "",
+                  std::string("install ") + launch::name_of(starters.mpi) +
+                      " (Debian: " + launch::package_of(starters.mpi) + "), or use --over processes");
   options::RenderOptions start;
   start.hostfile = job.hostfile;
   start.backend = options::Backend::mpi;

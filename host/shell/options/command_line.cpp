@@ -146,7 +146,7 @@ const CLI::App& innermost(const CLI::App& app) {
 }
 
 // How an option that takes several words is written, by its help; "" of others.
-std::string form_told(const CLI::App& app, const CLI::ArgumentMismatch& error) {
+std::string written_form(const CLI::App& app, const CLI::ArgumentMismatch& error) {
   const std::string message = error.what(), name = message.substr(0, message.find(':'));
   const CLI::Option* option = innermost(app).get_option_no_throw(name);
   if (option == nullptr || option->get_type_name().find(' ') == std::string::npos) return "";
@@ -192,7 +192,7 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
       return kUsage;
     }
     if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-      if (const std::string form = form_told(app, *mismatch); !form.empty()) {
+      if (const std::string form = written_form(app, *mismatch); !form.empty()) {
         app.exit(CLI::ValidationError(form), std::cout, std::cerr);
         return kUsage;
       }

@@ -12,6 +12,9 @@ namespace mars::options {
 
 inline constexpr int kFailed = 1;
 inline constexpr int kUsage = 2;
+// These, for the end of a help.
+inline constexpr const char* kExitCodes =
+    "Exit codes: 0 success; 1 failure, reported on standard error; 2 wrong command\nline.\n";
 
 // None: go on. Otherwise the exit code, everything already printed (0 after --help, --version and --list-options, and
 // after a command that only holds others: `mars model` prints its help).

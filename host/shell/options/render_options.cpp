@@ -204,7 +204,6 @@ std::vector<Entry> table() {
 
 bool takes(Program program, const Entry& entry) { return (entry.programs & static_cast<unsigned>(program)) != 0; }
 
-// What no single option can check.
 // Names that options had before, by their names now.
 constexpr std::array<std::pair<const char*, const char*>, 1> kFormerNames{{{"--cubes", "--groups"}}};
 
@@ -217,7 +216,7 @@ void refuse_former_names(CLI::App& app) {
   }
 }
 
-// What no single option can tell.
+// Checks that concern several options.
 void check_together(const RenderOptions& options) {
   if (options.folder.empty() && options.sink == SinkKind::png) {
     throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");

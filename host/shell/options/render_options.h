@@ -37,7 +37,7 @@ struct RenderOptions {
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
-  std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the schedule
+  std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the plan
   SinkKind sink = SinkKind::png;
   std::string report;  // file for the measurements; "": none
   std::string trace;   // file for a picture of the run; "": none
@@ -46,7 +46,7 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-// Who reads the options: each takes those that concern it.
+// The programs that read the options: each takes those that concern it.
 enum class Program : unsigned { mars = 1, host = 2, ranks = 4, threads = 8, compile = 16 };
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must

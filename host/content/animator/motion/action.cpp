@@ -101,7 +101,7 @@ const Action* find_action(std::string_view name) {
 }
 
 Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
-                  const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes) {
+                  const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments) {
   animator::actor_of(json, name);  // refuses what is no actor
   const document::Document document(document::laid_out(json), path.string());
   const animator::Film film = animator::read_film(document.root(), path.parent_path());
@@ -110,7 +110,7 @@ Performed perform(document::Json& json, const std::filesystem::path& path, const
   if (!actor.matrices.empty())
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
-  const Scene scene{film, actor, at ? *at : animator::last_key(actor.motion), wishes, action.name};
+  const Scene scene{film, actor, at ? *at : animator::last_key(actor.motion), arguments, action.name};
   const Motion motion = action.perform(scene);
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const animator::ActorKey driven = all_of(motion.keys);

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "host/content/animator/edit.h"
+#include "host/content/animator/motion/arguments.h"
 #include "host/content/animator/motion/scene.h"
-#include "host/content/animator/motion/wishes.h"
 
 namespace mars::motion {
 
@@ -42,6 +42,6 @@ struct Performed {
 // Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
 // models are. Without `at` the action begins at the actor's last key.
 Performed perform(document::Json& film, const std::filesystem::path& path, const std::string& actor,
-                  const Action& action, std::optional<std::uint32_t> at, const Wishes& wishes);
+                  const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments);
 
 }  // namespace mars::motion

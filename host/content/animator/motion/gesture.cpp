@@ -93,7 +93,7 @@ double bend(const Body& body, std::size_t joint, double degrees, Posture& postur
 }
 
 Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::size_t head, double depth,
-               const Wishes& wishes) {
+               const Arguments& arguments) {
   Posture down = start;
   double by_neck = bend(body, neck, head == modeler::kNone ? depth : depth / 2, down);
   const double by_head = bend(body, head, depth - by_neck, down);
@@ -103,13 +103,13 @@ Posture nodded(const Body& body, const Posture& start, std::size_t neck, std::si
   }
   const double left = depth - by_neck - by_head;
   if (left > kEnough)
-    wishes.refuse("depth",
-                  "is " + document::shown(depth) + " degrees, but " +
-                      (neck == modeler::kNone ? "" : "'" + body.joint_name(neck) + "'") +
-                      (neck == modeler::kNone || head == modeler::kNone ? "" : " and ") +
-                      (head == modeler::kNone ? "" : "'" + body.joint_name(head) + "'") + " can bend " +
-                      document::shown(std::floor(depth - left)) + " from where they are",
-                  "nod less, or widen the joint's limits in its model");
+    arguments.refuse("depth",
+                     "is " + document::shown(depth) + " degrees, but " +
+                         (neck == modeler::kNone ? "" : "'" + body.joint_name(neck) + "'") +
+                         (neck == modeler::kNone || head == modeler::kNone ? "" : " and ") +
+                         (head == modeler::kNone ? "" : "'" + body.joint_name(head) + "'") + " can bend " +
+                         document::shown(std::floor(depth - left)) + " from where they are",
+                     "nod less, or widen the joint's limits in its model");
   return down;
 }
 
@@ -162,17 +162,17 @@ Posture waving(const Body& body, const Posture& start, modeler::Side side, const
 }  // namespace
 
 Motion nod(const Scene& scene) {
-  const Wishes& wishes = scene.wishes;
+  const Arguments& arguments = scene.arguments;
   const Body body = body_without_legs(scene.model(), scene.actor.name);
   const std::size_t neck = body.find(modeler::Trunk::neck);
   const std::size_t head =
       neck == modeler::kNone ? needed(body, modeler::Trunk::head, "nod") : body.find(modeler::Trunk::head);
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
-  const Posture down = nodded(body, start, neck, head, wishes.number("depth", 24, {0.1, 120}), wishes);
+  const Posture down = nodded(body, start, neck, head, arguments.number("depth", 24, {0.1, 120}), arguments);
   std::vector<std::size_t> joints{neck, head};
   std::erase(joints, modeler::kNone);
-  const std::uint32_t times = wishes.count("times", 2, 1000);
-  const double seconds = wishes.number("seconds", 0.6, {0.1, 60});
+  const std::uint32_t times = arguments.count("times", 2, 1000);
+  const double seconds = arguments.number("seconds", 0.6, {0.1, 60});
   Gesture gesture(scene, joints);
   for (std::uint32_t time = 0; time < times; ++time) {
     gesture.at(seconds * time, start);
@@ -183,20 +183,20 @@ Motion nod(const Scene& scene) {
 }
 
 Motion wave(const Scene& scene) {
-  const Wishes& wishes = scene.wishes;
+  const Arguments& arguments = scene.arguments;
   const Body body = body_without_legs(scene.model(), scene.actor.name);
   constexpr std::string_view hands[] = {"left", "right"};
-  const modeler::Side side = kSides[wishes.choice("hand", 1, hands)];
+  const modeler::Side side = kSides[arguments.choice("hand", 1, hands)];
   Arm arm{needed(body, modeler::Limb::shoulder, side, "wave"), needed(body, modeler::Limb::elbow, side, "wave"),
           body.find(modeler::Limb::wrist, side), 0, 0};
   const Posture start = posture_at(scene.model(), scene.actor.motion, scene.at);
   const auto place = [&](std::size_t joint) { return frame_in(scene.model(), start, joint).place; };
   arm.upper = glm::distance(place(arm.shoulder), place(arm.elbow));
   arm.fore = arm.wrist == modeler::kNone ? arm.upper : glm::distance(place(arm.elbow), place(arm.wrist));
-  const Posture in = waving(body, start, side, arm, kInward, wishes.where());
-  const Posture out = waving(body, start, side, arm, kOutward, wishes.where());
-  const std::uint32_t times = wishes.count("times", 3, 1000);
-  const double seconds = wishes.number("seconds", 0.5, {0.1, 60});
+  const Posture in = waving(body, start, side, arm, kInward, arguments.where());
+  const Posture out = waving(body, start, side, arm, kOutward, arguments.where());
+  const std::uint32_t times = arguments.count("times", 3, 1000);
+  const double seconds = arguments.number("seconds", 0.5, {0.1, 60});
   std::vector<std::size_t> joints{arm.shoulder, arm.elbow, arm.wrist};
   std::erase(joints, modeler::kNone);
   Gesture gesture(scene, joints);

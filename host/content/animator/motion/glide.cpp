@@ -8,7 +8,6 @@
 
 #include "host/content/animator/angles.h"
 #include "host/content/animator/motion/curve.h"
-#include "host/content/animator/motion/gait.h"
 
 namespace mars::motion {
 namespace {

@@ -89,7 +89,7 @@ Posture posture_of(const Scene& scene) { return posture_at(scene.model(), scene.
 Motion flown(const Scene& scene, const Flight& flight, double seconds) {
   Sampled sampled(scene, frames_of(scene, seconds));
   sampled.add_places([&](double time) { return flight.place_at(time); });
-  sampled.add_turns(scene.wishes.vector("spin").value_or(glm::dvec3(0)),
+  sampled.add_turns(scene.arguments.vector("spin").value_or(glm::dvec3(0)),
                     [&](double time) { return flight.turned_at(time); });
   return sampled.motion();
 }
@@ -97,33 +97,33 @@ Motion flown(const Scene& scene, const Flight& flight, double seconds) {
 }  // namespace
 
 Motion fling(const Scene& scene) {
-  const Wishes& wishes = scene.wishes;
-  const Flight flight({posture_of(scene).place, wishes.vector("velocity").value_or(glm::dvec3(0)),
-                       wishes.vector("acceleration").value_or(glm::dvec3(0, 0, -kGravity))});
-  return flown(scene, flight, wishes.number("seconds", 1, {0.001, kLongest}));
+  const Arguments& arguments = scene.arguments;
+  const Flight flight({posture_of(scene).place, arguments.vector("velocity").value_or(glm::dvec3(0)),
+                       arguments.vector("acceleration").value_or(glm::dvec3(0, 0, -kGravity))});
+  return flown(scene, flight, arguments.number("seconds", 1, {0.001, kLongest}));
 }
 
 Motion bounce(const Scene& scene) {
-  const Wishes& wishes = scene.wishes;
+  const Arguments& arguments = scene.arguments;
   const Posture posture = posture_of(scene);
   const double below = posture.place.z - lowest_of(scene.model(), posture);
   const Launch launch{posture.place,
-                      wishes.vector("velocity").value_or(glm::dvec3(0)),
-                      {0, 0, -wishes.number("gravity", kGravity, {1e-6, document::kFarthest})}};
-  const Floor floor{wishes.number("floor", 0, {}) + below, wishes.number("restitution", 0.7, {0, 0.99}),
-                    wishes.number("friction", 0.1, {0, 1})};
+                      arguments.vector("velocity").value_or(glm::dvec3(0)),
+                      {0, 0, -arguments.number("gravity", kGravity, {1e-6, document::kFarthest})}};
+  const Floor floor{arguments.number("floor", 0, {}) + below, arguments.number("restitution", 0.7, {0, 0.99}),
+                    arguments.number("friction", 0.1, {0, 1})};
   const double height = launch.place.z - floor.height;
   if (height < -1e-9 * (1 + std::abs(floor.height)))
-    wishes.refuse("floor",
-                  "is " + document::shown(floor.height - below) + ", above the lowest point of '" + scene.actor.name +
-                      "'",
-                  "start higher, or lower the floor");
+    arguments.refuse("floor",
+                     "is " + document::shown(floor.height - below) + ", above the lowest point of '" +
+                         scene.actor.name + "'",
+                     "start higher, or lower the floor");
   const double up = std::max(0.0, launch.velocity.z);
   const double top = std::max(1e-9, height + up * up / (2 * -launch.acceleration.z));
   const Flight flight(launch, floor, kLow * top);
   const bool slides = glm::length(flight.arcs().back().launch.velocity) > 0;
   const double rest = slides ? flight.rest() + 1 : flight.rest();
-  Motion motion = flown(scene, flight, wishes.number("seconds", std::min(rest, kLongest), {0.001, kLongest}));
+  Motion motion = flown(scene, flight, arguments.number("seconds", std::min(rest, kLongest), {0.001, kLongest}));
   const auto hundredths = [](double value) { return document::shown(std::round(value * 100) / 100); };
   motion.report = "first on the floor after " + hundredths(flight.arcs()[1].time) + " s, " +
                   (slides ? "bounces for " : "at rest after ") + hundredths(flight.rest()) + " s";
@@ -131,12 +131,12 @@ Motion bounce(const Scene& scene) {
 }
 
 Motion spin(const Scene& scene) {
-  const Wishes& wishes = scene.wishes;
+  const Arguments& arguments = scene.arguments;
   constexpr std::string_view names[] = {"x", "y", "z"};
   glm::dvec3 axis(0);
-  axis[static_cast<int>(wishes.choice("axis", 2, names))] = 1;
-  const double seconds = wishes.number("seconds", 2, {0.001, kLongest});
-  const double degrees = wishes.number("degrees", 360, {-1e6, 1e6});
+  axis[static_cast<int>(arguments.choice("axis", 2, names))] = 1;
+  const double seconds = arguments.number("seconds", 2, {0.001, kLongest});
+  const double degrees = arguments.number("degrees", 360, {-1e6, 1e6});
   const std::uint32_t frames = frames_of(scene, seconds);
   Sampled sampled(scene, frames);
   const double speed = degrees / (frames / scene.film.rate);
@@ -145,16 +145,16 @@ Motion spin(const Scene& scene) {
 }
 
 Motion go(const Scene& scene) {
-  const auto to = scene.wishes.vector("to");
-  if (!to) scene.wishes.refuse("to", "is missing", "say where: to 2 0 0");
+  const auto to = scene.arguments.vector("to");
+  if (!to) scene.arguments.refuse("to", "is missing", "say where: to 2 0 0");
   constexpr std::string_view names[] = {"linear", "in", "out", "both"};
   constexpr animator::Ease eases[] = {animator::kLinear, animator::kIn, animator::kOut, animator::kBoth};
-  const std::uint32_t last = scene.at + frames_of(scene, scene.wishes.number("seconds", 1, {0.001, kLongest}));
+  const std::uint32_t last = scene.at + frames_of(scene, scene.arguments.number("seconds", 1, {0.001, kLongest}));
   animator::ActorKey from, there;
   from.frame = scene.at;
   there.frame = last;
   from.place = animator::rounded(posture_of(scene).place);
-  from.ease = eases[scene.wishes.choice("ease", 3, names)];
+  from.ease = eases[scene.arguments.choice("ease", 3, names)];
   there.place = *to;
   return {{from, there}, last, ""};
 }

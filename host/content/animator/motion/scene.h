@@ -8,19 +8,19 @@
 
 #include "host/content/animator/edit.h"
 #include "host/content/animator/film.h"
-#include "host/content/animator/motion/wishes.h"
+#include "host/content/animator/motion/arguments.h"
 
 namespace mars::motion {
 
-// Who acts, and from which frame on.
+// The actor of the action, and the frame at which it begins.
 struct Scene {
   const animator::Film& film;
   const animator::Actor& actor;
   std::uint32_t at;
-  const Wishes& wishes;
+  const Arguments& arguments;
   std::string_view action;  // its name
 
-  std::string who() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
+  std::string where() const { return "actor '" + actor.name + "', " + std::string(action); }  // for messages
   const modeler::Model& model() const { return film.models[actor.model]; }
   double frames(double seconds) const { return seconds * film.rate; }
   // The frame so many later. Throws where a film has no such frame: to be asked before any work for it is done.

@@ -39,8 +39,8 @@ class Player {
     if (line.take_if("let")) return let(line);
     const std::uint32_t at = line.next_is("cut") ? last_ : take_cue(line);
     if (line.next_is("cut")) return cut_film(line, at);
-    const std::string who = line.take("an actor, or cut,");
-    last_ = who == kCamera && !is_actor(who) ? move_camera(line, at) : start(line, who, at);
+    const std::string name = line.take("an actor, or cut,");
+    last_ = name == kCamera && !is_actor(name) ? move_camera(line, at) : start(line, name, at);
     if (line.take_if("as")) times_[line.take("a name")] = last_;
     if (!line.empty()) line.refuse("goes on with '" + line.take("") + "'", "take it out");
     played_.last = std::max(played_.last, last_);
@@ -75,10 +75,10 @@ class Player {
     played_.report.push_back(line.where() + ": the film has " + std::to_string(at) + " frames");
   }
 
-  std::uint32_t start(ScriptLine& line, const std::string& who, std::uint32_t at) {
-    if (!is_actor(who))
-      line.refuse("names '" + who + "', which is no actor of the film",
-                  document::did_you_mean(who, std::vector<std::string_view>(actors_.begin(), actors_.end()),
+  std::uint32_t start(ScriptLine& line, const std::string& name, std::uint32_t at) {
+    if (!is_actor(name))
+      line.refuse("names '" + name + "', which is no actor of the film",
+                  document::did_you_mean(name, std::vector<std::string_view>(actors_.begin(), actors_.end()),
                                          "name an actor, or camera"));
     const std::string verb = line.take("an action");
     const Action* action = find_action(verb);
@@ -87,16 +87,16 @@ class Player {
     if (!action)
       line.refuse("has '" + verb + "', which is no action",
                   document::did_you_mean(verb, verbs, "see: mars animate --help"));
-    const Wishes wishes(take_values(line, *action, at), line.where() + ": " + verb);
-    if (begun_.insert(who).second) clear_after(who, at);
-    const Performed done = in_line(line, [&] { return perform(film_, path_, who, *action, at, wishes); });
-    played_.report.push_back(line.where() + ": " + who + " " + verb + ", frames " + std::to_string(done.first) +
+    const Arguments arguments(take_values(line, *action, at), line.where() + ": " + verb);
+    if (begun_.insert(name).second) clear_after(name, at);
+    const Performed done = in_line(line, [&] { return perform(film_, path_, name, *action, at, arguments); });
+    played_.report.push_back(line.where() + ": " + name + " " + verb + ", frames " + std::to_string(done.first) +
                              " to " + std::to_string(done.last) + (done.report.empty() ? "" : ": " + done.report));
     return done.last;
   }
 
-  Wishes::Values take_values(ScriptLine& line, const Action& action, std::uint32_t at) {
-    Wishes::Values values;
+  Arguments::Values take_values(ScriptLine& line, const Action& action, std::uint32_t at) {
+    Arguments::Values values;
     std::vector<std::string_view> names;
     for (const Parameter& parameter : action.parameters) names.push_back(parameter.name);
     const bool lasts = std::count(names.begin(), names.end(), "seconds") > 0;
@@ -133,7 +133,7 @@ class Player {
     if (verb != "cut" && verb != "move")
       line.refuse("has '" + verb + "' after camera",
                   document::did_you_mean(verb, verbs, "write camera cut or camera move"));
-    std::vector<std::string> wishes;
+    std::vector<std::string> settings;
     double seconds = 1;
     while (!line.empty() && !line.next_is("as")) {
       const std::string part = line.take("");
@@ -142,12 +142,12 @@ class Player {
       else if (part == "seconds" && verb == "move")
         seconds = line.take_time(times_, 1);
       else if (part == "eye" || part == "at" || part == "fov")
-        wishes.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
+        settings.push_back(part + "=" + list_of(take_words(line, part == "fov" ? 1 : 3), ','));
       else
         line.refuse("has '" + part + "', which the camera does not know",
                     document::did_you_mean(part, parts, "write eye, at or fov"));
     }
-    if (wishes.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
+    if (settings.empty()) line.refuse("does not say where the camera goes", "add eye X Y Z, at X Y Z or fov N");
     if (begun_.insert(kCamera).second) clear_camera_after(at);
     const double last = verb == "cut" ? at : at + std::max(1.0, std::round(seconds * rate_));
     if (last >= wire::kMostFrames)
@@ -157,9 +157,9 @@ class Player {
     in_line(line, [&] {
       // It stays as it is until the cut, or until it moves.
       if (const std::uint32_t before = verb == "cut" ? at - 1 : at; verb == "move" || at > 0)
-        animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(wishes)}, before,
+        animator::make_keys(film_, meaning_of(film_, path_), {false, kCamera, parts_of(settings)}, before,
                             verb == "cut" ? animator::kLinear : animator::kBoth, animator::Beyond::refused);
-      animator::pose(film_, meaning_of(film_, path_), kCamera, wishes, end, animator::kLinear,
+      animator::pose(film_, meaning_of(film_, path_), kCamera, settings, end, animator::kLinear,
                      animator::Beyond::refused);
       return meaning_of(film_, path_).frames;
     });
@@ -167,9 +167,9 @@ class Player {
     return end;
   }
 
-  static std::vector<std::string> parts_of(const std::vector<std::string>& wishes) {
+  static std::vector<std::string> parts_of(const std::vector<std::string>& settings) {
     std::vector<std::string> parts;
-    for (const std::string& wish : wishes) parts.push_back(wish.substr(0, wish.find('=')));
+    for (const std::string& argument : settings) parts.push_back(argument.substr(0, argument.find('=')));
     return parts;
   }
 
@@ -180,14 +180,14 @@ class Player {
   }
 
   // What an earlier version of the script had left there.
-  void clear_after(const std::string& who, std::uint32_t at) {
+  void clear_after(const std::string& name, std::uint32_t at) {
     const animator::Film film = meaning_of(film_, path_);
     const auto actor =
-        std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == who; });
+        std::find_if(film.actors.begin(), film.actors.end(), [&](const animator::Actor& a) { return a.name == name; });
     animator::ActorKey all;
     all.place = all.turn = glm::dvec3(0);
     for (const modeler::Joint& joint : film.models[actor->model].joints) all.pose[joint.name] = glm::dvec3(0);
-    animator::clear_keys(film_, who, at + 1, wire::kMostFrames, all);
+    animator::clear_keys(film_, name, at + 1, wire::kMostFrames, all);
   }
 
   void clear_camera_after(std::uint32_t at) {

@@ -1,5 +1,5 @@
-// Scripts (thesis 3.2.3): lines that say when who does what; docs/motion.md has the form. A script is applied
-// to a film, and again after it was changed: from its first cue of an actor on, the actor's keys are the
+// Scripts (thesis 3.2.3): lines that say which actor does what at which time; docs/motion.md has the form. A script is
+// applied to a film, and again after it was changed: from its first cue of an actor on, the actor's keys are the
 // script's.
 #pragma once
 

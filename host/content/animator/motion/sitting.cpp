@@ -60,7 +60,7 @@ class Chair {
         from_(stance_of(body_, start_)),
         floor_(body_.floor_under(start_)),
         frames_(static_cast<int>(
-            std::max(2.0, std::round(scene.frames(scene.wishes.number("seconds", kSeconds, {0.1, 60})))))) {
+            std::max(2.0, std::round(scene.frames(scene.arguments.number("seconds", kSeconds, {0.1, 60})))))) {
     if (body_.stiff()) needed(body_, modeler::Limb::knee, modeler::Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
     for (Foot& foot : from_.feet) foot.askew = kAskew;
@@ -206,14 +206,15 @@ Motion sit(const Scene& scene) {
   const Leg& leg = chair.body().legs[0];
   const glm::dvec3 ankle = between_feet(chair.from());
   const double soft = cushion(chair.body(), chair.hip_drop()), level = ankle.z + leg.shin;
-  const auto wanted = scene.wishes.number("seat-height", {0, document::kFarthest});
+  const auto wanted = scene.arguments.number("seat-height", {0, document::kFarthest});
   const double hips = wanted ? chair.floor() + *wanted + soft : level;
   if (std::abs(hips - level) > leg.thigh)
-    scene.wishes.refuse("seat-height", "is " + document::shown(*wanted) + ", out of this figure's reach",
-                        "its thighs are level at " + document::shown(animator::rounded(level - soft - chair.floor())));
+    scene.arguments.refuse("seat-height", "is " + document::shown(*wanted) + ", out of this figure's reach",
+                           "its thighs are level at " +
+                               document::shown(animator::rounded(level - soft - chair.floor())));
   const double back = std::sqrt(leg.thigh * leg.thigh - (hips - level) * (hips - level));
   const glm::dvec3 behind =
-      facing(chair.from()) * glm::dvec3(-scene.wishes.number("back", back, {0, document::kFarthest}), 0, 0);
+      facing(chair.from()) * glm::dvec3(-scene.arguments.number("back", back, {0, document::kFarthest}), 0, 0);
   const glm::dvec3 pelvis(ankle.x + behind.x, ankle.y + behind.y, hips + chair.hip_drop());
   Motion motion = chair.move(
       pelvis, 0.5, [](double u) { return smooth(0, 0.9, u); }, [](double u) { return smooth(0.05, 1, u); },

@@ -150,7 +150,7 @@ class Going {
       : scene_(scene),
         command_(command),
         body_(body_of(scene.model(), scene.actor.name, command)),
-        period_(std::max(4.0, std::round(scene.film.rate / scene.wishes.number("pace", kPace, {0.1, 10})))) {
+        period_(std::max(4.0, std::round(scene.film.rate / scene.arguments.number("pace", kPace, {0.1, 10})))) {
     postures_.push_back(posture_at(scene.model(), scene.actor.motion, scene.at));
     const Stance stance = now();
     if (stance.pelvis.z - body_.floor_under(postures_[0]) < kUpright * body_.height)
@@ -172,7 +172,7 @@ class Going {
       if (const double step = glm::distance(gait.steps[i].to.place, gait.steps[i - 1].to.place); step > reach)
         throw Failure("would take a step of " + document::shown(step) + ", where two legs of " +
                           document::shown(body_.leg_length()) + " reach " + document::shown(reach) + " at most",
-                      scene_.who(), remedy);
+                      scene_.where(), remedy);
   }
 
   void go(const Gait& gait, const char* remedy) {
@@ -211,60 +211,61 @@ double bearing(const Stand& from, const glm::dvec3& to) {
   return std::remainder(glm::degrees(std::atan2(way.y, way.x)) - from.heading, 360.0);
 }
 
-Style style_of(const Wishes& wishes) {
-  return {wishes.number("arm-swing", 1, {0, 3}), wishes.number("bounce", 1, {0, 3}),
-          wishes.number("knee-lift", 1, {0, 3}), wishes.number("lean", 0, {-30, 45})};
+Style style_of(const Arguments& arguments) {
+  return {arguments.number("arm-swing", 1, {0, 3}), arguments.number("bounce", 1, {0, 3}),
+          arguments.number("knee-lift", 1, {0, 3}), arguments.number("lean", 0, {-30, 45})};
 }
 
 // As many steps as the way takes, if it is so long.
-std::uint32_t steps_for(const Wishes& wishes, double way, double step) {
+std::uint32_t steps_for(const Arguments& arguments, double way, double step) {
   const double steps = std::max(1.0, std::round(way / step));
   if (steps > kMostSteps)
-    wishes.refuse(wishes.has("to") ? "to" : "distance",
-                  "is " + document::shown(way) + " away, which takes " + document::shown(steps) + " steps of " +
-                      document::shown(step),
-                  "a walk has at most " + std::to_string(kMostSteps) + ": go to a nearer place");
+    arguments.refuse(arguments.has("to") ? "to" : "distance",
+                     "is " + document::shown(way) + " away, which takes " + document::shown(steps) + " steps of " +
+                         document::shown(step),
+                     "a walk has at most " + std::to_string(kMostSteps) + ": go to a nearer place");
   return static_cast<std::uint32_t>(steps);
 }
 
-void refuse_both(const Wishes& wishes, std::string_view one, std::string_view other) {
-  if (wishes.has(one) && wishes.has(other))
-    wishes.refuse(one, "stands beside " + std::string(other), "give one of them");
+void refuse_both(const Arguments& arguments, std::string_view one, std::string_view other) {
+  if (arguments.has(one) && arguments.has(other))
+    arguments.refuse(one, "stands beside " + std::string(other), "give one of them");
 }
 
 }  // namespace
 
 Motion walk(const Scene& scene) {
-  const Wishes& wishes = scene.wishes;
-  refuse_both(wishes, "to", "distance");
-  refuse_both(wishes, "to", "turn");
-  if (wishes.has("steps") && wishes.has("step-length")) {
-    refuse_both(wishes, "steps", "distance");
-    refuse_both(wishes, "steps", "to");
+  const Arguments& arguments = scene.arguments;
+  refuse_both(arguments, "to", "distance");
+  refuse_both(arguments, "to", "turn");
+  if (arguments.has("steps") && arguments.has("step-length")) {
+    refuse_both(arguments, "steps", "distance");
+    refuse_both(arguments, "steps", "to");
   }
-  const std::uint32_t asked = wishes.count("steps", 4, kMostSteps);
-  std::optional<double> far = wishes.number("distance", {1e-6, document::kFarthest});
+  const std::uint32_t asked = arguments.count("steps", 4, kMostSteps);
+  std::optional<double> far = arguments.number("distance", {1e-6, document::kFarthest});
   Going going(scene, "walk");
-  if (const auto to = wishes.vector("to")) {
+  if (const auto to = arguments.vector("to")) {
     const double by = bearing(stand_of(going.now()), *to);
     if (std::abs(by) > kOnTheWay) going.turn(by);
     far = glm::distance(stand_of(going.now()).middle, glm::dvec2(to->x, to->y));
     if (*far < 0.05 * going.body().leg_length()) return going.motion();
   }
   const double ordinary =
-      wishes.number("step-length", kStride * going.body().leg_length(), {1e-6, document::kFarthest});
-  std::uint32_t steps = far && !wishes.has("steps") ? steps_for(wishes, *far, ordinary) : asked;
+      arguments.number("step-length", kStride * going.body().leg_length(), {1e-6, document::kFarthest});
+  std::uint32_t steps = far && !arguments.has("steps") ? steps_for(arguments, *far, ordinary) : asked;
   constexpr std::string_view sides[] = {"left", "right"};
   const modeler::Side first =
-      kSides[wishes.choice("first", wishes.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
-  Path path{stand_of(going.now()), far ? *far : steps * ordinary, wishes.number("turn", 0, {-3600, 3600})};
-  if (const auto to = wishes.vector("to")) path.start.heading = path.start.heading + bearing(path.start, *to);
-  const char* const remedy = wishes.has("turn") ? kBowRemedy : kWalkRemedy;
+      kSides[arguments.choice("first", arguments.number("turn", 0, {-3600, 3600}) > 0 ? 0 : 1, sides)];
+  Path path{stand_of(going.now()), far ? *far : steps * ordinary, arguments.number("turn", 0, {-3600, 3600})};
+  if (const auto to = arguments.vector("to")) path.start.heading = path.start.heading + bearing(path.start, *to);
+  const char* const remedy = arguments.has("turn") ? kBowRemedy : kWalkRemedy;
   const auto gait = [&] {
-    return walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first, style_of(wishes));
+    return walk_gait(going.body(), going.now(), path, static_cast<int>(steps), going.period(), first,
+                     style_of(arguments));
   };
   // A bow is walked in shorter steps, where limits want it and nobody has said how many.
-  const bool may_shorten = wishes.has("turn") && !wishes.has("steps") && !wishes.has("step-length");
+  const bool may_shorten = arguments.has("turn") && !arguments.has("steps") && !arguments.has("step-length");
   for (int tries = may_shorten ? kBowTries : 1;; --tries, steps *= 2) try {
       going.go(gait(), remedy);
       return going.motion();
@@ -274,10 +275,10 @@ Motion walk(const Scene& scene) {
 }
 
 Motion turn(const Scene& scene) {
-  refuse_both(scene.wishes, "by", "to");
+  refuse_both(scene.arguments, "by", "to");
   Going going(scene, "turn");
-  const auto to = scene.wishes.vector("to");
-  const double by = to ? bearing(stand_of(going.now()), *to) : scene.wishes.number("by", 90, {-3600, 3600});
+  const auto to = scene.arguments.vector("to");
+  const double by = to ? bearing(stand_of(going.now()), *to) : scene.arguments.number("by", 90, {-3600, 3600});
   if (std::abs(by) > kNothing) going.turn(by);
   return going.motion();
 }

@@ -78,8 +78,8 @@ double farthest_apart(const Scene& a, const Scene& b, std::uint32_t frame_of_a, 
 
 TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
   Scene scene(kMoving);
-  const std::vector<std::string> wishes = {"shoulder.y=-20", "place.z=1", "elbow=0,45,0"};
-  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, 24, {}, Beyond::refused); });
+  const std::vector<std::string> settings = {"shoulder.y=-20", "place.z=1", "elbow=0,45,0"};
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, 24, {}, Beyond::refused); });
   EXPECT_EQ(
       scene.keys()[1].dump(),
       R"({"frame":24,"place":[3,0,1],"turn":[10,20,30],"pose":{"shoulder":[30,-20,50],"elbow":[0,45,0]},"ease":"in"})");
@@ -87,8 +87,8 @@ TEST(Pose, SetsOneAxisAndKeepsTheOthers) {
 
 TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
   Scene scene(R"(, "place": [1, 2, 3], "pose": {"elbow": [0, 30, 0]})");
-  const std::vector<std::string> wishes = {"place.x=5", "elbow.y=60", "shoulder.z=7", "/turn.z=-4"};
-  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, 12, kBoth, Beyond::refused); });
+  const std::vector<std::string> settings = {"place.x=5", "elbow.y=60", "shoulder.z=7", "/turn.z=-4"};
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, 12, kBoth, Beyond::refused); });
   document::Json actor = scene.json["actors"][0];
   EXPECT_EQ(
       actor.dump(),
@@ -100,9 +100,9 @@ TEST(Pose, WhatHasNoKeyMovesFromFrame0On) {
 TEST(Pose, LimitsAreHeldAndTold) {
   Scene scene(kMoving);
   const document::Json before = scene.json;
-  const auto wanted = [&](const std::string& wish, Beyond beyond) {
-    const std::vector<std::string> wishes = {wish};
-    return document::failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, beyond); });
+  const auto wanted = [&](const std::string& setting, Beyond beyond) {
+    const std::vector<std::string> settings = {setting};
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, 10, {}, beyond); });
   };
   EXPECT_EQ(wanted("elbow.y=170", Beyond::refused),
             "actor 'it', joint 'elbow': turns 170 degrees about y, outside its limits 0 to 150 (--clamp takes the "
@@ -110,29 +110,29 @@ TEST(Pose, LimitsAreHeldAndTold) {
   EXPECT_EQ(scene.json, before);
   EXPECT_EQ(wanted("elbow.y=170", Beyond::clamped), "");
   EXPECT_EQ(scene.keys()[1]["pose"]["elbow"].dump(), "[0,150,0]");
-  const std::vector<std::string> wishes = {"elbow.y=-170", "elbow.x=20"};
-  EXPECT_EQ(pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::clamped),
+  const std::vector<std::string> settings = {"elbow.y=-170", "elbow.x=20"};
+  EXPECT_EQ(pose(scene.json, scene.film, "it", settings, 10, {}, Beyond::clamped),
             (Remarks{"actor 'it', joint 'elbow': -170 degrees about y is beyond its limits 0 to 150: keyed as 0",
                      "actor 'it', joint 'elbow': 20 degrees about x, where it is locked at 0: keyed as 0"}));
 }
 
 TEST(Pose, TellsWhatItDoesNotUnderstand) {
   Scene scene(kMoving);
-  const auto told = [&](const std::string& wish) {
-    const std::vector<std::string> wishes = {wish};
-    return document::failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
+  const auto reported = [&](const std::string& setting) {
+    const std::vector<std::string> settings = {setting};
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, 10, {}, Beyond::refused); });
   };
-  EXPECT_TRUE(document::holds(told("elbow"), "write it like elbow.y=90"));
-  EXPECT_TRUE(document::holds(told("elbow=1"), "one number for one axis"));
-  EXPECT_TRUE(document::holds(told("elbow.y=1,2"), "has 2 numbers"));
-  EXPECT_TRUE(document::holds(told("elbow.y=nan"), "where a number belongs"));
-  EXPECT_TRUE(document::holds(told("elbow.y="), "where a number belongs"));
-  EXPECT_TRUE(document::holds(told("elbwo.y=1"), "did you mean"));
-  EXPECT_TRUE(document::holds(told("=1"), "write it like"));
-  EXPECT_TRUE(document::holds(told("-knee"), "'-knee': is not PART=NUMBERS"));
-  EXPECT_TRUE(document::holds(told("place=2"), "like place.y=0, or three for all: place="));
-  const auto told_twice = [&](const std::vector<std::string>& wishes) {
-    return document::failure_of([&] { pose(scene.json, scene.film, "it", wishes, 10, {}, Beyond::refused); });
+  EXPECT_TRUE(document::holds(reported("elbow"), "write it like elbow.y=90"));
+  EXPECT_TRUE(document::holds(reported("elbow=1"), "one number for one axis"));
+  EXPECT_TRUE(document::holds(reported("elbow.y=1,2"), "has 2 numbers"));
+  EXPECT_TRUE(document::holds(reported("elbow.y=nan"), "where a number belongs"));
+  EXPECT_TRUE(document::holds(reported("elbow.y="), "where a number belongs"));
+  EXPECT_TRUE(document::holds(reported("elbwo.y=1"), "did you mean"));
+  EXPECT_TRUE(document::holds(reported("=1"), "write it like"));
+  EXPECT_TRUE(document::holds(reported("-knee"), "'-knee': is not PART=NUMBERS"));
+  EXPECT_TRUE(document::holds(reported("place=2"), "like place.y=0, or three for all: place="));
+  const auto told_twice = [&](const std::vector<std::string>& settings) {
+    return document::failure_of([&] { pose(scene.json, scene.film, "it", settings, 10, {}, Beyond::refused); });
   };
   EXPECT_EQ(told_twice({"elbow.y=20", "elbow.y=30"}),
             "'elbow.y=30': sets what an earlier word has set (give each part and axis once)");
@@ -145,8 +145,8 @@ TEST(Pose, TellsWhatItDoesNotUnderstand) {
 
 TEST(Pose, TheCameraIsSetToo) {
   Scene scene("");
-  const std::vector<std::string> wishes = {"eye.x=4", "fov=30"};
-  scene([&](document::Json& j, const Film& f) { return pose(j, f, "camera", wishes, 10, {}, Beyond::refused); });
+  const std::vector<std::string> settings = {"eye.x=4", "fov=30"};
+  scene([&](document::Json& j, const Film& f) { return pose(j, f, "camera", settings, 10, {}, Beyond::refused); });
   EXPECT_EQ(scene.json["camera"].dump(),
             R"({"keys":[{"frame":0,"eye":[0,-9,2],"fov":40},{"frame":10,"eye":[4,-9,2],"fov":30}]})");
 }
@@ -316,10 +316,10 @@ TEST(KeysTable, ShowsWhatIsFree) {
             "no keys: camera\n");
 }
 
-Remarks posed(Scene& scene, const std::string& wish, std::uint32_t frame, std::optional<Ease> ease = {}) {
-  const std::vector<std::string> wishes = {wish};
+Remarks posed(Scene& scene, const std::string& setting, std::uint32_t frame, std::optional<Ease> ease = {}) {
+  const std::vector<std::string> settings = {setting};
   return scene(
-      [&](document::Json& j, const Film& f) { return pose(j, f, "it", wishes, frame, ease, Beyond::refused); });
+      [&](document::Json& j, const Film& f) { return pose(j, f, "it", settings, frame, ease, Beyond::refused); });
 }
 
 TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
@@ -338,7 +338,7 @@ TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
   });
   ASSERT_EQ(deleted.size(), 1u);
   EXPECT_TRUE(document::holds(deleted[0], "goes 90 degrees back from frame 0 to 20")) << deleted[0];
-  // What was so before is not told again.
+  // What was so before is not reported again.
   EXPECT_TRUE(scene([&](document::Json& j, const Film& f) {
                 return make_keys(j, f, {false, "it", {"turn"}}, 8, {}, Beyond::refused);
               }).empty());
@@ -348,20 +348,20 @@ TEST(SideEffects, ATurnThatGoesBackIsToldAndHowToGoRound) {
 }
 
 struct Turned {
-  const char* wish;
-  const char* told;
+  const char* setting;
+  const char* reported;
 };
 
 class OtherWay : public testing::TestWithParam<Turned> {};
 
 TEST_P(OtherWay, IsTold) {
   Scene scene("");
-  const Remarks remarks = posed(scene, GetParam().wish, 20);
-  if (std::string(GetParam().told).empty()) {
+  const Remarks remarks = posed(scene, GetParam().setting, 20);
+  if (std::string(GetParam().reported).empty()) {
     EXPECT_TRUE(remarks.empty()) << remarks[0];
   } else {
     ASSERT_EQ(remarks.size(), 1u);
-    EXPECT_TRUE(document::holds(remarks[0], GetParam().told)) << remarks[0];
+    EXPECT_TRUE(document::holds(remarks[0], GetParam().reported)) << remarks[0];
   }
 }
 

@@ -34,7 +34,7 @@ TEST(Document, ElementsKnowTheirLineAndPath) {
 
 struct Malformed {
   const char* json;
-  const char* told;
+  const char* reported;
 };
 
 class MalformedDocument : public testing::TestWithParam<Malformed> {};
@@ -42,7 +42,7 @@ class MalformedDocument : public testing::TestWithParam<Malformed> {};
 TEST_P(MalformedDocument, IsOneClearError) {
   const std::string failure = parse_failure(GetParam().json);
   EXPECT_TRUE(holds(failure, "a.json")) << failure;
-  EXPECT_TRUE(holds(failure, GetParam().told)) << failure;
+  EXPECT_TRUE(holds(failure, GetParam().reported)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(

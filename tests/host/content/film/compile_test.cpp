@@ -88,14 +88,14 @@ TEST(Compile, CameraLooksAtItsPlace) {
 }
 
 TEST(Compile, RefusesACameraThatCannotLook) {
-  const auto told = [](const std::string& camera) {
+  const auto reported = [](const std::string& camera) {
     return document::failure_of(
         [&] { compiled(R"({"frames": 9, "models": {}, "actors": [], "camera": )" + camera + "}"); });
   };
-  EXPECT_TRUE(document::holds(told(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
-  EXPECT_TRUE(document::holds(told(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
+  EXPECT_TRUE(document::holds(reported(R"({"eye": [0, 0, 0]})"), "camera, frame 0: has its eye where it looks at"));
+  EXPECT_TRUE(document::holds(reported(R"({"eye": [0, 0, 5]})"), "looks along its up vector"));
   const std::string through = R"({"keys": [{"frame": 0, "eye": [-4, 0, 0]}, {"frame": 8, "eye": [4, 0, 0]}]})";
-  EXPECT_TRUE(document::holds(told(through), "frame 4"));
+  EXPECT_TRUE(document::holds(reported(through), "frame 4"));
 }
 
 TEST(Compile, LightsTurnOnTheGreatCircle) {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <set>
 
+#include "host/content/animator/read_film.h"
 #include "host/content/document/file.h"
 #include "host/content/document/forms.h"
 #include "host/content/document/json_file.h"
 #include "host/content/film/compile.h"
-#include "host/content/animator/read_film.h"
 #include "host/content/modeler/read_model.h"
 #include "host/content/modeler/shape_library.h"
 

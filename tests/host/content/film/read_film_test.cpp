@@ -48,7 +48,7 @@ TEST(ReadFilm, TakesEveryKey) {
 
 struct Broken {
   const char* actor;
-  const char* told;
+  const char* reported;
 };
 
 class BrokenActor : public testing::TestWithParam<Broken> {};
@@ -56,7 +56,7 @@ class BrokenActor : public testing::TestWithParam<Broken> {};
 TEST_P(BrokenActor, IsOneClearError) {
   const std::string failure = document::failure_of([] { film_of(arm_film(GetParam().actor)); });
   EXPECT_TRUE(document::holds(failure, "f.json:8: actors")) << failure;
-  EXPECT_TRUE(document::holds(failure, GetParam().told)) << failure;
+  EXPECT_TRUE(document::holds(failure, GetParam().reported)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -97,33 +97,33 @@ INSTANTIATE_TEST_SUITE_P(
                "has 1 items"}));
 
 TEST(ReadFilm, TellsWhatElseIsWrong) {
-  const auto told = [](const std::string& json) { return document::failure_of([&] { film_of(json); }); };
+  const auto reported = [](const std::string& json) { return document::failure_of([&] { film_of(json); }); };
   const std::string rest = R"(, "models": {}, "actors": []})";
-  EXPECT_TRUE(document::holds(told("{}"), "has no 'frames'"));
-  EXPECT_TRUE(document::holds(told("{\"frames\": 0}"), "from 1 to 1000000"));
-  EXPECT_TRUE(document::holds(told("{\"frames\": 1, \"size\": [0, 5]}"), "size[0]: is 0"));
-  EXPECT_TRUE(document::holds(told("{\"frames\": 1, \"size\": [99999, 5]}"), "to 16384"));
-  EXPECT_TRUE(document::holds(told("{\"frames\": 1, \"dice\": \"adaptiv\"}"), "did you mean 'adaptive'?"));
-  EXPECT_TRUE(document::holds(told(R"({"frames": 1, "camera": {})" + rest), "camera: has no 'eye'"));
-  EXPECT_TRUE(
-      document::holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest), "not beyond"));
+  EXPECT_TRUE(document::holds(reported("{}"), "has no 'frames'"));
+  EXPECT_TRUE(document::holds(reported("{\"frames\": 0}"), "from 1 to 1000000"));
+  EXPECT_TRUE(document::holds(reported("{\"frames\": 1, \"size\": [0, 5]}"), "size[0]: is 0"));
+  EXPECT_TRUE(document::holds(reported("{\"frames\": 1, \"size\": [99999, 5]}"), "to 16384"));
+  EXPECT_TRUE(document::holds(reported("{\"frames\": 1, \"dice\": \"adaptiv\"}"), "did you mean 'adaptive'?"));
+  EXPECT_TRUE(document::holds(reported(R"({"frames": 1, "camera": {})" + rest), "camera: has no 'eye'"));
+  EXPECT_TRUE(document::holds(reported(R"({"frames": 1, "camera": {"eye": [0, 1, 0], "near": 5, "far": 5})" + rest),
+                              "not beyond"));
   const std::string camera = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "lights": [)";
-  EXPECT_TRUE(document::holds(told(camera + "{}]" + rest), "neither a direction nor a place"));
-  EXPECT_TRUE(
-      document::holds(told(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest), "both a direction"));
-  EXPECT_TRUE(document::holds(told(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
-  EXPECT_TRUE(
-      document::holds(told(R"({"joints": [{"name": "a"}]})"), "is a model, not a film (look at it with mars preview"));
-  EXPECT_TRUE(
-      document::holds(told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
-                      "models.m: is '/nowhere/m.json', which does not exist"));
+  EXPECT_TRUE(document::holds(reported(camera + "{}]" + rest), "neither a direction nor a place"));
+  EXPECT_TRUE(document::holds(reported(camera + R"({"place": [0, 0, 0], "direction": [0, 0, 1]}])" + rest),
+                              "both a direction"));
+  EXPECT_TRUE(document::holds(reported(camera + R"({"direction": [0, 0, 0]}])" + rest), "has no length"));
+  EXPECT_TRUE(document::holds(reported(R"({"joints": [{"name": "a"}]})"),
+                              "is a model, not a film (look at it with mars preview"));
+  EXPECT_TRUE(document::holds(
+      reported(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "models": {"m": "m.json"}, "actors": []})"),
+      "models.m: is '/nowhere/m.json', which does not exist"));
   const std::string materials = R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "materials": {"m": )";
-  EXPECT_TRUE(document::holds(told(materials + R"({"x": 1}})" + rest), "materials.m.x: is no key of a material"));
-  EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{}]}})" + rest), "a key of a material needs it"));
-  EXPECT_TRUE(document::holds(told(materials + R"({"keys": [{"x": 1}]}})" + rest),
+  EXPECT_TRUE(document::holds(reported(materials + R"({"x": 1}})" + rest), "materials.m.x: is no key of a material"));
+  EXPECT_TRUE(document::holds(reported(materials + R"({"keys": [{}]}})" + rest), "a key of a material needs it"));
+  EXPECT_TRUE(document::holds(reported(materials + R"({"keys": [{"x": 1}]}})" + rest),
                               "x: does not belong to a key of a material"));
   const auto named = [&](const std::string& model) {
-    return told(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
+    return reported(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
   };
   EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: /: is a directory, not a file (name a file in it)");
   EXPECT_TRUE(document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
@@ -162,37 +162,37 @@ TEST(ReadFilm, FlippedBytesAreAFilmOrOneError) {
 }
 
 TEST(ReadFilm, LimitsOfTheWrongFormShowTheRightOne) {
-  const auto told = [](const std::string& limits) {
+  const auto reported = [](const std::string& limits) {
     return document::failure_of([&] {
       film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {"m": {"joints": [
                  {"name": "j", "limits": )" +
               limits + "}]}}}");
     });
   };
-  EXPECT_TRUE(document::holds(told("[-30, 30]"),
+  EXPECT_TRUE(document::holds(reported("[-30, 30]"),
                               R"(joints[0].limits: is a list, not an object (write "limits": {"x": [-30, 30]}))"));
-  EXPECT_TRUE(document::holds(told(R"({"y": 30})"), R"(limits.y: is a number, not a list (write "y": [-30, 30]))"));
-  EXPECT_TRUE(document::holds(told(R"({"x": [1, 2, 3]})"), R"(has 3 items (write "x": [-30, 30]))"));
-  EXPECT_TRUE(
-      document::holds(told(R"({"x": ["a", 3]})"), R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
-  EXPECT_TRUE(document::holds(told(R"({"x": [30, -30]})"), R"("x": [-30, 30])"));
+  EXPECT_TRUE(document::holds(reported(R"({"y": 30})"), R"(limits.y: is a number, not a list (write "y": [-30, 30]))"));
+  EXPECT_TRUE(document::holds(reported(R"({"x": [1, 2, 3]})"), R"(has 3 items (write "x": [-30, 30]))"));
+  EXPECT_TRUE(document::holds(reported(R"({"x": ["a", 3]})"),
+                              R"(limits.x[0]: is a text, not a number (write "x": [-30, 30]))"));
+  EXPECT_TRUE(document::holds(reported(R"({"x": [30, -30]})"), R"("x": [-30, 30])"));
 }
 
 TEST(ReadFilm, ColoursUpTo255AreToldToDivide) {
-  const auto told = [](const std::string& color) {
+  const auto reported = [](const std::string& color) {
     return document::failure_of([&] {
       film_of(R"({"frames": 1, "camera": {"eye": [0, -9, 2]}, "actors": [], "models": {}, "background": )" + color +
               "}");
     });
   };
-  EXPECT_EQ(told("[255, 128, 51]"),
+  EXPECT_EQ(reported("[255, 128, 51]"),
             "f.json:1: background: has 255, above 1, where colours go from 0 to 1 (divide by 255: [1, 0.502, 0.2])");
-  EXPECT_EQ(told("[1e18, 0, 0]"), "f.json:1: background[0]: is 1e+18 (write a number from 0 to 1)");
-  EXPECT_EQ(told("[256, 0, 0]"), "f.json:1: background[0]: is 256 (write a number from 0 to 1)");
-  EXPECT_EQ(told("[200, -1, 0]"), "f.json:1: background[0]: is 200 (write a number from 0 to 1)");
-  EXPECT_TRUE(document::holds(told("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
-  EXPECT_EQ(told("[0, 1.5, 0]"), "f.json:1: background[1]: is 1.5 (write a number from 0 to 1)");
-  EXPECT_EQ(told("[0, 1, 0.5]"), "");
+  EXPECT_EQ(reported("[1e18, 0, 0]"), "f.json:1: background[0]: is 1e+18 (write a number from 0 to 1)");
+  EXPECT_EQ(reported("[256, 0, 0]"), "f.json:1: background[0]: is 256 (write a number from 0 to 1)");
+  EXPECT_EQ(reported("[200, -1, 0]"), "f.json:1: background[0]: is 200 (write a number from 0 to 1)");
+  EXPECT_TRUE(document::holds(reported("[0, 1]"), R"(has 2 items (write "background": [0.1, 0.2, 0.3]))"));
+  EXPECT_EQ(reported("[0, 1.5, 0]"), "f.json:1: background[1]: is 1.5 (write a number from 0 to 1)");
+  EXPECT_EQ(reported("[0, 1, 0.5]"), "");
   EXPECT_TRUE(document::holds(
       document::failure_of(
           [] { film_of(arm_film("", R"("frames": 2, "lights": [{"direction": [0, 0, 1], "color": [0, 0, 200]}])")); }),

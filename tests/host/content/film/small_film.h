@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/content/film/compile.h"
 #include "host/content/animator/read_film.h"
+#include "host/content/film/compile.h"
 
 namespace mars::film {
 

@@ -49,7 +49,7 @@ TEST(ReadBSpline, RowsRunAlongU) {
 struct BrokenSpline {
   const char* bspline;
   const char* place;
-  const char* told;
+  const char* reported;
 };
 
 class BrokenBSpline : public testing::TestWithParam<BrokenSpline> {};
@@ -61,7 +61,7 @@ TEST_P(BrokenBSpline, IsOneClearError) {
   const std::string failure = document::failure_of([&] { model_of(spline_model(bspline)); });
   EXPECT_TRUE(document::holds(failure, "m.json:1: shapes.sail.bspline" + std::string(GetParam().place) + ": "))
       << failure;
-  EXPECT_TRUE(document::holds(failure, GetParam().told)) << failure;
+  EXPECT_TRUE(document::holds(failure, GetParam().reported)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(

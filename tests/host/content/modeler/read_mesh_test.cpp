@@ -1,4 +1,4 @@
-// Meshes in model files: what is read, and that whatever is wrong is told with its place and a remedy.
+// Meshes in model files: what is read, and that whatever is wrong is reported with its place and a remedy.
 #include "host/content/modeler/read_mesh.h"
 
 #include <gtest/gtest.h>

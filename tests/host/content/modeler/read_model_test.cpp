@@ -71,7 +71,7 @@ TEST(ReadModel, TakesPatchesOfItsOwn) {
 
 struct Broken {
   const char* joints;
-  const char* told;
+  const char* reported;
 };
 
 class BrokenModel : public testing::TestWithParam<Broken> {};
@@ -79,7 +79,7 @@ class BrokenModel : public testing::TestWithParam<Broken> {};
 TEST_P(BrokenModel, IsOneClearError) {
   const std::string failure = model_failure(with_joints(GetParam().joints));
   EXPECT_TRUE(document::holds(failure, "m.json:1: joints")) << failure;
-  EXPECT_TRUE(document::holds(failure, GetParam().told)) << failure;
+  EXPECT_TRUE(document::holds(failure, GetParam().reported)) << failure;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -15,9 +15,9 @@ std::vector<std::string> doubts(const std::string& joints, const std::string& mo
 
 const std::string kBody = R"({"name": "body", "segment": {"shape": "box", "sbb": [[-1, -1, 0], [1, 1, 2]]}}, )";
 
-void expect_one(const std::vector<std::string>& told, const std::string& part) {
-  ASSERT_EQ(told.size(), 1u) << part << testing::PrintToString(told);
-  EXPECT_TRUE(document::holds(told[0], part)) << told[0];
+void expect_one(const std::vector<std::string>& reported, const std::string& part) {
+  ASSERT_EQ(reported.size(), 1u) << part << testing::PrintToString(reported);
+  EXPECT_TRUE(document::holds(reported[0], part)) << reported[0];
 }
 
 TEST(Review, AWholeFigureIsNotDoubted) {

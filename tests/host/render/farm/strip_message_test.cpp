@@ -68,7 +68,7 @@ TEST(StripStore, UsesMemoryAgain) {
     if (frame >= 3) used.insert(now.begin(), now.end());
     for (StripBytes& bytes : held) store.give_back(std::move(bytes));
   }
-  EXPECT_EQ(used.size(), 3u) << "memory was made anew when there was some to use";
+  EXPECT_EQ(used.size(), 3u) << "new memory was made when there was some to use";
 }
 
 }  // namespace

@@ -412,7 +412,8 @@ TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
     fs::create_directory(folder / ".runs");
     const fs::path file = folder / (std::string(".runs/vm-1-abc.") + ending);
     ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-    const std::string says = file.string() + ": is not a regular file, and runs keep only such there (remove it)";
+    const std::string says =
+        file.string() + ": is not a regular file, but runs write only regular files there (remove it)";
     EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
     EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), says);
     clear_ended_runs(folder.path());
@@ -459,7 +460,7 @@ TEST(FrameFolder, RivalsThatCannotBeListedAreAnError) {
   fs::create_directory(folder / ".runs");
   fs::permissions(folder / ".runs", fs::perms::owner_write | fs::perms::owner_exec);
   as_nobody(folder.path(), [&] {
-    const char* says = ".runs: cannot be listed, and who else renders into this folder stands there";
+    const char* says = ".runs: cannot be listed, so other runs in this folder are unknown";
     return document::holds(failure_to_claim(folder.path(), of_frames({3})), says) &&
            document::holds(document::failure_of([&] { read_manifest(folder.path()); }), says);
   });

@@ -100,9 +100,9 @@ TEST(Diagnosis, OfAKilledRankWhoseWordsAreWrapped) {
 TEST(Diagnosis, ShowsTheLastOfManyWords) {
   std::deque<std::string> words(300, "earlier");
   words.push_back("at last");
-  const std::string told = message(failed_with(words));
-  EXPECT_TRUE(document::holds(told, "at last"));
-  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 41) << told;
+  const std::string reported = message(failed_with(words));
+  EXPECT_TRUE(document::holds(reported, "at last"));
+  EXPECT_EQ(std::count(reported.begin(), reported.end(), '\n'), 41) << reported;
 }
 
 TEST(Diagnosis, OfAnAllocationThatIsTooSmall) {

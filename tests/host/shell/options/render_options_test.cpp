@@ -17,7 +17,7 @@ constexpr Program kPrograms[] = {Program::mars, Program::host, Program::ranks, P
 struct Reading {
   RenderOptions options;
   std::optional<int> code;
-  std::string told;
+  std::string printed;
 };
 
 Reading read(Program program, const Words& words) {
@@ -29,8 +29,8 @@ Reading read(Program program, const Words& words) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   reading.code = read_command_line(app, static_cast<int>(argv.size()), argv.data());
-  reading.told = testing::internal::GetCapturedStderr();
-  reading.told += testing::internal::GetCapturedStdout();
+  reading.printed = testing::internal::GetCapturedStderr();
+  reading.printed += testing::internal::GetCapturedStdout();
   return reading;
 }
 
@@ -58,7 +58,7 @@ RenderOptions unusual() {
 TEST(RenderOptions, DefaultsNeedTheFilmAndAFolderAlone) {
   const Words words{"film.json", "-o", "out"};
   const Reading reading = read(Program::mars, words);
-  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   RenderOptions expected;
   expected.film = "film.json";
   expected.folder = "out";
@@ -68,7 +68,7 @@ TEST(RenderOptions, DefaultsNeedTheFilmAndAFolderAlone) {
 
 TEST(RenderOptions, GoRoundThroughACommandLine) {
   const Reading reading = read(Program::mars, arguments_for(Program::mars, unusual()));
-  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   EXPECT_EQ(reading.options, unusual());
 }
 
@@ -80,7 +80,7 @@ TEST(RenderOptions, EveryProgramGetsWhatConcernsIt) {
     if (program != Program::mars) expected.backend = Backend::automatic;
     if (program != Program::mars) expected.quiet = false;
     const Reading reading = read(program, arguments_for(program, unusual()));
-    EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+    EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
     EXPECT_EQ(reading.options, expected) << static_cast<unsigned>(program);
   }
 }
@@ -91,7 +91,7 @@ TEST(RenderOptions, NamesMayBeginWithADash) {
   options.folder = "--frames";
   options.report = "-";
   const Reading reading = read(Program::host, arguments_for(Program::host, options));
-  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   EXPECT_EQ(reading.options.film, "./-film.json");
   EXPECT_EQ(reading.options.folder, "./--frames");
   EXPECT_EQ(reading.options.report, "./-");
@@ -101,9 +101,9 @@ TEST(RenderOptions, FormerNamesAreRefusedWithTheNewOne) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json", "--cubes", "2"});
     EXPECT_EQ(reading.code, kUsage);
-    EXPECT_TRUE(document::holds(reading.told, "--cubes: use --groups")) << reading.told;
+    EXPECT_TRUE(document::holds(reading.printed, "--cubes: use --groups")) << reading.printed;
   }
-  EXPECT_FALSE(document::holds(read(Program::mars, {"--help"}).told, "cubes"));
+  EXPECT_FALSE(document::holds(read(Program::mars, {"--help"}).printed, "cubes"));
 }
 
 TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
@@ -128,15 +128,15 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
   for (const auto& [words, reason] : wrong) {
     const Reading reading = read(Program::mars, {"film.json", words[0], words[1]});
     EXPECT_EQ(reading.code, kUsage) << words[0] << " " << words[1];
-    EXPECT_TRUE(document::holds(reading.told, words[0])) << reading.told;
-    EXPECT_TRUE(document::holds(reading.told, reason)) << reading.told;
+    EXPECT_TRUE(document::holds(reading.printed, words[0])) << reading.printed;
+    EXPECT_TRUE(document::holds(reading.printed, reason)) << reading.printed;
   }
 }
 
 TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
-  EXPECT_TRUE(document::holds(read(Program::mars, {}).told, "FILM is required"));
-  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--bogus"}).told, "--bogus"));
-  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--nodes"}).told, "--nodes"));
+  EXPECT_TRUE(document::holds(read(Program::mars, {}).printed, "FILM is required"));
+  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--bogus"}).printed, "--bogus"));
+  EXPECT_TRUE(document::holds(read(Program::mars, {"film.json", "--nodes"}).printed, "--nodes"));
   EXPECT_EQ(read(Program::mars, {"a.json", "b.json"}).code, kUsage);
   EXPECT_EQ(read(Program::host, {"film.json", "--nodes", "3"}).code, kUsage) << "MPI knows the nodes";
 }
@@ -144,7 +144,7 @@ TEST(RenderOptions, UnknownOrMissingWordsAreUsageErrors) {
 // mars compile adds an output of its own.
 TEST(RenderOptions, CompilingTakesWhatShapesTheFilm) {
   const Reading reading = read(Program::compile, {"film.json", "--size", "4x3", "--intervals", "keyframes"});
-  EXPECT_EQ(reading.code, std::nullopt) << reading.told;
+  EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   EXPECT_EQ(reading.options.size, (images::PictureSize{4, 3}));
   EXPECT_EQ(read(Program::compile, {"film.json", "-o", "x"}).code, kUsage);
 }
@@ -172,7 +172,7 @@ TEST(RenderOptions, FramesNeedAFolderOrNoSink) {
   for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads}) {
     const Reading reading = read(program, {"film.json"});
     EXPECT_EQ(reading.code, kUsage);
-    EXPECT_TRUE(document::holds(reading.told, "add -o DIR"));
+    EXPECT_TRUE(document::holds(reading.printed, "add -o DIR"));
     EXPECT_EQ(read(program, {"film.json", "--sink", "none"}).code, std::nullopt);
   }
   EXPECT_EQ(read(Program::compile, {"film.json"}).code, std::nullopt);

@@ -121,14 +121,14 @@ inline Performed act(document::Json& film, const std::string& text, std::optiona
     from = to + 1;
   }
   const Action& action = *find_action(words[0]);
-  Wishes::Values values;
+  Arguments::Values values;
   for (std::size_t i = 1; i < words.size();) {
     const std::string name = words[i++];
     for (const Parameter& parameter : action.parameters)
       if (parameter.name == name)
         for (std::size_t k = 0; k < parameter.count(); ++k) values[name].push_back(words.at(i++));
   }
-  return perform(film, "film.json", "anna", action, at, Wishes(values, std::string(action.name)));
+  return perform(film, "film.json", "anna", action, at, Arguments(values, std::string(action.name)));
 }
 
 inline animator::Film read(const document::Json& json) {

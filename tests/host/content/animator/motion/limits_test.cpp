@@ -1,4 +1,4 @@
-// What actions make of a figure: within its limits, from where it was, told clearly where it cannot be done.
+// What actions make of a figure: within its limits, from where it was, reported clearly where it cannot be done.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -95,12 +95,12 @@ TEST(Actions, AskedAgainReplaceWhatTheyHadMade) {
 
 TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
   struct Impossible {
-    const char *words, *told;
+    const char *words, *reported;
     double rate = 24;
     std::uint32_t at = 0;
   };
   const auto start = std::chrono::steady_clock::now();
-  for (const auto& [words, told, rate, at] : {
+  for (const auto& [words, reported, rate, at] : {
            Impossible{"walk steps 1e6", "'steps' is 1e6 (give a number from 1 to 10000)"},
            Impossible{"walk steps -3 pace 99", "'steps' is -3 (give a number from 1 to 10000)"},
            Impossible{"walk distance 1e6", "'distance' is 1000000 away, which takes"},
@@ -118,7 +118,7 @@ TEST(Actions, ThatCannotBeAreRefusedBeforeAnyWorkIsDone) {
     document::Json film = film_with(human());
     film["rate"] = rate;
     const std::string failure = document::failure_of([&] { act(film, words, at); });
-    EXPECT_TRUE(document::holds(failure, told)) << words << ": " << failure;
+    EXPECT_TRUE(document::holds(failure, reported)) << words << ": " << failure;
   }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }

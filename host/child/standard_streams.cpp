@@ -1,9 +1,9 @@
-#include "host/programs/standard_streams.h"
+#include "host/child/standard_streams.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace mars::programs {
+namespace mars::child {
 
 void open_standard_streams() {
   int file = open("/dev/null", O_RDWR);  // gets the least number that is free
@@ -11,4 +11,4 @@ void open_standard_streams() {
   if (file >= 0) close(file);
 }
 
-}  // namespace mars::programs
+}  // namespace mars::child

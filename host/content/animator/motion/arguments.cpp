@@ -1,4 +1,4 @@
-#include "host/content/animator/motion/wishes.h"
+#include "host/content/animator/motion/arguments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 
 namespace mars::motion {
 
-void Wishes::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
+void Arguments::refuse(std::string_view name, const std::string& what, const std::string& remedy) const {
   throw Failure("'" + std::string(name) + "' " + what, where_, remedy);
 }
 
-double Wishes::parsed(std::string_view name, const std::string& text, document::Range range) const {
+double Arguments::parsed(std::string_view name, const std::string& text, document::Range range) const {
   const double value = document::number_in<double>(text).value_or(NAN);
   if (!std::isfinite(value)) refuse(name, "is '" + text + "', which is no number", "write a number, as in 1.5");
   if (value < range.lowest || value > range.highest)
@@ -20,23 +20,23 @@ double Wishes::parsed(std::string_view name, const std::string& text, document::
   return value;
 }
 
-std::optional<double> Wishes::number(std::string_view name, document::Range range) const {
+std::optional<double> Arguments::number(std::string_view name, document::Range range) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return std::nullopt;
   return parsed(name, found->second.at(0), range);
 }
 
-double Wishes::number(std::string_view name, double otherwise, document::Range range) const {
+double Arguments::number(std::string_view name, double otherwise, document::Range range) const {
   return number(name, range).value_or(otherwise);
 }
 
-std::uint32_t Wishes::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
+std::uint32_t Arguments::count(std::string_view name, std::uint32_t otherwise, std::uint32_t highest) const {
   const double value = number(name, otherwise, {1, double(highest)});
   if (value != std::floor(value)) refuse(name, "is " + document::shown(value), "give a whole number");
   return static_cast<std::uint32_t>(value);
 }
 
-std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
+std::optional<glm::dvec3> Arguments::vector(std::string_view name) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return std::nullopt;
   glm::dvec3 vector(0);
@@ -44,8 +44,8 @@ std::optional<glm::dvec3> Wishes::vector(std::string_view name) const {
   return vector;
 }
 
-std::size_t Wishes::choice(std::string_view name, std::size_t otherwise,
-                           std::span<const std::string_view> choices) const {
+std::size_t Arguments::choice(std::string_view name, std::size_t otherwise,
+                              std::span<const std::string_view> choices) const {
   const auto found = values_.find(std::string(name));
   if (found == values_.end()) return otherwise;
   const auto at = std::find(choices.begin(), choices.end(), found->second.at(0));

@@ -15,12 +15,12 @@
 namespace mars::motion {
 
 // Parameter to its values, as they were typed.
-class Wishes {
+class Arguments {
  public:
   using Values = std::map<std::string, std::vector<std::string>>;
 
   // `where` names the action for messages: "walk", or "play.script:7: walk".
-  Wishes(Values values, std::string where) : values_(std::move(values)), where_(std::move(where)) {}
+  Arguments(Values values, std::string where) : values_(std::move(values)), where_(std::move(where)) {}
 
   bool has(std::string_view name) const { return values_.contains(std::string(name)); }
   std::optional<double> number(std::string_view name, document::Range range) const;

@@ -1,0 +1,39 @@
+#include "host/shell/commands/compile_command.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "host/content/document/whole_file.h"
+#include "host/content/film/film_file.h"
+#include "host/shell/job/film_of.h"
+#include "host/shell/options/render_options.h"
+
+namespace mars::commands {
+namespace {
+
+struct Words {
+  options::RenderOptions options;
+  std::string output;
+};
+
+void compile(const Words& words) {
+  document::refuse_same_file(words.options.film, words.output);
+  const auto warn = [](const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; };
+  film::save_film(job::load_film_of(words.options, warn), words.output);
+}
+
+}  // namespace
+
+void add_compile(CLI::App& app) {
+  const auto words = std::make_shared<Words>();
+  CLI::App* command = app.add_subcommand("compile", "Compute a film's motion once, to a .mars file");
+  options::add_render_options(*command, words->options, options::Program::compile);
+  command->add_option("-o,--output", words->output, "The compiled film. Example: -o film.mars")
+      ->required()
+      ->type_name("FILE");
+  command->callback([words] { compile(*words); });
+}
+
+}  // namespace mars::commands

@@ -1,0 +1,33 @@
+#include "host/shell/commands/info_command.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "host/content/film/describe.h"
+#include "host/shell/job/film_of.h"
+#include "host/shell/options/render_options.h"
+
+namespace mars::commands {
+namespace {
+
+std::string info_of(const std::string& path) {
+  options::RenderOptions options;
+  options.film = path;
+  std::string warnings;
+  const film::CompiledFilm film =
+      job::load_film_of(options, [&](const std::string& line) { warnings += "warning     " + line + "\n"; });
+  return film::describe(film) + warnings;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  const auto film = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("info", "Print what a film holds");
+  command->add_option("FILM", *film, "A .json or .mars file. Example: examples/demo.json")->required();
+  command->callback([film] { std::cout << info_of(*film); });
+}
+
+}  // namespace mars::commands
