@@ -31,7 +31,7 @@ class DimensionExchange {
   void send(int to, const void* data, std::size_t bytes);
   void receive(int from, void* data, std::size_t bytes);
   // One each way; `out` and `in` do not overlap.
-  void swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
+  void swap_with(int partner, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
 
   // What is wrong; the first counts. What is sent from now on says that something is. `code` is a CallError.
   void spoil(int code, const std::string& what, const std::string& remedy);

@@ -36,12 +36,12 @@ class Farm {
 
   void give_tasks();
   void give_when_asked();
-  void give(GroupWork& group);
+  void give(GroupWork& to);
   void receive();
   void receive_strip();
   bool prepare_one();
   bool compose_one();
-  void submit(const GroupWork::Composed& frame);
+  void submit(const GroupWork::Composed& composed);
   void note_taken();
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
