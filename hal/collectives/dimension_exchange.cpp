@@ -44,13 +44,13 @@ void DimensionExchange::receive(int from, void* data, std::size_t bytes) {
   check_came(from, process_.receive_internal(call_, group_.first + from, data, bytes), bytes);
 }
 
-void DimensionExchange::swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes) {
+void DimensionExchange::swap_with(int partner, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes) {
   if (spoilt() || out_bytes < kLong) {
-    send(with, out, out_bytes);
-    receive(with, in, in_bytes);
+    send(partner, out, out_bytes);
+    receive(partner, in, in_bytes);
   } else {
-    const messages::Ticket ticket = process_.start_internal(group_.first + with, out, out_bytes);
-    receive(with, in, in_bytes);
+    const messages::Ticket ticket = process_.start_internal(group_.first + partner, out, out_bytes);
+    receive(partner, in, in_bytes);
     process_.wait_sent(ticket);
   }
 }

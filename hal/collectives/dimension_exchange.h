@@ -31,7 +31,7 @@ class DimensionExchange {
   void send(int to, const void* data, std::size_t bytes);
   void receive(int from, void* data, std::size_t bytes);
   // One each way; `out` and `in` do not overlap.
-  void swap(int with, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
+  void swap_with(int partner, const void* out, std::size_t out_bytes, void* in, std::size_t in_bytes);
 
   // Notes an error; the first counts. Messages sent from now on say that there is one. `code` is a CallError.
   void spoil(int code, const std::string& what, const std::string& remedy);

@@ -37,7 +37,7 @@ void gather(DimensionExchange& exchange, void* y, const std::vector<std::size_t>
     const int mine = me & ~(bit - 1), theirs = mine ^ bit;
     const auto swap = [&](int shift) {
       const Run out = run(mine + shift, mine + shift + bit), in = run(theirs + shift, theirs + shift + bit);
-      exchange.swap(me ^ bit, out.data, out.bytes, in.data, in.bytes);
+      exchange.swap_with(me ^ bit, out.data, out.bytes, in.data, in.bytes);
     };
     swap(0);
     if (corners + std::min(mine, theirs) < exchange.count()) swap(corners);

@@ -25,7 +25,7 @@ struct Vectors {
 void double_up(DimensionExchange& exchange, const Vectors& vectors, std::size_t n) {
   const int me = exchange.position();
   for (int bit = 1; bit < exchange.corners(); bit <<= 1) {
-    exchange.swap(me ^ bit, vectors.x, vectors.bytes(n), vectors.work, vectors.bytes(n));
+    exchange.swap_with(me ^ bit, vectors.x, vectors.bytes(n), vectors.work, vectors.bytes(n));
     if (!exchange.spoilt()) vectors.merge(0, n, (me & bit) == 0);
   }
 }
@@ -51,8 +51,8 @@ void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::
   for (int bit = 1; bit < exchange.corners(); bit <<= 1, ++step) {
     const bool upper = (me & bit) != 0;
     const Part own = whole[step].half(upper), give = whole[step].half(!upper);
-    exchange.swap(me ^ bit, vectors.mine(give.first), vectors.bytes(give.size()), vectors.theirs(own.first),
-                  vectors.bytes(own.size()));
+    exchange.swap_with(me ^ bit, vectors.mine(give.first), vectors.bytes(give.size()), vectors.theirs(own.first),
+                       vectors.bytes(own.size()));
     if (!exchange.spoilt()) vectors.merge(own.first, own.size(), !upper);
     whole[step + 1] = own;
   }
@@ -61,8 +61,8 @@ void halve_and_double(DimensionExchange& exchange, const Vectors& vectors, std::
     const bool upper = (me & bit) != 0;
     --step;
     const Part have = whole[step].half(upper), lack = whole[step].half(!upper);
-    exchange.swap(me ^ bit, vectors.mine(have.first), vectors.bytes(have.size()), vectors.mine(lack.first),
-                  vectors.bytes(lack.size()));
+    exchange.swap_with(me ^ bit, vectors.mine(have.first), vectors.bytes(have.size()), vectors.mine(lack.first),
+                       vectors.bytes(lack.size()));
   }
 }
 

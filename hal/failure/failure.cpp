@@ -12,11 +12,11 @@ std::string one_line(const std::string& problem, const std::string& where, const
 
 }  // namespace
 
-Failure::Failure(std::string what, std::string at, std::string mend)
-    : std::runtime_error(one_line(what, at, mend)),
+Failure::Failure(std::string what, std::string where, std::string remedy)
+    : std::runtime_error(one_line(what, where, remedy)),
       problem(std::move(what)),
-      where(std::move(at)),
-      remedy(std::move(mend)) {}
+      where(std::move(where)),
+      remedy(std::move(remedy)) {}
 
 void check(bool holds, const char* rule, std::source_location at) {
   if (holds) return;

@@ -43,7 +43,7 @@ class Progress : public Caller {
   bool done(Request& head);
   bool done_alone(Request& request);
   void wait(Request& head);
-  void wait_or_cancel(Request& head);
+  void wait_or_cancel(Request& request);
   bool pass(int& turn);
   void conclude(Request& head);
   void cancel(Request& head);

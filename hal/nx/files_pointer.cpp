@@ -28,6 +28,8 @@ class Lock {
     }
   }
   ~Lock() { set(F_UNLCK); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
 
  private:
   int set(short type) {

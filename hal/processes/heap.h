@@ -22,7 +22,7 @@ class Heap {
 
  private:
   void reclaim();
-  void release(Offset block);
+  void release(Offset offset);
   Offset carve(std::uint32_t size_class);
   void touch(Block& block, std::size_t length);
   void reserve(std::uint64_t bytes);

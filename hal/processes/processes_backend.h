@@ -45,7 +45,7 @@ class ProcessesBackend : public messages::Backend {
   bool will_not_receive(const Slot& receiver) const;
   Offset first_seen();
   bool see_arrived();
-  void release(int share, Offset begin, std::size_t bytes);
+  void release(int number, Offset begin, std::size_t bytes);
 
   const Segment& segment_;
   const int index_;

@@ -18,7 +18,8 @@ std::atomic<pid_t> relay_group{0};
 std::atomic<int> relay_count{0};
 std::atomic<int> relay_first{0};
 std::atomic<bool> relay_here{false};
-static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 // Nothing but system calls and the atomics above.
 void relay(int signal) {

@@ -16,7 +16,7 @@ struct Corners {
 
 class Outline {
  public:
-  Outline(const Corners& corners, std::int32_t width, std::int32_t height);
+  Outline(const Corners& triangle, std::int32_t width, std::int32_t height);
 
   // Rows [first_row, last_row) may hold samples of the picture.
   std::int32_t first_row;
@@ -33,7 +33,7 @@ class Outline {
   struct Side {
     double y0, x0, dx, dy;
   };
-  static Side side(const Corners& corners, int from, int to);
+  static Side side(const Corners& triangle, int from, int to);
   static std::int32_t first_sample(const Side& side, double y);
 
   Side long_;

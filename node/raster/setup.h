@@ -46,8 +46,8 @@ class SetUp {
                SetUps& out) const;
   void add_clipped(const shape::Vertices& vertices, const shape::Corner3& corners, const PatchIdentity& identity,
                    SetUps& out) const;
-  // `faces`: whether its outside by the order of its vertices is turned to the eye, where that is known already.
-  void add_whole(const shape::Vertices& vertices, const shape::Corner3& corners, std::optional<bool> faces,
+  // `known`: whether its outside by the order of its vertices is turned to the eye, where that is known already.
+  void add_whole(const shape::Vertices& vertices, const shape::Corner3& corners, std::optional<bool> known,
                  const PatchIdentity& identity, SetUps& out) const;
   void add_batch(const shape::Vertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
                  const PatchIdentity& identity, SetUps& out) const;

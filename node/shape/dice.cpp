@@ -118,10 +118,10 @@ void Dicer::mend_normals(const EyePatch& patch) {
   const auto missing = [&](int k) {
     return vertices_.normal[0][k] == 0 && vertices_.normal[1][k] == 0 && vertices_.normal[2][k] == 0;
   };
-  for (int k = 0; k < columns_ * rows_; ++k)
-    if (missing(k))
-      mend_normal(patch, k, static_cast<float>(k % columns_ + 1) / rates_.u,
-                  static_cast<float>(k / columns_ + 1) / rates_.v);
+  for (int k = 0; k < columns_ * rows_; ++k) {
+    const int i = k % columns_ + 1, j = k / columns_ + 1;
+    if (missing(k)) mend_normal(patch, k, static_cast<float>(i) / rates_.u, static_cast<float>(j) / rates_.v);
+  }
   for (const Side side : kSides) {
     const int s = static_cast<int>(side);
     const bool along_u = side == Side::bottom || side == Side::top;

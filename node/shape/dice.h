@@ -28,7 +28,7 @@ class Dicer : public Surface {
     std::int32_t of;
   };
 
-  void lay_out(const Rates& rates);
+  void lay_out(const Rates& wanted);
   // Whether all of these vertices have a normal.
   bool evaluate_inside(const EyePatch& patch);
   bool evaluate_side(const EyePatch& patch, Side side);

@@ -7,7 +7,7 @@ namespace mars::shape {
 
 Surface::Surface(simd::InstructionSet set, int most_vertices, int most_triangles, int most_batches)
     : kernels_(shape_kernels(set)), stride_(static_cast<std::uint32_t>(most_triangles + simd::kVectorSlack)) {
-  const std::size_t vertices = static_cast<std::size_t>(most_vertices + simd::kVectorSlack);
+  const std::size_t vertices = static_cast<std::size_t>(most_vertices) + simd::kVectorSlack;
   numbers_.reset(new float[6 * vertices]);
   places_.reset(new std::int32_t[2 * vertices]);
   flags_.reset(new std::uint8_t[vertices]);

@@ -19,7 +19,7 @@ struct ActorState {
   std::vector<std::optional<wire::Matrix>> segments;  // of each joint, the T-matrix of its segment, if it has one
 };
 
-// `actor` is its number in the film. Bit for bit what the compiled film has.
-ActorState state_at(const Film& film, std::size_t actor, std::uint32_t frame);
+// `number` is the actor's in the film. Bit for bit what the compiled film has.
+ActorState state_at(const Film& film, std::size_t number, std::uint32_t frame);
 
 }  // namespace mars::animator

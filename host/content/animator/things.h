@@ -26,7 +26,7 @@ struct Thing {
   bool actor;
   std::vector<KeyedPart> parts;  // of an actor: place, turn and all joints
 
-  const KeyedPart& part(const std::string& name) const;  // which it has
+  const KeyedPart& part(const std::string& wanted) const;  // which it has
 };
 
 // Either everything in the film, or "camera" or an actor, and of it these parts: all if none are named. A joint

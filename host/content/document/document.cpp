@@ -286,10 +286,10 @@ Element::Iterator& Element::Iterator::operator++() {
   return *this;
 }
 
-std::optional<Element> Element::find(std::string_view name) const {
+std::optional<Element> Element::find(std::string_view key) const {
   if (kind() != Kind::object) return std::nullopt;
   for (const Element child : *this)
-    if (child.key() == name) return child;
+    if (child.key() == key) return child;
   return std::nullopt;
 }
 

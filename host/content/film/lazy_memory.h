@@ -18,7 +18,7 @@ struct LazyMemory {
 
   LazyMemory() = default;
   template <typename U>
-  LazyMemory(const LazyMemory<U>&) {}
+  explicit LazyMemory(const LazyMemory<U>&) {}
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);

@@ -66,7 +66,7 @@ std::vector<std::string> read_of(const MeshFile& file) {
   std::vector<std::string> read = {document::counted(vertices, "vertex", "vertices") +
                                        (joined ? " of the file's " + std::to_string(file.vertices) : ""),
                                    document::counted(faces, "face", "faces")};
-  if (!file.parts[0].mesh.normals.empty()) read.push_back("normals");
+  if (!file.parts[0].mesh.normals.empty()) read.emplace_back("normals");
   if (colors > 0) read.push_back(document::counted(colors, "colour", "colours"));
   return read;
 }

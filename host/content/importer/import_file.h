@@ -19,6 +19,6 @@ struct ImportOptions {
 
 // Reads the patch file or mesh file `from` and writes the model file `to`. A mesh of several colours has a joint for
 // each, fixed to the first. The report of what was read, and what was not.
-std::string import_model(const ImportOptions& options);
+std::string import_model(const ImportOptions& given);
 
 }  // namespace mars::importer

@@ -132,7 +132,7 @@ MeshFile MeshBuilder::finish(double default_crease) {
   }
   if (faces_left_out_ > 0)
     file.not_read.push_back(document::counted(faces_left_out_, "face", "faces") + " without three different corners");
-  if (has_normals_ && !takes_normals_) file.not_read.push_back("normals (--crease makes others)");
+  if (has_normals_ && !takes_normals_) file.not_read.emplace_back("normals (--crease makes others)");
   return file;
 }
 

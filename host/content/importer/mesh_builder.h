@@ -30,10 +30,10 @@ class MeshBuilder {
   std::size_t part_of(const Color& color);
 
   // The number, within its part, of a vertex given in the file's axes and units.
-  std::uint32_t vertex(std::size_t part, const glm::dvec3& place, const glm::dvec3& normal);
+  std::uint32_t vertex(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal);
 
   // Changes `face`: a corner twice in a row is one.
-  void add_face(std::size_t part, std::vector<std::uint32_t>& face);
+  void add_face(std::size_t part_number, std::vector<std::uint32_t>& face);
 
   // All but the file's vertices; as not read, what was given here and left out. Refuses a file without faces.
   MeshFile finish(double default_crease);

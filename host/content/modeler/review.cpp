@@ -111,7 +111,7 @@ class Review {
     const auto turns = [](const Joint& joint) { return joint.freedoms() > 0; };
     const auto hangs = [](const Joint& joint) { return joint.parent != kNone; };
     if (std::ranges::any_of(model_.joints, hangs) && std::ranges::none_of(model_.joints, turns))
-      doubts_.push_back("no joint can turn: give those that shall some limits");
+      doubts_.emplace_back("no joint can turn: give those that shall some limits");
   }
 
   // What is to walk stands on the floor, and its feet reach to where its hips make it look.
@@ -153,7 +153,7 @@ class Review {
       if (!own.contains(name))
         doubts_.push_back("material '" + std::string(name) +
                           "' is not the model's own: every film that uses the model must have it");
-    if (shapes.empty()) doubts_.push_back("no joint has a segment: nothing is seen");
+    if (shapes.empty()) doubts_.emplace_back("no joint has a segment: nothing is seen");
   }
 
   static std::string short_text(double number) { return document::formatted("%.3g", number); }

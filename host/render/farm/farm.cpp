@@ -36,7 +36,7 @@ class Farm {
 
   void give_tasks();
   void give_when_asked();
-  void give(GroupWork& group);
+  void give(GroupWork& to);
   void receive();
   void receive_strip();
   bool prepare_one();

@@ -32,11 +32,13 @@ std::string with_machine(const std::string& machine, int node) {
 
 }  // namespace
 
-NodeFailure::NodeFailure(const std::string& reason, int who, int at)
-    : Failure(reason, node_name(who) + (at < 0 ? "" : ", frame " + std::to_string(at)), ""), node(who), frame(at) {}
+NodeFailure::NodeFailure(const std::string& reason, int node, int frame)
+    : Failure(reason, node_name(node) + (frame < 0 ? "" : ", frame " + std::to_string(frame)), ""),
+      node(node),
+      frame(frame) {}
 
-NodeFailure::NodeFailure(const std::string& reason, const std::string& where, int who)
-    : Failure(reason, where, "please report it"), node(who), frame(-1) {}
+NodeFailure::NodeFailure(const std::string& reason, const std::string& where, int node)
+    : Failure(reason, where, "please report it"), node(node), frame(-1) {}
 
 NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, const Cancellation* cancellation)
     : width_(width),

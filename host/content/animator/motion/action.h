@@ -41,7 +41,7 @@ struct Performed {
 
 // Has an actor of the film do something; the film stays as long as it is. `path` is the film file's, beside which its
 // models are. Without `at` the action begins at the actor's last key.
-Performed perform(document::Json& film, const std::filesystem::path& path, const std::string& actor,
+Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
                   const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments);
 
 }  // namespace mars::motion

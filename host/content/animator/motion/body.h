@@ -23,7 +23,7 @@ constexpr double sign_of(modeler::Side side) { return side == modeler::Side::lef
 glm::dmat3 canonical_turn(double a, double b, double c);
 glm::dmat3 canonical_turn(const glm::dvec3& degrees);
 // The other way round: degrees.
-glm::dvec3 canonical_degrees(const glm::dmat3& turn);
+glm::dvec3 canonical_degrees(const glm::dmat3& matrix);
 
 // The foot's underside, canonical, from the ankle; toes from the joint that bends them.
 struct Sole {

@@ -133,7 +133,8 @@ Gait turn_gait(const Body& body, const Stance& from, double by, double at_once, 
   for (int k = 1; k <= 2 * pairs; ++k) {
     const bool leads = k % 2 == 1;
     const modeler::Side side = (by > 0) == leads ? modeler::Side::left : modeler::Side::right;
-    const double heading = start.heading + by * ((k + 1) / 2) / pairs;
+    const int pair = (k + 1) / 2;
+    const double heading = start.heading + by * pair / pairs;
     gait.steps.push_back(planner.step(k, side, planner.print(start.middle, heading, side)));
     gait.way.push_back(
         planner.waypoint(planner.landing(k), start.middle, start.heading + by * (k - 0.5) / (2 * pairs), 0));
