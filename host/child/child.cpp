@@ -43,7 +43,6 @@ std::set<pid_t> children_of_ours() {
 
 Child::Child(const Command& command) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  std::signal(SIGCHLD, SIG_DFL);  // ignored, as whoever started us may do, it would keep children's ends from us
   strangers_ = children_of_ours();
   const Descriptor nothing = null_device();
   Pipe output = make_pipe(), error = make_pipe();

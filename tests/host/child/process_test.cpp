@@ -38,6 +38,14 @@ TEST(Process, EndsWithACodeOrASignal) {
   EXPECT_EQ(Process([] { return 5; }, {}).wait().code, 5);
 }
 
+TEST(Process, EndsAsItDoesWhereEndsOfChildrenAreIgnored) {
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(Process(shell("exit 7"), {}).wait().code, 7);
+  std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(Process([] { return 5; }, {}).wait().code, 5);
+  std::signal(SIGCHLD, SIG_DFL);
+}
+
 TEST(Process, SaysWhyItCannotStart) {
   EXPECT_EQ(document::failure_of([] {
               Process({{}, {"/no/such/program"}}, {});
