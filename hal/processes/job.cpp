@@ -38,6 +38,7 @@ std::string signal_text(int signal) { return "signal " + std::to_string(signal) 
 Job::Job(JobPlan plan)
     : plan_(std::move(plan)), segment_(plan_.nodes, plan_.host, plan_.limit), processes_(segment_.slots()) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
+  std::signal(SIGCHLD, SIG_DFL);  // ignored, as whoever started us may leave it, it would keep ranks' ends from us
   sigset_t watched;
   sigemptyset(&watched);
   for (const int signal : kWatched) sigaddset(&watched, signal);

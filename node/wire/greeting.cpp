@@ -1,6 +1,5 @@
 #include "node/wire/greeting.h"
 
-#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 
@@ -36,16 +35,19 @@ std::string version_of(const WireStamp& stamp) {
 
 WireStamp own_stamp() { return {kMagic, kByteOrder, kWireVersion, kRelease, kSizes}; }
 
+bool is_stamped(std::span<const std::byte> message) {
+  return message.size() >= sizeof(WireStamp) && std::memcmp(message.data(), kMagic.data(), kMagic.size()) == 0;
+}
+
 void check_stamp(std::span<const std::byte> message, const std::string& sender, const std::string& receiver) {
   const WireStamp own = own_stamp();
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     throw Failure(sender + " " + what + ", " + receiver + " runs " + version_of(own), "", remedy);
   };
   const std::string same = "install the same MARS on all machines";
-  WireStamp stamp{};
-  if (!message.empty()) std::memcpy(&stamp, message.data(), std::min(message.size(), sizeof stamp));
-  if (message.size() < sizeof stamp || stamp.magic != own.magic)
-    refuse("is not MARS, or of a version before 0.2.0", same);
+  if (!is_stamped(message)) refuse("is not MARS, or of a version before 0.2.0", same);
+  WireStamp stamp;
+  std::memcpy(&stamp, message.data(), sizeof stamp);
   if (stamp.byte_order != own.byte_order)
     refuse("runs " + version_of(stamp) + " with bytes in another order", "use machines of one byte order");
   if (stamp.wire != own.wire || stamp.release != own.release) refuse("runs " + version_of(stamp), same);

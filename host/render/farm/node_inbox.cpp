@@ -1,6 +1,7 @@
 #include "host/render/farm/node_inbox.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -11,18 +12,33 @@
 namespace mars::farm {
 namespace {
 
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == 127; }
+
+// Ends, and has nothing that would act on a terminal.
 template <std::size_t N>
 bool is_text(const std::array<char, N>& text) {
-  return std::find(text.begin(), text.end(), '\0') != text.end();
+  const auto end = std::find(text.begin(), text.end(), '\0');
+  return end != text.end() && std::none_of(text.begin(), end, is_control);
 }
 
+// Seconds of a clock, few enough to be counted in nanoseconds.
+bool is_time(double seconds) { return std::abs(seconds) < 4e9; }
+
 std::string node_name(int node) { return "node " + std::to_string(node); }
+
+// MARS before 0.2.0 had no stamp, and the name further behind.
+constexpr std::size_t kUnstampedHello = 184, kUnstampedName = 40;
 
 // The name of its machine, which every version's Hello has behind the stamp; "" if there is none.
 std::string machine_in(std::span<const std::byte> hello) {
   std::array<char, sizeof wire::Hello::host> name{};
-  if (hello.size() < sizeof(wire::WireStamp) + name.size()) return "";
-  std::memcpy(name.data(), hello.data() + sizeof(wire::WireStamp), name.size());
+  std::size_t at = sizeof(wire::WireStamp);
+  if (!wire::is_stamped(hello)) {
+    if (hello.size() != kUnstampedHello) return "";
+    at = kUnstampedName;
+  }
+  if (hello.size() < at + name.size()) return "";
+  std::memcpy(name.data(), hello.data() + at, name.size());
   return is_text(name) ? name.data() : "";
 }
 
@@ -94,7 +110,7 @@ void NodeInbox::receive_hello() {
   require(message.size() == sizeof(wire::Hello), node, "a greeting of another size");
   wire::Hello hello;
   std::memcpy(&hello, message.data(), sizeof hello);
-  require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd), node, "names without end");
+  require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd), node, "names that are no text");
   const auto index = static_cast<std::size_t>(node);
   require(hello.node == node && !greeted_[index], node, "another node's greeting");
   hellos_[index] = hello;
@@ -160,6 +176,7 @@ std::span<const messages::Event> NodeInbox::receive_events() {
 
 bool NodeInbox::is_event(const messages::Event& event) const {
   using Kind = messages::Event::Kind;
+  if (!is_time(event.begin) || !is_time(event.end)) return false;
   switch (event.kind) {
     case Kind::span: return event.what >= 0 && event.what <= static_cast<int>(wire::Phase::inbetween);
     case Kind::sent:
@@ -176,6 +193,7 @@ double NodeInbox::receive_time(int node) {
   require(infocount() == sizeof time, static_cast<int>(infonode()), "a time of an impossible size");
   require(infonode() == node, static_cast<int>(infonode()), "a time that was not asked for");
   crecv(wire::kClock, &time, sizeof time);
+  require(is_time(time), node, "a time that makes no sense");
   return time;
 }
 
@@ -185,6 +203,7 @@ void NodeInbox::receive_fault() const {
   wire::Fault fault;
   crecv(wire::kFault, &fault, sizeof fault);
   fault.reason.back() = '\0';
+  std::replace_if(fault.reason.begin(), std::find(fault.reason.begin(), fault.reason.end(), '\0'), is_control, ' ');
   throw NodeFailure(fault.reason.data(), node, std::max(fault.frame, -1));
 }
 

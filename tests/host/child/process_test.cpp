@@ -43,6 +43,7 @@ TEST(Process, EndsSoAlsoWhereOurParentIgnoresTheEndsOfChildren) {
   EXPECT_EQ(Process(shell("exit 7"), {}).wait().code, 7);
   std::signal(SIGCHLD, SIG_IGN);
   EXPECT_EQ(Process([] { return 5; }, {}).wait().code, 5);
+  std::signal(SIGCHLD, SIG_DFL);
 }
 
 TEST(Process, SaysWhyItCannotStart) {

@@ -76,9 +76,20 @@ TEST(Greeting, AnotherVersionsIsNotReadFurther) {
   EXPECT_TRUE(document::holds(failure, "n1 (node 1) runs MARS")) << failure;
 }
 
+// As 0.1.0 sends it, at home in 184 bytes: node, machine, rank, seat and memory stand before the name.
+TEST(Greeting, OfAVersionBeforeStampsIsNamedByItsMachine) {
+  const std::string failure = failure_with([] {
+    std::vector<std::byte> message(184, std::byte{0xff});
+    std::memcpy(message.data() + 40, "old-machine", sizeof "old-machine");
+    send_bytes(wire::kHello, message.data(), message.size());
+    ScriptedNode::receive(wire::kStop);
+  });
+  EXPECT_TRUE(document::holds(failure, "old-machine (node 1) is not MARS, or of a version before 0.2.0")) << failure;
+}
+
 TEST(Greeting, IsOfTheSameBuild) {
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.magic[2] ^= 1; }),
-                              "n1 (node 1) is not MARS"));
+  EXPECT_TRUE(
+      document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.magic[2] ^= 1; }), "node 1 is not MARS"));
   EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.stamp.byte_order = 0x04030201; }),
                               "use machines of one byte order"));
   EXPECT_TRUE(
@@ -109,7 +120,8 @@ TEST(Greeting, SaysOnlyWhatIsTrue) {
       document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = 7; }), "a machine that is not there"));
   EXPECT_TRUE(
       document::holds(failure_greeting([](wire::Hello& hello) { hello.machine = -1; }), "a machine that is not there"));
-  EXPECT_TRUE(document::holds(failure_greeting([](wire::Hello& hello) { hello.simd.fill('x'); }), "names without end"));
+  EXPECT_TRUE(
+      document::holds(failure_greeting([](wire::Hello& hello) { hello.simd.fill('x'); }), "names that are no text"));
 }
 
 TEST(Greeting, ComesOnce) {
@@ -232,6 +244,19 @@ TEST(Inbox, AFaultIsOfItsSender) {
     ScriptedNode::receive(wire::kStop);
   });
   EXPECT_EQ(failure, "node 1: " + std::string(sizeof wire::Fault::reason - 1, 'x'));
+}
+
+TEST(Inbox, AFaultIsOneLine) {
+  const std::string failure = failure_with([] {
+    ScriptedNode node;
+    node.boot();
+    wire::Fault fault{};
+    fault.frame = -1;
+    fault.reason = {"no\nmemory\x1b[31m"};
+    ScriptedNode::send(wire::kFault, fault);
+    ScriptedNode::receive(wire::kStop);
+  });
+  EXPECT_EQ(failure, "node 1: no memory [31m");
 }
 
 TEST(Inbox, EventsOfARunThatIsNotTraced) {

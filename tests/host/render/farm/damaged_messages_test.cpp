@@ -1,0 +1,179 @@
+// Damaged messages: whatever a node sends, the inbox refuses it with one failure that names the node, or it can be used
+// to the last byte.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "hal/nx/nx_messages.h"
+#include "hal/threads/run_threads.h"
+#include "host/render/compositor/compositor.h"
+#include "host/render/farm/node_inbox.h"
+#include "host/render/trace/trace_file.h"
+#include "tests/host/render/farm/scripted_node.h"
+#include "tests/host/render/sinks/temporary_folder.h"
+
+namespace mars::farm {
+namespace {
+
+constexpr int kMessages = 3000;  // of each type
+constexpr std::uint32_t kWidth = 16, kHeight = 8;
+
+using Bytes = std::vector<std::byte>;
+
+template <typename Message>
+Bytes bytes_of(const Message& message) {
+  Bytes bytes(sizeof message);
+  std::memcpy(bytes.data(), &message, sizeof message);
+  return bytes;
+}
+
+class Damage {
+ public:
+  // Some of its bytes and words changed; now and then also its length.
+  Bytes damaged(Bytes message) {
+    for (int changes = below(4); changes >= 0; --changes) change(message);
+    if (below(8) == 0) message.resize(static_cast<std::size_t>(below(static_cast<int>(2 * message.size()) + 2)));
+    if (below(50) == 0)
+      for (std::byte& byte : message) byte = static_cast<std::byte>(below(256));
+    return message;
+  }
+
+ private:
+  int below(int bound) { return std::uniform_int_distribution(0, bound - 1)(random_); }
+
+  void change(Bytes& message) {
+    if (message.empty()) return;
+    const auto at = static_cast<std::size_t>(below(static_cast<int>(message.size())));
+    if (below(2) == 0) {
+      message[at] ^= static_cast<std::byte>(1 << below(8));
+      return;
+    }
+    constexpr std::array<std::uint32_t, 12> words{0,      1,       2,          7,          8,       16,
+                                                  0xffff, 0x10000, 0x7fffffff, 0x80000000, ~0u - 1, ~0u};
+    const std::uint32_t word = words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
+    const std::size_t aligned = at / 4 * 4;
+    std::memcpy(message.data() + aligned, &word, std::min(sizeof word, message.size() - aligned));
+  }
+
+  std::mt19937 random_{7};
+};
+
+// One line that says whose it is.
+void expect_clear(const Failure& failure) {
+  const std::string text = failure.what();
+  EXPECT_NE(text.find("node 0"), std::string::npos) << text;
+  for (const unsigned char c : text) EXPECT_TRUE(c >= ' ' && c != 127) << text;
+}
+
+// The only node sends `sound`, then damaged copies, one at a time; the host receives each. How many were refused.
+int refused_of(long type, const Bytes& sound, const std::function<void()>& receive) {
+  int refused = 0;
+  const auto node = [&] {
+    Damage damage;
+    for (int i = 0; i <= kMessages; ++i) {
+      const Bytes message = i == 0 ? sound : damage.damaged(sound);
+      csend(type, message.data(), static_cast<long>(message.size()), myhost(), 0);
+      ScriptedNode::receive(wire::kCredit);
+    }
+  };
+  const auto host = [&] {
+    for (int i = 0; i <= kMessages; ++i) {
+      cprobe(type);
+      try {
+        receive();
+      } catch (const Failure& failure) {
+        EXPECT_GT(i, 0) << "the sound one: " << failure.what();
+        expect_clear(failure);
+        ++refused;
+      }
+      if (iprobe(type)) ScriptedNode::receive(type);
+      csend(wire::kCredit, nullptr, 0, 0, 0);
+    }
+  };
+  threads::run_threads(1, host, node);
+  return refused;
+}
+
+wire::Hello sound_hello() {
+  wire::Hello hello{};
+  hello.stamp = wire::own_stamp();
+  hello.host = {"n0"};
+  hello.memory = 1 << 20;
+  hello.simd = {"avx2"};
+  return hello;
+}
+
+TEST(DamagedMessages, Hello) {
+  EXPECT_GT(
+      refused_of(wire::kHello, bytes_of(sound_hello()), [] { NodeInbox(kWidth, kHeight, nullptr).receive_hellos(); }),
+      kMessages / 10);
+}
+
+TEST(DamagedMessages, Loaded) {
+  refused_of(wire::kLoaded, {}, [] { NodeInbox(kWidth, kHeight, nullptr).wait_until_loaded(); });
+}
+
+TEST(DamagedMessages, Strip) {
+  wire::Strip header{};
+  header.last = 1;
+  header.last_line = kHeight;
+  StripStore store;
+  const StripBytes strip = strip_bytes(header, {{{0, 1, 2}, {1, 0, 16}}, std::vector<std::uint32_t>(18, 5)},
+                                       {{{3, 0, 3}}, {1, 2, 3}}, store);
+  compositor::Compositor compositor(kWidth, kHeight, 8, 0);
+  EXPECT_GT(refused_of(wire::kStrip, {strip.data.get(), strip.data.get() + strip.size},
+                       [&] {
+                         const StripMessage message = NodeInbox(kWidth, kHeight, nullptr).receive_strip(store);
+                         compositor::Frame frame(kWidth, kHeight, 8);
+                         compositor.begin_interval();
+                         compositor.begin_frame(frame);
+                         compositor.paste_constant(message.constant_runs(), message.constant_pixels(), &frame);
+                         compositor.paste_moving(frame, message.moving_runs(), message.moving_pixels());
+                       }),
+            kMessages / 10);
+}
+
+TEST(DamagedMessages, Fault) {
+  wire::Fault fault{};
+  fault.reason = {"no memory"};
+  refused_of(wire::kFault, bytes_of(fault), [] {
+    try {
+      NodeInbox(kWidth, kHeight, nullptr).receive_fault();
+    } catch (const NodeFailure& failure) {
+      expect_clear(failure);
+    }
+  });
+}
+
+TEST(DamagedMessages, Clock) {
+  trace::NodeClock clock;
+  refused_of(wire::kClock, bytes_of(5.0),
+             [&] { clock.add(trace::ClockReading::of(4, NodeInbox(kWidth, kHeight, nullptr).receive_time(0), 6)); });
+  EXPECT_TRUE(std::isfinite(clock.to_host(5)) && std::isfinite(clock.error()));
+}
+
+TEST(DamagedMessages, Trace) {
+  using Kind = messages::Event::Kind;
+  std::vector<messages::Event> events(4);
+  events[0] = {1, 2, 3, Kind::span, 1, -1, 0, 0, 0};
+  events[1] = {1, 2, 3, Kind::sent, wire::kStrip, 1, 0, 0, 0};
+  events[2] = {1, 2, 3, Kind::waited, -1, -1, 0, 0, 0};
+  events[3].kind = Kind::lost;
+  Bytes sound(events.size() * sizeof events[0]);
+  std::memcpy(sound.data(), events.data(), sound.size());
+  trace::Trace trace;
+  trace.begin(std::vector{sound_hello()}, 4, 0);
+  EXPECT_GT(
+      refused_of(wire::kTrace, sound, [&] { trace.add(0, NodeInbox(kWidth, kHeight, nullptr).receive_events()); }),
+      kMessages / 10);
+  const sinks::TemporaryFolder folder;
+  trace::write_trace(folder.path() / "trace.json", {"film", "threads"}, trace);
+}
+
+}  // namespace
+}  // namespace mars::farm
