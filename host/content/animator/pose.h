@@ -20,8 +20,8 @@ struct Wish {
   static Wish read(const std::string& text, const Thing& thing);
 };
 
-// Sets the thing `name` (an actor, or "camera") at the frame, with an ease from there if given. A part without keys
-// also gets one at frame 0, as it was, so that it moves from there.
+// Sets the thing (an actor, or "camera") at the frame, with an ease from there if given. A part without keys also
+// gets one at frame 0, as it was, so that it moves from there.
 Remarks pose(document::Json& film, const Film& meaning, const std::string& name, std::span<const std::string> wishes,
              std::uint32_t frame, const std::optional<Ease>& ease, Beyond beyond);
 
