@@ -1,11 +1,14 @@
 // mars-node: a rank of an MPI job that renders. Takes no options: it does what the host says.
 #include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
 
+#include "hal/failure/explain.h"
 #include "hal/mpi/start.h"
 #include "host/programs/node_job.h"
 #include "host/shell/options/command_line.h"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace mars;
   CLI::App app("A node of a rendering: mpirun -n 1 mars-host FILM -o DIR : -n 4 mars-node", "mars-node");
   if (const auto code = options::read_command_line(app, argc, argv)) return *code;
@@ -13,4 +16,7 @@ int main(int argc, char** argv) {
     programs::run_node_job();
     return 0;
   });
+} catch (const std::exception& failure) {
+  std::cerr << "mars-node: " << mars::reason_of(failure) << '\n';
+  return mars::options::kFailed;
 }

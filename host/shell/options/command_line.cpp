@@ -89,7 +89,7 @@ class Help : public CLI::Formatter {
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {
-    const std::string text = option->get_description();
+    const std::string& text = option->get_description();
     const std::size_t example = text.find("Example: ");
     if (example == std::string::npos) return wrapped(text, 0, text_columns());
     return wrapped(text.substr(0, example), 0, text_columns()) + "\n" +
