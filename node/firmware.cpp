@@ -17,6 +17,7 @@
 #include "node/wire/commands.h"
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
+#include "node/wire/versions.h"
 
 namespace mars::node {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "hal/collectives/group.h"
 #include "hal/failure/failure.h"
+#include "node/wire/versions.h"
 
 namespace mars::wire {
 namespace {

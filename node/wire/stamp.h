@@ -11,10 +11,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <span>
-#include <string>
 
 namespace mars::wire {
 
@@ -31,11 +28,5 @@ struct WireStamp {
   bool operator==(const WireStamp&) const = default;
 };
 static_assert(sizeof(WireStamp) == 16);
-
-WireStamp own_stamp();
-
-// Throws Failure unless `message` begins with the caller's own stamp. `sender` and `receiver` name the two
-// programs: "n3 (node 17)", "the host".
-void check_stamp(std::span<const std::byte> message, const std::string& sender, const std::string& receiver);
 
 }  // namespace mars::wire

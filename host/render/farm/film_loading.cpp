@@ -6,6 +6,7 @@
 
 #include "hal/nx/nx_messages.h"
 #include "host/render/farm/tracing.h"
+#include "node/wire/versions.h"
 
 namespace mars::farm {
 namespace {

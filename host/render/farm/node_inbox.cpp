@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
+#include "node/wire/versions.h"
 
 namespace mars::farm {
 namespace {

@@ -2,6 +2,7 @@
 #include "node/group/outbox.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/template/template_backend.h"
+#include "topology/memory_limit.h"
 
 namespace mars::group {
 namespace {
@@ -99,13 +101,20 @@ TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
 }
 
 TEST_F(OutboxTest, TakesWhatCreditHasCome) {
-  Outbox outbox(kWidth, 1);
-  send(outbox);
+  Outbox outbox(kWidth, 3);
+  for (int k = 0; k < 3; ++k) send(outbox);
   host.give_credit(1);
   host.give_credit(2);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(send(outbox).work.credits_waited, 0u);
-  EXPECT_THROW(send(outbox), Failure) << "a fourth has none";
-  EXPECT_EQ(host.messages.size(), 4u);
+  EXPECT_THROW(send(outbox), Failure) << "a seventh has none";
+  EXPECT_EQ(host.messages.size(), 6u);
+}
+
+TEST_F(OutboxTest, RefusesMoreCreditThanItHasSpent) {
+  Outbox outbox(kWidth, 2);
+  send(outbox);
+  host.give_credit(2);
+  EXPECT_THROW(outbox.receive_credit(), Failure);
 }
 
 TEST_F(OutboxTest, ReceivesCreditWhileNothingIsSent) {
@@ -153,7 +162,14 @@ TEST_F(OutboxTest, AFailureOfTheTransportComesThrough) {
   EXPECT_EQ(host.messages.size(), 1u);
 }
 
-TEST_F(OutboxTest, FailsWhereTheMachineLacksTheMemory) { EXPECT_THROW(Outbox(std::size_t{1} << 42, 1), Failure); }
+TEST_F(OutboxTest, FailsWhereTheMachineLacksTheMemory) {
+  rlimit before{};
+  getrlimit(RLIMIT_AS, &before);
+  const rlimit less{topology::process_memory().addresses + (1 << 20), before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &less), 0);
+  EXPECT_THROW(Outbox(kWidth, 1), Failure) << "a strip takes more than 1 MiB";
+  setrlimit(RLIMIT_AS, &before);
+}
 
 }  // namespace
 }  // namespace mars::group

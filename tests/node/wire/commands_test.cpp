@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "node/wire/versions.h"
 #include "tests/node/wire/small_film.h"
 
 namespace mars::wire {

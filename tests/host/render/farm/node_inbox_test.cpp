@@ -7,6 +7,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "node/wire/versions.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/farm/scripted_node.h"
 

@@ -12,6 +12,7 @@
 #include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
 #include "host/render/farm/farm.h"
+#include "node/wire/versions.h"
 #include "tests/host/render/farm/empty_film.h"
 #include "tests/host/render/farm/strips.h"
 

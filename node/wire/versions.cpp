@@ -1,6 +1,8 @@
-#include "node/wire/stamp.h"
+#include "node/wire/versions.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <initializer_list>
 
