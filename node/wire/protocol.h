@@ -6,7 +6,7 @@
 // anything of it: the node in commands.h, the host in host/render/farm/node_inbox.h.
 //
 //   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
-//   node -> host   Hello, Loaded, Strip ..., Fault (its last words)
+//   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or an empty message once they are written
 //                  (the type names the sender)

@@ -293,6 +293,8 @@ C     What the Paragon added.
       INTEGER INFO(8), FIRST(8), SECOND(8), GOT, OTHER, ME, BOTH
       INTEGER I, PLAIN, TOLD
       ME = MYNODE()
+C     Of a type that its name does not imply.
+      CALL EXPECT(GRAY(3) .EQ. 2, 'fnx.h')
       CALL CSEND(60, 5, 4, ME, 0)
       CALL CPROBEX(60, ME, 0, INFO)
       CALL EXPECT(INFO(1) .EQ. 60 .AND. INFO(2) .EQ. 4 .AND.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <tuple>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"

@@ -1,6 +1,7 @@
 #include "tests/hal/storm/handlers.h"
 
 #include <array>
+#include <utility>
 
 #include "tests/hal/storm/rank.h"
 
