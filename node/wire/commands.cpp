@@ -1,4 +1,3 @@
-#include "node/wire/greeting.h"
 #include "node/wire/commands.h"
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 
 #include "hal/collectives/group.h"
 #include "hal/failure/failure.h"
+#include "node/wire/greeting.h"
 
 namespace mars::wire {
 namespace {
