@@ -13,7 +13,7 @@ void classify(const ClassifyTask& task, const shape::Vertices& vertices, const s
 void set_up_planes(const shape::Vertices& vertices, const shape::Corner3& corners, const ScreenShape& shape,
                    const PatchIdentity& identity, geometry::Triangle& out);
 void emit(const shape::Vertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
-          const Classified& edges, std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
+          const Classified& classified, std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
                      float* depth, std::uint32_t* ids);
 
