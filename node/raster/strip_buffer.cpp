@@ -10,8 +10,8 @@ namespace mars::raster {
 namespace {
 
 constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the space left and the next
-// A strip with so many bytes goes to the host: few enough to stay in a core's cache on their way, and the host puts them
-// in place while the node draws on.
+// A strip with so many bytes goes to the host: few enough to stay in a core's cache on their way, and the host puts
+// them in place while the node draws on.
 constexpr std::size_t kFullBytes = std::size_t{512} << 10;
 constexpr std::size_t kPixels = wire::kMaxStripBytes / sizeof(std::uint32_t) + simd::kVectorSlack;  // of one layer
 constexpr std::size_t kRuns = wire::kMaxStripBytes / sizeof(wire::Run);
