@@ -118,7 +118,7 @@ class ImportTest : public testing::Test {
     return folder_ / name;
   }
   // Into model.json, whether it is there or not.
-  ImportOptions options(const fs::path& from) const {
+  ImportOptions options_for(const fs::path& from) const {
     ImportOptions options;
     options.from = from;
     options.to = folder_ / "model.json";
@@ -129,9 +129,9 @@ class ImportTest : public testing::Test {
     told_ = import_model(options);
     return modeler::load_model(options.to);
   }
-  modeler::Model import(const fs::path& from) const { return import(options(from)); }
+  modeler::Model import(const fs::path& from) const { return import(options_for(from)); }
   modeler::Model import_upright(const fs::path& from, char up) const {
-    ImportOptions options = options(from);
+    ImportOptions options = options_for(from);
     options.up = up;
     return import(options);
   }
@@ -143,7 +143,7 @@ class ImportTest : public testing::Test {
     return lines;
   }
   std::string failure(const std::string& name, const std::string& text) const {
-    ImportOptions options = options(write(name, text));
+    ImportOptions options = options_for(write(name, text));
     options.to = folder_ / "none.json";
     const std::string reported = document::failure_of([&] { import_model(options); });
     EXPECT_FALSE(fs::exists(options.to));
@@ -266,8 +266,8 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
         document::holds(reported, "has a vertex that is not at numbers, or at too large ones (the file may be damaged"))
         << reported;
   }
-  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options(folder_ / "no.obj")); }), "no.obj"));
-  ImportOptions options = options(write("b.obj", obj_box()));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options_for(folder_ / "no.obj")); }), "no.obj"));
+  ImportOptions options = options_for(write("b.obj", obj_box()));
   options.joint = "a/b";
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }), "'/'"));
   options.joint = "caf\xe9";
@@ -275,7 +275,7 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
       << "no UTF-8";
   const fs::path lines = write("a b\nc.obj", obj_box());
   EXPECT_TRUE(document::holds(
-      document::failure_of([&] { import_model(options(lines)); }),
+      document::failure_of([&] { import_model(options_for(lines)); }),
       "a b?c.obj: its name, 'a b?c', cannot name a joint (give the joint a name with --joint: one of 1"));
   options.to = folder_ / "x/m.json";
   options.joint = "";
@@ -285,8 +285,8 @@ TEST_F(ImportTest, BadFilesAreOneClearFailure) {
 TEST_F(ImportTest, WhatIsNoFileIsRefusedAtOnce) {
   for (const char* name : {"pipe.obj", "pipe.ply", "pipe.glb", "pipe.gltf", "pipe.bpt"}) {
     ASSERT_EQ(mkfifo((folder_ / name).c_str(), 0600), 0);
-    EXPECT_TRUE(
-        document::holds(document::failure_of([&] { import_model(options(folder_ / name)); }), "is not a regular file"));
+    EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options_for(folder_ / name)); }),
+                                "is not a regular file"));
   }
 }
 
@@ -327,7 +327,7 @@ TEST_F(ImportTest, WhyAMeshIsNotSoundIsSaidInOurWords) {
 }
 
 TEST_F(ImportTest, AFileThatWasReadBesidesIsNotOverwritten) {
-  ImportOptions options = options(write("wedge.obj", "mtllib wedge.mtl\n" + obj_box()));
+  ImportOptions options = options_for(write("wedge.obj", "mtllib wedge.mtl\n" + obj_box()));
   options.to = write("wedge.mtl", "newmtl a\n");
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
                               "wedge.mtl: is the file that is read (write to another)"));
@@ -353,7 +353,7 @@ TEST_F(ImportTest, AFileOfAnotherKindThanItsNameSaysIsToldSo) {
 }
 
 TEST_F(ImportTest, NamesAreEscaped) {
-  ImportOptions options = options(write("b.obj", obj_box()));
+  ImportOptions options = options_for(write("b.obj", obj_box()));
   options.joint = "a \"b\" \\ c\xc3\xa9";
   EXPECT_EQ(import(options).joints[0].name, options.joint);
 }
@@ -373,7 +373,7 @@ TEST_F(ImportTest, TheAxisThatPointsUpBecomesZ) {
 }
 
 TEST_F(ImportTest, ScaleIsTheBoxes) {
-  ImportOptions options = options(write("box.ply", ply_box()));
+  ImportOptions options = options_for(write("box.ply", ply_box()));
   options.scale = 0.5;
   const modeler::Model model = import(options);
   EXPECT_EQ(model.joints[0].segment->sbb.max, glm::dvec3(1.5, 2.5, 3.5));
@@ -386,7 +386,7 @@ TEST_F(ImportTest, CreaseStandsInPlaceOfNormals) {
   std::string text = obj_box() + "vn 0 0 1\n";
   for (std::size_t at = text.find("\nf"); (at = text.find(' ', at)) != std::string::npos && at < text.find("\nvn");)
     text.insert(text.find_first_of(" \n", at + 1), "//1"), ++at;
-  ImportOptions options = options(write("box.obj", text));
+  ImportOptions options = options_for(write("box.obj", text));
   EXPECT_FALSE(import(options).shapes[0].mesh->normals.empty());
   EXPECT_TRUE(document::holds(told_, ", normals")) << told_;
   options.crease = 95;
@@ -397,7 +397,7 @@ TEST_F(ImportTest, CreaseStandsInPlaceOfNormals) {
 }
 
 TEST_F(ImportTest, AFileThatIsThereIsReplacedOnlyByForce) {
-  ImportOptions options = options(write("box.obj", obj_box()));
+  ImportOptions options = options_for(write("box.obj", obj_box()));
   options.force = false;
   import_model(options);
   std::ofstream(options.to) << "mine";
@@ -501,7 +501,7 @@ TEST_F(ImportTest, PatchFilesAreModelsToo) {
   EXPECT_EQ(model.joints[0].segment->sbb.min, glm::dvec3(10, -3, 7));
   EXPECT_EQ(model.shapes[0].patches[0].points, modeler::read_patch_file(from).patches[0].points);
   EXPECT_TRUE(document::holds(told_, "  read       1 patch\n  not read   nothing")) << told_;
-  ImportOptions options = options(from);
+  ImportOptions options = options_for(from);
   options.up = 'y';
   options.scale = 2;
   const modeler::Box box = import(options).joints[0].segment->sbb;
@@ -514,7 +514,7 @@ TEST_F(ImportTest, PatchFilesAreModelsToo) {
 
 TEST_F(ImportTest, TheFileItselfIsNotOverwritten) {
   const fs::path from = write("in.bpt", "1\n");
-  ImportOptions options = options(from);
+  ImportOptions options = options_for(from);
   options.to = from;
   EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
                               "is the file that is read (write to another)"));
