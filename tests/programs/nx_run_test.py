@@ -404,6 +404,11 @@ class Ends(NxRun):
         done = self.run_nx("--over", "mpi", "--nodes", 4, "./node", "--", "crash")
         self.assertNotEqual(done.returncode, 0)
 
+    def test_a_parent_that_ignores_the_ends_of_its_children(self):
+        ignoring = ["sh", "-c", "trap '' CHLD; exec \"$@\"", "sh"]
+        done = self.run_program(*ignoring, MARS_NX, "run", "--over", "processes", "--nodes", 4, "./node", "--", "leave")
+        self.assertEqual(done.returncode, 4, done.stderr)
+
     def test_a_node_leaves_without_a_word(self):
         self.badly(4, "node 2 ended without leaving its job, with exit code 4", "--nodes", 4, "./node", "--", "leave")
 
