@@ -5,7 +5,7 @@
   tidy.py BUILD FOLDER ...   over those below these folders of the project
 
 BUILD has a compile_commands.json. Each finding is printed once. Exit code 1 where there is one, or where the time of
---seconds (default: 2400) is over; processes: as many as processors.
+--seconds (default: 3600) is over; processes: as many as processors.
 """
 
 import argparse
@@ -82,7 +82,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
     parser.add_argument("folders", nargs="*", default=FOLDERS)
-    parser.add_argument("--seconds", type=float, default=2400)
+    parser.add_argument("--seconds", type=float, default=3600)
     words = parser.parse_args()
     clang_tidy = program()
     if not clang_tidy:
