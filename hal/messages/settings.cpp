@@ -28,7 +28,7 @@ constexpr std::array<Setting, 7> kTable = {{
      "it is where its program is another than the others'"},
     {"MARS_NX_MEMORY", "MiB that messages under way between processes of mars-nx may take",
      "half of the machine's memory"},
-    {"MARS_NX_STRICT", "yes or no: NX messages over 100 bytes are not buffered; long waits are shown",
+    {"MARS_NX_STRICT", "yes or no: NX buffers no messages over 100 bytes and reports long waits",
      "all messages are buffered"},
     {"MARS_SIMD", "widest instruction set that is used: sse2, sse4, avx2 or avx512", "the widest the processor has"},
 }};
