@@ -113,6 +113,7 @@ std::optional<Ending> Process::ending(int options) {
   }
   if (ended == 0) return std::nullopt;
   left_ = true;
+  if (ended < 0) return Ending{1, 0};  // something else took its end: nobody knows that it went well
   return WIFSIGNALED(status) ? Ending{0, WTERMSIG(status)} : Ending{WEXITSTATUS(status), 0};
 }
 

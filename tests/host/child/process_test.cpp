@@ -46,6 +46,12 @@ TEST(Process, EndsSoAlsoWhereOurParentIgnoresTheEndsOfChildren) {
   std::signal(SIGCHLD, SIG_DFL);
 }
 
+TEST(Process, HasNotEndedWellWhereItsEndIsTaken) {
+  Process process(shell("exit 0"), {});
+  EXPECT_GT(waitpid(-1, nullptr, 0), 0);
+  EXPECT_NE(process.wait().code, 0);
+}
+
 TEST(Process, SaysWhyItCannotStart) {
   EXPECT_EQ(document::failure_of([] {
               Process({{}, {"/no/such/program"}}, {});
