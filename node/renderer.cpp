@@ -1,6 +1,8 @@
 #include "node/renderer.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
@@ -13,18 +15,21 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
     : scene_(film),
       mapping_(load.mapping),
       tessellator_(set),
-      arena_(load.memory),
       z_buffer_(set, scene_.width()),
-      czb_(machines, load.groups, scene_.width(), scene_.height()),
+      neighbours_(machines, load.groups),
+      czb_(neighbours_, scene_.width(), scene_.height()),
+      memory_(neighbours_, load.memory),
       sums_(film.settings().height, machines.size()),
-      triangle_exchange_(static_cast<int>(numnodes()), film.settings().height),
-      depth_exchange_(static_cast<int>(numnodes())),
+      triangle_exchange_(machines.size(), film.settings().height),
+      depth_exchange_(neighbours_),
       outbox_(film.settings().width, load.credits),
       contributes_(machines.size()),
       line_counts_(film.settings().height),
+      line_totals_(film.settings().height + 1),
       wanted_lines_(film.settings().height),
       homes_(machines.size()),
       pass_homes_(machines.size()) {
+  parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
 }
 
@@ -67,8 +72,7 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   group::Pass pass{0, map_to_homes(own.made)};
   for (; pass.number < pass.count; ++pass.number) {
     if (pass.count > 1) own = tessellate_part(pass);
-    const raster::LineBoxes boxes = exchange_triangles(own.polygons, pass);
-    draw_lines(boxes, own.polygons.triangles, pass);
+    draw_lines(exchange_triangles(own.polygons, pass), pass);
     if (!pass.is_last()) send_trace();
   }
   report_.end();
@@ -77,92 +81,125 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
 
 // Every line is wanted, so that all edge boxes are counted.
 Tessellation Renderer::tessellate_all() {
-  arena_.clear();
-  arena_.reset_peak();
+  memory_.begin_frame();
+  memory_.arena().reset_peak();
   std::ranges::fill(wanted_lines_, std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
   report_.strip().work.edge_boxes_diced = own.made.edge_boxes;
+  const std::uint64_t fixed = group::fixed_bytes(line_counts_.size(), homes().size());
+  if (group::own_bytes(own.made, triangles_travel()) + fixed <= memory_.frame_bytes()) fill_own_lines(own.polygons);
   return own;
 }
 
 // The triangles of the pass's lines, made again.
 Tessellation Renderer::tessellate_part(const group::Pass& pass) {
-  arena_.clear();
+  memory_.begin_frame();
   group::mark_lines(homes(), pass, wanted_lines_);
   const Tessellation own = tessellate();
   check(own.all_stored, "a pass's triangles fit the memory planned for it");
+  fill_own_lines(own.polygons);
+  group::wait_for_all(group_);
+  report_.clock(wire::Phase::sum);
   return own;
 }
 
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
   const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_},
-                                                   arena_, report_.strip().work);
+                                                   memory_, report_.strip().work);
   report_.clock(wire::Phase::dice);
   return own;
 }
 
+void Renderer::fill_own_lines(const raster::Polygons& own) {
+  std::inclusive_scan(line_counts_.begin(), line_counts_.end(), line_totals_.begin() + 1, std::plus<>(),
+                      std::uint64_t{0});
+  raster::LineFiller filler({0, static_cast<std::uint32_t>(line_counts_.size())}, line_totals_,
+                            memory_.first_triangle(), memory_.arena());
+  filler.add(own);
+  parts_.assign(1, filler.finish());
+  memory_.publish(parts_.front());
+  report_.clock(wire::Phase::fill);
+}
+
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
-  sums_.add_up(group_, line_counts_, group::own_bytes(made, group_));
+  sums_.add_up(group_, line_counts_, group::own_bytes(made, triangles_travel()));
   report_.strip().edge_box_total = sums_.ebc().back();
   report_.clock(wire::Phase::sum);
   group::map_lines(mapping_, sums_.ebc(), homes());
   report_.strip().load_ratio = group::load_ratio(sums_.ebc(), homes());
   const std::uint32_t passes = group::agree_on_passes(
-      {group_, sums_.ebc(), homes(), sums_.own_bytes(), line_counts_, made.triangles}, arena_.size());
+      {group_, sums_.ebc(), homes(), sums_.own_bytes(), line_counts_, made.triangles, triangles_travel()},
+      memory_.frame_bytes());
   report_.strip().work.passes = passes;
   report_.clock(wire::Phase::map);
   return passes;
 }
 
-// Edge boxes of all nodes on the caller's lines. While others' are on their way, the own ones are put into their lines.
-raster::LineBoxes Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
+// Neighbours read each other's edge boxes where they lie; the others' are sent.
+geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, const group::Pass& pass) {
   const auto homes_now = std::span(pass_homes_).first(homes().size());
   std::ranges::transform(homes(), homes_now.begin(),
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
-  triangle_exchange_.send_triangles(group_, own, homes_now, line_counts_, arena_);
-  report_.clock(wire::Phase::exchange);
-  raster::LineFiller filler(homes_now[member()], sums_.ebc(), own.triangles, arena_);
-  filler.add(own);
-  report_.clock(wire::Phase::fill);
-  for (int number = 1; number < group_.count; ++number) {
-    const raster::Polygons others = triangle_exchange_.receive_triangles(group_, number, arena_);
+  const geometry::LineRange lines = homes_now[member()];
+  if (group_.count > 1) {
+    triangle_exchange_.send_triangles(group_, own, homes_now, line_counts_, memory_);
+    memory_.read_published(parts_);
     report_.clock(wire::Phase::exchange);
+    if (triangles_travel()) receive_triangles(lines);
+  }
+  for (const raster::LineBoxes& part : parts_) report_.strip().work.edge_boxes += part.count(lines);
+  return lines;
+}
+
+// As many edge boxes as EBC counts on `lines` beside those that are there.
+void Renderer::receive_triangles(const geometry::LineRange& lines) {
+  const auto totals = memory_.arena().take<std::uint64_t>(lines.count() + 1);
+  totals[0] = 0;
+  for (std::uint32_t i = 0; i < lines.count(); ++i) {
+    const std::uint32_t line = lines.first + i;
+    totals[i + 1] = totals[i] + sums_.ebc()[line + 1] - sums_.ebc()[line];
+    for (const raster::LineBoxes& part : parts_) totals[i + 1] -= part.of(line).size();
+  }
+  raster::LineFiller filler(lines, totals, memory_.first_triangle(), memory_.arena());
+  for (std::uint64_t left = totals.back(); left > 0;) {
+    const raster::Polygons others = triangle_exchange_.receive_triangles(memory_);
+    report_.clock(wire::Phase::exchange);
+    const std::uint64_t came = others.stationary.size() + others.moving.size();
+    check(came > 0 && came <= left, "as many edge boxes come as EBC counts");
+    left -= came;
     filler.add(others);
     report_.clock(wire::Phase::fill);
   }
-  const raster::LineBoxes boxes = filler.finish();
-  report_.strip().work.edge_boxes += boxes.boxes.size();
-  return boxes;
+  parts_.push_back(filler.finish());
 }
 
-void Renderer::draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles,
-                          const group::Pass& pass) {
-  const shading::Shading shading = shading_for(triangles);
-  const bool constant = boxes.any_stationary();
-  geometry::LineRange strip{boxes.lines.first, boxes.lines.first};
+void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
+  const shading::Shading shading = this->shading();
+  const bool constant = raster::any_stationary(parts_, lines);
+  geometry::LineRange strip{lines.first, lines.first};
   do {
     raster::StripBuffer& buffer = outbox_.begin(constant);
     report_.clock(wire::Phase::credit);
-    strip = {strip.last, draw_strip(boxes, strip.last, shading, buffer)};
+    strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
     report_.clock(wire::Phase::scanline);
-    const bool drawn = strip.last == boxes.lines.last;
+    const bool drawn = strip.last == lines.last;
     if (drawn) finish_exchange(pass);
     send_strip(strip, drawn && pass.is_last());
-  } while (strip.last < boxes.lines.last);
+  } while (strip.last < lines.last);
 }
 
-std::uint32_t Renderer::draw_strip(const raster::LineBoxes& boxes, std::uint32_t first, const shading::Shading& shading,
+std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,
                                    raster::StripBuffer& out) {
-  std::uint32_t line = first;
-  while (line < boxes.lines.last && out.lines_that_fit() > 0) {
-    const geometry::LineRange part{line, std::min(line + out.lines_that_fit(), boxes.lines.last)};
+  std::uint32_t line = lines.first;
+  while (line < lines.last && out.lines_that_fit() > 0) {
+    const geometry::LineRange some{line, std::min(line + out.lines_that_fit(), lines.last)};
     if (report_.is_keyframe())
-      z_buffer_.draw_keyframe(boxes, part, shading, moving_line_bounds_, czb_, out);
+      z_buffer_.draw_keyframe(parts_, some, shading, moving_line_bounds_, czb_, out);
     else
-      z_buffer_.draw_inbetween(boxes, part, shading, moving_line_bounds_, czb_, out);
-    line = part.last;
+      z_buffer_.draw_inbetween(parts_, some, shading, moving_line_bounds_, czb_, out);
+    line = some.last;
   }
   return line;
 }
@@ -176,7 +213,7 @@ void Renderer::finish_exchange(const group::Pass& pass) {
 }
 
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
-  report_.set_strip(lines, last, arena_.peak());
+  report_.set_strip(lines, last, memory_.arena().peak());
   outbox_.send(report_.strip());
   ++report_.strip().number;
   report_.skip_clock();  // send() has counted its own wait
@@ -184,8 +221,12 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
 
 std::size_t Renderer::member() const { return static_cast<std::size_t>(mynode() - group_.first); }
 
-shading::Shading Renderer::shading_for(const geometry::Triangle* triangles) const {
-  return {triangles, scene_.film().materials().data(), scene_.lights().data(),
+bool Renderer::triangles_travel() const {
+  return memory_.readers().size() + 1 < static_cast<std::size_t>(group_.count);
+}
+
+shading::Shading Renderer::shading() const {
+  return {memory_.first_triangle(), scene_.film().materials().data(), scene_.lights().data(),
           static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
 }
 

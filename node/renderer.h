@@ -13,11 +13,12 @@
 #include "node/geometry/scene.h"
 #include "node/group/depth_exchange.h"
 #include "node/group/exchange.h"
+#include "node/group/frame_memory.h"
 #include "node/group/group_sums.h"
 #include "node/group/outbox.h"
 #include "node/group/passes.h"
-#include "node/raster/arena.h"
 #include "node/raster/czb.h"
+#include "node/raster/neighbours.h"
 #include "node/raster/scanline.h"
 #include "node/tessellator.h"
 #include "node/tracer.h"
@@ -49,28 +50,33 @@ class Renderer {
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
+  // Puts own edge boxes into their lines, where other nodes may read them.
+  void fill_own_lines(const raster::Polygons& own);
   // Returns the number of passes.
   std::uint32_t map_to_homes(const group::MadeCounts& made);
-  raster::LineBoxes exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
-  void draw_lines(const raster::LineBoxes& boxes, const geometry::Triangle* triangles, const group::Pass& pass);
-  // Draws lines from `first` on until the strip is full or all are drawn; one past the last of them.
-  std::uint32_t draw_strip(const raster::LineBoxes& boxes, std::uint32_t first, const shading::Shading& shading,
-                           raster::StripBuffer& out);
+  // Sets parts_; returns the lines to be drawn.
+  geometry::LineRange exchange_triangles(const raster::Polygons& own, const group::Pass& pass);
+  void receive_triangles(const geometry::LineRange& lines);
+  void draw_lines(const geometry::LineRange& lines, const group::Pass& pass);
+  // Draws `lines` from the first on until the strip is full or all are drawn; one past the last of them.
+  std::uint32_t draw_strip(const geometry::LineRange& lines, const shading::Shading& shading, raster::StripBuffer& out);
   // Waits until what was sent to nodes is gone; after the last pass of a keyframe nodes give each other CZB.
   void finish_exchange(const group::Pass& pass);
   void send_strip(const geometry::LineRange& lines, bool last);
 
   std::size_t member() const;  // the caller's index in the group
   std::span<geometry::LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
-  shading::Shading shading_for(const geometry::Triangle* triangles) const;
+  bool triangles_travel() const;  // to nodes of the group that cannot read the caller's memory
+  shading::Shading shading() const;
 
   std::optional<Tracer> tracer_;
   geometry::Scene scene_;
   wire::Mapping mapping_;
   Tessellator tessellator_;
-  raster::Arena arena_;
   raster::ZBuffer z_buffer_;
+  raster::Neighbours neighbours_;
   raster::Czb czb_;
+  group::FrameMemory memory_;
   group::GroupSums sums_;
   group::TriangleExchange triangle_exchange_;
   group::DepthExchange depth_exchange_;
@@ -83,6 +89,8 @@ class Renderer {
   // Of the current frame.
   collectives::Group group_;                // that draws it
   std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
+  std::vector<std::uint64_t> line_totals_;  // of these, before each line and at the end
+  std::vector<raster::LineBoxes> parts_;    // edge boxes of the lines to be drawn; own ones first
   std::vector<std::uint8_t> wanted_lines_;
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;

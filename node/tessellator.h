@@ -8,8 +8,8 @@
 
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
+#include "node/group/frame_memory.h"
 #include "node/group/passes.h"
-#include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 #include "node/raster/setup.h"
 #include "node/shape/dice.h"
@@ -40,10 +40,10 @@ class Tessellator {
   explicit Tessellator(simd::InstructionSet set);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
-  // keyframe, of the moving ones in an inbetween. They lie in `arena`. Sets `lines.counts`, and the patches and
+  // keyframe, of the moving ones in an inbetween. They lie in `memory`. Sets `lines.counts`, and the patches and
   // vertices of `work`.
   Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
-                          const LineTable& lines, raster::Arena& arena, wire::WorkCounts& work);
+                          const LineTable& lines, group::FrameMemory& memory, wire::WorkCounts& work);
 
  private:
   struct Output;

@@ -13,6 +13,7 @@
 #include "node/geometry/line_range.h"
 #include "node/group/pending_messages.h"
 #include "node/raster/czb.h"
+#include "node/raster/neighbours.h"
 
 namespace mars::group {
 
@@ -26,8 +27,7 @@ struct DepthNeeds {
 
 class DepthExchange {
  public:
-  // `nodes`: the most a group has.
-  explicit DepthExchange(int nodes);
+  explicit DepthExchange(const raster::Neighbours& neighbours) : neighbours_(neighbours) {}
 
   // Collective over the group, which has written its home lines to `czb`. A contributor returns when all needed lines
   // are there.
@@ -40,6 +40,7 @@ class DepthExchange {
   void collect_lines(const Plan& plan, raster::Czb& czb);
   void notify_contributors(const Plan& plan) const;
 
+  const raster::Neighbours& neighbours_;
   PendingMessages pending_;
 };
 

@@ -4,11 +4,13 @@
 #include <numeric>
 #include <utility>
 
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
-#include "node/wire/protocol.h"
 
 namespace mars::group {
 namespace {
+
+constexpr std::size_t kNone = 0xffffffff;
 
 // visit(unsorted) for all own edge boxes in the order of polygon numbers: those that stand still, then the others.
 template <typename Visit>
@@ -17,70 +19,78 @@ void visit_all(const raster::Polygons& polygons, const Visit& visit) {
     for (auto next = boxes.rbegin(); next != boxes.rend(); ++next) visit(*next);
 }
 
-template <typename T>
-long bytes_of(std::span<T> items) {
-  return static_cast<long>(items.size_bytes());
+constexpr std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+// Where a message's edge boxes begin, and behind so many of them its triangles.
+constexpr std::size_t kBoxesAt = whole_cache_lines(sizeof(wire::TriangleHead));
+constexpr std::size_t triangles_at(std::size_t edge_boxes) {
+  return whole_cache_lines(kBoxesAt + edge_boxes * sizeof(raster::UnsortedEdgeBox));
 }
 
 }  // namespace
 
-TriangleExchange::TriangleExchange(int nodes, std::size_t lines)
-    : pending_(2 * static_cast<std::size_t>(nodes)), parcels_(static_cast<std::size_t>(nodes)), home_of_(lines) {}
+TriangleExchange::TriangleExchange(std::size_t nodes, std::size_t lines)
+    : pending_(std::min(nodes, lines)), parcel_of_(lines) {
+  parcels_.reserve(std::min(nodes, lines));
+}
 
 void TriangleExchange::send_triangles(const collectives::Group& group, const raster::Polygons& own,
                                       std::span<const geometry::LineRange> homes,
-                                      std::span<const std::uint32_t> line_counts, raster::Arena& arena) {
+                                      std::span<const std::uint32_t> line_counts, FrameMemory& memory) {
   const auto self = static_cast<std::size_t>(mynode() - group.first);
-  if (homes.size() == 1) return;
-  for (std::size_t home = 0; home < homes.size(); ++home) {
-    const auto on_home = [&](const auto& lines) { return lines.subspan(homes[home].first, homes[home].count()); };
-    std::ranges::fill(on_home(std::span(home_of_)), static_cast<std::uint32_t>(home));
+  if (memory.readers().size() + 1 == homes.size()) return;
+  parcels_.clear();
+  for (std::size_t i = 0; i < homes.size(); ++i) {
+    const std::size_t home = (self + i) % homes.size();  // so that not all send to the same node first
+    const int node = group.first + static_cast<int>(home);
+    const auto on_home = [&](auto lines) { return lines.subspan(homes[home].first, homes[home].count()); };
     const auto counts = on_home(line_counts);
-    const std::size_t boxes = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-    // Capacity for one triangle an edge box, the most there can be.
-    parcels_[home] = {arena.take<geometry::Triangle>(boxes), arena.take<raster::UnsortedEdgeBox>(boxes), 0, boxes,
-                      shading::kNoTriangle};
+    const std::size_t boxes =
+        i == 0 || memory.reads(node) ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    std::ranges::fill(on_home(std::span(parcel_of_)), static_cast<std::uint32_t>(boxes > 0 ? parcels_.size() : kNone));
+    if (boxes == 0) continue;
+    // With room for one triangle an edge box, the most there can be.
+    const auto message = memory.arena().take<std::byte>(triangles_at(boxes) + boxes * sizeof(geometry::Triangle));
+    parcels_.push_back({node, message, reinterpret_cast<raster::UnsortedEdgeBox*>(message.data() + kBoxesAt) + boxes,
+                        reinterpret_cast<geometry::Triangle*>(message.data() + triangles_at(boxes))});
+    *reinterpret_cast<wire::TriangleHead*>(message.data()) = {boxes, 0};
   }
-  fill_parcels(own, static_cast<std::uint32_t>(self));
-  for (std::size_t i = 1; i < homes.size(); ++i) {
-    const std::size_t index = (self + i) % homes.size();  // so that not all send to the same node first
-    const Parcel& parcel = parcels_[index];
-    const long node = group.first + static_cast<long>(index);
-    const auto triangles = parcel.triangles.first(parcel.triangle_count);
-    pending_.add(isend(wire::triangles_from(mynode()), triangles.data(), bytes_of(triangles), node, 0));
-    pending_.add(isend(wire::edge_boxes_from(mynode()), parcel.boxes.data(), bytes_of(parcel.boxes), node, 0));
+  fill_parcels(own);
+  for (const Parcel& parcel : parcels_) {
+    reinterpret_cast<wire::TriangleHead*>(parcel.message.data())->triangles = parcel.triangle_count;
+    const auto* const end = reinterpret_cast<const std::byte*>(parcel.triangles + parcel.triangle_count);
+    pending_.add(isend(wire::kTriangles, parcel.message.data(), end - parcel.message.data(), parcel.node, 0));
   }
 }
 
 // As a node has its own: triangles in order and numbered from 0, edge boxes from the last to the first.
-void TriangleExchange::fill_parcels(const raster::Polygons& own, std::uint32_t self) {
+void TriangleExchange::fill_parcels(const raster::Polygons& own) {
+  if (parcels_.empty()) return;
   visit_all(own, [&](const raster::UnsortedEdgeBox& unsorted) {
-    const std::uint32_t home = home_of_[unsorted.line];
-    if (home == self) return;
+    const std::uint32_t home = parcel_of_[unsorted.line];
+    if (home == kNone) return;
     Parcel& parcel = parcels_[home];
     if (std::exchange(parcel.last_triangle, unsorted.box.triangle) != unsorted.box.triangle)
       parcel.triangles[parcel.triangle_count++] = own.triangles[unsorted.box.triangle];
-    raster::UnsortedEdgeBox& copy = parcel.boxes[--parcel.box_count] = unsorted;
+    raster::UnsortedEdgeBox& copy = *--parcel.next_box = unsorted;
     copy.box.triangle = static_cast<std::uint32_t>(parcel.triangle_count - 1);
   });
 }
 
-raster::Polygons TriangleExchange::receive_triangles(const collectives::Group& group, int number,
-                                                     raster::Arena& arena) {
-  const int self = static_cast<int>(mynode()) - group.first;
-  const int node = group.first + (self + group.count - number) % group.count;
-  cprobe(wire::triangles_from(node));
-  const auto triangles =
-      arena.take<geometry::Triangle>(static_cast<std::size_t>(infocount()) / sizeof(geometry::Triangle));
-  crecv(wire::triangles_from(node), triangles.data(), bytes_of(triangles));
-  cprobe(wire::edge_boxes_from(node));
-  const auto boxes =
-      arena.take<raster::UnsortedEdgeBox>(static_cast<std::size_t>(infocount()) / sizeof(raster::UnsortedEdgeBox));
-  crecv(wire::edge_boxes_from(node), boxes.data(), bytes_of(boxes));
+raster::Polygons TriangleExchange::receive_triangles(FrameMemory& memory) {
+  cprobe(wire::kTriangles);
+  const auto message = memory.arena().take<std::byte>(static_cast<std::size_t>(infocount()));
+  crecv(wire::kTriangles, message.data(), static_cast<long>(message.size()));
+  check(message.size() >= kBoxesAt, "triangles have a head");
+  const auto& head = *reinterpret_cast<const wire::TriangleHead*>(message.data());
+  check(message.size() == triangles_at(head.edge_boxes) + head.triangles * sizeof(geometry::Triangle),
+        "triangles are as many as their head says");
+  const std::span boxes(reinterpret_cast<const raster::UnsortedEdgeBox*>(message.data() + kBoxesAt), head.edge_boxes);
   const auto first_stationary = std::partition_point(
       boxes.begin(), boxes.end(), [](const raster::UnsortedEdgeBox& box) { return box.moving == 1; });
   const auto moving = static_cast<std::size_t>(first_stationary - boxes.begin());
-  return {triangles.data(), boxes.subspan(moving), boxes.first(moving)};
+  return {reinterpret_cast<const geometry::Triangle*>(message.data() + triangles_at(head.edge_boxes)),
+          boxes.subspan(moving), boxes.first(moving)};
 }
 
 void TriangleExchange::finish() { pending_.wait(); }

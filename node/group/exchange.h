@@ -1,4 +1,6 @@
-// The exchange of triangles within a group in a keyframe: each is sent once to every home of its scanlines.
+// The exchange of triangles within a group in a keyframe, with the nodes whose memory the caller cannot read: each is
+// sent once to every home of its scanlines. A message is sent only where it carries something: how many edge boxes come
+// to a home follows from EBC, so that it takes messages in the order of their arrival until it has them.
 #pragma once
 
 #include <cstddef>
@@ -8,43 +10,46 @@
 
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
+#include "node/group/frame_memory.h"
 #include "node/group/pending_messages.h"
-#include "node/raster/arena.h"
 #include "node/raster/scanline.h"
+#include "node/wire/protocol.h"
 
 namespace mars::group {
 
 class TriangleExchange {
  public:
   // `nodes`: the most a group has; `lines`: of a picture.
-  TriangleExchange(int nodes, std::size_t lines);
+  TriangleExchange(std::size_t nodes, std::size_t lines);
 
-  // Begins to send to every other node of the group those of `own` triangles that have edge boxes on its lines,
-  // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
+  // Begins to send to every other node of the group, unless it reads `memory`, those of `own` triangles that have edge
+  // boxes on its lines, `homes`, from copies in the arena. They are gone after finish(). `line_counts`: own edge boxes
+  // a line.
   void send_triangles(const collectives::Group& group, const raster::Polygons& own,
                       std::span<const geometry::LineRange> homes, std::span<const std::uint32_t> line_counts,
-                      raster::Arena& arena);
-  // Receives from another node, the `number`th of count - 1; the result lies in `arena`.
-  raster::Polygons receive_triangles(const collectives::Group& group, int number, raster::Arena& arena);
-  // Waits until all that was sent has left `arena`.
+                      FrameMemory& memory);
+  // Receives the next node's; they lie in the arena.
+  raster::Polygons receive_triangles(FrameMemory& memory);
+  // Waits until all that was sent has left the arena.
   void finish();
 
  private:
   // The triangles for one home.
   struct Parcel {
-    std::span<geometry::Triangle> triangles;
-    std::span<raster::UnsortedEdgeBox> boxes;
-    std::size_t triangle_count = 0;  // filled from the front
-    std::size_t box_count = 0;       // not filled yet, from the back
+    int node;
+    std::span<std::byte> message;
+    raster::UnsortedEdgeBox* next_box;  // filled from the back
+    geometry::Triangle* triangles;
+    std::uint64_t triangle_count = 0;  // filled from the front
     // The last triangle that goes there: a triangle's edge boxes follow each other.
     std::uint32_t last_triangle = shading::kNoTriangle;
   };
 
-  void fill_parcels(const raster::Polygons& own, std::uint32_t self);
+  void fill_parcels(const raster::Polygons& own);
 
   PendingMessages pending_;
   std::vector<Parcel> parcels_;
-  std::vector<std::uint32_t> home_of_;  // by line: index of its home; only lines of `homes` are set
+  std::vector<std::uint32_t> parcel_of_;  // by line, parcels_.size() where none; only lines of `homes` are set
 };
 
 }  // namespace mars::group

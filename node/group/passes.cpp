@@ -17,9 +17,14 @@ namespace {
 constexpr std::uint64_t kTravelling = sizeof(geometry::Triangle) + sizeof(raster::UnsortedEdgeBox);
 constexpr std::uint64_t kInLine = sizeof(raster::EdgeBox);
 
-// Bytes of a pass besides triangles and edge boxes: the counting sort's arrays, and the rounding of each piece of
-// memory.
-std::uint64_t overhead(const FrameLoad& load) { return 24 * load.line_counts.size() + 512 * load.homes.size() + 4096; }
+std::uint64_t fixed_bytes(const FrameLoad& load) {
+  return group::fixed_bytes(load.line_counts.size(), load.homes.size());
+}
+
+// Of a home on whose lines all nodes have so many edge boxes, at most.
+std::uint64_t received_bytes(const FrameLoad& load, std::uint64_t boxes) {
+  return load.travels ? boxes * (kTravelling + kInLine) : 0;
+}
 
 // Of all nodes' triangles, on some lines.
 std::uint64_t boxes_on(const FrameLoad& load, const geometry::LineRange& lines) {
@@ -43,18 +48,14 @@ const geometry::LineRange& home_of(const FrameLoad& load, int node) {
 // A triangle has at least one edge box.
 std::uint64_t memory_in(const FrameLoad& load, int node, const Pass& pass) {
   const std::uint64_t own_boxes = own_boxes_in(load, pass), boxes = boxes_on(load, part_of(home_of(load, node), pass));
-  const std::uint64_t own =
-      std::min(own_boxes, load.triangles) * sizeof(geometry::Triangle) + own_boxes * sizeof(raster::UnsortedEdgeBox);
-  const std::uint64_t travelling = load.homes.size() > 1 ? (own_boxes + boxes) * kTravelling : 0;
-  return own + travelling + boxes * kInLine;
+  return own_bytes({std::min(own_boxes, load.triangles), own_boxes}, load.travels) + received_bytes(load, boxes);
 }
 
 // By what every node knows of all.
 bool one_pass_fits_all(const FrameLoad& load, std::uint64_t memory) {
   for (std::size_t n = 0; n < load.homes.size(); ++n) {
-    const std::uint64_t boxes = boxes_on(load, load.homes[n]);
-    const std::uint64_t received = load.homes.size() > 1 ? boxes * kTravelling : 0;
-    if (load.own_bytes[n] + received + boxes * kInLine + overhead(load) > memory) return false;
+    const std::uint64_t received = received_bytes(load, boxes_on(load, load.homes[n]));
+    if (load.own_bytes[n] + received + fixed_bytes(load) > memory) return false;
   }
   return true;
 }
@@ -76,16 +77,18 @@ void mark_lines(std::span<const geometry::LineRange> homes, const Pass& pass, st
   }
 }
 
-std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group) {
-  const std::uint64_t sent = group.count > 1 ? made.edge_boxes * kTravelling : 0;
-  return made.triangles * sizeof(geometry::Triangle) + made.edge_boxes * sizeof(raster::UnsortedEdgeBox) + sent;
+std::uint64_t own_bytes(const MadeCounts& made, bool travels) {
+  const std::uint64_t a_box = sizeof(raster::UnsortedEdgeBox) + kInLine + (travels ? kTravelling : 0);
+  return made.triangles * sizeof(geometry::Triangle) + made.edge_boxes * a_box;
 }
+
+std::uint64_t fixed_bytes(std::size_t lines, std::size_t nodes) { return 2 * 32 * lines + 512 * nodes + 4096; }
 
 std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes) {
   std::uint64_t most = 0;
   for (std::uint32_t number = 0; number < passes; ++number)
     most = std::max(most, memory_in(load, node, {number, passes}));
-  return most + overhead(load);
+  return most + fixed_bytes(load);
 }
 
 std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) {
@@ -97,6 +100,11 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) 
                       std::to_string(memory >> 20) + " MiB",
                   "memory", "set MARS_MEMORY to more MiB");
   return passes;
+}
+
+void wait_for_all(const collectives::Group& group) {
+  double nothing = 0, work = 0;
+  if (group.count > 1) collectives::group_high(group, {&nothing, 1}, {&work, 1});
 }
 
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory) {

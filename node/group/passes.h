@@ -30,8 +30,13 @@ struct MadeCounts {
   std::uint64_t edge_boxes = 0;
 };
 
-// Bytes that these take on their node in a single pass, with the copies that are sent to the group's other nodes.
-std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group);
+// Bytes that these take on their node in a single pass, sorted into their lines too. `travels`: some are sent to other
+// nodes, as copies.
+std::uint64_t own_bytes(const MadeCounts& made, bool travels);
+
+// Bytes of a pass besides triangles and edge boxes, in a picture of `lines` lines: the counting sorts' arrays, and the
+// rounding of each piece of memory, of which each node of a group may send one.
+std::uint64_t fixed_bytes(std::size_t lines, std::size_t nodes);
 
 // A frame as a node of the group knows it when lines are mapped.
 struct FrameLoad {
@@ -41,6 +46,7 @@ struct FrameLoad {
   std::span<const std::uint64_t> own_bytes;    // of the group's nodes
   std::span<const std::uint32_t> line_counts;  // edge boxes a line of the node's own triangles
   std::uint64_t triangles;                     // of its own
+  bool travels;                                // some nodes of the group cannot read each other's memory
 };
 
 // A bound on the bytes that node `node` uses in any of `passes` passes.
@@ -49,6 +55,9 @@ std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes);
 // The least number of passes, a power of two, for which `memory` bytes suffice on node `node`. Throws Failure where
 // they do not suffice for one line.
 std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory);
+
+// Returns once all nodes of the group have come here; collective.
+void wait_for_all(const collectives::Group& group);
 
 // The number of passes that suffices on all nodes of the group, the same on each; collective. Nodes exchange their
 // numbers only where one pass might not suffice for one of them, which all know from the sums.

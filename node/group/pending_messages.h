@@ -10,6 +10,7 @@ namespace mars::group {
 
 class PendingMessages {
  public:
+  PendingMessages() = default;
   // Up to `capacity` messages at a time cost no memory.
   explicit PendingMessages(std::size_t capacity) { ids_.reserve(capacity); }
 

@@ -6,12 +6,10 @@
 
 namespace mars::raster {
 
-Arena::Arena(std::size_t bytes) : block_(bytes), size_(bytes / kGrain * kGrain), back_(size_) {
-  block_.prefer_large_pages();
-}
+Arena::Arena(std::span<std::byte> block) : block_(block.first(block.size() / kGrain * kGrain)), back_(block_.size()) {}
 
 std::byte* Arena::take_bytes(std::size_t bytes) {
-  std::byte* start = block_.bytes().data() + front_;
+  std::byte* start = block_.data() + front_;
   take_ends(bytes, 0);
   return start;
 }

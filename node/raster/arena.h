@@ -1,19 +1,17 @@
-// A node's memory for one frame: one block, set aside when a film is loaded, handed out from both ends and taken
-// back whole. Nothing is allocated while frames are drawn.
+// A node's memory for one frame: one block, set aside when a film is loaded (group/frame_memory.h), handed out from
+// both ends and taken back whole. Nothing is allocated while frames are drawn.
 #pragma once
 
 #include <cstddef>
 #include <span>
-
-#include "hal/messages/private_memory.h"
 
 namespace mars::raster {
 
 class Arena {
  public:
   Arena() = default;
-  // `bytes` of address space; the machine gives pages as they are first touched. Throws Failure.
-  explicit Arena(std::size_t bytes);
+  // Hands out `block`, which begins at a cache line and outlives it.
+  explicit Arena(std::span<std::byte> block);
 
   // `count` uninitialised items; check()s that they fit: callers plan first.
   template <typename T>
@@ -22,12 +20,12 @@ class Arena {
   }
   // All that is not taken: a caller that does not know how much it needs fills it from both ends and then takes that
   // many bytes at the front and at the back.
-  std::span<std::byte> rest() const { return block_.bytes().subspan(front_, back_ - front_); }
+  std::span<std::byte> rest() const { return block_.subspan(front_, back_ - front_); }
   void take_ends(std::size_t at_front, std::size_t at_back);
 
-  void clear() { front_ = 0, back_ = size_; }
+  void clear() { front_ = 0, back_ = block_.size(); }
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return block_.size(); }
   std::size_t peak() const { return peak_; }  // most bytes in use since reset_peak()
   void reset_peak() { peak_ = used(); }
 
@@ -36,10 +34,9 @@ class Arena {
   static constexpr std::size_t kGrain = 64;
 
   std::byte* take_bytes(std::size_t bytes);
-  std::size_t used() const { return front_ + (size_ - back_); }
+  std::size_t used() const { return front_ + (block_.size() - back_); }
 
-  messages::PrivateMemory block_;
-  std::size_t size_ = 0;
+  std::span<std::byte> block_;
   std::size_t front_ = 0;
   std::size_t back_ = 0;
   std::size_t peak_ = 0;

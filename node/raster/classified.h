@@ -61,7 +61,7 @@ struct ScreenShape {
 
 // Where set-ups go: triangles forward from `next`, their edge boxes backward from `last_box`.
 struct SetUpSpace {
-  geometry::Triangle* first;  // the frame's triangles count from here
+  geometry::Triangle* first;  // triangles count from here
   geometry::Triangle* next;
   UnsortedEdgeBox* last_box;         // the one stored last
   std::uint32_t* line_counts;        // edge boxes a line, of all that is added

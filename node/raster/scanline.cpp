@@ -6,10 +6,12 @@
 
 namespace mars::raster {
 
+std::span<const EdgeBox> LineBoxes::of(std::uint32_t line) const {
+  return boxes.subspan(begin(line), end[line - lines.first] - begin(line));
+}
+
 std::span<const EdgeBox> LineBoxes::stationary(std::uint32_t line) const {
-  const std::size_t i = line - lines.first;
-  const std::uint64_t begin = i == 0 ? 0 : end[i - 1];
-  return boxes.subspan(begin, stationary_end[i] - begin);
+  return boxes.subspan(begin(line), stationary_end[line - lines.first] - begin(line));
 }
 
 std::span<const EdgeBox> LineBoxes::moving(std::uint32_t line) const {
@@ -17,23 +19,28 @@ std::span<const EdgeBox> LineBoxes::moving(std::uint32_t line) const {
   return boxes.subspan(stationary_end[i], end[i] - stationary_end[i]);
 }
 
-bool LineBoxes::any_stationary() const {
+std::uint64_t LineBoxes::count(const geometry::LineRange& some) const {
+  return some.count() == 0 ? 0 : end[some.last - 1 - lines.first] - begin(some.first);
+}
+
+bool any_stationary(LineParts parts, const geometry::LineRange& lines) {
   for (std::uint32_t line = lines.first; line < lines.last; ++line)
-    if (!stationary(line).empty()) return true;
+    for (const LineBoxes& part : parts)
+      if (!part.stationary(line).empty()) return true;
   return false;
 }
 
-LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc,
+LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals,
                        const geometry::Triangle* first, Arena& arena)
     : lines_(lines),
       first_(first),
-      boxes_(arena.take<EdgeBox>(ebc[lines.last] - ebc[lines.first])),
+      boxes_(arena.take<EdgeBox>(totals[lines.count()] - totals[0])),
       end_(arena.take<std::uint64_t>(lines.count())),
       stationary_(arena.take<std::uint64_t>(lines.count())),
       moving_(arena.take<std::uint64_t>(lines.count())) {
   for (std::size_t i = 0; i < end_.size(); ++i) {
-    stationary_[i] = ebc[lines.first + i] - ebc[lines.first];
-    end_[i] = moving_[i] = ebc[lines.first + i + 1] - ebc[lines.first];
+    stationary_[i] = totals[i] - totals[0];
+    end_[i] = moving_[i] = totals[i + 1] - totals[0];
   }
 }
 
@@ -57,7 +64,7 @@ void LineFiller::add(const Polygons& polygons) {
 
 LineBoxes LineFiller::finish() const {
   check(std::equal(stationary_.begin(), stationary_.end(), moving_.begin()),
-        "the edge boxes of a line are those EBC counted");
+        "the edge boxes of a line are those that were counted");
   return {lines_, boxes_, end_, stationary_};
 }
 
@@ -70,43 +77,49 @@ ZBuffer::ZBuffer(simd::InstructionSet set, std::int32_t width)
   std::fill_n(ids(), ids_.size() * simd::kVectorSlack, shading::kNoTriangle);
 }
 
-void ZBuffer::draw_keyframe(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+void ZBuffer::draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                             const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out) {
-  for (std::uint32_t line = part.first; line < part.last; ++line) {
-    const auto stationary = boxes.stationary(line), moving = boxes.moving(line);
-    if (stationary.empty() && moving.empty() && !czb_lines.has(line)) continue;
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    const bool empty = std::ranges::all_of(parts, [line](const LineBoxes& part) { return part.of(line).empty(); });
+    if (empty && !czb_lines.has(line)) continue;
     std::fill_n(depth(), width_, 0.0f);
-    draw(stationary, shading, line, out.constant());
+    draw(parts, &LineBoxes::stationary, shading, line, out.constant());
     if (czb_lines.has(line)) std::copy_n(depth(), width_, czb.lines({line, line + 1}).data());
     // MZB starts as CZB: nearer than it is nearer than both, and of equals what stands still was there first.
-    draw(moving, shading, line, out.moving());
+    draw(parts, &LineBoxes::moving, shading, line, out.moving());
   }
 }
 
-void ZBuffer::draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+void ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                              const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out) {
-  for (std::uint32_t line = part.first; line < part.last; ++line) {
-    const auto moving = boxes.moving(line);
-    if (moving.empty()) continue;
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    std::uint32_t first = 0xffffffffu, last = 0;
+    for (const LineBoxes& part : parts)
+      for (const EdgeBox& box : part.moving(line)) {
+        first = std::min<std::uint32_t>(first, box.first);
+        last = std::max<std::uint32_t>(last, box.last);
+      }
+    if (first >= last) continue;
     check(czb_lines.has(line), "moving parts stay on the lines that were foreseen");
-    std::uint32_t first = moving[0].first, last = moving[0].last;
-    for (const EdgeBox& box : moving) {
-      first = std::min<std::uint32_t>(first, box.first);
-      last = std::max<std::uint32_t>(last, box.last);
-    }
     std::copy_n(czb.lines({line, line + 1}).data() + first, last - first, depth() + first);
-    draw(moving, shading, line, out.moving());
+    draw(parts, &LineBoxes::moving, shading, line, out.moving());
   }
 }
 
-// Draws the line's boxes, shades what their ids show and forgets these.
-void ZBuffer::draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line,
+// Draws the line's boxes of one kind, shades what their ids show and forgets these.
+void ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line,
                    StripBuffer::Layer& out) {
-  if (boxes.empty()) return;
-  const shading::Extent extent =
-      kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth(), ids());
-  out.added(shading_kernels_.shade(shading, ids(), line, extent, out.next_run(), out.next_pixel()));
-  std::fill(ids() + extent.first, ids() + extent.last, shading::kNoTriangle);
+  shading::Extent all{0xffffffffu, 0};
+  for (const LineBoxes& part : parts) {
+    const auto boxes = (part.*kind)(line);
+    if (boxes.empty()) continue;
+    const shading::Extent extent =
+        kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth(), ids());
+    all = {std::min(all.first, extent.first), std::max(all.last, extent.last)};
+  }
+  if (all.first >= all.last) return;
+  out.added(shading_kernels_.shade(shading, ids(), line, all, out.next_run(), out.next_pixel()));
+  std::fill(ids() + all.first, ids() + all.last, shading::kNoTriangle);
 }
 
 }  // namespace mars::raster

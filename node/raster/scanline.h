@@ -16,7 +16,7 @@
 
 namespace mars::raster {
 
-// One sender's part of a frame's triangles.
+// One node's part of a frame's triangles, in which its edge boxes count from `triangles`.
 struct Polygons {
   const geometry::Triangle* triangles;
   std::span<const UnsortedEdgeBox> stationary;
@@ -30,21 +30,33 @@ struct LineBoxes {
   std::span<const std::uint64_t> end;             // of each line's boxes
   std::span<const std::uint64_t> stationary_end;  // of each line's stationary boxes
 
+  std::span<const EdgeBox> of(std::uint32_t line) const;
   std::span<const EdgeBox> stationary(std::uint32_t line) const;
   std::span<const EdgeBox> moving(std::uint32_t line) const;
-  bool any_stationary() const;
+  // How many are on some of these lines.
+  std::uint64_t count(const geometry::LineRange& some) const;
+
+ private:
+  std::uint64_t begin(std::uint32_t line) const { return line == lines.first ? 0 : end[line - lines.first - 1]; }
 };
 
-// Puts edge boxes into their lines: a counting sort whose offsets are EBC's running totals. Senders may be
-// added in any order; edge boxes of other lines are left out.
+// All edge boxes of some lines: one part of each node that had them sorted, with these lines among its own. Triangles
+// of all parts count from the same place.
+using LineParts = std::span<const LineBoxes>;
+
+bool any_stationary(LineParts parts, const geometry::LineRange& lines);
+
+// Puts edge boxes into their lines: a counting sort whose offsets are the running totals of their counts. Senders may
+// be added in any order; edge boxes of other lines are left out.
 class LineFiller {
  public:
-  // Boxes will name triangles by their distance from `first`. Takes its arrays from `arena`.
-  LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> ebc, const geometry::Triangle* first,
+  // `totals`: one more than there are lines; totals[i] + a constant boxes are on the first i of them. Boxes will name
+  // triangles by their distance from `first`. Takes its arrays from `arena`.
+  LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals, const geometry::Triangle* first,
              Arena& arena);
 
   void add(const Polygons& polygons);
-  // check()s that the boxes are exactly those that EBC counted.
+  // check()s that the boxes are exactly those that were counted.
   LineBoxes finish() const;
 
  private:
@@ -61,12 +73,11 @@ class ZBuffer {
  public:
   ZBuffer(simd::InstructionSet set, std::int32_t width);
 
-  // Draws lines [part.first, part.last) of `boxes`: stationary parts (CFB), and against them the moving ones (MFB).
-  // CZB of `czb_lines` goes to `czb`.
-  void draw_keyframe(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+  // Draws `lines`: what stands still (CFB), and against it what moves (MFB). CZB of `czb_lines` goes to `czb`.
+  void draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                      const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out);
-  // Draws moving parts of these lines against `czb`, whose `czb_lines` have all of them, and each other.
-  void draw_inbetween(const LineBoxes& boxes, const geometry::LineRange& part, const shading::Shading& shading,
+  // Draws what moves on these lines against `czb`, whose `czb_lines` have all of it, and each other.
+  void draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                       const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out);
 
  private:
@@ -78,7 +89,8 @@ class ZBuffer {
     std::uint32_t samples[simd::kVectorSlack];
   };
 
-  void draw(std::span<const EdgeBox> boxes, const shading::Shading& shading, std::uint32_t line,
+  using BoxesOf = std::span<const EdgeBox> (LineBoxes::*)(std::uint32_t line) const;
+  void draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line,
             StripBuffer::Layer& out);
 
   float* depth() { return depths_.front().samples; }

@@ -100,9 +100,10 @@ struct FewVertices {
 
 }  // namespace
 
-SetUps::SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts,
+SetUps::SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<std::uint32_t> line_counts,
                std::span<const std::uint8_t> wanted_lines) {
-  first = next = reinterpret_cast<geometry::Triangle*>(memory.data());
+  this->first = first;
+  begin = next = reinterpret_cast<geometry::Triangle*>(memory.data());
   last_box = end = reinterpret_cast<UnsortedEdgeBox*>(memory.data() + memory.size());
   this->line_counts = line_counts.data();
   this->wanted_lines = wanted_lines.data();

@@ -20,14 +20,17 @@ namespace mars::raster {
 // Set-ups and their edge boxes in one piece of memory: triangles from its front (aligned to a cache line), their
 // edge boxes from its end towards the front. What no longer fits is still counted.
 struct SetUps : SetUpSpace {
-  SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts, std::span<const std::uint8_t> wanted_lines);
+  // Edge boxes name triangles by their distance from `first`, whole cache lines before `memory`.
+  SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<std::uint32_t> line_counts,
+         std::span<const std::uint8_t> wanted_lines);
 
-  std::span<const geometry::Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
+  std::span<const geometry::Triangle> triangles() const { return {begin, static_cast<std::size_t>(next - begin)}; }
   // The latest first.
   std::span<const UnsortedEdgeBox> boxes() const { return {last_box, static_cast<std::size_t>(end - last_box)}; }
   bool all_stored() const { return boxes().size() == edge_boxes; }
   std::size_t bytes_left() const;
 
+  geometry::Triangle* begin;
   UnsortedEdgeBox* end;
   std::uint64_t touching = 0;  // triangles with an edge box, stored or not
   std::uint64_t edge_boxes = 0;

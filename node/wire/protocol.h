@@ -8,8 +8,9 @@
 //   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   edge-box counts, triangles, their edge boxes, CZB lines or an empty message once they are written
-//                  (the type names the sender)
+//   node -> node   edge-box counts; Triangles and DepthLines, in any order of the senders: those of two keyframes
+//   cannot
+//                  mix, for the sum of the counts comes between
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@
 
 namespace mars::wire {
 
-// Commands and answers are below 30, so that one NX type selector can name a set of them.
+// Types are below 30, so that one NX type selector can name a set of them.
 enum MessageType : long {
   kHello = 1,
   kLoad,
@@ -32,15 +33,17 @@ enum MessageType : long {
   kStrip,
   kFault,
   kStop,
-  kClock,  // host -> node: empty, asks for the time; node -> host: its dclock(), a double
-  kTrace,  // messages::Event ..., closed by one of kind lost
+  kClock,       // host -> node: empty, asks for the time; node -> host: its dclock(), a double
+  kTrace,       // messages::Event ..., closed by one of kind lost
+  kTriangles,   // TriangleHead, edge boxes, triangles, each from a cache line on
+  kDepthLines,  // CZB of needed home lines; empty within a machine, once they are written
 };
 
-// The type of a message between nodes names its sender, for NX receives by type alone. Types are low: an MPI need not
-// carry high ones.
-constexpr long triangles_from(long node) { return 32 + 3 * node; }
-constexpr long edge_boxes_from(long node) { return 33 + 3 * node; }
-constexpr long depth_lines_from(long node) { return 34 + 3 * node; }
+// Of triangles and their edge boxes on the receiver's lines.
+struct TriangleHead {
+  std::uint64_t edge_boxes;
+  std::uint64_t triangles;
+};
 
 // The NX type selector for any of several types below 30.
 template <typename... Types>

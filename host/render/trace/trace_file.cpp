@@ -23,9 +23,8 @@ constexpr std::size_t kBlock = 1 << 20;  // bytes written at a time
 constexpr std::array kPhaseNames{"dice",     "sum",   "map",    "exchange", "fill",
                                  "scanline", "depth", "credit", "keyframe", "inbetween"};
 constexpr std::array kHostSpanNames{"load film", "give", "strip", "prepare", "compose", "wait for sinks", "write"};
-constexpr std::array kMessageNames{"",       "Hello", "Load",  "film", "Loaded", "Render",
-                                   "Credit", "Strip", "Fault", "Stop", "Clock",  "Trace"};
-constexpr std::array kNodeMessageNames{"triangles", "edge boxes", "CZB"};  // in the order of their types
+constexpr std::array kMessageNames{"",      "Hello", "Load", "film",  "Loaded", "Render",    "Credit",
+                                   "Strip", "Fault", "Stop", "Clock", "Trace",  "triangles", "CZB"};
 constexpr std::array kCounterNames{"credits", "strips on the way", "frames with the sinks"};
 
 // Names contain what people typed, which need not be UTF-8.
@@ -35,8 +34,6 @@ std::string text_of(const ordered_json& value) {
 
 std::string message_name(std::int32_t type) {
   if (type >= messages::kFirstInternalType) return "sums";
-  if (type >= wire::triangles_from(0))
-    return kNodeMessageNames.at(static_cast<std::size_t>(type - wire::triangles_from(0)) % 3);
   const auto index = static_cast<std::size_t>(type);
   return index < kMessageNames.size() ? kMessageNames[index] : "type " + std::to_string(type);
 }

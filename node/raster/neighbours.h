@@ -1,0 +1,56 @@
+// The nodes of each group that are on one machine, the same on all nodes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/messages/private_memory.h"
+#include "hal/messages/shared_memory.h"
+
+namespace mars::raster {
+
+class Neighbours {
+ public:
+  // Of the caller, one of the nodes, each on its machine, that form `groups` groups side by side.
+  Neighbours(std::span<const std::int32_t> machines, int groups);
+
+  // The first node of `node`'s group on its machine.
+  int head_of(int node) const { return heads_[static_cast<std::size_t>(node)]; }
+  bool are(int a, int b) const { return head_of(a) == head_of(b); }
+  // Of the caller's group on its machine, in order, itself among them.
+  std::span<const int> nodes() const { return nodes_; }
+  // The most that any group has on a machine.
+  std::size_t most() const { return most_; }
+
+ private:
+  friend class NeighboursMemory;
+
+  std::vector<int> heads_;  // by node
+  std::vector<int> nodes_;
+  std::size_t most_ = 0;
+  std::size_t shared_blocks_ = 0;  // of the caller's machine: groups with several nodes there
+  std::size_t own_block_ = 0;      // the caller's group's number among them
+};
+
+// Memory that a group's nodes on a machine share; of a node that is alone there, its own.
+class NeighboursMemory {
+ public:
+  // `bytes` for each group with several nodes here, `alone` for a node that is alone. The machine gives pages as they
+  // are first touched. Collective over a machine's nodes, all of which it throws Failure on where the machine does not
+  // let them share that much.
+  NeighboursMemory(const Neighbours& neighbours, std::size_t bytes, std::size_t alone);
+
+  std::span<std::byte> bytes() const { return block_; }
+  // As PrivateMemory's.
+  void prefer_large_pages();
+
+ private:
+  std::optional<messages::SharedMemory> shared_;  // all that nodes of this machine share
+  messages::PrivateMemory own_;
+  std::span<std::byte> block_;
+};
+
+}  // namespace mars::raster
