@@ -30,6 +30,14 @@ bool any_stationary(LineParts parts, const geometry::LineRange& lines) {
   return false;
 }
 
+namespace {
+
+void fetch(const geometry::Triangle* triangles, std::span<const EdgeBox> boxes) {
+  for (const EdgeBox& box : boxes.first(std::min<std::size_t>(boxes.size(), 32))) __builtin_prefetch(triangles + box.triangle);
+}
+
+}  // namespace
+
 LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals,
                        const geometry::Triangle* first, Arena& arena)
     : lines_(lines),
@@ -110,8 +118,10 @@ void ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines, 
 void ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line,
                    StripBuffer::Layer& out) {
   shading::Extent all{0xffffffffu, 0};
-  for (const LineBoxes& part : parts) {
-    const auto boxes = (part.*kind)(line);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto boxes = (parts[p].*kind)(line);
+    const bool last = p + 1 == parts.size();
+    if (!last || line + 1 < parts[0].lines.last) fetch(shading.triangles, (parts[last ? 0 : p + 1].*kind)(last ? line + 1 : line));
     if (boxes.empty()) continue;
     const shading::Extent extent =
         kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth(), ids());
