@@ -107,7 +107,7 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
   const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_},
-                                                   memory_, report_.strip().work);
+                                                   {memory_.arena(), memory_.first_triangle()}, report_.strip().work);
   report_.clock(wire::Phase::dice);
   return own;
 }

@@ -21,15 +21,15 @@ struct Tessellator::Output {
 Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set) {}
 
 Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
-                                     const LineTable& lines, group::FrameMemory& memory, wire::WorkCounts& work) {
+                                     const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work) {
   std::ranges::fill(lines.counts, 0u);
   work.patches = work.vertices = 0;
-  raster::SetUps out(memory.arena().rest(), memory.first_triangle(), lines.counts, lines.wanted);
+  raster::SetUps out(space.arena.rest(), space.first, lines.counts, lines.wanted);
   if (kind == wire::FrameKind::keyframe) add(scene, false, scatter, out, work);
   const std::size_t stationary = out.boxes().size();
   add(scene, true, scatter, out, work);
   const auto boxes = out.boxes();
-  memory.arena().take_ends(out.triangles().size_bytes(), boxes.size_bytes());
+  space.arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
   return {{out.first, boxes.last(stationary), boxes.first(boxes.size() - stationary)},
           {out.touching, out.edge_boxes},
           out.all_stored()};

@@ -8,8 +8,8 @@
 
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
-#include "node/group/frame_memory.h"
 #include "node/group/passes.h"
+#include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 #include "node/raster/setup.h"
 #include "node/shape/dice.h"
@@ -29,6 +29,12 @@ struct LineTable {
   std::span<std::uint32_t> counts;       // edge boxes
 };
 
+// Where triangles go: they count from `first`, whole triangles before the arena.
+struct TriangleSpace {
+  raster::Arena& arena;
+  geometry::Triangle* first;
+};
+
 struct Tessellation {
   raster::Polygons polygons;
   group::MadeCounts made;  // on wanted lines, whether stored or not
@@ -40,10 +46,10 @@ class Tessellator {
   explicit Tessellator(simd::InstructionSet set);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
-  // keyframe, of the moving ones in an inbetween. They lie in `memory`. Sets `lines.counts`, and the patches and
+  // keyframe, of the moving ones in an inbetween. They lie in `space`. Sets `lines.counts`, and the patches and
   // vertices of `work`.
   Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
-                          const LineTable& lines, group::FrameMemory& memory, wire::WorkCounts& work);
+                          const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work);
 
  private:
   struct Output;

@@ -5,6 +5,15 @@
 #include "hal/failure/failure.h"
 
 namespace mars::raster {
+namespace {
+
+// The triangles of the first boxes, which the kernel has no time to fetch ahead.
+void fetch(const geometry::Triangle* triangles, std::span<const EdgeBox> boxes) {
+  constexpr std::size_t kFirst = 32;
+  for (const EdgeBox& box : boxes.first(std::min(boxes.size(), kFirst))) __builtin_prefetch(triangles + box.triangle);
+}
+
+}  // namespace
 
 std::span<const EdgeBox> LineBoxes::of(std::uint32_t line) const {
   return boxes.subspan(begin(line), end[line - lines.first] - begin(line));
@@ -29,14 +38,6 @@ bool any_stationary(LineParts parts, const geometry::LineRange& lines) {
       if (!part.stationary(line).empty()) return true;
   return false;
 }
-
-namespace {
-
-void fetch(const geometry::Triangle* triangles, std::span<const EdgeBox> boxes) {
-  for (const EdgeBox& box : boxes.first(std::min<std::size_t>(boxes.size(), 32))) __builtin_prefetch(triangles + box.triangle);
-}
-
-}  // namespace
 
 LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals,
                        const geometry::Triangle* first, Arena& arena)
@@ -120,8 +121,10 @@ void ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shadin
   shading::Extent all{0xffffffffu, 0};
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto boxes = (parts[p].*kind)(line);
-    const bool last = p + 1 == parts.size();
-    if (!last || line + 1 < parts[0].lines.last) fetch(shading.triangles, (parts[last ? 0 : p + 1].*kind)(last ? line + 1 : line));
+    if (p + 1 < parts.size())
+      fetch(shading.triangles, (parts[p + 1].*kind)(line));
+    else if (line + 1 < parts[0].lines.last)
+      fetch(shading.triangles, (parts[0].*kind)(line + 1));
     if (boxes.empty()) continue;
     const shading::Extent extent =
         kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth(), ids());

@@ -1,7 +1,7 @@
 // A backend that counts the messages that its rank sends, by sender, receiver and type, and hands them on.
 //   Counts counts;
 //   run_threads(nodes, host, node, counting(counts));
-//   EXPECT_EQ(counts.sent({.from = 0, .type = mars::wire::triangles_from(0)}).messages, ...);
+//   EXPECT_EQ(counts.sent({.from = 0, .type = mars::wire::kTriangles}).messages, ...);
 #pragma once
 
 #include <chrono>
@@ -25,6 +25,7 @@ class Counts {
   struct Sent {
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
+    std::uint64_t empty = 0;  // messages without a byte
   };
   // Which messages: what is not given is any. The host's id is the number of nodes.
   struct Which {
@@ -38,6 +39,7 @@ class Counts {
     Sent& sent = sent_[{from, to, type}];
     ++sent.messages;
     sent.bytes += length;
+    sent.empty += length == 0;
   }
 
   Sent sent(const Which& which) const {
@@ -50,6 +52,7 @@ class Counts {
       }
       sum.messages += sent.messages;
       sum.bytes += sent.bytes;
+      sum.empty += sent.empty;
     }
     return sum;
   }

@@ -21,18 +21,18 @@ class Machines {
     const int first = node / nodes_each_ * nodes_each_;
     return {first, node - first, std::min(nodes_each_, nodes - first), node, false};
   }
-  // Block number `number` of a machine, of which each of its nodes gets its part. Every float is not a number.
+  // Block number `number` of a machine, of which each of its nodes gets its part. In CZB's every float is not a number.
   std::shared_ptr<std::byte> share(int machine, int number, std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     Block& block = blocks_[{machine, number}];
     if (!block.bytes) {
       block = {{new (std::align_val_t{64}) std::byte[bytes], Release()}, bytes};
-      std::fill_n(block.bytes.get(), bytes, kUntouched);
+      if (number == kCzb) std::fill_n(block.bytes.get(), bytes, kUntouched);
     }
     return block.bytes;
   }
 
-  // Bytes of all machines' blocks but the first of each, which is the film's; and how many of them were written.
+  // Bytes of all machines' CZB, and how many of them were written.
   std::size_t shared() const {
     return add_up([](const Block& block) { return block.size; });
   }
@@ -51,12 +51,13 @@ class Machines {
     std::size_t size = 0;
   };
   static constexpr std::byte kUntouched{0xff};
+  static constexpr int kCzb = 1;  // the film's block comes before
 
   template <typename Count>
   std::size_t add_up(const Count& count) const {
     std::size_t sum = 0;
     for (const auto& [key, block] : blocks_)
-      if (key.second > 0) sum += count(block);
+      if (key.second == kCzb) sum += count(block);
     return sum;
   }
 

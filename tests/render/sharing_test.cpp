@@ -75,12 +75,7 @@ void expect_pictures(const SharedRun& rendered, const wire::FilmData& data, cons
   expect_same(rendered.film, expected, data.settings, "sharing");
 }
 
-std::uint64_t depth_bytes(const SharedRun& run, int nodes) {
-  std::uint64_t bytes = 0;
-  for (int from = 0; from < nodes; ++from)
-    bytes += run.counts.sent({.from = from, .to = {}, .type = wire::depth_lines_from(from)}).bytes;
-  return bytes;
-}
+std::uint64_t depth_bytes(const SharedRun& run) { return run.counts.sent({.type = wire::kDepthLines}).bytes; }
 
 TEST(Sharing, AnyMachinesAndGroups) {
   for (const std::uint32_t interval : {4u, 1u}) {
@@ -112,7 +107,7 @@ TEST(Sharing, ASlowNodeIsWaitedFor) {
   const FilmRun expected = from_scratch(data);
   for (const int each : {4, 2})
     for (int slow = 0; slow < 4; ++slow)
-      for (const long type : {long{wire::kStrip}, wire::triangles_from(slow), wire::depth_lines_from(slow)}) {
+      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kDepthLines}}) {
         SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " +
                      std::to_string(type));
         SharedRun rendered;
@@ -124,7 +119,7 @@ TEST(Sharing, ASlowNodeIsWaitedFor) {
 TEST(Sharing, NoLineOfCzbTravelsOnOneMachine) {
   SharedRun rendered;
   run(film(6), {4, 4}, rendered);
-  EXPECT_EQ(depth_bytes(rendered, 4), 0u);
+  EXPECT_EQ(depth_bytes(rendered), 0u);
 }
 
 // What all machines but a line's own receive of it, however many nodes they have.
@@ -132,10 +127,10 @@ TEST(Sharing, LinesTravelOnceToEachMachine) {
   SharedRun two_nodes, six_nodes;
   run(film(6), {2, 1}, two_nodes);
   run(film(6), {6, 3}, six_nodes);
-  const std::uint64_t bytes = depth_bytes(two_nodes, 2);
+  const std::uint64_t bytes = depth_bytes(two_nodes);
   EXPECT_GT(bytes, 0u);
   EXPECT_LE(bytes, std::uint64_t{kWidth} * kHeight * sizeof(float) * kFrames / 6);
-  EXPECT_EQ(depth_bytes(six_nodes, 6), bytes);
+  EXPECT_EQ(depth_bytes(six_nodes), bytes);
 }
 
 TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
@@ -157,8 +152,7 @@ TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
 TEST(Sharing, NothingWithoutInbetweens) {
   SharedRun rendered;
   run(film(1), {4, 2}, rendered);
-  for (int from = 0; from < 4; ++from)
-    EXPECT_EQ(rendered.counts.sent({.from = from, .to = {}, .type = wire::depth_lines_from(from)}).messages, 0u);
+  EXPECT_EQ(rendered.counts.sent({.type = wire::kDepthLines}).messages, 0u);
 }
 
 }  // namespace

@@ -16,8 +16,10 @@ Workload::Workload(const std::filesystem::path& film)
     : film_(film::load_film(film)),
       view_(film_.view()),
       scene_(view_),
-      made_(kMemory),
-      filled_(kMemory),
+      made_memory_(kMemory),
+      filled_memory_(kMemory),
+      made_(made_memory_.bytes()),
+      filled_(filled_memory_.bytes()),
       line_counts_(view_.settings().height),
       ebc_(line_counts_.size() + 1),
       wanted_(line_counts_.size(), 1) {
@@ -52,8 +54,9 @@ void Workload::dice(shape::Dicer& dicer) {
 void Workload::make(simd::InstructionSet set) {
   made_.clear();
   counts_ = {};
-  const node::Tessellation own =
-      node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {}, {wanted_, line_counts_}, made_, counts_);
+  auto* const first = reinterpret_cast<geometry::Triangle*>(made_memory_.bytes().data());
+  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {},
+                                                                   {wanted_, line_counts_}, {made_, first}, counts_);
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
   polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "hal/messages/private_memory.h"
 #include "host/content/film/compile.h"
 #include "node/geometry/scene.h"
 #include "node/raster/arena.h"
@@ -41,6 +42,7 @@ class Workload {
   film::CompiledFilm film_;
   wire::FilmView view_;
   geometry::Scene scene_;
+  messages::PrivateMemory made_memory_, filled_memory_;
   raster::Arena made_, filled_;
   std::vector<std::uint32_t> line_counts_;
   std::vector<std::uint64_t> ebc_;

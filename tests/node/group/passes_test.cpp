@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/private_memory.h"
 #include "hal/nx/nx_messages.h"
 #include "node/geometry/triangle.h"
 #include "node/group/group_sums.h"
 #include "node/group/mapping.h"
 #include "node/raster/arena.h"
 #include "node/raster/edge_box.h"
+#include "node/wire/protocol.h"
 #include "tests/hal/counting_backend.h"
 #include "tests/node/shape/patches.h"
 
@@ -29,9 +31,11 @@ using geometry::LineRange;
 // A frame of a group, as each of its nodes knows it.
 class Frame {
  public:
-  // `counts`: of each node, edge boxes a line.
-  explicit Frame(std::vector<std::vector<std::uint32_t>> counts, std::vector<std::uint64_t> triangles)
+  // `counts`: of each node, edge boxes a line. `travels`: nodes cannot read each other's memory.
+  explicit Frame(std::vector<std::vector<std::uint32_t>> counts, std::vector<std::uint64_t> triangles,
+                 bool travels = true)
       : group_{0, static_cast<int>(counts.size())},
+        travels_(travels && counts.size() > 1),
         counts_(std::move(counts)),
         triangles_(std::move(triangles)),
         homes_(counts_.size()),
@@ -41,7 +45,7 @@ class Frame {
       for (const auto& own : counts_) ebc_[line + 1] += own[line];
     }
     map_greedy(ebc_, homes_);
-    for (std::size_t n = 0; n < counts_.size(); ++n) own_bytes_.push_back(group::own_bytes(made(n), group_));
+    for (std::size_t n = 0; n < counts_.size(); ++n) own_bytes_.push_back(group::own_bytes(made(n), travels_));
   }
 
   std::size_t nodes() const { return counts_.size(); }
@@ -49,8 +53,11 @@ class Frame {
   MadeCounts made(std::size_t n) const {
     return {triangles_[n], std::accumulate(counts_[n].begin(), counts_[n].end(), std::uint64_t{0})};
   }
-  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, own_bytes_, counts_[n], triangles_[n]}; }
+  FrameLoad load(std::size_t n) const {
+    return {group_, ebc_, homes_, own_bytes_, counts_[n], triangles_[n], travels_};
+  }
   const std::vector<LineRange>& homes() const { return homes_; }
+  bool travels() const { return travels_; }
   std::uint64_t boxes(std::size_t n, const LineRange& lines) const {
     const auto& own = counts_[n];
     return std::accumulate(own.begin() + lines.first, own.begin() + lines.last, std::uint64_t{0});
@@ -58,6 +65,7 @@ class Frame {
 
  private:
   collectives::Group group_;
+  bool travels_;
   std::vector<std::vector<std::uint32_t>> counts_;
   std::vector<std::uint64_t> triangles_;
   std::vector<LineRange> homes_;
@@ -74,7 +82,7 @@ Frame random_frame(shape::Random& random, int nodes, int lines) {
     const auto boxes = std::accumulate(own.begin(), own.end(), 0u);
     triangles.push_back(static_cast<std::uint64_t>(random.whole(0, static_cast<std::int32_t>(boxes))));
   }
-  return Frame(std::move(counts), std::move(triangles));
+  return Frame(std::move(counts), std::move(triangles), random.whole(0, 1) == 1);
 }
 
 // Takes what a pass takes of a node's arena at most; check()s that it fits.
@@ -87,16 +95,24 @@ void use(raster::Arena& arena, const Frame& frame, std::size_t n, const Pass& pa
   for (std::size_t other = 0; other < frame.nodes(); ++other) drawn += frame.boxes(other, parts[n]);
   arena.take_ends(std::min(own, frame.made(n).triangles) * sizeof(geometry::Triangle),
                   own * sizeof(raster::UnsortedEdgeBox));
-  const auto take_parcel = [&](std::uint64_t boxes) {
-    arena.take<geometry::Triangle>(boxes);
-    arena.take<raster::UnsortedEdgeBox>(boxes);
+  const auto take_filler = [&](std::uint64_t boxes, std::uint64_t lines) {
+    arena.take<raster::EdgeBox>(boxes);
+    for (int array = 0; array < 3; ++array) arena.take<std::uint64_t>(lines);
+  };
+  take_filler(own, frame.lines());
+  if (!frame.travels()) return;
+  const auto take_message = [&](std::uint64_t boxes) {
+    if (boxes == 0) return;
+    const std::uint64_t before_triangles =
+        sizeof(wire::TriangleHead) + 63 + boxes * sizeof(raster::UnsortedEdgeBox) + 63;
+    arena.take<std::byte>(before_triangles + boxes * sizeof(geometry::Triangle));
   };
   for (std::size_t other = 0; other < frame.nodes(); ++other)
-    if (other != n) take_parcel(frame.boxes(n, parts[other]));
-  arena.take<raster::EdgeBox>(drawn);
-  for (int array = 0; array < 3; ++array) arena.take<std::uint64_t>(parts[n].count());
+    if (other != n) take_message(frame.boxes(n, parts[other]));
+  arena.take<std::uint64_t>(parts[n].count() + 1);
+  take_filler(drawn - frame.boxes(n, parts[n]), parts[n].count());
   for (std::size_t other = 0; other < frame.nodes(); ++other)
-    if (other != n) take_parcel(frame.boxes(other, parts[n]));
+    if (other != n) take_message(frame.boxes(other, parts[n]));
 }
 
 TEST(Passes, PartsTileAHomeAndLieWithinCoarserParts) {
@@ -134,7 +150,8 @@ TEST(Passes, FramesFitTheMemoryPlanned) {
     const Frame frame = random_frame(random, random.whole(1, 6), random.whole(1, 60));
     for (std::size_t n = 0; n < frame.nodes(); ++n)
       for (const std::uint32_t count : {1u, 2u, 8u}) {
-        raster::Arena arena(memory_for(frame.load(n), static_cast<int>(n), count));
+        const messages::PrivateMemory memory(memory_for(frame.load(n), static_cast<int>(n), count));
+        raster::Arena arena(memory.bytes());
         for (std::uint32_t number = 0; number < count; ++number) ASSERT_NO_THROW(use(arena, frame, n, {number, count}));
       }
   }
@@ -185,7 +202,7 @@ Agreement agree(const Frame& frame, std::uint64_t memory) {
     const auto nodes = static_cast<int>(frame.nodes());
     GroupSums sums(frame.lines(), frame.nodes());
     FrameLoad load = frame.load(self);
-    sums.add_up({0, nodes}, load.line_counts, group::own_bytes(frame.made(self), {0, nodes}));
+    sums.add_up({0, nodes}, load.line_counts, group::own_bytes(frame.made(self), frame.travels()));
     EXPECT_TRUE(std::ranges::equal(sums.ebc(), load.ebc));
     EXPECT_TRUE(std::ranges::equal(sums.own_bytes(), load.own_bytes));
     const std::uint64_t before = counts.sent({.from = mynode()}).messages;

@@ -46,7 +46,8 @@ Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surfa
   Made made;
   made.line_counts.resize(static_cast<std::size_t>(picture.height));
   const std::vector<std::uint8_t> all(made.line_counts.size(), 1);
-  SetUps out(memory.inside(), made.line_counts, wanted_lines.empty() ? all : wanted_lines);
+  auto* const first = reinterpret_cast<geometry::Triangle*>(memory.inside().data());
+  SetUps out(memory.inside(), first, made.line_counts, wanted_lines.empty() ? all : wanted_lines);
   SetUp set_up(set, picture.projection, picture.width, picture.height);
   if (way == Way::at_a_time)
     set_up.add(surface, identity, out);
