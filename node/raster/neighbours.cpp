@@ -39,7 +39,10 @@ NeighboursMemory::NeighboursMemory(const Neighbours& neighbours, std::size_t byt
 }
 
 void NeighboursMemory::prefer_large_pages() {
-  if (!own_.bytes().empty()) own_.prefer_large_pages();
+  if (own_.bytes().empty())
+    shared_->prefer_large_pages();
+  else
+    own_.prefer_large_pages();
 }
 
 }  // namespace mars::raster
