@@ -143,7 +143,7 @@ void Renderer::draw_lines(const raster::LineBoxes& boxes, const geometry::Triang
   const bool constant = boxes.any_stationary();
   geometry::LineRange strip{boxes.lines.first, boxes.lines.first};
   do {
-    raster::StripBuffer& buffer = outbox_.begin(constant);
+    raster::StripBuffer& buffer = outbox_.begin(constant, report_.strip().work);
     report_.clock(wire::Phase::credit);
     strip = {strip.last, draw_strip(boxes, strip.last, shading, buffer)};
     report_.clock(wire::Phase::scanline);
@@ -179,7 +179,7 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.set_strip(lines, last, arena_.peak());
   outbox_.send(report_.strip());
   ++report_.strip().number;
-  report_.skip_clock();  // send() has counted its own wait
+  report_.skip_clock();  // sending belongs to no phase
 }
 
 std::size_t Renderer::member() const { return static_cast<std::size_t>(mynode() - group_.first); }
