@@ -12,6 +12,7 @@
 #include <string>
 
 #include "hal/messages/neighbourhood.h"
+#include "hal/messages/offer.h"
 
 namespace mars::messages {
 
@@ -97,9 +98,15 @@ class Backend {
   // Since some fixed point: by the machine's clock, unless ranks live by another.
   virtual double seconds() const { return machine_seconds(); }
 
+  // All nodes of this node's machine.
   virtual Neighbourhood neighbourhood() = 0;
-  // Collective over the nodes of one machine, as is the last release: see SharedMemory.
+  // Collective over the nodes of one machine: see SharedMemory. Of the caller alone where they cannot share memory.
   virtual std::shared_ptr<std::byte> share(std::size_t bytes) = 0;
+  // Not collective, and of the host too: see OfferedMemory. Zeroed bytes, aligned to a page; a null block where the
+  // machine does not give them.
+  virtual Offer offer(std::size_t bytes) = 0;
+  // nullptr where they cannot be seen from here, and for any false name: see AttachedMemory.
+  virtual std::shared_ptr<std::byte> attach(int rank, const MemoryName& name, std::size_t bytes) = 0;
 
   // The orderly end: called again and again, with messages taken in between, until it says true: all ranks
   // have come here, and no message is on its way to or from this one. Nothing is sent after the first call.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hal/failure/explain.h"
+#include "hal/messages/pages.h"
 
 namespace mars::messages {
 
@@ -17,8 +18,7 @@ PrivateMemory::PrivateMemory(std::size_t bytes) {
   block_ = {static_cast<std::byte*>(block), Release{bytes}};
 }
 
-// The machine need not.
-void PrivateMemory::prefer_large_pages() { madvise(block_.get(), block_.get_deleter().size, MADV_HUGEPAGE); }
+void PrivateMemory::prefer_large_pages() { messages::prefer_large_pages(bytes()); }
 
 void PrivateMemory::Release::operator()(std::byte* block) const { munmap(block, size); }
 

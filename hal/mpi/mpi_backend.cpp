@@ -1,13 +1,15 @@
 #include "hal/mpi/mpi_backend.h"
 
 #include <sched.h>
-#include <sys/statvfs.h>
 
+#include <algorithm>
+#include <array>
 #include <climits>
-#include <exception>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/memory_file.h"
 #include "hal/messages/message_types.h"
+#include "hal/messages/pages.h"
 #include "hal/mpi/mpi_call.h"
 #include "hal/mpi/patience.h"
 #include "topology/machine.h"
@@ -15,8 +17,6 @@
 
 namespace mars::mpi {
 namespace {
-
-constexpr std::size_t kAlignment = 64;
 
 constexpr std::size_t kUsuallyPending = 1024;
 
@@ -59,6 +59,27 @@ int machine_of(MPI_Comm comm) {
   return lowest;
 }
 
+// By rank in `all`, whether it is in `some` too.
+std::vector<bool> members(MPI_Comm some, MPI_Comm all) {
+  std::vector<int> ranks(static_cast<std::size_t>(size_of(some)));
+  const int mine = rank_in(all);
+  succeed(MPI_Allgather(&mine, 1, MPI_INT, ranks.data(), 1, MPI_INT, some), "MPI_Allgather");
+  std::vector<bool> are(static_cast<std::size_t>(size_of(all)));
+  for (const int rank : ranks) are[static_cast<std::size_t>(rank)] = true;
+  return are;
+}
+
+// The first of all ranks' texts that is not empty, the same on all; long ones lose their end.
+std::string first_text(const std::string& mine, MPI_Comm comm) {
+  using Text = std::array<char, 200>;
+  Text text{};
+  mine.copy(text.data(), text.size() - 1);
+  std::vector<Text> texts(static_cast<std::size_t>(size_of(comm)));
+  succeed(MPI_Allgather(&text, sizeof text, MPI_BYTE, texts.data(), sizeof text, MPI_BYTE, comm), "MPI_Allgather");
+  const auto found = std::find_if(texts.begin(), texts.end(), [](const Text& each) { return each[0] != 0; });
+  return found == texts.end() ? "" : found->data();
+}
+
 // Of `ranks`, whose rank there is the id: first the nodes by place, then the host.
 MPI_Comm ranks_by_id(int host_rank, MPI_Comm ranks) {
   const int rank = rank_in(ranks);
@@ -91,6 +112,7 @@ void MpiBackend::look_around() {
   MPI_Comm ranks_here = split_by_machine(all_, rank_);
   const cpu_set_t usable = affinity(ranks_here).some;
   oversubscribed_ = size_of(ranks_here) > CPU_COUNT(&usable);
+  is_here_ = members(ranks_here, all_);
   bells_.emplace(ranks_here, all_);
   succeed(MPI_Comm_free(&ranks_here), "MPI_Comm_free");
 
@@ -101,6 +123,13 @@ void MpiBackend::look_around() {
   neighbourhood_ = {rank_, rank_in(machine_), size_of(machine_), rank_in(MPI_COMM_WORLD),
                     !CPU_EQUAL(&given.some, &given.every)};
   succeed(MPI_Bcast(&neighbourhood_.machine, 1, MPI_INT, 0, machine_), "MPI_Bcast");
+  find_out_whether_memory_is_shared();
+}
+
+void MpiBackend::find_out_whether_memory_is_shared() {
+  std::string refusal;
+  if (neighbourhood_.count == 1 || share_offered(1, refusal) != nullptr) return;
+  neighbourhood_.refusal = first_text(refusal, machine_);
 }
 
 MpiBackend::~MpiBackend() {
@@ -118,51 +147,40 @@ messages::Neighbourhood MpiBackend::neighbourhood() {
   return neighbourhood_;
 }
 
-void MpiBackend::meet_neighbours() {
+// The first node offers it and the others attach it; nullptr on all where one of them cannot have it.
+std::shared_ptr<std::byte> MpiBackend::share_offered(std::size_t bytes, std::string& refusal) {
+  const bool leads = neighbourhood_.index == 0;
+  messages::Offer offer;
+  if (leads) offer = messages::offer_file(rank_, bytes, refusal);
   MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Ibarrier(machine_, &request), "MPI_Ibarrier");
+  succeed(MPI_Ibcast(&offer.name, sizeof offer.name, MPI_BYTE, 0, machine_, &request), "MPI_Ibcast");
   wait(request);
-}
-
-// MPI takes the memory without asking whether it is there, and using it would end in a bus error.
-void MpiBackend::check_shared_space(std::size_t bytes) {
-  struct statvfs space = {};
-  std::uint64_t free_bytes = UINT64_MAX;
-  if (neighbourhood_.count > 1 && statvfs("/dev/shm", &space) == 0) free_bytes = space.f_bavail * space.f_frsize;
-  succeed(MPI_Bcast(&free_bytes, 1, MPI_UINT64_T, 0, machine_), "MPI_Bcast");
-  if (bytes <= free_bytes) return;
-  throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes: /dev/shm has " +
-                    std::to_string(free_bytes) + " left",
-                "node " + std::to_string(rank_),
-                "enlarge /dev/shm (mount -o remount,size=..., or a container's --shm-size), or empty it");
+  if (!leads) offer.block = messages::attach_file(neighbourhood_.machine, offer.name, bytes, refusal);
+  const int mine = offer.block != nullptr;
+  int all = 0;
+  succeed(MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MIN, machine_, &request), "MPI_Iallreduce");
+  wait(request);
+  return all != 0 ? offer.block : nullptr;
 }
 
 std::shared_ptr<std::byte> MpiBackend::share(std::size_t bytes) {
   check(rank_ != host(), "the host takes no part in shared memory");
-  meet_neighbours();
-  const std::size_t whole = bytes + kAlignment;
-  check_shared_space(whole);
-  MPI_Win window = MPI_WIN_NULL;
-  void* block = nullptr;
-  const bool leads = neighbourhood_.index == 0;
-  succeed(
-      MPI_Win_allocate_shared(leads ? static_cast<MPI_Aint>(whole) : 0, 1, MPI_INFO_NULL, machine_, &block, &window),
-      "MPI_Win_allocate_shared");
-  MPI_Aint size = 0;
-  int unit = 0;
-  succeed(MPI_Win_shared_query(window, 0, &size, &unit, &block), "MPI_Win_shared_query");
-  // Windows are mapped at pages, so every node skips the same few bytes.
-  std::size_t left = whole;
-  std::align(kAlignment, bytes, block, left);
-  meet_neighbours();
-  return {static_cast<std::byte*>(block), [this, window](std::byte*) { release_window(window); }};
+  const bool alone = neighbourhood_.count == 1 || !neighbourhood_.refusal.empty();
+  std::string refusal;
+  std::shared_ptr<std::byte> block = alone ? messages::map_pages(bytes) : share_offered(bytes, refusal);
+  if (block == nullptr) throw messages::too_much_to_share(bytes, "node " + std::to_string(rank_));
+  return block;
 }
 
-// On the way out of a failure the neighbours may never come to a collective call: the job's end frees all.
-void MpiBackend::release_window(MPI_Win window) {
-  if (std::uncaught_exceptions() > 0) return;
-  meet_neighbours();
-  succeed(MPI_Win_free(&window), "MPI_Win_free");
+messages::Offer MpiBackend::offer(std::size_t bytes) {
+  std::string refusal;
+  return messages::offer_file(rank_, bytes, refusal);
+}
+
+std::shared_ptr<std::byte> MpiBackend::attach(int rank, const messages::MemoryName& name, std::size_t bytes) {
+  if (rank < 0 || rank > nodes_ || !is_here_[static_cast<std::size_t>(rank)]) return nullptr;
+  std::string refusal;
+  return messages::attach_file(rank, name, bytes, refusal);
 }
 
 bool MpiBackend::finish() {

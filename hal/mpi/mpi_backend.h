@@ -48,6 +48,8 @@ class MpiBackend : public messages::Backend {
   double seconds() const override;
   messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
+  messages::Offer offer(std::size_t bytes) override;
+  std::shared_ptr<std::byte> attach(int rank, const messages::MemoryName& name, std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
 
@@ -67,6 +69,7 @@ class MpiBackend : public messages::Backend {
   enum class Ending { not_yet, counting, leaving, ended };
 
   void look_around();
+  void find_out_whether_memory_is_shared();
   bool plain(const void* data, std::size_t length) const;
   MPI_Request isend(int to, int type, const void* data, std::size_t length);
   MPI_Request isend_plain(int to, int tag, const void* data, std::size_t length);
@@ -86,9 +89,7 @@ class MpiBackend : public messages::Backend {
   bool give_up(MPI_Request& request, MPI_Status& status);
   bool all_sent();
   void wait(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
-  void meet_neighbours();
-  void check_shared_space(std::size_t bytes);
-  void release_window(MPI_Win window);
+  std::shared_ptr<std::byte> share_offered(std::size_t bytes, std::string& refusal);
 
   int tag(int type) const;
   int type(int tag) const;
@@ -103,6 +104,7 @@ class MpiBackend : public messages::Backend {
   std::size_t longest_plain_ = 0;  // messages that are longer are announced
   bool oversubscribed_ = false;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
+  std::vector<bool> is_here_;   // by id: a rank of this machine
   messages::Neighbourhood neighbourhood_;
 
   messages::MessagePool pool_;

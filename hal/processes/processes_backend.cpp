@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/memory_file.h"
 
 namespace mars::processes {
 namespace {
@@ -176,6 +177,16 @@ void ProcessesBackend::release(int number, Offset begin, std::size_t bytes) {
             static_cast<off_t>(bytes));
   share.holders = 0;
   share.state = Share::open;
+}
+
+messages::Offer ProcessesBackend::offer(std::size_t bytes) {
+  std::string refusal;
+  return messages::offer_file(rank(), bytes, refusal);
+}
+
+std::shared_ptr<std::byte> ProcessesBackend::attach(int rank, const messages::MemoryName& name, std::size_t bytes) {
+  std::string refusal;
+  return messages::attach_file(rank, name, bytes, refusal);
 }
 
 bool ProcessesBackend::finish() {

@@ -33,6 +33,8 @@ class ProcessesBackend : public messages::Backend {
   void idle(int turn, std::chrono::microseconds longest) override;
   messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
+  messages::Offer offer(std::size_t bytes) override;
+  std::shared_ptr<std::byte> attach(int rank, const messages::MemoryName& name, std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
 

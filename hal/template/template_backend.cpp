@@ -4,18 +4,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <thread>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/memory_file.h"
+#include "hal/messages/pages.h"
 
 namespace mars::transport_template {
-namespace {
-
-constexpr std::align_val_t kAlignment{64};
-
-}  // namespace
-
 // With many ranks: hand the bytes to the transport, or copy them and hand over the copy when it can take them.
 // Must return though the receiver does nothing, or two nodes that send first would wait for each other for
 // ever.
@@ -58,14 +53,24 @@ void TemplateBackend::idle(int turn, std::chrono::microseconds longest) {
 // then.
 messages::Neighbourhood TemplateBackend::neighbourhood() { return {rank(), 0, 1, rank(), false}; }
 
-// With many nodes a machine: memory they all see, made and given back by all of them together.
+// With many nodes a machine: memory that they all see, made by all of them together; where one cannot have it, none
+// has.
 std::shared_ptr<std::byte> TemplateBackend::share(std::size_t bytes) {
-  try {
-    return {static_cast<std::byte*>(::operator new(bytes, kAlignment)),
-            [](std::byte* block) { ::operator delete(block, kAlignment); }};
-  } catch (const std::bad_alloc&) {
-    throw Failure("there is no memory for " + std::to_string(bytes) + " bytes", "", "use a machine with more");
-  }
+  std::shared_ptr<std::byte> block = messages::map_pages(bytes);
+  if (block == nullptr) throw messages::too_much_to_share(bytes, "");
+  return block;
+}
+
+// With many ranks: between processes of one machine this does. Else an empty offer: everything then goes by messages.
+messages::Offer TemplateBackend::offer(std::size_t bytes) {
+  std::string refusal;
+  return messages::offer_file(rank(), bytes, refusal);
+}
+
+// With many ranks: nullptr for those of other machines.
+std::shared_ptr<std::byte> TemplateBackend::attach(int rank, const messages::MemoryName& name, std::size_t bytes) {
+  std::string refusal;
+  return messages::attach_file(rank, name, bytes, refusal);
 }
 
 // With many ranks: inform all that this one has come to its end and how many messages it sent to each; true

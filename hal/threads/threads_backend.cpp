@@ -2,22 +2,17 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <utility>
 
-#include "hal/failure/explain.h"
+#include "hal/failure/failure.h"
+#include "hal/messages/pages.h"
 
 namespace mars::threads {
 namespace {
 
-constexpr std::size_t kAlignment = 64;
-
-std::shared_ptr<std::byte> new_block(std::size_t bytes) try {
-  auto* block = static_cast<std::byte*>(::operator new(bytes, std::align_val_t(kAlignment)));
-  return {block, [](std::byte* old) { ::operator delete(old, std::align_val_t(kAlignment)); }};
-} catch (const std::bad_alloc&) {
-  throw within_limits("there is no memory for " + std::to_string(bytes) + " bytes that the nodes share", "",
-                      "use a machine with more memory, or a smaller film");
+// So that a false name is known as one, it says all of what it names.
+messages::MemoryName name_of(std::uint64_t number, int rank, std::size_t bytes, const std::byte* block) {
+  return {{number, static_cast<std::uint64_t>(rank), bytes, reinterpret_cast<std::uintptr_t>(block)}};
 }
 
 }  // namespace
@@ -95,6 +90,14 @@ std::shared_ptr<std::byte> ThreadsBackend::share(std::size_t bytes) {
   return world_.share(shared_++, bytes);
 }
 
+messages::Offer ThreadsBackend::offer(std::size_t bytes) { return world_.offer(rank_, bytes); }
+
+std::shared_ptr<std::byte> ThreadsBackend::attach(int rank, const messages::MemoryName& name, std::size_t bytes) {
+  const auto [number, offerer, size, address] = name.words;
+  if (offerer != static_cast<std::uint64_t>(rank) || size != bytes) return nullptr;
+  return world_.attach(name);
+}
+
 bool ThreadsBackend::finish() {
   world_.check_running();
   if (!std::exchange(finishing_, true)) world_.finish_one();
@@ -141,12 +144,32 @@ void ThreadsWorld::wake_all() {
 
 std::shared_ptr<std::byte> ThreadsWorld::share(int index, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (index == static_cast<int>(blocks_.size())) blocks_.push_back({new_block(bytes), bytes, 0});
+  if (index == static_cast<int>(blocks_.size())) blocks_.push_back({messages::map_pages(bytes), bytes, 0});
   Block& block = blocks_[index];
   check(block.size == bytes, "all nodes of a machine share the same number of bytes");
+  if (block.bytes == nullptr) throw messages::too_much_to_share(bytes, "");
   std::shared_ptr<std::byte> mine = block.bytes;
   if (++block.holders == nodes()) block.bytes.reset();
   return mine;
+}
+
+messages::Offer ThreadsWorld::offer(int rank, std::size_t bytes) {
+  std::shared_ptr<std::byte> block = messages::map_pages(bytes);
+  if (block == nullptr) return {};
+  // A handle of its rank's own: the bytes may outlive it at others, but nobody attaches them any more.
+  std::shared_ptr<std::byte> handle(block.get(), [block](std::byte*) mutable { block.reset(); });
+  const std::lock_guard lock(mutex_);
+  std::erase_if(offered_, [](const Offered& old) { return old.offer.expired(); });
+  const messages::MemoryName name = name_of(offers_++, rank, bytes, block.get());
+  offered_.push_back({name, handle, block});
+  return {name, handle};
+}
+
+std::shared_ptr<std::byte> ThreadsWorld::attach(const messages::MemoryName& name) {
+  const std::lock_guard lock(mutex_);
+  for (const Offered& offered : offered_)
+    if (offered.name == name && !offered.offer.expired()) return offered.bytes.lock();
+  return nullptr;
 }
 
 }  // namespace mars::threads

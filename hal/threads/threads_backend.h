@@ -8,6 +8,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <memory>
@@ -37,6 +38,8 @@ class ThreadsBackend : public messages::Backend {
   void idle(int turn, std::chrono::microseconds longest) override;
   messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
+  messages::Offer offer(std::size_t bytes) override;
+  std::shared_ptr<std::byte> attach(int rank, const messages::MemoryName& name, std::size_t bytes) override;
   bool finish() override;
   [[noreturn]] void abort(const std::string& reason) override;
 
@@ -80,14 +83,23 @@ class ThreadsWorld {
   void finish_one();
   bool finished() const { return finished_ == static_cast<int>(ranks_.size()); }
 
-  // The block that is the `index`-th of every node.
+  // The block that is the `index`-th of every node. Throws Failure on all of them where there is no memory for it.
   std::shared_ptr<std::byte> share(int index, std::size_t bytes);
+
+  messages::Offer offer(int rank, std::size_t bytes);
+  std::shared_ptr<std::byte> attach(const messages::MemoryName& name);
 
  private:
   struct Block {
-    std::shared_ptr<std::byte> bytes;  // until every node has it
+    std::shared_ptr<std::byte> bytes;  // until every node has it; null: there is no memory for it
     std::size_t size;
     int holders;
+  };
+
+  struct Offered {
+    messages::MemoryName name;
+    std::weak_ptr<std::byte> offer;  // expires when its rank lets go
+    std::weak_ptr<std::byte> bytes;  // when all have
   };
 
   void wake_all();
@@ -98,6 +110,8 @@ class ThreadsWorld {
   mutable std::mutex mutex_;  // of what follows
   std::exception_ptr failure_;
   std::deque<Block> blocks_;
+  std::vector<Offered> offered_;
+  std::uint64_t offers_ = 0;  // so far
 };
 
 }  // namespace mars::threads

@@ -46,7 +46,7 @@ void check_memory_limit(std::uint32_t nodes) {
 
 void run_node_job(std::uint32_t threads) {
   const messages::Settings settings = messages::read_settings();
-  const messages::Neighbourhood here = messages::neighbourhood();
+  const messages::Neighbourhood here = messages::machine_neighbourhood();
   const topology::Machine machine = topology::Machine::here();
   const std::uint64_t memory = settings.memory.value_or(
       topology::memory_share(machine.memory(), topology::memory_limit(), here.count, static_cast<int>(threads)));

@@ -84,6 +84,10 @@ class CountingBackend : public Backend {
   void idle(int turn, std::chrono::microseconds longest) override { inner_.idle(turn, longest); }
   Neighbourhood neighbourhood() override { return inner_.neighbourhood(); }
   std::shared_ptr<std::byte> share(std::size_t bytes) override { return inner_.share(bytes); }
+  Offer offer(std::size_t bytes) override { return inner_.offer(bytes); }
+  std::shared_ptr<std::byte> attach(int rank, const MemoryName& name, std::size_t bytes) override {
+    return inner_.attach(rank, name, bytes);
+  }
   bool finish() override { return inner_.finish(); }
   [[noreturn]] void abort(const std::string& reason) override {
     inner_.abort(reason);

@@ -43,6 +43,20 @@ void too_much_shared_memory() {
   wait_for_ever();
 }
 
+void apart() {
+  if (mynode() == myhost()) {
+    for (long node = 0; node < numnodes(); ++node) crecv(2, nullptr, 0);
+    return;
+  }
+  const Neighbourhood here = neighbourhood();
+  if (here.machine != mynode() || here.count != 1 || here.refusal.empty() ||
+      machine_neighbourhood().count != numnodes())
+    throw Failure("nodes that cannot see each other's memory share it", "", "");
+  const SharedMemory memory(1000);
+  memory.bytes()[0] = std::byte{1};
+  csend(2, nullptr, 0, myhost(), 0);
+}
+
 void nothing() {}
 
 // Nobody receives these.
@@ -62,6 +76,7 @@ int run(int argc, char** argv) {
       {"message_too_long", message_too_long},
       {"too_much_shared_memory", too_much_shared_memory},
       {"leaves_messages", leaves_messages},
+      {"apart", apart},
   };
   if (argc > 2)
     faults::run_rank({argv[1], argv[2]});

@@ -1,4 +1,5 @@
-// Nodes of one process as if they lay on several machines: on each machine so many, in order of their ids.
+// Nodes of one process as if they lay on several machines: on each machine so many, in order of their ids. The host is
+// on the first one.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +21,10 @@ class Machines {
   Neighbourhood of(int node, int nodes) const {
     const int first = node / nodes_each_ * nodes_each_;
     return {first, node - first, std::min(nodes_each_, nodes - first), node, false};
+  }
+  bool on_one(int rank, int other, int nodes) const {
+    const auto machine = [&](int each) { return each == nodes ? 0 : each / nodes_each_; };
+    return machine(rank) == machine(other);
   }
   // Block number `number` of a machine, of which each of its nodes gets its part. Every float is not a number.
   std::shared_ptr<std::byte> share(int machine, int number, std::size_t bytes) {
@@ -73,6 +78,10 @@ class MachinesBackend : public CountingBackend {
   Neighbourhood neighbourhood() override { return machines_.of(rank(), nodes()); }
   std::shared_ptr<std::byte> share(std::size_t bytes) override {
     return machines_.share(neighbourhood().machine, shared_++, bytes);
+  }
+
+  std::shared_ptr<std::byte> attach(int other, const MemoryName& name, std::size_t bytes) override {
+    return machines_.on_one(rank(), other, nodes()) ? CountingBackend::attach(other, name, bytes) : nullptr;
   }
 
  private:

@@ -1,5 +1,6 @@
 // Jobs that cannot go on end at once, on all ranks, with the reason printed once and an exit code.
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -73,8 +74,16 @@ TEST(MpiFaults, AMessageIsTooLong) {
 TEST(MpiFaults, TheMachineCannotShareThatMuch) {
   const Outcome outcome = run_ranks(3, "too_much_shared_memory");
   EXPECT_NE(outcome.code, 0);
-  EXPECT_NE(outcome.output.find("/dev/shm"), std::string::npos) << outcome.output;
-  EXPECT_NE(outcome.output.find("--shm-size"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("cannot share 1125899906842624 bytes"), std::string::npos) << outcome.output;
+}
+
+// Each node in a user namespace of its own: none may look at another.
+TEST(MpiFaults, NodesThatAreKeptApartShareNoMemory) {
+  if (system("unshare --user --map-root-user true 2> /dev/null") != 0) GTEST_SKIP() << "no user namespaces here";
+  const std::string job = FAULTY_JOB " apart : -n 3 unshare --user --map-root-user " FAULTY_JOB " apart";
+  const Outcome outcome = run_job("1 " + job);
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_LT(outcome.seconds, 20);
 }
 
 TEST(MpiFaults, MessagesThatNobodyReceivesDoNotHinderTheEnd) {

@@ -13,7 +13,6 @@ using State = Finding::State;
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
 constexpr std::uint64_t kLittleMemory = 256 * kMiB;  // for a node's frame
-constexpr std::uint64_t kLittleShared = 64 * kMiB;   // what containers get unasked
 constexpr std::uint64_t kLeastShared = 16 * kMiB;
 constexpr std::uint64_t kSharedByANode = 4 * kMiB;     // Open MPI's segment for messages
 constexpr std::uint64_t kLittleTemporary = 16 * kMiB;  // free
@@ -156,8 +155,8 @@ Finding check_shared(const Facts& facts) {
   const std::string found = bytes_text(space.total) + ", " + bytes_text(space.left) + " free";
   if (space.left < kLeastShared)
     return {State::trouble, about, found, std::string(remedy) + "; files of ended jobs there may be deleted"};
-  if (space.total <= kLittleShared || space.left < (facts.nodes + 1) * kSharedByANode)
-    return {State::note, about, found + ": too little for large films or many nodes", remedy};
+  if (space.left < (facts.nodes + 1) * kSharedByANode)
+    return {State::note, about, found + ": too little for the messages of so many nodes", remedy};
   return {State::good, about, found, ""};
 }
 

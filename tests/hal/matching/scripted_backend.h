@@ -43,6 +43,8 @@ class ScriptedBackend : public Backend {
   void idle(int, std::chrono::microseconds) override { throw std::logic_error("the call waits for ever"); }
   Neighbourhood neighbourhood() override { return {}; }
   std::shared_ptr<std::byte> share(std::size_t) override { return nullptr; }
+  Offer offer(std::size_t) override { return {}; }
+  std::shared_ptr<std::byte> attach(int, const MemoryName&, std::size_t) override { return nullptr; }
   bool finish() override { return true; }
   [[noreturn]] void abort(const std::string&) override { std::terminate(); }
 

@@ -1,5 +1,7 @@
 // How a run of threads ends, what goes between a rank and its backend, and calls on foreign threads.
+#include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <stdexcept>
@@ -128,6 +130,35 @@ TEST(Threads, SharedMemoryOfDifferentSizesIsFoundOut) {
   EXPECT_THROW(run_threads(
                    2, [] {}, node),
                std::logic_error);
+}
+
+TEST(Threads, ABlockMayBeMuchLargerThanWhatIsUsedOfIt) {
+  constexpr std::size_t kSize = std::size_t{1} << 36;
+  const auto node = [] {
+    messages::SharedMemory memory(kSize);
+    memory.prefer_large_pages();
+    if (mynode() == 0) memory.bytes()[kSize - 1] = std::byte{7};
+    gsync();
+    EXPECT_EQ(memory.bytes()[kSize - 1], std::byte{7});
+    gsync();
+  };
+  run_threads(
+      2, [] {}, node);
+}
+
+TEST(Threads, WhatTheMachineDoesNotGiveNoNodeGets) {
+  std::atomic<int> refused = 0;
+  const auto node = [&] {
+    try {
+      const messages::SharedMemory memory(std::size_t{1} << 50);
+    } catch (const Failure&) {
+      ++refused;
+    }
+    EXPECT_NO_THROW(messages::SharedMemory(1000));
+  };
+  run_threads(
+      3, [] {}, node);
+  EXPECT_EQ(refused, 3);
 }
 
 TEST(Counting, IsBySenderReceiverAndType) {
