@@ -176,18 +176,18 @@ TEST(DamagedMessages, Strip) {
 // The node damages its slot once more when the host has checked the strip.
 TEST(DamagedMessages, StripInASlot) {
   StripStore store;
-  Inbox host;
+  std::optional<Inbox> host;
   std::optional<messages::OfferedMemory> slot;  // the node's
   Damage later;
   Exchange exchange{wire::kStrip, sound_strip(0), [&] {
-                      const StripMessage strip = host.inbox.receive_strip(store);
+                      const StripMessage strip = host->inbox.receive_strip(store);
                       const auto bytes = slot->bytes().first(1000);
                       std::ranges::copy(later.damaged({bytes.begin(), bytes.end()}, false), bytes.begin());
                       paste(strip);
                     }};
   exchange.ask = [&] {
-    host.slots.take({0, 0});  // where the last was refused before that
-    host.slots.give({0, 0});
+    host->slots.take({0, 0});  // where the last was refused before that
+    host->slots.give({0, 0});
   };
   exchange.send = [&](const Bytes& strip) {
     std::ranges::copy(strip, slot->bytes().begin());
@@ -197,7 +197,10 @@ TEST(DamagedMessages, StripInASlot) {
     slot.emplace(wire::kSlotBytes);
     ScriptedNode::send(wire::kLoaded, wire::Loaded{slot->name()});
   };
-  exchange.boot_host = [&] { host.inbox.wait_until_loaded(); };
+  exchange.boot_host = [&] {
+    host.emplace();
+    host->inbox.wait_until_loaded();
+  };
   EXPECT_GT(refused_of(exchange), kMessages / 10);
 }
 
