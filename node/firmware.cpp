@@ -105,7 +105,8 @@ void Firmware::load() {
   renderer_.emplace(*film_, load, machines, instruction_set_);
   groups_ = load.groups;
   command_.reserve(sizeof(wire::Render) + film_->settings().frames * sizeof(std::uint32_t));
-  csend(wire::kLoaded, nullptr, 0, myhost(), 0);
+  const wire::Loaded loaded{renderer_->outbox().slots()};
+  csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
 }
 
 void Firmware::receive_film(std::span<std::byte> block) {

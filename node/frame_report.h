@@ -20,7 +20,7 @@ class FrameReport {
   void begin(wire::FrameKind kind, std::uint32_t frame, std::uint32_t interval);
   // Adds the time since the last call to `phase`, and records it as a span.
   void clock(wire::Phase phase);
-  // Leaves the time since the last call out: it belongs to no phase, or the callee has added it already.
+  // Leaves the time since the last call out: it belongs to no phase.
   void skip_clock();
   // Prepares the header of the frame's next strip; `memory`: bytes in use at the peak.
   void set_strip(const geometry::LineRange& lines, bool last, std::uint64_t memory);

@@ -180,7 +180,7 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
   const bool constant = raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};
   do {
-    raster::StripBuffer& buffer = outbox_.begin(constant);
+    raster::StripBuffer& buffer = outbox_.begin(constant, report_.strip().work);
     report_.clock(wire::Phase::credit);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
     report_.clock(wire::Phase::scanline);
@@ -216,7 +216,7 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   report_.set_strip(lines, last, memory_.arena().peak());
   outbox_.send(report_.strip());
   ++report_.strip().number;
-  report_.skip_clock();  // send() has counted its own wait
+  report_.skip_clock();  // sending belongs to no phase
 }
 
 std::size_t Renderer::member() const { return static_cast<std::size_t>(mynode() - group_.first); }

@@ -1,47 +1,45 @@
 #include "node/group/outbox.h"
 
-#include <cstdint>
-#include <span>
+#include <bit>
 
-#include "hal/messages/recorder.h"
 #include "hal/nx/nx_messages.h"
 #include "node/wire/commands.h"
 
 namespace mars::group {
 
-Outbox::Outbox(std::size_t width, int credits) : credits_(credits) {
-  for (int i = 0; i < credits; ++i) slots_.push_back(Slot{raster::StripBuffer(width)});
-}
+Outbox::Outbox(std::size_t width, int slots)
+    : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
+      strip_(width),
+      slots_(static_cast<std::size_t>(slots)) {}
 
-raster::StripBuffer& Outbox::begin(bool constant) {
-  current_ = (current_ + 1) % slots_.size();
-  Slot& slot = slots_[current_];
-  wait(slot);
-  slot.buffer.clear(constant);
-  return slot.buffer;
+// Of the slots it takes always the same first: what lies there is the likeliest to be in a cache still.
+raster::StripBuffer& Outbox::begin(bool constant, wire::WorkCounts& work) {
+  take_commands(work);
+  if (owned_ != 0) current_ = static_cast<std::size_t>(std::countr_zero(owned_));
+  wait(slots_[current_]);
+  strip_.begin(memory_of(current_), constant);
+  return strip_;
 }
 
 void Outbox::send(wire::Strip& header) {
-  wait_for_credit(header);
   if (stopped_) return;
   Slot& slot = slots_[current_];
-  const auto message = slot.buffer.finish(header);
-  slot.message = isend(wire::kStrip, message.data(), static_cast<long>(message.size()), myhost(), 0);
-  --credits_;
+  header.slot = static_cast<std::uint32_t>(current_);
+  header.by_message = slot.by_message;
+  const auto strip = strip_.finish(header);
+  const std::size_t bytes = slot.by_message == 1 ? strip.size() : sizeof header;
+  slot.message = isend(wire::kStrip, strip.data(), static_cast<long>(bytes), myhost(), 0);
+  owned_ &= ~(std::uint32_t{1} << current_);
 }
 
-void Outbox::wait_for_credit(wire::Strip& header) {
-  const double start = dclock();
+void Outbox::take_commands(wire::WorkCounts& work) {
   constexpr long kCommands = wire::any_of(wire::kCredit, wire::kStop);
   while (!stopped_ && iprobe(kCommands)) take_command();
-  if (credits_ == 0) ++header.work.credits_waited;
-  while (!stopped_ && credits_ == 0) {
+  if (owned_ == 0) ++work.credits_waited;
+  while (!stopped_ && owned_ == 0) {
     cprobe(kCommands);
     take_command();
   }
-  const double end = dclock();
-  header.times.credit += end - start;
-  messages::record_span(static_cast<int>(wire::Phase::credit), start, end);
 }
 
 // Stop is not received here: the firmware does that.
@@ -56,7 +54,13 @@ void Outbox::receive_credit() {
   wire::Credit credit;
   crecv(wire::kCredit, &credit, sizeof credit);
   const auto message = std::as_bytes(std::span(&credit, 1)).first(static_cast<std::size_t>(infocount()));
-  credits_ += wire::read_credit(message, static_cast<std::int32_t>(slots_.size()) - credits_);
+  wire::read_credit(message, owned_, slots_.size());
+  slots_[credit.slot].by_message = credit.by_message;
+  owned_ |= std::uint32_t{1} << credit.slot;
+}
+
+std::span<std::byte> Outbox::memory_of(std::size_t slot) const {
+  return memory_.bytes().subspan(slot * wire::kSlotBytes, wire::kSlotBytes);
 }
 
 void Outbox::flush() {

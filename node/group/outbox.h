@@ -1,23 +1,29 @@
-// Strips on their way to the host, a buffer for each credit. Credits are the number of strips that may be on their way,
-// so that a node draws on while the host is busy.
+// Strips on their way to the host, made in the node's slots (protocol.h), with a credit for each. There are several, so
+// that a node draws on while the host is busy.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "hal/messages/offered_memory.h"
 #include "node/raster/strip_buffer.h"
 
 namespace mars::group {
 
 class Outbox {
  public:
-  // `width`: of the picture; `credits`: at the start, and at most.
-  Outbox(std::size_t width, int credits);
+  // `width`: of the picture. All slots are the host's at first.
+  Outbox(std::size_t width, int slots);
 
-  // An empty buffer (StripBuffer::clear); waits until the strip last sent from it is gone.
-  raster::StripBuffer& begin(bool constant);
-  // Sends the buffer that begin() gave under `header`, waiting for credit first; the wait, pixels and bytes are added
-  // to `header`. After Stop it sends nothing: the host takes no more strips.
+  const messages::MemoryName& slots() const { return memory_.name(); }
+
+  // An empty strip in a slot of the node's; waits for credit where there is none, and counts that in `work`. After Stop
+  // it waits for none: the host then uses no slot.
+  raster::StripBuffer& begin(bool constant, wire::WorkCounts& work);
+  // Sends the strip that begin() gave, under `header`, to which its pixels and bytes are added. After Stop it sends
+  // nothing: the host takes no more strips.
   void send(wire::Strip& header);
   bool stopped() const { return stopped_; }
 
@@ -28,17 +34,20 @@ class Outbox {
 
  private:
   struct Slot {
-    raster::StripBuffer buffer;
+    std::uint32_t by_message = 0;
     long message = -1;  // -1: nothing on the way
   };
 
-  void wait_for_credit(wire::Strip& header);
+  void take_commands(wire::WorkCounts& work);
   void take_command();
+  std::span<std::byte> memory_of(std::size_t slot) const;
   static void wait(Slot& slot);
 
+  messages::OfferedMemory memory_;
+  raster::StripBuffer strip_;  // in the making
   std::vector<Slot> slots_;
+  std::uint32_t owned_ = 0;  // a bit for each slot that is the node's
   std::size_t current_ = 0;
-  int credits_;
   bool stopped_ = false;
 };
 

@@ -21,6 +21,8 @@ constexpr std::size_t most_bytes_of_line(std::size_t width) {
   return 2 * (sizeof(std::uint32_t) + sizeof(wire::Run)) * ((width + 2) / 2);
 }
 
+static_assert(sizeof(wire::Strip) + 2 * kPixels * sizeof(std::uint32_t) <= wire::kSlotBytes,
+              "a slot takes a strip in the making");
 static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide) <= wire::kMaxStripBytes,
               "any line fits an empty strip");
 
@@ -40,12 +42,12 @@ void StripBuffer::Layer::added(const shading::Shaded& shaded) {
 }
 
 StripBuffer::StripBuffer(std::size_t width)
-    : line_bytes_(most_bytes_of_line(width)),
-      message_(sizeof(wire::Strip) + 2 * kPixels * sizeof(std::uint32_t)),
-      runs_(2 * kRuns * sizeof(wire::Run)) {}
+    : line_bytes_(most_bytes_of_line(width)), runs_(2 * kRuns * sizeof(wire::Run)) {}
 
-void StripBuffer::clear(bool constant) {
-  auto* pixels = reinterpret_cast<std::uint32_t*>(message_.bytes().data() + sizeof(wire::Strip));
+void StripBuffer::begin(std::span<std::byte> slot, bool constant) {
+  check(slot.size() == wire::kSlotBytes, "a strip is made in a slot");
+  slot_ = slot.data();
+  auto* pixels = reinterpret_cast<std::uint32_t*>(slot_ + sizeof(wire::Strip));
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());
   constant_ = {pixels, runs};
   moving_ = constant ? Layer(pixels + kPixels, runs + kRuns) : Layer(pixels, runs);
@@ -65,16 +67,15 @@ std::span<const std::byte> StripBuffer::finish(wire::Strip& header) {
   header.constant_runs = static_cast<std::uint32_t>(constant_.runs().size());
   header.moving_runs = static_cast<std::uint32_t>(moving_.runs().size());
   header.pixels = constant_.pixels().size() + moving_.pixels().size();
-  std::byte* const start = message_.bytes().data();
-  std::byte* end = start + sizeof header;
+  std::byte* end = slot_ + sizeof header;
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(moving_.runs(), put(constant_.runs(), end));
-  const auto size = static_cast<std::size_t>(end - start);
+  const auto size = static_cast<std::size_t>(end - slot_);
   check(size <= wire::kMaxStripBytes, "a strip has at most so many bytes");
   header.work.pixels += header.pixels;
   header.work.bytes_to_host += size;
-  std::memcpy(start, &header, sizeof header);
-  return {start, size};
+  std::memcpy(slot_, &header, sizeof header);
+  return {slot_, size};
 }
 
 }  // namespace mars::raster

@@ -1,5 +1,5 @@
-// One strip on its way to the host: header, pixels, runs, as protocol.h lays them out. Stationary and moving parts
-// come line by line in turn; the message has all pixels of the first before those of the second. It has at most
+// A strip in the making: header, pixels, runs, as protocol.h lays them out, in a slot. Stationary and moving parts
+// come line by line in turn; the strip has all pixels of the first before those of the second. It has at most
 // kMaxStripBytes.
 #pragma once
 
@@ -39,24 +39,25 @@ class StripBuffer {
   // For pictures of `width`. Throws Failure where the machine does not give the memory.
   explicit StripBuffer(std::size_t width);
 
-  // Empty. `constant`: whether stationary parts will come.
-  void clear(bool constant);
+  // Begins an empty one in `slot`, which has kSlotBytes and is aligned to 64. `constant`: whether stationary parts will
+  // come.
+  void begin(std::span<std::byte> slot, bool constant);
   // How many more lines surely fit, whatever they show, a few at most; 0: the strip is full.
   std::uint32_t lines_that_fit() const;
 
   Layer& constant() { return constant_; }
   Layer& moving() { return moving_; }
 
-  // The message, valid until clear(): `header` with the counts of pixels and runs set, and its work's pixels and
-  // bytes to the host grown by what is sent.
+  // The whole strip, at the beginning of its slot: `header` with the counts of pixels and runs set, and its work's
+  // pixels and bytes to the host grown by what is there.
   std::span<const std::byte> finish(wire::Strip& header);
 
  private:
   std::size_t bytes() const;
 
   std::size_t line_bytes_;  // that a line takes at most
-  messages::PrivateMemory message_;
-  messages::PrivateMemory runs_;
+  std::byte* slot_ = nullptr;
+  messages::PrivateMemory runs_;  // until they are put behind the pixels
   Layer constant_;
   Layer moving_;
 };

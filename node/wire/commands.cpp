@@ -75,12 +75,13 @@ RenderCommand read_render(std::span<const std::byte> message, const FilmView& fi
   return {render, frames};
 }
 
-std::int32_t read_credit(std::span<const std::byte> message, std::int32_t missing) {
+const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots) {
   constexpr auto kName = "Credit";
   require(message.size() == sizeof(Credit), kName, "its size");
-  const std::int32_t count = reinterpret_cast<const Credit*>(message.data())->count;
-  require(count >= 1 && count <= missing, kName, "the count");
-  return count;
+  const auto& credit = *reinterpret_cast<const Credit*>(message.data());
+  require(credit.slot < slots && (owned >> credit.slot & 1) == 0, kName, "the slot");
+  require(credit.by_message <= 1, kName, "how the strip goes");
+  return credit;
 }
 
 void check_size(const char* command, std::size_t bytes, std::size_t expected) {

@@ -28,8 +28,8 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
 // For node `node` of `nodes`, which form `groups` groups.
 RenderCommand read_render(std::span<const std::byte> message, const FilmView& film, int node, int nodes, int groups);
 
-// The number of credits, for a node of whose credits `missing` are spent.
-std::int32_t read_credit(std::span<const std::byte> message, std::int32_t missing);
+// For a node that has the slots of `owned`, a bit for each, of `slots` in all.
+const Credit& read_credit(std::span<const std::byte> message, std::uint32_t owned, std::size_t slots);
 
 // For commands of a fixed size, such as Stop and Clock, which are empty.
 void check_size(const char* command, std::size_t bytes, std::size_t expected);

@@ -5,7 +5,11 @@
 // inbetweens, sends no more strips and ends. Both sides check a message's size, counts and ranges before they use
 // anything of it: the node in commands.h, the host in host/render/farm/node_inbox.h.
 //
-//   host -> node   Load (+ film block to one node a machine, in pieces), Render ..., Credit ..., Stop
+// A node makes its strips in slots of its own memory. A slot is the node's from the Credit that gives it until the
+// Strip that was made in it, and the host's from then until the next such Credit. On one machine the host reads pixels
+// and runs where they lie; elsewhere they travel in the Strip. The host reads no slot after Stop.
+//
+//   host -> node   Load (+ film block to one node a machine, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
 //   node -> node   edge-box counts; Triangles and DepthLines, in any order of the senders: those of two keyframes
@@ -17,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/messages/offer.h"
 #include "node/wire/run.h"
 #include "node/wire/stamp.h"
 
@@ -71,7 +76,7 @@ enum class Mapping : std::uint32_t { greedy, optimal };
 // Bytes of the film block in one kFilmBlock message; the last has the rest.
 inline constexpr std::uint64_t kFilmPiece = std::uint64_t{16} << 20;
 
-// Strips that a node has buffers for.
+// Slots that a node has at most.
 inline constexpr std::int32_t kMaxCredits = 4;
 
 // Prepares a film of `film_bytes`. Followed by each node's machine (int32), as in Hello. Nodes that lead a machine get
@@ -80,10 +85,15 @@ struct Load {
   WireStamp stamp;
   std::uint64_t film_bytes;
   std::uint64_t memory;  // bytes for one frame's triangles and edge boxes, the same on every node
-  std::int32_t credits;  // strips a node may have on the way to the host, 1..kMaxCredits
+  std::int32_t credits;  // slots that the node makes for its strips, 1..kMaxCredits; all are the host's at first
   Mapping mapping;
   std::int32_t groups;   // that the nodes form side by side (collectives::group_of), for all Render commands
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
+};
+
+// The node has the film and its slots.
+struct Loaded {
+  messages::MemoryName slots;  // `credits` of kSlotBytes each
 };
 
 // Frames of one interval for one group: the first is rendered by all its nodes as the keyframe, the others go
@@ -102,9 +112,10 @@ constexpr std::int32_t contributor_of_inbetween(std::uint64_t inbetween, std::in
   return static_cast<std::int32_t>(inbetween % static_cast<std::uint64_t>(group_count));
 }
 
-// Gives back `count` strips' credit.
+// Gives a slot, which is permission to send one strip.
 struct Credit {
-  std::int32_t count;
+  std::uint32_t slot;        // below Load's credits
+  std::uint32_t by_message;  // 1: the host does not see the slot, and the strip travels whole
 };
 
 // Seconds spent so far in the steps of one frame on one node; the frame's last strip has them all.
@@ -116,7 +127,7 @@ struct PhaseTimes {
   double fill;      // edge boxes into place
   double scanline;  // visibility and shading
   double depth;     // until all of CZB is there
-  double credit;    // waiting for the host: for its credit, or until an earlier strip is gone
+  double credit;    // waiting for the host: for its credit, or until the slot's earlier strip is gone
 };
 
 // The spans of a trace: these steps, and the frame around them, whose value is its interval.
@@ -131,7 +142,7 @@ struct WorkCounts {
   std::uint64_t edge_boxes;        // drawn on its own lines
   std::uint64_t pixels;            // shaded
   std::uint64_t bytes_to_nodes;
-  std::uint64_t bytes_to_host;   // in strips
+  std::uint64_t bytes_to_host;   // in strips, whether by slot or by message
   std::uint64_t memory;          // bytes of the frame's arena in use at the peak
   std::uint32_t passes;          // over line ranges; 1 unless memory was short
   std::uint32_t credits_waited;  // strips that had to wait for credit
@@ -143,9 +154,14 @@ enum class FrameKind : std::uint32_t { keyframe, inbetween };
 // in place while the node draws on.
 inline constexpr std::size_t kMaxStripBytes = std::size_t{768} << 10;
 
+// Of a slot, which has a strip from its beginning on. More than a strip, for while it is made the two kinds of pixels
+// lie apart.
+inline constexpr std::size_t kSlotBytes = 2 * kMaxStripBytes + 4096;
+
 // A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
 // its moving parts (MFB). Followed by all pixels, each one uint32 (red in the lowest byte, then green, blue,
-// 0), then by constant_runs + moving_runs Run that say where they go, in the same order.
+// 0), then by constant_runs + moving_runs Run that say where they go, in the same order. The message has all that
+// by_message; else it ends with the struct, and the rest lies behind it in the slot.
 struct Strip {
   std::uint32_t frame;
   std::uint32_t interval;
@@ -157,6 +173,8 @@ struct Strip {
   std::uint32_t last_line;
   std::uint32_t constant_runs;
   std::uint32_t moving_runs;
+  std::uint32_t slot;        // it was made in
+  std::uint32_t by_message;  // as the slot's Credit said
   std::uint64_t pixels;
   std::uint64_t edge_box_total;  // EBC's last entry (keyframes)
   double load_ratio;             // max / average load of the mapping (keyframes; 1 for an inbetween)

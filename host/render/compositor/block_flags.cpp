@@ -1,5 +1,7 @@
 #include "host/render/compositor/block_flags.h"
 
+#include <algorithm>
+
 #include "hal/failure/failure.h"
 
 namespace mars::compositor {
@@ -48,6 +50,11 @@ void BlockFlags::set_all() {
 
 void BlockFlags::clear_row(std::uint32_t row) {
   std::fill_n(&words_[std::size_t{row} * words_a_row_], words_a_row_, 0);
+}
+
+bool BlockFlags::any(std::uint32_t row) const {
+  const auto first = words_.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * words_a_row_);
+  return std::any_of(first, first + words_a_row_, [](std::uint64_t word) { return word != 0; });
 }
 
 bool BlockFlags::at(std::uint32_t column, std::uint32_t row) const {

@@ -25,6 +25,7 @@ class BlockFlags {
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
   void clear_row(std::uint32_t row);
 
+  bool any(std::uint32_t row) const;
   bool at(std::uint32_t column, std::uint32_t row) const;
   std::uint64_t count() const;
 

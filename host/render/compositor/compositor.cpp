@@ -78,7 +78,8 @@ Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t 
       plain_(background),
       constant_(width, height, block),
       last_overwritten_(width, height, block),
-      fresh_(width, height, block) {}
+      fresh_(width, height, block),
+      filled_lines_(constant_.columns()) {}
 
 void Compositor::begin_interval() {
   constant_.clear();
@@ -97,7 +98,10 @@ void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const
   for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
     extend_background(row, part);
     const std::uint32_t* end = copy_runs(part, source, width_, saved_.get());
-    if (keyframe != nullptr) copy_runs(part, source, width_, keyframe->pixels.data());
+    if (keyframe != nullptr) {
+      refresh(*keyframe, row, part);
+      copy_runs(part, source, width_, keyframe->pixels.data());
+    }
     source = end;
   });
   if (keyframe == nullptr) return;
@@ -123,43 +127,87 @@ void Compositor::begin_frame(Frame& frame) const {
   check(frame.width == width_ && frame.height == height_, "a frame has the compositor's size");
   check(frame.overwritten.block() == constant_.block(), "a frame has the compositor's blocks");
   if (frame.plain != plain_) {
-    frame.overwritten.set_all();
-  } else if (frame.background != name_) {
-    frame.overwritten |= frame.constant;
-    frame.overwritten |= constant_;
+    frame.stale.set_all();
+  } else {
+    frame.stale |= frame.overwritten;
+    if (frame.background != name_) {
+      frame.stale |= frame.constant;
+      frame.stale |= constant_;
+    }
   }
-  write_back(frame);
   frame.overwritten.clear();
   frame.plain = plain_;
   frame.background = name_;
   frame.constant = constant_;
 }
 
-// Overwritten blocks show the background again.
-void Compositor::write_back(Frame& frame) const {
-  std::uint32_t* pixels = frame.pixels.data();
-  for (std::uint32_t row = 0; row < constant_.rows(); ++row) {
-    frame.overwritten.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
-      constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool drawn) {
-        for_lines(width_, height_, constant_.block(), row, from, to, [&](std::size_t at, std::size_t count) {
-          if (drawn)
-            std::copy_n(&saved_[at], count, pixels + at);
-          else
-            std::fill_n(pixels + at, count, plain_);
-        });
-      });
-    });
-  }
+// Stale blocks of the row show the background again, but for those that the runs are about to fill.
+void Compositor::refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs) {
+  if (!frame.stale.any(row)) return;
+  count_filled_lines(runs);
+  const std::uint32_t lines = std::min(constant_.block(), height_ - row * constant_.block());
+  const auto is_filled = [&](std::uint32_t column) { return filled_lines_[column] == lines; };
+  frame.stale.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
+    while (first < last) {
+      std::uint32_t end = first;
+      while (end < last && !is_filled(end)) ++end;
+      write_back(frame, row, first, end);
+      first = end + 1;
+    }
+  });
+  frame.stale.clear_row(row);
 }
 
-void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs,
-                              std::span<const std::uint32_t> pixels) const {
+// In how many lines of each block the runs, which lie in one row, fill it from side to side. None where runs are not in
+// order, as those of a sound node are.
+void Compositor::count_filled_lines(std::span<const wire::Run> runs) {
+  const std::uint32_t block = constant_.block();
+  std::ranges::fill(filled_lines_, 0);
+  const auto add = [&](std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t end = last == width_ ? constant_.columns() : last / block;
+    for (std::uint32_t column = (first + block - 1) / block; column < end; ++column) ++filled_lines_[column];
+  };
+  std::uint32_t line = runs.front().line, first = runs.front().first, last = first;
+  for (const wire::Run& run : runs) {
+    if (run.line != line || run.first != last) {
+      if (run.line < line || (run.line == line && run.first < last)) return void(std::ranges::fill(filled_lines_, 0));
+      add(first, last);
+      line = run.line;
+      first = run.first;
+    }
+    last = run.first + std::uint32_t{run.count};
+  }
+  add(first, last);
+}
+
+// These blocks of a row show the background.
+void Compositor::write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) const {
+  std::uint32_t* pixels = frame.pixels.data();
+  constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool drawn) {
+    for_lines(width_, height_, constant_.block(), row, from, to, [&](std::size_t at, std::size_t count) {
+      if (drawn)
+        std::copy_n(&saved_[at], count, pixels + at);
+      else
+        std::fill_n(pixels + at, count, plain_);
+    });
+  });
+}
+
+void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) {
   check_runs(runs, pixels.size());
-  copy_runs(runs, pixels.data(), width_, frame.pixels.data());
-  for (const wire::Run& run : runs) frame.overwritten.set_pixels(run.line, run.first, run.count);
+  const std::uint32_t* source = pixels.data();
+  for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
+    refresh(frame, row, part);
+    source = copy_runs(part, source, width_, frame.pixels.data());
+    for (const wire::Run& run : part) frame.overwritten.set_pixels(run.line, run.first, run.count);
+  });
 }
 
 void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
+  for (std::uint32_t row = 0; row < constant_.rows(); ++row)
+    frame.stale.for_stretches(
+        row, [&](std::uint32_t first, std::uint32_t last) { write_back(frame, row, first, last); });
+  frame.stale.clear();
   frame.number = number;
   frame.changed_since = last_number_;
   if (last_number_) {

@@ -1,7 +1,7 @@
 // What the host does with image data (thesis 4.10): the CFB of an interval is kept as the saved background;
 // a frame is that background with the MFB of its moving parts over it. One bit a block of pixels says which
-// blocks were overwritten; only these are written back before a picture is used again. One Compositor serves
-// one interval after another; frames come from a sink pool (or anywhere) and may pass from one compositor to
+// blocks were overwritten; only these are written back when a picture is used again, and of them only those that
+// the new pixels do not cover. One Compositor serves one interval after another; frames come from a sink pool (or anywhere) and may pass from one compositor to
 // another.
 //
 //   begin_interval, then for its keyframe
@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host/render/compositor/frame.h"
 #include "node/wire/protocol.h"
@@ -36,11 +37,11 @@ class Compositor {
   // has all CFB so far.
   void paste_constant(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels, Frame* keyframe);
 
-  // Makes `frame` show the saved background as it is now: writes its flagged blocks back, and where it showed
-  // another background the blocks in which either has CFB.
+  // `frame` will show the saved background, this part of it and what comes until it is finished: its flagged blocks
+  // are stale, and where it showed another background the blocks in which either has CFB.
   void begin_frame(Frame& frame) const;
   // Part of the MFB goes over it.
-  void paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) const;
+  void paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels);
   // It is frame `number`; its `changed` says which blocks differ from the frame this compositor finished before.
   void finish_frame(Frame& frame, std::uint32_t number);
 
@@ -50,7 +51,9 @@ class Compositor {
  private:
   void check_runs(std::span<const wire::Run> runs, std::size_t pixels) const;
   void extend_background(std::uint32_t row, std::span<const wire::Run> runs);
-  void write_back(Frame& frame) const;
+  void refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs);
+  void count_filled_lines(std::span<const wire::Run> runs);
+  void write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) const;
 
   std::uint32_t width_;
   std::uint32_t height_;
@@ -63,6 +66,7 @@ class Compositor {
   BlockFlags last_overwritten_;               // by the frame finished last
   std::optional<std::uint32_t> last_number_;  // none: no frame of this interval yet
   BlockFlags fresh_;                          // extend_background's; empty between calls
+  std::vector<std::uint32_t> filled_lines_;   // of each block of a row: count_filled_lines'
 };
 
 }  // namespace mars::compositor

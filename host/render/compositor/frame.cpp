@@ -9,6 +9,7 @@ Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t block, std
       changed(width, height, block),
       plain(plain),
       constant(width, height, block),
-      overwritten(width, height, block) {}
+      overwritten(width, height, block),
+      stale(width, height, block) {}
 
 }  // namespace mars::compositor

@@ -24,12 +24,14 @@ struct Frame {
   BlockFlags changed;
   std::optional<std::uint32_t> changed_since;
 
-  // The compositor's: wherever no block is flagged as overwritten, these pixels show the saved background of
-  // that name (0: none but the plain one), which may differ from `plain` in the blocks flagged as constant.
+  // The compositor's: wherever no block is flagged as overwritten or stale, these pixels show the saved background
+  // of that name (0: none but the plain one), which may differ from `plain` in the blocks flagged as constant. Stale
+  // blocks show what the buffer was used for before; a finished frame has none.
   std::uint32_t plain;
   std::uint64_t background = 0;
   BlockFlags constant;
   BlockFlags overwritten;
+  BlockFlags stale;
 };
 
 }  // namespace mars::compositor

@@ -48,7 +48,7 @@ void Assembly::receive(StripMessage strip) {
   Parts& parts = parts_.at(header.frame);
   if (header.last == 1) {
     --parts.contributors_left;
-    parts.contributors.push_back(header.node);
+    parts.held.push_back(strip.slot());
     if (header.frame == keyframe_) drew_keyframe_[static_cast<std::size_t>(header.node - group_.first)] = true;
   }
   if (parts.strips.empty()) waiting_.push_back(header.frame);
@@ -88,14 +88,14 @@ std::optional<Assembly::Pasted> Assembly::paste(compositor::Compositor& composit
   Pasted pasted{number, number == keyframe_ ? wire::FrameKind::keyframe : wire::FrameKind::inbetween, nullptr, {}, {}};
   for (StripMessage& strip : parts.strips) {
     paste_strip(strip, *parts.picture, compositor);
-    if (strip.header().last == 0) pasted.sent_more.push_back(strip.header().node);
+    if (strip.header().last == 0) pasted.free.push_back(strip.slot());
     store.give_back(strip.release());
   }
   parts.strips.clear();
   if (parts.contributors_left > 0) return pasted;
   compositor.finish_frame(*parts.picture, number);
   pasted.whole = parts.picture;
-  pasted.contributors = std::move(parts.contributors);
+  pasted.held = std::move(parts.held);
   parts_.erase(number);
   return pasted;
 }

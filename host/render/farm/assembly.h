@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/render/compositor/compositor.h"
+#include "host/render/farm/node_slots.h"
 #include "host/render/farm/plan.h"
 #include "host/render/farm/strip_message.h"
 #include "host/render/sinks/sink_pool.h"
@@ -37,9 +38,8 @@ class Assembly {
     std::uint32_t number;
     wire::FrameKind kind;
     compositor::Frame* whole;  // the finished frame; nullptr while strips of it are to come
-    // Nodes whose strips of it were pasted now, each as often as it had some that were not its last.
-    std::vector<std::int32_t> sent_more;
-    std::vector<std::int32_t> contributors;  // the nodes that drew it, where it is whole
+    std::vector<NodeSlot> free;  // slots of strips that were pasted now and were not their node's last of the frame
+    std::vector<NodeSlot> held;  // those of the nodes' last strips, where it is whole
   };
   // Pastes the strips that came of one frame, if there are any and it has a buffer or gets one; their memory
   // goes to `store`.
@@ -54,9 +54,9 @@ class Assembly {
   struct Parts {
     std::int32_t contributor = kAll;  // the only node that draws it
     std::int32_t contributors_left = 0;
-    std::vector<std::int32_t> contributors;  // whose last strip has come
-    std::vector<StripMessage> strips;        // to be pasted
-    compositor::Frame* picture = nullptr;    // where they go; begun
+    std::vector<NodeSlot> held;            // of the last strips that have come
+    std::vector<StripMessage> strips;      // to be pasted
+    compositor::Frame* picture = nullptr;  // where they go; begun
   };
 
   bool is_contributor(const Parts& parts, std::int32_t node) const;

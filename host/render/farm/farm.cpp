@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::size_t kTasksAhead = 2;  // given to a group at a time, so that it never waits for the host
 
-void give_credit(std::span<const std::int32_t> nodes) {
-  const wire::Credit credit{1};
-  for (const std::int32_t node : nodes) csend(wire::kCredit, &credit, sizeof credit, node, 0);
-}
-
 class Farm {
  public:
   Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, sinks::SinkPool& sinks,
@@ -50,6 +45,7 @@ class Farm {
   const FarmOptions& options_;
   sinks::SinkPool& sinks_;
   const FarmListener& listener_;
+  NodeSlots slots_;
   NodeInbox inbox_;
   std::optional<Tracing> tracing_;  // once all nodes are there
   FarmReport report_;
@@ -58,7 +54,7 @@ class Farm {
   std::size_t next_task_ = 0;
   struct WithSink {
     FinishedFrame frame;
-    std::vector<std::int32_t> contributors;  // whose credit it holds
+    std::vector<NodeSlot> held;  // until then
   };
   std::unordered_map<std::uint32_t, WithSink> with_sinks_;
   StripStore store_;
@@ -73,7 +69,8 @@ Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOp
       options_(options),
       sinks_(sinks),
       listener_(listener),
-      inbox_(sinks.shape().width, sinks.shape().height, options.cancellation),
+      slots_(static_cast<int>(numnodes()), options.credits),
+      inbox_(sinks.shape().width, sinks.shape().height, slots_, options.cancellation),
       frames_left_(plan.frames()) {
   const std::uint32_t background = pixel_of(wire::FilmView(film_block, "film").settings().background);
   for (const collectives::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape(), background);
@@ -95,7 +92,7 @@ bool Farm::greet_nodes() {
 
 bool Farm::load_film() {
   const double booted = dclock();
-  tracing_.emplace(options_.trace, inbox_, options_.credits);
+  tracing_.emplace(options_.trace, inbox_);
   wire::Load load{};
   load.memory = options_.memory;
   load.credits = options_.credits;
@@ -104,6 +101,7 @@ bool Farm::load_film() {
   load.traced = options_.trace != nullptr ? 1 : 0;
   report_.film_bytes = film_block_.size();
   const bool loaded = farm::load_film(film_block_, load, inbox_);
+  if (loaded) slots_.give_all();
   report_.load_seconds = dclock() - booted;
   return loaded;
 }
@@ -202,7 +200,7 @@ bool Farm::compose_one() {
     const auto composed = group.compose(sinks_, store_);
     if (!composed) continue;
     span.set_value(composed->pasted.number);
-    give_credit(composed->pasted.sent_more);
+    for (const NodeSlot& slot : composed->pasted.free) slots_.give(slot);
     if (composed->pasted.whole != nullptr) submit(*composed);
     return true;
   }
@@ -214,7 +212,7 @@ void Farm::submit(const GroupWork::Composed& composed) {
   const Assembly::Pasted& frame = composed.pasted;
   const FinishedFrame finished{frame.number, composed.interval, frame.kind, dclock() - start_, composed.given};
   if (options_.each_frame) report_.frames.push_back(finished);
-  with_sinks_[frame.number] = {finished, frame.contributors};
+  with_sinks_[frame.number] = {finished, frame.held};
   sinks_.submit(frame.whole);
   --frames_left_;
 }
@@ -223,7 +221,7 @@ void Farm::note_taken() {
   for (const sinks::SinkPool::Taken& taken : sinks_.taken()) {
     tracing_->taken(taken);
     const auto found = with_sinks_.find(taken.number);
-    give_credit(found->second.contributors);
+    for (const NodeSlot& slot : found->second.held) slots_.give(slot);
     if (listener_.finished) listener_.finished(found->second.frame);
     with_sinks_.erase(found);
   }

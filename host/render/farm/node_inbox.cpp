@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
@@ -56,9 +55,10 @@ NodeFailure::NodeFailure(const std::string& reason, int node, int frame)
 NodeFailure::NodeFailure(const std::string& reason, const std::string& where, int node)
     : Failure(reason, where, "please report it"), node(node), frame(-1) {}
 
-NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, const Cancellation* cancellation)
+NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, NodeSlots& slots, const Cancellation* cancellation)
     : width_(width),
       height_(height),
+      slots_(slots),
       cancellation_(cancellation),
       nodes_(static_cast<int>(numnodes())),
       hellos_(static_cast<std::size_t>(nodes_)),
@@ -129,28 +129,53 @@ void NodeInbox::check_machines() const {
 bool NodeInbox::wait_until_loaded() {
   for (int i = 0; i < nodes_; ++i) {
     if (!wait_unless_cancelled(wire::kLoaded)) return false;
-    const int node = static_cast<int>(infonode());
-    require(infocount() == 0 && !loaded_[static_cast<std::size_t>(node)], node, "word of the film that makes no sense");
-    loaded_[static_cast<std::size_t>(node)] = true;
-    crecv(wire::kLoaded, nullptr, 0);
+    receive_loaded();
   }
   return true;
 }
 
+void NodeInbox::receive_loaded() {
+  const int node = static_cast<int>(infonode());
+  wire::Loaded loaded;
+  const bool first = !loaded_[static_cast<std::size_t>(node)];
+  require(infocount() == sizeof loaded && first, node, "word of the film that makes no sense");
+  crecv(wire::kLoaded, &loaded, sizeof loaded);
+  loaded_[static_cast<std::size_t>(node)] = true;
+  slots_.attach(node, loaded.slots);
+}
+
 StripMessage NodeInbox::receive_strip(StripStore& store) {
   const int node = static_cast<int>(infonode());
-  const auto size = static_cast<std::size_t>(infocount());
-  require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
-  StripBytes bytes = store.take(size);
-  crecv(wire::kStrip, bytes.data.get(), static_cast<long>(size));
-  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes));
+  auto strip = slots_.attached(node) ? receive_by_slot(node, store) : receive_by_message(node, store);
   require(strip.has_value(), node, "a strip that is not what its header says");
   check_strip(strip->header(), strip->runs(), node);
   return std::move(*strip);
 }
 
-void NodeInbox::check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const {
+std::optional<StripMessage> NodeInbox::receive_by_message(int node, StripStore& store) {
+  const auto size = static_cast<std::size_t>(infocount());
+  require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
+  StripBytes bytes = store.take(size);
+  crecv(wire::kStrip, bytes.data.get(), static_cast<long>(size));
+  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes));
+  if (strip) take_slot(strip->header(), node);
+  return strip;
+}
+
+std::optional<StripMessage> NodeInbox::receive_by_slot(int node, StripStore& store) {
+  wire::Strip header;
+  require(infocount() == sizeof header, node, "a strip of an impossible size");
+  crecv(wire::kStrip, &header, sizeof header);
+  take_slot(header, node);
+  return StripMessage::read(header, slots_.bytes({node, header.slot}), store);
+}
+
+void NodeInbox::take_slot(const wire::Strip& strip, int sender) {
   require(strip.node == sender, sender, "another node's strip");
+  require(slots_.take({sender, strip.slot}), sender, "a strip in a slot that it does not have");
+}
+
+void NodeInbox::check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const {
   require(strip.last <= 1, sender, "a strip that is neither the last nor another");
   require(strip.first_line <= strip.last_line && strip.last_line <= height_, sender, "lines outside the picture");
   for (const wire::Run& run : runs) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/recorder.h"
 #include "host/render/farm/cancellation.h"
+#include "host/render/farm/node_slots.h"
 #include "host/render/farm/strip_message.h"
 #include "node/wire/film.h"
 #include "node/wire/protocol.h"
@@ -31,18 +33,20 @@ class NodeFailure : public Failure {
 
 class NodeInbox {
  public:
-  // Of all nodes of the job, for pictures of this size. `cancellation` may be nullptr.
-  NodeInbox(std::uint32_t width, std::uint32_t height, const Cancellation* cancellation);
+  // Of all nodes of the job, for pictures of this size; `slots` are the nodes'. `cancellation` may be nullptr.
+  NodeInbox(std::uint32_t width, std::uint32_t height, NodeSlots& slots, const Cancellation* cancellation);
 
   // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
   bool receive_hellos();
   const std::vector<wire::Hello>& hellos() const { return hellos_; }
-  // Waits until every node has the film. False: cancelled before.
+  // Waits until every node has the film, and attaches their slots. False: cancelled before.
   bool wait_until_loaded();
   // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
   void wait(long type) const;
 
   // Each receives a message that was probed last.
+
+  // Its slot is the host's from then on.
   StripMessage receive_strip(StripStore& store);
   // The sender's events, valid until the next call.
   std::span<const messages::Event> receive_events();
@@ -60,11 +64,16 @@ class NodeInbox {
   bool wait_unless_cancelled(long type) const;
   void receive_hello();
   void check_machines() const;
+  void receive_loaded();
+  std::optional<StripMessage> receive_by_message(int node, StripStore& store);
+  std::optional<StripMessage> receive_by_slot(int node, StripStore& store);
+  void take_slot(const wire::Strip& strip, int sender);
   void check_strip(const wire::Strip& strip, std::span<const wire::Run> runs, int sender) const;
   bool is_event(const messages::Event& event) const;
 
   const std::uint32_t width_;
   const std::uint32_t height_;
+  NodeSlots& slots_;
   const Cancellation* const cancellation_;
   const int nodes_;
   std::vector<wire::Hello> hellos_;

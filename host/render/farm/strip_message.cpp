@@ -2,8 +2,33 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <numeric>
 
 namespace mars::farm {
+namespace {
+
+// Where they begin, in bytes from the header's first.
+struct Parts {
+  std::size_t pixels;
+  std::size_t runs;
+  std::size_t end;
+};
+
+// None where the header makes no sense: what it promises is of no kind, or more than a strip has.
+std::optional<Parts> parts_of(const wire::Strip& header) {
+  const bool inbetween = header.kind == wire::FrameKind::inbetween && header.constant_runs == 0;
+  if (!inbetween && header.kind != wire::FrameKind::keyframe) return std::nullopt;
+  const std::uint64_t runs = std::uint64_t{header.constant_runs} + header.moving_runs;
+  if (header.pixels > wire::kMaxStripBytes || runs > wire::kMaxStripBytes) return std::nullopt;
+  Parts parts{sizeof header, 0, 0};
+  parts.runs = parts.pixels + static_cast<std::size_t>(header.pixels) * sizeof(std::uint32_t);
+  parts.end = parts.runs + static_cast<std::size_t>(runs) * sizeof(wire::Run);
+  if (parts.end > wire::kMaxStripBytes) return std::nullopt;
+  return parts;
+}
+
+}  // namespace
 
 StripBytes StripStore::take(std::size_t size) {
   const auto fits =
@@ -25,32 +50,44 @@ StripBytes StripStore::take(std::size_t size) {
   return bytes;
 }
 
-std::optional<StripMessage> StripMessage::read(StripBytes bytes) {
-  if (bytes.size < sizeof(wire::Strip)) return std::nullopt;
-  StripMessage message(std::move(bytes));
-  const wire::Strip& strip = message.header();
-  const std::uint64_t rest = message.bytes_.size - sizeof strip;
-  const std::uint64_t run_bytes = (std::uint64_t{strip.constant_runs} + strip.moving_runs) * sizeof(wire::Run);
-  const bool fits =
-      strip.pixels <= rest / sizeof(std::uint32_t) && rest == strip.pixels * sizeof(std::uint32_t) + run_bytes;
-  const bool inbetween = strip.kind == wire::FrameKind::inbetween && strip.constant_runs == 0;
-  if (!fits || !(inbetween || strip.kind == wire::FrameKind::keyframe)) return std::nullopt;
-  std::uint64_t moving_pixels = 0;
-  for (const wire::Run& run : message.moving_runs()) moving_pixels += run.count;
-  for (const wire::Run& run : message.constant_runs()) message.constant_pixels_ += run.count;
-  if (message.constant_pixels_ + moving_pixels != strip.pixels) return std::nullopt;
-  return message;
+StripMessage::StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs, const std::byte* pixels)
+    : header_(header),
+      bytes_(std::move(bytes)),
+      runs_(reinterpret_cast<const wire::Run*>(runs), std::size_t{header.constant_runs} + header.moving_runs),
+      pixels_(reinterpret_cast<const std::uint32_t*>(pixels), static_cast<std::size_t>(header.pixels)) {}
+
+std::optional<StripMessage> StripMessage::read(StripBytes message) {
+  if (message.size < sizeof(wire::Strip)) return std::nullopt;
+  wire::Strip header;
+  std::memcpy(&header, message.data.get(), sizeof header);
+  const auto parts = parts_of(header);
+  if (header.by_message != 1 || !parts || parts->end != message.size) return std::nullopt;
+  const std::byte* start = message.data.get();
+  StripMessage strip(header, std::move(message), start + parts->runs, start + parts->pixels);
+  if (!strip.count_pixels()) return std::nullopt;
+  return strip;
 }
 
-std::span<const std::uint32_t> StripMessage::pixels() const {
-  return {reinterpret_cast<const std::uint32_t*>(bytes_.data.get() + sizeof(wire::Strip)),
-          static_cast<std::size_t>(header().pixels)};
+std::optional<StripMessage> StripMessage::read(const wire::Strip& header, std::span<const std::byte> slot,
+                                               StripStore& store) {
+  const auto parts = parts_of(header);
+  if (header.by_message != 0 || !parts || parts->end > slot.size()) return std::nullopt;
+  StripBytes runs = store.take(parts->end - parts->runs);
+  const std::byte* start = runs.data.get();
+  std::memcpy(runs.data.get(), slot.data() + parts->runs, runs.size);
+  StripMessage strip(header, std::move(runs), start, slot.data() + parts->pixels);
+  if (!strip.count_pixels()) return std::nullopt;
+  return strip;
 }
 
-std::span<const wire::Run> StripMessage::runs() const {
-  const auto at = sizeof(wire::Strip) + header().pixels * sizeof(std::uint32_t);
-  return {reinterpret_cast<const wire::Run*>(bytes_.data.get() + at),
-          std::size_t{header().constant_runs} + header().moving_runs};
+// Whether the runs have as many as the header says.
+bool StripMessage::count_pixels() {
+  const auto count = [](std::span<const wire::Run> runs) {
+    return std::accumulate(runs.begin(), runs.end(), std::size_t{0},
+                           [](std::size_t sum, const wire::Run& run) { return sum + run.count; });
+  };
+  constant_pixels_ = count(constant_runs());
+  return constant_pixels_ + count(moving_runs()) == pixels_.size();
 }
 
 }  // namespace mars::farm

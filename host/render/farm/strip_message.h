@@ -1,4 +1,6 @@
-// A strip as it arrived, with its parts in place (node/wire/protocol.h), and the memory that strips arrive in.
+// A strip that came, with its parts in place (node/wire/protocol.h), and the host's memory for what it copies of them.
+// Header and runs are the host's own. So are the pixels of a strip that came by message; of others they lie in the
+// node's slot, where a node that fails may still change them.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "host/render/farm/node_slots.h"
 #include "node/wire/protocol.h"
 
 namespace mars::farm {
 
-// The bytes of one message; undefined until it is received.
+// Undefined until something is put there.
 struct StripBytes {
   std::unique_ptr<std::byte[]> data;
   std::size_t size = 0;
@@ -32,25 +35,34 @@ class StripStore {
 
 class StripMessage {
  public:
-  // None unless the bytes are exactly what the strip's header promises.
-  static std::optional<StripMessage> read(StripBytes bytes);
+  // The strip that travelled whole in `message`. None unless that is exactly what the header promises.
+  static std::optional<StripMessage> read(StripBytes message);
+  // The strip whose header came, and whose other parts lie behind it in `slot`. None unless they fit each other.
+  static std::optional<StripMessage> read(const wire::Strip& header, std::span<const std::byte> slot,
+                                          StripStore& store);
 
-  const wire::Strip& header() const { return *reinterpret_cast<const wire::Strip*>(bytes_.data.get()); }
-  std::span<const wire::Run> runs() const;
-  std::span<const wire::Run> constant_runs() const { return runs().first(header().constant_runs); }
-  std::span<const wire::Run> moving_runs() const { return runs().subspan(header().constant_runs); }
-  std::span<const std::uint32_t> pixels() const;
-  std::span<const std::uint32_t> constant_pixels() const { return pixels().first(constant_pixels_); }
-  std::span<const std::uint32_t> moving_pixels() const { return pixels().subspan(constant_pixels_); }
+  const wire::Strip& header() const { return header_; }
+  NodeSlot slot() const { return {header_.node, header_.slot}; }
+  std::span<const wire::Run> runs() const { return runs_; }
+  std::span<const wire::Run> constant_runs() const { return runs_.first(header_.constant_runs); }
+  std::span<const wire::Run> moving_runs() const { return runs_.subspan(header_.constant_runs); }
+  std::span<const std::uint32_t> pixels() const { return pixels_; }
+  std::span<const std::uint32_t> constant_pixels() const { return pixels_.first(constant_pixels_); }
+  std::span<const std::uint32_t> moving_pixels() const { return pixels_.subspan(constant_pixels_); }
 
-  // The bytes, to be used for another message.
+  // The host's memory that it took, to be used for another.
   StripBytes release() { return std::move(bytes_); }
 
  private:
-  explicit StripMessage(StripBytes bytes) : bytes_(std::move(bytes)) {}
+  StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs, const std::byte* pixels);
 
+  bool count_pixels();
+
+  wire::Strip header_;
   StripBytes bytes_;
-  std::uint64_t constant_pixels_ = 0;
+  std::span<const wire::Run> runs_;
+  std::span<const std::uint32_t> pixels_;
+  std::size_t constant_pixels_ = 0;
 };
 
 }  // namespace mars::farm

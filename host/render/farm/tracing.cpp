@@ -27,10 +27,10 @@ trace::ClockReading read_clock(int node, NodeInbox& inbox) {
 
 }  // namespace
 
-Tracing::Tracing(trace::Trace* trace, NodeInbox& inbox, int credits) : trace_(trace), inbox_(inbox) {
+Tracing::Tracing(trace::Trace* trace, NodeInbox& inbox) : trace_(trace), inbox_(inbox) {
   if (trace_ == nullptr) return;
   const std::size_t nodes = inbox.hellos().size();
-  trace_->begin(inbox.hellos(), credits, dclock());
+  trace_->begin(inbox.hellos(), dclock());
   for (int node = 0; node < static_cast<int>(nodes); ++node) {
     const trace::ClockReading reading = read_clock(node, inbox);
     trace_->add(node, reading);

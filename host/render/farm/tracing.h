@@ -14,7 +14,7 @@ namespace mars::farm {
 class Tracing {
  public:
   // `trace` may be nullptr. The calling process is the host, all nodes are there and have no film yet.
-  Tracing(trace::Trace* trace, NodeInbox& inbox, int credits);
+  Tracing(trace::Trace* trace, NodeInbox& inbox);
   ~Tracing();
   Tracing(const Tracing&) = delete;
   Tracing& operator=(const Tracing&) = delete;

@@ -85,7 +85,7 @@ std::vector<CounterStep> counters_of(const Trace& trace, const std::vector<Timel
   for (const TimelineItem& item : timeline) add_changes(item, trace.host(), changes);
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.time < b.time; });
   std::map<std::pair<Counter, int>, int> values;
-  for (int node = 0; node < trace.host(); ++node) values[{Counter::credits, node}] = trace.credits();
+  for (int node = 0; node < trace.host(); ++node) values[{Counter::credits, node}] = 0;
   std::vector<CounterStep> steps;
   for (const auto& [counter_of, value] : values) steps.push_back({0, counter_of.first, counter_of.second, value});
   for (const Change& change : changes) {

@@ -7,11 +7,10 @@ namespace mars::trace {
 
 Trace::Trace(std::size_t most_events) : most_(most_events) { records_.reserve(most_events); }
 
-void Trace::begin(std::span<const wire::Hello> nodes, int credits, double now) {
+void Trace::begin(std::span<const wire::Hello> nodes, double now) {
   nodes_.assign(nodes.begin(), nodes.end());
   clocks_.resize(nodes.size() + 1);
   lost_.resize(nodes.size() + 1);
-  credits_ = credits;
   begin_ = now;
 }
 

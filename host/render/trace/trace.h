@@ -32,8 +32,8 @@ class Trace {
 
   explicit Trace(std::size_t most_events = kMostEvents);
 
-  // All nodes are there, and may have `credits` strips on the way. The trace begins at `now`.
-  void begin(std::span<const wire::Hello> nodes, int credits, double now);
+  // All nodes are there. The trace begins at `now`.
+  void begin(std::span<const wire::Hello> nodes, double now);
   // A half of a rank's recorder; the host's rank is the number of nodes.
   void add(int rank, std::span<const messages::Event> half);
   void add(const sinks::SinkPool::Taken& frame);
@@ -48,7 +48,6 @@ class Trace {
   const std::vector<Record>& records() const { return records_; }
   const std::vector<wire::Hello>& nodes() const { return nodes_; }
   int host() const { return static_cast<int>(nodes_.size()); }
-  int credits() const { return credits_; }
   bool begun() const { return !nodes_.empty(); }
   // Seconds since the beginning, by the host's clock, of a rank's own time.
   double since_begin(int rank, double time) const;
@@ -75,7 +74,6 @@ class Trace {
   std::vector<wire::Hello> nodes_;
   std::vector<NodeClock> clocks_;    // by rank; the host's has no reading
   std::vector<std::uint64_t> lost_;  // by rank
-  int credits_ = 0;
   double begin_ = 0;
   std::uint64_t beyond_bound_ = 0;
   std::optional<Record> first_beyond_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "node/wire/film_parts.h"
 
@@ -26,16 +27,23 @@ struct Full {
   std::size_t bytes = 0;
 };
 
+struct Slot {
+  alignas(64) std::byte bytes[wire::kSlotBytes];
+};
+
 Full fill(std::uint32_t width, std::uint32_t length) {
+  const auto slot = std::make_unique_for_overwrite<Slot>();
   StripBuffer buffer(width);
-  buffer.clear(true);
+  buffer.begin(slot->bytes, true);
   Full full;
   while (const std::uint32_t lines = buffer.lines_that_fit()) {
     for (std::uint32_t i = 0; i < lines; ++i, ++full.lines)
       for (auto* layer : {&buffer.constant(), &buffer.moving()}) draw_line(full.lines, width, length, *layer);
   }
   wire::Strip header{};
-  full.bytes = buffer.finish(header).size();
+  const auto strip = buffer.finish(header);
+  EXPECT_EQ(strip.data(), slot->bytes);
+  full.bytes = strip.size();
   EXPECT_EQ(full.bytes,
             sizeof header + header.pixels * 4 + (header.constant_runs + header.moving_runs) * sizeof(wire::Run));
   EXPECT_EQ(header.work.bytes_to_host, full.bytes);
@@ -57,13 +65,14 @@ TEST(StripBuffer, IsUsedWell) {
   EXPECT_GE(fill(wire::kMaxSide, 1).bytes, kFull);
 }
 
-TEST(StripBuffer, IsEmptyAgainWhenCleared) {
+TEST(StripBuffer, BeginsEmpty) {
+  const auto slot = std::make_unique_for_overwrite<Slot>(), other = std::make_unique_for_overwrite<Slot>();
   StripBuffer buffer(64);
-  buffer.clear(true);
+  buffer.begin(slot->bytes, true);
   const std::uint32_t lines = buffer.lines_that_fit();
   EXPECT_GT(lines, 0u);
   draw_line(0, 64, 64, buffer.moving());
-  buffer.clear(false);
+  buffer.begin(other->bytes, false);
   EXPECT_TRUE(buffer.moving().runs().empty());
   EXPECT_EQ(buffer.lines_that_fit(), lines);
 }

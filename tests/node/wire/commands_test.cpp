@@ -148,17 +148,20 @@ TEST_F(RenderCommands, ForOthersOrOfNoSuchFrames) {
   EXPECT_TRUE(refused({1, 0, 2, 1, 0}, {1})) << "before the interval";
 }
 
-TEST(CreditCommands, GiveBackWhatIsMissing) {
-  const auto given = [](std::int32_t count) {
-    const Credit credit{count};
-    return read_credit(std::as_bytes(std::span(&credit, 1)), 3);
+// Slot 1 of three is the node's.
+TEST(CreditCommands, GiveASlotThatIsTheHosts) {
+  const auto refused = [](std::uint32_t slot, std::uint32_t by_message) {
+    const Credit credit{slot, by_message};
+    return !refusal([&] { read_credit(std::as_bytes(std::span(&credit, 1)), 0b010, 3); }).empty();
   };
-  EXPECT_EQ(given(1), 1);
-  EXPECT_EQ(given(3), 3);
-  EXPECT_THROW(given(0), Failure);
-  EXPECT_THROW(given(-1), Failure);
-  EXPECT_THROW(given(4), Failure);
-  EXPECT_THROW(read_credit({}, 3), Failure);
+  EXPECT_FALSE(refused(0, 0));
+  EXPECT_FALSE(refused(2, 1));
+  EXPECT_TRUE(refused(1, 0));
+  EXPECT_TRUE(refused(3, 0));
+  EXPECT_TRUE(refused(32, 0));
+  EXPECT_TRUE(refused(~0u, 0));
+  EXPECT_TRUE(refused(0, 2));
+  EXPECT_FALSE(refusal([] { read_credit({}, 0, 3); }).empty());
 }
 
 }  // namespace

@@ -23,11 +23,28 @@ struct Size {
   std::uint32_t width, height, block;
 };
 
+// Lines of two runs each, one after the other, as nodes send them: they fill blocks.
+Runs filling_runs(std::mt19937& random, const Size& size, std::uint32_t top, std::uint32_t lines) {
+  Runs out;
+  const std::uint32_t left = random() % 2 == 0 ? 0 : random() % size.width;
+  const std::uint32_t right = random() % 2 == 0 ? size.width : left + 1 + random() % (size.width - left);
+  for (std::uint32_t line = top + random() % lines; line < top + lines; ++line) {
+    const std::uint32_t middle = left + random() % (right - left);
+    for (const auto& [first, last] : {std::pair{left, middle}, {middle, right}})
+      if (first < last)
+        out.runs.push_back({line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(last - first)});
+  }
+  for (const wire::Run& run : out.runs)
+    for (std::uint32_t i = 0; i < run.count; ++i) out.pixels.push_back(random() & 0xffffff);
+  return out;
+}
+
 // Within part `part` of `parts` of the lines, for strips share no pixel.
 Runs random_runs(std::mt19937& random, const Size& size, std::uint32_t part, std::uint32_t parts) {
   Runs out;
   const std::uint32_t top = size.height * part / parts;
   const std::uint32_t lines = size.height * (part + 1) / parts - top;
+  if (lines > 0 && random() % 2 == 0) return filling_runs(random, size, top, lines);
   for (std::uint32_t run = lines == 0 ? 0 : random() % 12; run > 0; --run) {
     const std::uint32_t first = random() % size.width;
     const std::uint32_t most = size.width - first;
@@ -187,7 +204,9 @@ TEST(Compositor, FramesPassFromOneToAnother) {
   const Pixels pixels(5, 9);
   for (const auto& [compositor, background] : {std::pair{&first, 1u}, {&second, 2u}, {&first, 1u}}) {
     compositor->begin_frame(frame);
+    compositor->finish_frame(frame, 0);
     EXPECT_EQ(frame.pixels, Pixels(200, background));
+    compositor->begin_frame(frame);
     compositor->paste_moving(frame, runs, pixels);
   }
 }
@@ -202,11 +221,13 @@ TEST(Compositor, RestoresFlaggedBlocksOnly) {
   frame.pixels[0] = 5;
   frame.pixels[17 * 64 + 17] = 5;
   compositor.begin_frame(frame);
+  compositor.finish_frame(frame, 1);
   EXPECT_EQ(frame.pixels[0], 5u);
   EXPECT_EQ(frame.pixels[17 * 64 + 17], 0u);
   EXPECT_EQ(frame.pixels[20 * 64 + 20], 0u);
   frame.pixels[17 * 64 + 17] = 5;
   compositor.begin_frame(frame);
+  compositor.finish_frame(frame, 2);
   EXPECT_EQ(frame.pixels[17 * 64 + 17], 5u) << "no flag is left from the frame before";
 }
 
@@ -224,9 +245,11 @@ TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
   };
   begin(0);
   compositor.begin_frame(other);
+  compositor.finish_frame(other, 1);
   for (const std::size_t column : {1u, 21u, 41u}) other.pixels[64 + column] = 5;
   begin(20);
   compositor.begin_frame(other);
+  compositor.finish_frame(other, 1);
   EXPECT_EQ(other.pixels[0], 0u);
   EXPECT_EQ(other.pixels[20], 7u);
   EXPECT_EQ(other.pixels[64 + 1], 0u);

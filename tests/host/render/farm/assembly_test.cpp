@@ -76,6 +76,8 @@ Drawn draw(std::mt19937& random, const Task& task, int nodes, StripStore& store)
         header.kind = keyframe ? wire::FrameKind::keyframe : wire::FrameKind::inbetween;
         header.node = node;
         header.last = pass + 1 == passes;
+        header.slot = static_cast<std::uint32_t>(random() % 4);
+        header.by_message = 1;
         const Runs constant = keyframe ? random_runs(random, top, bottom) : Runs{};
         moving[frame].push_back(random_runs(random, top, bottom));
         paste(constant, background);
@@ -121,10 +123,10 @@ void expect_put_together(unsigned seed) {
         assembly.receive(std::move(*strip));
       }
       while (auto pasted = assembly.paste(compositor, pool, store)) {
-        not_pasted -= pasted->sent_more.size();
+        not_pasted -= pasted->free.size();
         EXPECT_EQ(pasted->kind == wire::FrameKind::keyframe, pasted->number == task.frames.front());
         if (pasted->whole == nullptr) continue;
-        EXPECT_EQ(pasted->contributors.size(),
+        EXPECT_EQ(pasted->held.size(),
                   pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
         pool.submit(pasted->whole);
       }
@@ -149,6 +151,8 @@ struct OneTask {
     header.frame = frame;
     header.node = node;
     header.last = last;
+    header.slot = 2;
+    header.by_message = 1;
     assembly.receive(*StripMessage::read(strip_bytes(header, {}, {{{0, 0, 1}}, {frame}}, store)));
   }
   std::optional<Assembly::Pasted> paste() { return assembly.paste(compositor, pool, store); }
@@ -162,15 +166,17 @@ struct OneTask {
 
 TEST(Assembly, PastesAStripBeforeTheOthersAreThere) {
   OneTask task({5}, 2, 2);
+  task.receive(5, 1, false);
   task.receive(5, 1);
   const auto first = task.paste();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->whole, nullptr);
+  EXPECT_EQ(first->free, (std::vector<NodeSlot>{{1, 2}})) << "the last one's is held";
   EXPECT_FALSE(task.paste()) << "there is nothing more";
   task.receive(5, 0);
   const auto second = task.paste();
   ASSERT_TRUE(second && second->whole);
-  EXPECT_EQ(second->contributors, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_EQ(second->held, (std::vector<NodeSlot>{{1, 2}, {0, 2}}));
   EXPECT_TRUE(task.assembly.done());
 }
 

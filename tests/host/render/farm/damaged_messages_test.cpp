@@ -2,10 +2,12 @@
 // to the last byte.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -34,10 +36,10 @@ Bytes bytes_of(const Message& message) {
 
 class Damage {
  public:
-  // Some of its bytes and words changed; now and then also its length.
-  Bytes damaged(Bytes message) {
+  // Some of its bytes and words changed; now and then also its length, where that may be.
+  Bytes damaged(Bytes message, bool length_too = true) {
     for (int changes = below(4); changes >= 0; --changes) change(message);
-    if (below(8) == 0) message.resize(static_cast<std::size_t>(below(static_cast<int>(2 * message.size()) + 2)));
+    if (length_too && below(8) == 0) message.resize(static_cast<std::size_t>(below(static_cast<int>(2 * message.size()) + 2)));
     if (below(50) == 0)
       for (std::byte& byte : message) byte = static_cast<std::byte>(below(256));
     return message;
@@ -70,33 +72,51 @@ void expect_clear(const Failure& failure) {
   for (const unsigned char c : text) EXPECT_TRUE(c >= ' ' && c != 127) << text;
 }
 
-// The only node sends `sound`, then damaged copies, one at a time; the host receives each. How many were refused.
-int refused_of(long type, const Bytes& sound, const std::function<void()>& receive) {
+// The only node sends `sound`, then damaged copies, one at a time; the host receives each.
+struct Exchange {
+  long type;
+  Bytes sound;
+  std::function<void()> receive;
+  std::function<void()> ask = [] { csend(wire::kCredit, nullptr, 0, 0, 0); };  // the host, for the next
+  std::function<void(const Bytes&)> send = [type = type](const Bytes& message) {
+    csend(type, message.data(), static_cast<long>(message.size()), myhost(), 0);
+  };
+  std::function<void()> boot_node = [] {};
+  std::function<void()> boot_host = [] {};
+};
+
+// How many were refused.
+int refused_of(const Exchange& exchange) {
   int refused = 0;
   const auto node = [&] {
     Damage damage;
+    exchange.boot_node();
     for (int i = 0; i <= kMessages; ++i) {
-      const Bytes message = i == 0 ? sound : damage.damaged(sound);
-      csend(type, message.data(), static_cast<long>(message.size()), myhost(), 0);
       ScriptedNode::receive(wire::kCredit);
+      exchange.send(i == 0 ? exchange.sound : damage.damaged(exchange.sound));
     }
   };
   const auto host = [&] {
+    exchange.boot_host();
     for (int i = 0; i <= kMessages; ++i) {
-      cprobe(type);
+      exchange.ask();
+      cprobe(exchange.type);
       try {
-        receive();
+        exchange.receive();
       } catch (const Failure& failure) {
         EXPECT_GT(i, 0) << "the sound one: " << failure.what();
         expect_clear(failure);
         ++refused;
       }
-      if (iprobe(type)) ScriptedNode::receive(type);
-      csend(wire::kCredit, nullptr, 0, 0, 0);
+      if (iprobe(exchange.type)) ScriptedNode::receive(exchange.type);
     }
   };
   threads::run_threads(1, host, node);
   return refused;
+}
+
+int refused_of(long type, const Bytes& sound, const std::function<void()>& receive) {
+  return refused_of(Exchange{type, sound, receive});
 }
 
 wire::Hello sound_hello() {
@@ -108,34 +128,80 @@ wire::Hello sound_hello() {
   return hello;
 }
 
+// The host's, with one node that has one slot.
+struct Inbox {
+  NodeSlots slots{1, 1};
+  NodeInbox inbox{kWidth, kHeight, slots, nullptr};
+};
+
 TEST(DamagedMessages, Hello) {
-  EXPECT_GT(
-      refused_of(wire::kHello, bytes_of(sound_hello()), [] { NodeInbox(kWidth, kHeight, nullptr).receive_hellos(); }),
-      kMessages / 10);
+  EXPECT_GT(refused_of(wire::kHello, bytes_of(sound_hello()), [] { Inbox().inbox.receive_hellos(); }), kMessages / 10);
 }
 
 TEST(DamagedMessages, Loaded) {
-  refused_of(wire::kLoaded, {}, [] { NodeInbox(kWidth, kHeight, nullptr).wait_until_loaded(); });
+  refused_of(wire::kLoaded, bytes_of(wire::Loaded{}), [] { Inbox().inbox.wait_until_loaded(); });
 }
 
-TEST(DamagedMessages, Strip) {
+Bytes sound_strip(std::uint32_t by_message) {
   wire::Strip header{};
   header.last = 1;
   header.last_line = kHeight;
+  header.by_message = by_message;
   StripStore store;
   const StripBytes strip = strip_bytes(header, {{{0, 1, 2}, {1, 0, 16}}, std::vector<std::uint32_t>(18, 5)},
                                        {{{3, 0, 3}}, {1, 2, 3}}, store);
+  return {strip.data.get(), strip.data.get() + strip.size};
+}
+
+void paste(const StripMessage& message) {
   compositor::Compositor compositor(kWidth, kHeight, 8, 0);
-  EXPECT_GT(refused_of(wire::kStrip, {strip.data.get(), strip.data.get() + strip.size},
-                       [&] {
-                         const StripMessage message = NodeInbox(kWidth, kHeight, nullptr).receive_strip(store);
-                         compositor::Frame frame(kWidth, kHeight, 8);
-                         compositor.begin_interval();
-                         compositor.begin_frame(frame);
-                         compositor.paste_constant(message.constant_runs(), message.constant_pixels(), &frame);
-                         compositor.paste_moving(frame, message.moving_runs(), message.moving_pixels());
-                       }),
-            kMessages / 10);
+  compositor::Frame frame(kWidth, kHeight, 8);
+  compositor.begin_interval();
+  compositor.begin_frame(frame);
+  compositor.paste_constant(message.constant_runs(), message.constant_pixels(), &frame);
+  compositor.paste_moving(frame, message.moving_runs(), message.moving_pixels());
+}
+
+TEST(DamagedMessages, Strip) {
+  StripStore store;
+  std::optional<Inbox> host;
+  Exchange exchange{wire::kStrip, sound_strip(1), [&] { paste(host->inbox.receive_strip(store)); }};
+  exchange.ask = [&] {
+    host.emplace();
+    host->slots.give({0, 0});
+  };
+  EXPECT_GT(refused_of(exchange), kMessages / 10);
+}
+
+// The node damages its slot once more when the host has checked the strip.
+TEST(DamagedMessages, StripInASlot) {
+  StripStore store;
+  std::optional<Inbox> host;
+  std::optional<messages::OfferedMemory> slot;  // the node's
+  Damage later;
+  Exchange exchange{wire::kStrip, sound_strip(0), [&] {
+                      const StripMessage strip = host->inbox.receive_strip(store);
+                      const auto bytes = slot->bytes().first(1000);
+                      std::ranges::copy(later.damaged({bytes.begin(), bytes.end()}, false), bytes.begin());
+                      paste(strip);
+                    }};
+  exchange.ask = [&] {
+    host->slots.take({0, 0});  // where the last was refused before that
+    host->slots.give({0, 0});
+  };
+  exchange.send = [&](const Bytes& strip) {
+    std::ranges::copy(strip, slot->bytes().begin());
+    csend(wire::kStrip, strip.data(), static_cast<long>(std::min(strip.size(), sizeof(wire::Strip))), myhost(), 0);
+  };
+  exchange.boot_node = [&] {
+    slot.emplace(wire::kSlotBytes);
+    ScriptedNode::send(wire::kLoaded, wire::Loaded{slot->name()});
+  };
+  exchange.boot_host = [&] {
+    host.emplace();
+    host->inbox.wait_until_loaded();
+  };
+  EXPECT_GT(refused_of(exchange), kMessages / 10);
 }
 
 TEST(DamagedMessages, Fault) {
@@ -143,7 +209,7 @@ TEST(DamagedMessages, Fault) {
   fault.reason = {"no memory"};
   refused_of(wire::kFault, bytes_of(fault), [] {
     try {
-      NodeInbox(kWidth, kHeight, nullptr).receive_fault();
+      Inbox().inbox.receive_fault();
     } catch (const NodeFailure& failure) {
       expect_clear(failure);
     }
@@ -153,7 +219,7 @@ TEST(DamagedMessages, Fault) {
 TEST(DamagedMessages, Clock) {
   trace::NodeClock clock;
   refused_of(wire::kClock, bytes_of(5.0),
-             [&] { clock.add(trace::ClockReading::of(4, NodeInbox(kWidth, kHeight, nullptr).receive_time(0), 6)); });
+             [&] { clock.add(trace::ClockReading::of(4, Inbox().inbox.receive_time(0), 6)); });
   EXPECT_TRUE(std::isfinite(clock.to_host(5)) && std::isfinite(clock.error()));
 }
 
@@ -167,9 +233,9 @@ TEST(DamagedMessages, Trace) {
   Bytes sound(events.size() * sizeof events[0]);
   std::memcpy(sound.data(), events.data(), sound.size());
   trace::Trace trace;
-  trace.begin(std::vector{sound_hello()}, 4, 0);
+  trace.begin(std::vector{sound_hello()}, 0);
   EXPECT_GT(
-      refused_of(wire::kTrace, sound, [&] { trace.add(0, NodeInbox(kWidth, kHeight, nullptr).receive_events()); }),
+      refused_of(wire::kTrace, sound, [&] { trace.add(0, Inbox().inbox.receive_events()); }),
       kMessages / 10);
   const sinks::TemporaryFolder folder;
   trace::write_trace(folder.path() / "trace.json", {"film", "threads"}, trace);

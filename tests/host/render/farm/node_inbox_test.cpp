@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <span>
 #include <tuple>
 
 #include "tests/host/content/document/failure_of.h"
@@ -137,7 +139,7 @@ TEST(Greeting, ComesOnce) {
   EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent another node's greeting")) << failure;
 }
 
-TEST(Inbox, WordOfTheFilmHasNothingInIt) {
+TEST(Inbox, WordOfTheFilmOfAnotherSize) {
   const std::string failure = failure_with([] {
     ScriptedNode node;
     ScriptedNode::send(wire::kHello, ScriptedNode::hello());
@@ -148,16 +150,23 @@ TEST(Inbox, WordOfTheFilmHasNothingInIt) {
   EXPECT_TRUE(document::holds(failure, "n1 (node 1): sent word of the film")) << failure;
 }
 
-// A strip for the keyframe of node 1: `spoil` changes the message.
+// A strip for the keyframe of node 1.
+StripBytes sound_strip(const ScriptedNode::Command& command, const wire::Credit& credit, StripStore& store) {
+  wire::Strip header = ScriptedNode::strip_of(command, command.frames.front());
+  header.slot = credit.slot;
+  header.by_message = credit.by_message;
+  return strip_bytes(header, {{{0, 1, 2}}, {1, 2}}, {{{3, 0, 1}}, {3}}, store);
+}
+
+// It comes by message; `spoil` changes that.
 using Bytes = std::vector<std::byte>;
 std::string failure_of_strip(const std::function<void(Bytes&, wire::Strip&)>& spoil) {
   return failure_with([&] {
-    ScriptedNode node;
+    ScriptedNode node(false);
     node.boot();
     const auto command = node.next_command();
     StripStore store;
-    const StripBytes strip = strip_bytes(ScriptedNode::strip_of(*command, command->frames.front()),
-                                         {{{0, 1, 2}}, {1, 2}}, {{{3, 0, 1}}, {3}}, store);
+    const StripBytes strip = sound_strip(*command, node.next_credit(), store);
     Bytes bytes(strip.data.get(), strip.data.get() + strip.size);
     wire::Strip header;
     std::memcpy(&header, bytes.data(), sizeof header);
@@ -172,6 +181,24 @@ std::string failure_of_strip(const std::function<void(Bytes&, wire::Strip&)>& sp
 void expect_refused(const std::string& what, const std::function<void(Bytes&, wire::Strip&)>& spoil) {
   const std::string failure = failure_of_strip(spoil);
   EXPECT_EQ(failure, "n1 (node 1): sent " + what + " (please report it)");
+}
+
+// It comes by slot; `send` sends what should be its header, after changes to what lies in the slot.
+std::string failure_of_slot(const std::function<void(ScriptedNode&, std::span<std::byte>, wire::Strip)>& send) {
+  return failure_with([&] {
+    ScriptedNode node;
+    node.boot();
+    const auto command = node.next_command();
+    StripStore store;
+    const wire::Credit credit = node.next_credit();
+    const StripBytes strip = sound_strip(*command, credit, store);
+    std::copy_n(strip.data.get(), strip.size, node.slot(credit.slot).begin());
+    wire::Strip header;
+    std::memcpy(&header, strip.data.get(), sizeof header);
+    send(node, node.slot(credit.slot).first(strip.size), header);
+    while (node.next_command()) {
+    }
+  });
 }
 
 TEST(Inbox, StripsOfAnotherSize) {
@@ -212,9 +239,75 @@ TEST(Inbox, StripsThatDrawWhereTheyMustNot) {
   });
 }
 
+void expect_slot_refused(const std::string& what,
+                         const std::function<void(std::span<std::byte> slot, wire::Strip& header)>& spoil) {
+  const std::string failure = failure_of_slot([&](ScriptedNode&, std::span<std::byte> slot, wire::Strip header) {
+    spoil(slot, header);
+    ScriptedNode::send(wire::kStrip, header);
+  });
+  EXPECT_EQ(failure, "n1 (node 1): sent " + what + " (please report it)");
+}
+
+TEST(Inbox, StripsInSlotsOfAnotherSize) {
+  for (const std::size_t bytes : {std::size_t{0}, sizeof(wire::Strip) - 1, sizeof(wire::Strip) + 1}) {
+    const std::string failure = failure_of_slot([bytes](ScriptedNode&, std::span<std::byte>, const wire::Strip& header) {
+      Bytes message(sizeof header + 1);
+      std::memcpy(message.data(), &header, sizeof header);
+      send_bytes(wire::kStrip, message.data(), bytes);
+    });
+    EXPECT_EQ(failure, "n1 (node 1): sent a strip of an impossible size (please report it)");
+  }
+  const std::string broken = "a strip that is not what its header says";
+  expect_slot_refused(broken, [](auto, wire::Strip& strip) { strip.pixels = ~std::uint64_t{0}; });
+  expect_slot_refused(broken, [](auto, wire::Strip& strip) { strip.pixels = wire::kSlotBytes / 4; });
+  expect_slot_refused(broken, [](auto, wire::Strip& strip) { strip.moving_runs = 0x80000000; });
+  expect_slot_refused(broken, [](auto, wire::Strip& strip) { strip.by_message = 1; });
+  expect_slot_refused(broken, [](std::span<std::byte> slot, wire::Strip&) {
+    const wire::Run run{3, 0, 2};
+    std::memcpy(slot.last(sizeof run).data(), &run, sizeof run);
+  });
+}
+
+TEST(Inbox, StripsInSlotsThatDrawWhereTheyMustNot) {
+  const auto put_run = [](std::span<std::byte> slot, const wire::Run& run) {
+    std::memcpy(slot.last(sizeof run).data(), &run, sizeof run);
+  };
+  expect_slot_refused("pixels outside the picture",
+                      [&](std::span<std::byte> slot, wire::Strip&) { put_run(slot, {3, 16, 1}); });
+  expect_slot_refused("pixels outside the strip's lines",
+                      [&](std::span<std::byte> slot, wire::Strip&) { put_run(slot, {~0u, 0, 1}); });
+}
+
+TEST(Inbox, StripsInSlotsThatAreNotTheNodes) {
+  const std::string taken = "a strip in a slot that it does not have";
+  expect_slot_refused(taken, [](auto, wire::Strip& strip) { strip.slot = wire::kMaxCredits; });
+  expect_slot_refused(taken, [](auto, wire::Strip& strip) { strip.slot = ~0u; });
+  expect_refused(taken, [](Bytes&, wire::Strip& strip) { strip.slot = ~0u; });
+}
+
+// An inbetween's, which waits for the keyframe.
+TEST(Inbox, TheSlotOfAStripThatCameIsTheHosts) {
+  for (const bool seen : {true, false}) {
+    const std::string failure = failure_with([seen] {
+      ScriptedNode node(seen);
+      node.boot();
+      const auto command = node.next_command();
+      wire::Strip header = ScriptedNode::strip_of(*command, ScriptedNode::own_frames(*command).at(1));
+      header.last = 0;
+      const wire::Credit credit = node.credits.front();
+      node.send_strip(header, 1);
+      node.credits.push_front(credit);
+      node.send_strip(header, 1);
+      ScriptedNode::receive(wire::kStop);
+    });
+    EXPECT_EQ(failure, "n1 (node 1): sent a strip in a slot that it does not have (please report it)");
+  }
+}
+
 TEST(Inbox, StripsThatNobodyAskedFor) {
   expect_refused("another node's strip", [](Bytes&, wire::Strip& strip) { strip.node = 0; });
   expect_refused("another node's strip", [](Bytes&, wire::Strip& strip) { strip.node = 1000; });
+  expect_slot_refused("another node's strip", [](auto, wire::Strip& strip) { strip.node = 0; });
   expect_refused("a strip of frame 9 that it was not asked for", [](Bytes&, wire::Strip& strip) { strip.frame = 9; });
   expect_refused("a strip of frame 0 that it was not asked for",
                  [](Bytes&, wire::Strip& strip) { strip.interval = 3; });

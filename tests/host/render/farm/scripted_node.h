@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstring>
+#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/messages/offered_memory.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/threads/run_threads.h"
 #include "host/render/farm/farm.h"
@@ -20,6 +23,9 @@ namespace mars::farm {
 
 class ScriptedNode {
  public:
+  // Whether the host sees the node's slots; else its strips go by message.
+  explicit ScriptedNode(bool seen = true) : seen_(seen) {}
+
   // A sound one; every node is a machine of its own, n0, n1, ...
   static wire::Hello hello() {
     wire::Hello hello{};
@@ -39,7 +45,14 @@ class ScriptedNode {
   // Greets and takes the film, unless the host says stop.
   void boot() {
     send(wire::kHello, hello());
-    if (take_load()) csend(wire::kLoaded, nullptr, 0, myhost(), 0);
+    if (take_load()) send(wire::kLoaded, loaded());
+  }
+
+  // Makes the slots.
+  wire::Loaded loaded() {
+    if (!seen_) return {};
+    slots_.emplace(static_cast<std::size_t>(load.credits) * wire::kSlotBytes);
+    return {slots_->name()};
   }
 
   // Its clock is asked first where the run is traced.
@@ -90,8 +103,21 @@ class ScriptedNode {
   }
 
   void take_credit() {
-    receive(wire::kCredit);
-    ++credits;
+    const std::vector<std::byte> message = receive(wire::kCredit);
+    std::memcpy(&credits.emplace_back(), message.data(), sizeof(wire::Credit));
+    EXPECT_EQ(credits.back().by_message, seen_ ? 0u : 1u);
+  }
+
+  // The next slot that was given; waits for one.
+  wire::Credit next_credit() {
+    while (credits.empty()) take_credit();
+    const wire::Credit credit = credits.front();
+    credits.pop_front();
+    return credit;
+  }
+
+  std::span<std::byte> slot(std::uint32_t number) {
+    return slots_->bytes().subspan(number * wire::kSlotBytes, wire::kSlotBytes);
   }
 
   // The header of this node's only strip of a frame.
@@ -107,11 +133,14 @@ class ScriptedNode {
   }
 
   // One pixel, in line and column 0.
-  void send_strip(const wire::Strip& header, std::uint32_t pixel) {
+  void send_strip(wire::Strip header, std::uint32_t pixel) {
+    const wire::Credit credit = next_credit();
+    header.slot = credit.slot;
+    header.by_message = credit.by_message;
     StripStore store;
     const StripBytes bytes = strip_bytes(header, {}, {{{0, 0, 1}}, {pixel}}, store);
-    csend(wire::kStrip, bytes.data.get(), static_cast<long>(bytes.size), myhost(), 0);
-    --credits;
+    if (seen_) std::memcpy(slot(credit.slot).data(), bytes.data.get(), bytes.size);
+    csend(wire::kStrip, bytes.data.get(), static_cast<long>(seen_ ? sizeof header : bytes.size), myhost(), 0);
   }
 
   // This node's frames of a task: the keyframe and its inbetweens.
@@ -136,7 +165,7 @@ class ScriptedNode {
 
   // False: the host says stop.
   bool wait_for_credit() {
-    while (credits == 0) {
+    while (credits.empty()) {
       cprobe(wire::any_of(wire::kCredit, wire::kStop));
       if (infotype() == wire::kStop) return false;
       take_credit();
@@ -146,7 +175,11 @@ class ScriptedNode {
 
   wire::Load load{};
   std::vector<std::vector<std::byte>> film_pieces;
-  int credits = wire::kMaxCredits;
+  std::deque<wire::Credit> credits;  // slots that are the node's
+
+ private:
+  bool seen_;
+  std::optional<messages::OfferedMemory> slots_;
 };
 
 // Keeps the first pixel of each frame.

@@ -13,7 +13,7 @@ struct Runs {
   std::vector<std::uint32_t> pixels;
 };
 
-// The message of a strip with `header`'s names and these contents, in memory of `store`.
+// A whole strip with `header`'s names and these contents, as it lies in a slot or travels, in memory of `store`.
 inline StripBytes strip_bytes(wire::Strip header, const Runs& constant, const Runs& moving, StripStore& store) {
   header.constant_runs = static_cast<std::uint32_t>(constant.runs.size());
   header.moving_runs = static_cast<std::uint32_t>(moving.runs.size());

@@ -29,7 +29,7 @@ Event closing(std::uint64_t lost = 0) { return {kStart, kStart, lost, Kind::lost
 // Two nodes; node 0 sends node 1 two messages, of which the second was taken unseen.
 Trace small_trace(std::size_t most = 100) {
   Trace trace(most);
-  trace.begin(std::vector{hello(0, "ada"), hello(1, "a \"b\" \xff")}, 4, kStart);
+  trace.begin(std::vector{hello(0, "ada"), hello(1, "a \"b\" \xff")}, kStart);
   const auto triangles = static_cast<std::int32_t>(wire::kTriangles);
   trace.add(0, std::vector<Event>{{kStart + 1e-3, kStart + 2e-3, 64, Kind::sent, triangles, 1, 0, 7, 0},
                                   {kStart + 3e-3, kStart + 4e-3, 32, Kind::sent, triangles, 1, 1, 7, 0},
