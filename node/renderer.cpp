@@ -21,7 +21,7 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       depth_exchange_(static_cast<int>(numnodes())),
       outbox_(film.settings().width, load.credits),
       contributes_(machines.size()),
-      line_counts_(film.settings().height),
+      line_loads_(film.settings().height),
       wanted_lines_(film.settings().height),
       homes_(machines.size()),
       pass_homes_(machines.size()) {
@@ -97,20 +97,22 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
-  const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_},
+  const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_loads_},
                                                    arena_, report_.strip().work);
   report_.clock(wire::Phase::dice);
   return own;
 }
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
-  sums_.add_up(group_, line_counts_, group::own_bytes(made, group_));
+  sums_.add_up(group_, {line_loads_, made.edge_boxes, group::own_bytes(made, group_)});
   report_.strip().edge_box_total = sums_.ebc().back();
   report_.clock(wire::Phase::sum);
-  group::map_lines(mapping_, sums_.ebc(), homes());
-  report_.strip().load_ratio = group::load_ratio(sums_.ebc(), homes());
+  const auto weights = sums_.weights(mapping_);
+  group::map_lines(mapping_, weights, homes());
+  report_.strip().load_ratio = group::load_ratio(weights, homes());
+  report_.strip().work.samples = sums_.samples_on(homes()[member()]);
   const std::uint32_t passes = group::agree_on_passes(
-      {group_, sums_.ebc(), homes(), sums_.own_bytes(), line_counts_, made.triangles}, arena_.size());
+      {group_, sums_.ebc(), homes(), sums_.own_bytes(), line_loads_, made.triangles}, arena_.size());
   report_.strip().work.passes = passes;
   report_.clock(wire::Phase::map);
   return passes;
@@ -121,7 +123,7 @@ raster::LineBoxes Renderer::exchange_triangles(const raster::Polygons& own, cons
   const auto homes_now = std::span(pass_homes_).first(homes().size());
   std::ranges::transform(homes(), homes_now.begin(),
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
-  triangle_exchange_.send_triangles(group_, own, homes_now, line_counts_, arena_);
+  triangle_exchange_.send_triangles(group_, own, homes_now, line_loads_, arena_);
   report_.clock(wire::Phase::exchange);
   raster::LineFiller filler(homes_now[member()], sums_.ebc(), own.triangles, arena_);
   filler.add(own);

@@ -81,8 +81,8 @@ class Renderer {
   std::vector<std::uint8_t> contributes_;   // 1: the node draws inbetweens; by nodes of the group
 
   // Of the current frame.
-  collectives::Group group_;                // that draws it
-  std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
+  collectives::Group group_;                  // that draws it
+  std::vector<raster::LineLoad> line_loads_;  // of own triangles
   std::vector<std::uint8_t> wanted_lines_;
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;

@@ -1,7 +1,6 @@
 #include "node/group/exchange.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
@@ -29,14 +28,15 @@ TriangleExchange::TriangleExchange(int nodes, std::size_t lines)
 
 void TriangleExchange::send_triangles(const collectives::Group& group, const raster::Polygons& own,
                                       std::span<const geometry::LineRange> homes,
-                                      std::span<const std::uint32_t> line_counts, raster::Arena& arena) {
+                                      std::span<const raster::LineLoad> line_loads, raster::Arena& arena) {
   const auto self = static_cast<std::size_t>(mynode() - group.first);
   if (homes.size() == 1) return;
   for (std::size_t home = 0; home < homes.size(); ++home) {
     const auto on_home = [&](const auto& lines) { return lines.subspan(homes[home].first, homes[home].count()); };
     std::ranges::fill(on_home(std::span(home_of_)), static_cast<std::uint32_t>(home));
-    const auto counts = on_home(line_counts);
-    const std::size_t boxes = home == self ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    std::size_t boxes = 0;
+    if (home != self)
+      for (const raster::LineLoad& load : on_home(line_loads)) boxes += load.boxes();
     // Capacity for one triangle an edge box, the most there can be.
     parcels_[home] = {arena.take<geometry::Triangle>(boxes), arena.take<raster::UnsortedEdgeBox>(boxes), 0, boxes,
                       shading::kNoTriangle};

@@ -10,6 +10,7 @@
 #include "node/geometry/line_range.h"
 #include "node/group/pending_messages.h"
 #include "node/raster/arena.h"
+#include "node/raster/line_load.h"
 #include "node/raster/scanline.h"
 
 namespace mars::group {
@@ -20,9 +21,9 @@ class TriangleExchange {
   TriangleExchange(int nodes, std::size_t lines);
 
   // Begins to send to every other node of the group those of `own` triangles that have edge boxes on its lines,
-  // `homes`, from copies in `arena`. They are gone after finish(). `line_counts`: own edge boxes a line.
+  // `homes`, from copies in `arena`. They are gone after finish(). `line_loads`: of own triangles.
   void send_triangles(const collectives::Group& group, const raster::Polygons& own,
-                      std::span<const geometry::LineRange> homes, std::span<const std::uint32_t> line_counts,
+                      std::span<const geometry::LineRange> homes, std::span<const raster::LineLoad> line_loads,
                       raster::Arena& arena);
   // Receives from another node, the `number`th of count - 1; the result lies in `arena`.
   raster::Polygons receive_triangles(const collectives::Group& group, int number, raster::Arena& arena);

@@ -19,7 +19,7 @@ constexpr std::uint64_t kInLine = sizeof(raster::EdgeBox);
 
 // Bytes of a pass besides triangles and edge boxes: the counting sort's arrays, and the rounding of each piece of
 // memory.
-std::uint64_t overhead(const FrameLoad& load) { return 24 * load.line_counts.size() + 512 * load.homes.size() + 4096; }
+std::uint64_t overhead(const FrameLoad& load) { return 24 * load.line_loads.size() + 512 * load.homes.size() + 4096; }
 
 // Of all nodes' triangles, on some lines.
 std::uint64_t boxes_on(const FrameLoad& load, const geometry::LineRange& lines) {
@@ -31,7 +31,7 @@ std::uint64_t own_boxes_in(const FrameLoad& load, const Pass& pass) {
   std::uint64_t boxes = 0;
   for (const geometry::LineRange& home : load.homes) {
     const geometry::LineRange part = part_of(home, pass);
-    for (std::uint32_t line = part.first; line < part.last; ++line) boxes += load.line_counts[line];
+    for (std::uint32_t line = part.first; line < part.last; ++line) boxes += load.line_loads[line].boxes();
   }
   return boxes;
 }
@@ -89,7 +89,7 @@ std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes) 
 }
 
 std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) {
-  const std::uint64_t height = load.line_counts.size();
+  const std::uint64_t height = load.line_loads.size();
   std::uint32_t passes = 1;
   while (memory_for(load, node, passes) > memory && passes < 2 * height) passes *= 2;
   if (const std::uint64_t needed = memory_for(load, node, passes); needed > memory)
@@ -101,7 +101,7 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) 
 
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory) {
   if (one_pass_fits_all(load, memory)) return 1;
-  double most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
+  std::uint64_t most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
   if (load.group.count > 1) collectives::group_high(load.group, {&most, 1}, {&work, 1});
   return static_cast<std::uint32_t>(most);
 }

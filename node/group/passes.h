@@ -8,6 +8,7 @@
 
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
+#include "node/raster/line_load.h"
 
 namespace mars::group {
 
@@ -36,11 +37,11 @@ std::uint64_t own_bytes(const MadeCounts& made, const collectives::Group& group)
 // A frame as a node of the group knows it when lines are mapped.
 struct FrameLoad {
   collectives::Group group;
-  std::span<const std::uint64_t> ebc;          // of all nodes (mapping.h)
-  std::span<const geometry::LineRange> homes;  // of the group's nodes
-  std::span<const std::uint64_t> own_bytes;    // of the group's nodes
-  std::span<const std::uint32_t> line_counts;  // edge boxes a line of the node's own triangles
-  std::uint64_t triangles;                     // of its own
+  std::span<const std::uint64_t> ebc;            // of all nodes (mapping.h)
+  std::span<const geometry::LineRange> homes;    // of the group's nodes
+  std::span<const std::uint64_t> own_bytes;      // of the group's nodes
+  std::span<const raster::LineLoad> line_loads;  // of the node's own triangles
+  std::uint64_t triangles;                       // of its own
 };
 
 // A bound on the bytes that node `node` uses in any of `passes` passes.

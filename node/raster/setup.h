@@ -20,7 +20,7 @@ namespace mars::raster {
 // Set-ups and their edge boxes in one piece of memory: triangles from its front (aligned to a cache line), their
 // edge boxes from its end towards the front. What no longer fits is still counted.
 struct SetUps : SetUpSpace {
-  SetUps(std::span<std::byte> memory, std::span<std::uint32_t> line_counts, std::span<const std::uint8_t> wanted_lines);
+  SetUps(std::span<std::byte> memory, std::span<LineLoad> line_loads, std::span<const std::uint8_t> wanted_lines);
 
   std::span<const geometry::Triangle> triangles() const { return {first, static_cast<std::size_t>(next - first)}; }
   // The latest first.

@@ -60,7 +60,8 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
       const bool wanted = (columns != 0) & (space.wanted_lines[row] != 0);
       put(number, columns, row | moving, space.last_box - 1);
       space.last_box -= wanted;
-      space.line_counts[row] += wanted;
+      const LineLoad load(1, (columns >> 16) - (columns & 0xffff));
+      space.line_loads[row] += wanted ? load : LineLoad();
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;

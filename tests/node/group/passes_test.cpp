@@ -33,6 +33,7 @@ class Frame {
   explicit Frame(std::vector<std::vector<std::uint32_t>> counts, std::vector<std::uint64_t> triangles)
       : group_{0, static_cast<int>(counts.size())},
         counts_(std::move(counts)),
+        loads_(counts_.size()),
         triangles_(std::move(triangles)),
         homes_(counts_.size()),
         ebc_(counts_[0].size() + 1) {
@@ -41,7 +42,10 @@ class Frame {
       for (const auto& own : counts_) ebc_[line + 1] += own[line];
     }
     map_greedy(ebc_, homes_);
-    for (std::size_t n = 0; n < counts_.size(); ++n) own_bytes_.push_back(group::own_bytes(made(n), group_));
+    for (std::size_t n = 0; n < counts_.size(); ++n) {
+      for (const std::uint32_t boxes : counts_[n]) loads_[n].emplace_back(boxes, 0);
+      own_bytes_.push_back(group::own_bytes(made(n), group_));
+    }
   }
 
   std::size_t nodes() const { return counts_.size(); }
@@ -49,7 +53,7 @@ class Frame {
   MadeCounts made(std::size_t n) const {
     return {triangles_[n], std::accumulate(counts_[n].begin(), counts_[n].end(), std::uint64_t{0})};
   }
-  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, own_bytes_, counts_[n], triangles_[n]}; }
+  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, own_bytes_, loads_[n], triangles_[n]}; }
   const std::vector<LineRange>& homes() const { return homes_; }
   std::uint64_t boxes(std::size_t n, const LineRange& lines) const {
     const auto& own = counts_[n];
@@ -59,6 +63,7 @@ class Frame {
  private:
   collectives::Group group_;
   std::vector<std::vector<std::uint32_t>> counts_;
+  std::vector<std::vector<raster::LineLoad>> loads_;
   std::vector<std::uint64_t> triangles_;
   std::vector<LineRange> homes_;
   std::vector<std::uint64_t> ebc_;
@@ -185,7 +190,8 @@ Agreement agree(const Frame& frame, std::uint64_t memory) {
     const auto nodes = static_cast<int>(frame.nodes());
     GroupSums sums(frame.lines(), frame.nodes());
     FrameLoad load = frame.load(self);
-    sums.add_up({0, nodes}, load.line_counts, group::own_bytes(frame.made(self), {0, nodes}));
+    const MadeCounts made = frame.made(self);
+    sums.add_up({0, nodes}, {load.line_loads, made.edge_boxes, group::own_bytes(made, {0, nodes})});
     EXPECT_TRUE(std::ranges::equal(sums.ebc(), load.ebc));
     EXPECT_TRUE(std::ranges::equal(sums.own_bytes(), load.own_bytes));
     const std::uint64_t before = counts.sent({.from = mynode()}).messages;
