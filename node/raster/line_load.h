@@ -16,7 +16,11 @@ class LineLoad {
   constexpr LineLoad() = default;
   constexpr LineLoad(std::uint64_t boxes, std::uint64_t samples) : packed_(boxes << kSampleBits | samples) {}
   // As nodes sum it.
-  static constexpr LineLoad of_packed(std::uint64_t packed) { return {packed >> kSampleBits, packed & kMostSamples}; }
+  static constexpr LineLoad of_packed(std::uint64_t packed) {
+    LineLoad load;
+    load.packed_ = packed;
+    return load;
+  }
   constexpr std::uint64_t packed() const { return packed_; }
 
   constexpr std::uint64_t boxes() const { return packed_ >> kSampleBits; }
