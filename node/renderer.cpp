@@ -19,12 +19,12 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       neighbours_(machines, load.groups),
       czb_(neighbours_, scene_.width(), scene_.height()),
       memory_(neighbours_, load.memory),
-      sums_(film.settings().height, machines.size()),
+      sums_(film.settings().height),
       triangle_exchange_(machines.size(), film.settings().height),
       depth_exchange_(neighbours_),
       outbox_(film.settings().width, load.credits),
       contributes_(machines.size()),
-      line_counts_(film.settings().height),
+      line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
       wanted_lines_(film.settings().height),
       homes_(machines.size()),
@@ -87,8 +87,7 @@ Tessellation Renderer::tessellate_all() {
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
   report_.strip().work.edge_boxes_diced = own.made.edge_boxes;
-  const std::uint64_t fixed = group::fixed_bytes(line_counts_.size(), homes().size());
-  if (group::own_bytes(own.made, triangles_travel()) + fixed <= memory_.frame_bytes()) fill_own_lines(own.polygons);
+  if (can_fill(own)) fill_own_lines(own.polygons);
   return own;
 }
 
@@ -106,17 +105,23 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
-  const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_counts_},
+  const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_loads_},
                                                    {memory_.arena(), memory_.first_triangle()}, report_.strip().work);
+  std::transform_inclusive_scan(line_loads_.begin(), line_loads_.end(), line_totals_.begin() + 1, std::plus<>(),
+                                [](const raster::LineLoad& load) { return load.boxes(); });
   report_.clock(wire::Phase::dice);
   return own;
 }
 
+bool Renderer::can_fill(const Tessellation& own) const {
+  const std::uint64_t needed = group::own_bytes(own.made, triangles_travel()) +
+                               group::fixed_bytes(line_loads_.size(), static_cast<std::size_t>(group_.count));
+  return line_totals_.back() == own.made.edge_boxes && needed <= memory_.frame_bytes();
+}
+
 void Renderer::fill_own_lines(const raster::Polygons& own) {
-  std::inclusive_scan(line_counts_.begin(), line_counts_.end(), line_totals_.begin() + 1, std::plus<>(),
-                      std::uint64_t{0});
-  raster::LineFiller filler({0, static_cast<std::uint32_t>(line_counts_.size())}, line_totals_,
-                            memory_.first_triangle(), memory_.arena());
+  raster::LineFiller filler({0, static_cast<std::uint32_t>(line_loads_.size())}, line_totals_, memory_.first_triangle(),
+                            memory_.arena());
   filler.add(own);
   parts_.assign(1, filler.finish());
   memory_.publish(parts_.front());
@@ -124,13 +129,15 @@ void Renderer::fill_own_lines(const raster::Polygons& own) {
 }
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
-  sums_.add_up(group_, line_counts_, group::own_bytes(made, triangles_travel()));
+  sums_.add_up(group_, {line_loads_, made.edge_boxes, group::own_bytes(made, triangles_travel())});
   report_.strip().edge_box_total = sums_.ebc().back();
   report_.clock(wire::Phase::sum);
-  group::map_lines(mapping_, sums_.ebc(), homes());
-  report_.strip().load_ratio = group::load_ratio(sums_.ebc(), homes());
+  const auto weights = sums_.weights(mapping_);
+  group::map_lines(mapping_, weights, homes());
+  report_.strip().load_ratio = group::load_ratio(weights, homes());
+  report_.strip().work.samples = sums_.samples_on(homes()[member()]);
   const std::uint32_t passes = group::agree_on_passes(
-      {group_, sums_.ebc(), homes(), sums_.own_bytes(), line_counts_, made.triangles, triangles_travel()},
+      {group_, sums_.ebc(), homes(), sums_.bytes(), line_loads_, made.triangles, triangles_travel()},
       memory_.frame_bytes());
   report_.strip().work.passes = passes;
   report_.clock(wire::Phase::map);
@@ -144,7 +151,7 @@ geometry::LineRange Renderer::exchange_triangles(const raster::Polygons& own, co
                          [&](const geometry::LineRange& home) { return group::part_of(home, pass); });
   const geometry::LineRange lines = homes_now[member()];
   if (group_.count > 1) {
-    triangle_exchange_.send_triangles(group_, own, homes_now, line_counts_, memory_);
+    triangle_exchange_.send_triangles(group_, own, homes_now, line_loads_, memory_);
     memory_.read_published(parts_);
     report_.clock(wire::Phase::exchange);
     if (triangles_travel()) receive_triangles(lines);

@@ -50,6 +50,9 @@ class Renderer {
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
+  // Whether own triangles are all there and can be put into their lines. Else several passes follow, or a Failure where
+  // a line has more than can be counted.
+  bool can_fill(const Tessellation& own) const;
   // Puts own edge boxes into their lines, where other nodes may read them.
   void fill_own_lines(const raster::Polygons& own);
   // Returns the number of passes.
@@ -87,10 +90,10 @@ class Renderer {
   std::vector<std::uint8_t> contributes_;   // 1: the node draws inbetweens; by nodes of the group
 
   // Of the current frame.
-  collectives::Group group_;                // that draws it
-  std::vector<std::uint32_t> line_counts_;  // edge boxes of own triangles
-  std::vector<std::uint64_t> line_totals_;  // of these, before each line and at the end
-  std::vector<raster::LineBoxes> parts_;    // edge boxes of the lines to be drawn; own ones first
+  collectives::Group group_;                  // that draws it
+  std::vector<raster::LineLoad> line_loads_;  // of own triangles
+  std::vector<std::uint64_t> line_totals_;    // of their edge boxes, before each line and at the end
+  std::vector<raster::LineBoxes> parts_;      // edge boxes of the lines to be drawn; own ones first
   std::vector<std::uint8_t> wanted_lines_;
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;

@@ -22,9 +22,9 @@ Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dice
 
 Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
                                      const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work) {
-  std::ranges::fill(lines.counts, 0u);
+  std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = 0;
-  raster::SetUps out(space.arena.rest(), space.first, lines.counts, lines.wanted);
+  raster::SetUps out(space.arena.rest(), space.first, lines.loads, lines.wanted);
   if (kind == wire::FrameKind::keyframe) add(scene, false, scatter, out, work);
   const std::size_t stationary = out.boxes().size();
   add(scene, true, scatter, out, work);

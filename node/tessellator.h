@@ -26,7 +26,7 @@ struct Scatter {
 // One a line of the picture.
 struct LineTable {
   std::span<const std::uint8_t> wanted;  // 1: edge boxes there are stored and counted
-  std::span<std::uint32_t> counts;       // edge boxes
+  std::span<raster::LineLoad> loads;
 };
 
 // Where triangles go: they count from `first`, whole triangles before the arena.
@@ -46,7 +46,7 @@ class Tessellator {
   explicit Tessellator(simd::InstructionSet set);
 
   // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
-  // keyframe, of the moving ones in an inbetween. They lie in `space`. Sets `lines.counts`, and the patches and
+  // keyframe, of the moving ones in an inbetween. They lie in `space`. Sets `lines.loads`, and the patches and
   // vertices of `work`.
   Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
                           const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work);

@@ -8,8 +8,8 @@
 namespace mars::collectives {
 namespace {
 
-void reduce_in(const char* call, const Group& group, const Operation& operation, std::span<double> values,
-               std::span<double> work) {
+void reduce_in(const char* call, const Group& group, const Operation& operation, std::span<std::uint64_t> values,
+               std::span<std::uint64_t> work) {
   check(work.size() >= values.size(), "work is as long as the values");
   DimensionExchange exchange(call, group);
   reduce(exchange, operation, values.data(), values.size(), work.data());
@@ -18,12 +18,12 @@ void reduce_in(const char* call, const Group& group, const Operation& operation,
 
 }  // namespace
 
-void group_sum(const Group& group, std::span<double> values, std::span<double> work) {
-  reduce_in("group_sum", group, operation<double, std::plus<double>{}>, values, work);
+void group_sum(const Group& group, std::span<std::uint64_t> values, std::span<std::uint64_t> work) {
+  reduce_in("group_sum", group, operation<std::uint64_t, std::plus<std::uint64_t>{}>, values, work);
 }
 
-void group_high(const Group& group, std::span<double> values, std::span<double> work) {
-  reduce_in("group_high", group, operation<double, higher>, values, work);
+void group_high(const Group& group, std::span<std::uint64_t> values, std::span<std::uint64_t> work) {
+  reduce_in("group_high", group, operation<std::uint64_t, higher>, values, work);
 }
 
 }  // namespace mars::collectives

@@ -3,6 +3,7 @@
 // two fold in first).
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "hal/collectives/group.h"
@@ -10,13 +11,10 @@
 namespace mars::collectives {
 
 // Element-wise sum of every member's `values`, left in `values` on all of them. All members call, in the
-// same order, with equal lengths; `work` is as long as `values`. Every member gets the same bits. Order of
-// the additions, with positions counted from `first` and 2^d the largest power of two within `count`: first
-// p and p + 2^d, then pairs across bit 0, 1, ... d - 1 of the positions, the lower one's sum always on the
-// left.
-void group_sum(const Group& group, std::span<double> values, std::span<double> work);
+// same order, with equal lengths; `work` is as long as `values`. Sums are modulo 2^64.
+void group_sum(const Group& group, std::span<std::uint64_t> values, std::span<std::uint64_t> work);
 
 // Element-wise maximum, likewise.
-void group_high(const Group& group, std::span<double> values, std::span<double> work);
+void group_high(const Group& group, std::span<std::uint64_t> values, std::span<std::uint64_t> work);
 
 }  // namespace mars::collectives

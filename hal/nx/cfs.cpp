@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -110,9 +111,9 @@ std::vector<Files::Word> Files::agree(const char* call, const Word& mine) const 
   if (backend.rank() == backend.host()) process_.fail(call, EQNODE, "the host takes no part", "call it on nodes only");
   const auto nodes = static_cast<std::size_t>(backend.nodes());
   const auto me = static_cast<std::size_t>(backend.rank());
-  constexpr std::size_t kParts = sizeof(Word) / sizeof(double);
+  constexpr std::size_t kParts = sizeof(Word) / sizeof(std::uint64_t);
   std::vector<Word> words(nodes);
-  std::vector<double> work(nodes * kParts);
+  std::vector<std::uint64_t> work(nodes * kParts);
   words[me] = mine;
   collectives::group_sum({0, backend.nodes()}, {&words[0].error, work.size()}, work);
   if (mine.error != 0) fail(call, static_cast<int>(mine.error));
@@ -156,7 +157,8 @@ Transfer Files::claim(const char* call, int fd, bool write, void* buffer, long l
 off_t Files::claim_in_order(const char* call, Shared& file, const Transfer& what, int error) {
   const auto length = static_cast<long>(what.length);
   const off_t at = ::lseek(what.fd, 0, SEEK_CUR);
-  const Word mine{static_cast<double>(error), static_cast<double>(at), static_cast<double>(length)};
+  const Word mine{static_cast<std::uint64_t>(error), static_cast<std::uint64_t>(at),
+                  static_cast<std::uint64_t>(length)};
   const Ranges ranges =
       file.record ? recorded_ranges(call, *file.record, length, error) : agreed_ranges(call, file, mine);
   if (file.mode == 3) file.record = length;
@@ -263,7 +265,7 @@ off_t Files::seek(const char* call, int fd, off_t offset, int whence) {
     if (error != 0) fail(call, error);
   } else {
     next(::lseek(fd, 0, SEEK_CUR));
-    agree(call, {static_cast<double>(error), static_cast<double>(to), 0});
+    agree(call, {static_cast<std::uint64_t>(error), static_cast<std::uint64_t>(to), 0});
     ::lseek(fd, to, SEEK_SET);
   }
   return to;
@@ -290,8 +292,8 @@ void Files::set_mode(const char* call, int fd, int mode) {
   Shared* before = find(fd);
   const bool common = before != nullptr && before->pointer;
   const off_t own = common || mode == 0 || error != 0 ? 0 : std::max<off_t>(0, ::lseek(fd, 0, SEEK_CUR));
-  const std::vector<Word> words =
-      agree(call, {static_cast<double>(error), static_cast<double>(own), static_cast<double>(mode)});
+  const std::vector<Word> words = agree(
+      call, {static_cast<std::uint64_t>(error), static_cast<std::uint64_t>(own), static_cast<std::uint64_t>(mode)});
   for (std::size_t node = 0; node < words.size(); ++node) {
     if (words[node].number == words[0].number) continue;
     process_.fail(call, EINVAL,
@@ -320,11 +322,11 @@ std::unique_ptr<FilesPointer> Files::share_pointer(const char* call, int fd) {
     try {
       step();
     } catch (const std::system_error& failure) {
-      word.error = failure.code().value();
+      word.error = static_cast<std::uint64_t>(failure.code().value());
     }
   };
   if (backend.rank() == 0) {
-    word.number = static_cast<double>(unused_number());
+    word.number = static_cast<std::uint64_t>(unused_number());
     attempt([&] {
       pointer = std::make_unique<FilesPointer>(pointer_path(fd, one_machine, static_cast<long>(word.number)),
                                                backend.nodes());

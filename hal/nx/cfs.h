@@ -6,6 +6,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -46,9 +47,9 @@ class Files : public messages::Process::Extension {
   };
   // One node's part of a call that all make together.
   struct Word {
-    double error = 0;   // an errno
-    double place = 0;   // of the pointer; the same on all nodes
-    double number = 0;  // a length, a mode ...
+    std::uint64_t error = 0;   // an errno
+    std::uint64_t place = 0;   // of the pointer; the same on all nodes
+    std::uint64_t number = 0;  // a length, a mode ...
   };
   // Of a transfer of all nodes in modes 2 and 3: bytes before this node's range, and of all ranges.
   struct Ranges {

@@ -1,7 +1,6 @@
 #include "node/group/exchange.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -36,7 +35,7 @@ TriangleExchange::TriangleExchange(std::size_t nodes, std::size_t lines)
 
 void TriangleExchange::send_triangles(const collectives::Group& group, const raster::Polygons& own,
                                       std::span<const geometry::LineRange> homes,
-                                      std::span<const std::uint32_t> line_counts, FrameMemory& memory) {
+                                      std::span<const raster::LineLoad> line_loads, FrameMemory& memory) {
   const auto self = static_cast<std::size_t>(mynode() - group.first);
   if (memory.readers().size() + 1 == homes.size()) return;
   parcels_.clear();
@@ -44,9 +43,9 @@ void TriangleExchange::send_triangles(const collectives::Group& group, const ras
     const std::size_t home = (self + i) % homes.size();  // so that not all send to the same node first
     const int node = group.first + static_cast<int>(home);
     const auto on_home = [&](auto lines) { return lines.subspan(homes[home].first, homes[home].count()); };
-    const auto counts = on_home(line_counts);
-    const std::size_t boxes =
-        i == 0 || memory.reads(node) ? 0 : std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    std::size_t boxes = 0;
+    if (i > 0 && !memory.reads(node))
+      for (const raster::LineLoad& load : on_home(line_loads)) boxes += load.boxes();
     std::ranges::fill(on_home(std::span(parcel_of_)), static_cast<std::uint32_t>(boxes > 0 ? parcels_.size() : kNone));
     if (boxes == 0) continue;
     // With room for one triangle an edge box, the most there can be.

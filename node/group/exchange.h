@@ -12,6 +12,7 @@
 #include "node/geometry/line_range.h"
 #include "node/group/frame_memory.h"
 #include "node/group/pending_messages.h"
+#include "node/raster/line_load.h"
 #include "node/raster/scanline.h"
 #include "node/wire/protocol.h"
 
@@ -23,10 +24,10 @@ class TriangleExchange {
   TriangleExchange(std::size_t nodes, std::size_t lines);
 
   // Begins to send to every other node of the group, unless it reads `memory`, those of `own` triangles that have edge
-  // boxes on its lines, `homes`, from copies in the arena. They are gone after finish(). `line_counts`: own edge boxes
-  // a line.
+  // boxes on its lines, `homes`, from copies in the arena. They are gone after finish(). `line_loads`: of own
+  // triangles.
   void send_triangles(const collectives::Group& group, const raster::Polygons& own,
-                      std::span<const geometry::LineRange> homes, std::span<const std::uint32_t> line_counts,
+                      std::span<const geometry::LineRange> homes, std::span<const raster::LineLoad> line_loads,
                       FrameMemory& memory);
   // Receives the next node's; they lie in the arena.
   raster::Polygons receive_triangles(FrameMemory& memory);

@@ -1,29 +1,46 @@
 #include "node/group/group_sums.h"
 
 #include <algorithm>
+#include <string>
 
 #include "hal/collectives/group_sum.h"
+#include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
+#include "node/group/mapping.h"
 
 namespace mars::group {
 
-GroupSums::GroupSums(std::size_t lines, std::size_t nodes)
-    : sent_(lines + nodes), work_(lines + nodes), ebc_(lines + 1) {
-  own_bytes_.reserve(nodes);
+using raster::LineLoad;
+
+GroupSums::GroupSums(std::size_t lines) : sums_(lines + 2), work_(sums_.size()), ebc_(lines + 1), costs_(lines + 1) {}
+
+void GroupSums::add_up(const collectives::Group& group, const OwnLoad& own) {
+  const std::size_t lines = own.lines.size();
+  std::ranges::transform(own.lines, sums_.begin(), &LineLoad::packed);
+  sums_[lines] = own.edge_boxes;
+  sums_[lines + 1] = own.bytes;
+  if (group.count > 1) collectives::group_sum(group, sums_, work_);
+  for (std::size_t line = 0; line < lines; ++line) {
+    const LineLoad load = LineLoad::of_packed(sums_[line]);
+    ebc_[line + 1] = ebc_[line] + load.boxes();
+    costs_[line + 1] = costs_[line] + line_cost(load);
+  }
+  check_bounds(sums_[lines]);
 }
 
-void GroupSums::add_up(const collectives::Group& group, std::span<const std::uint32_t> line_counts,
-                       std::uint64_t own_bytes) {
-  const std::size_t lines = line_counts.size();
-  const auto sums = std::span(sent_).first(lines + static_cast<std::size_t>(group.count));
-  const auto totals = sums.first(lines), bytes = sums.subspan(lines);
-  double total = 0;
-  for (std::size_t line = 0; line < lines; ++line) totals[line] = total += line_counts[line];
-  std::ranges::fill(bytes, 0.0);
-  bytes[static_cast<std::size_t>(mynode() - group.first)] = static_cast<double>(own_bytes);
-  if (group.count > 1) collectives::group_sum(group, sums, std::span(work_).first(sums.size()));
-  std::ranges::transform(totals, ebc_.begin() + 1, [](double sum) { return static_cast<std::uint64_t>(sum); });
-  own_bytes_.assign(bytes.begin(), bytes.end());
+// Each time that a line's samples go beyond their bits they add a box, and each time that its boxes do 2^28 are lost.
+void GroupSums::check_bounds(std::uint64_t edge_boxes) const {
+  if (ebc_.back() != edge_boxes)
+    throw Failure("a line has more than " + std::to_string(LineLoad::kMostBoxes) +
+                      " edge boxes, or these cover more than " + std::to_string(LineLoad::kMostSamples) + " samples",
+                  "scanlines", "dice the film more coarsely");
+}
+
+std::uint64_t GroupSums::samples_on(const geometry::LineRange& range) const {
+  std::uint64_t samples = 0;
+  for (std::uint32_t line = range.first; line < range.last; ++line)
+    samples += LineLoad::of_packed(sums_[line]).samples();
+  return samples;
 }
 
 }  // namespace mars::group

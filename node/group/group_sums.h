@@ -1,5 +1,5 @@
-// The sums over a group in a keyframe, in one message exchange: EBC, and the memory that each node's own triangles
-// take.
+// The sums over a group in a keyframe, in one message exchange: what there is to draw on each line (EBC), and the
+// memory that all nodes' triangles take.
 #pragma once
 
 #include <cstddef>
@@ -8,28 +8,45 @@
 #include <vector>
 
 #include "hal/collectives/group.h"
+#include "node/geometry/line_range.h"
+#include "node/raster/line_load.h"
+#include "node/wire/protocol.h"
 
 namespace mars::group {
 
+// A node's part of the sums.
+struct OwnLoad {
+  std::span<const raster::LineLoad> lines;  // of its own triangles
+  std::uint64_t edge_boxes;                 // on all lines
+  std::uint64_t bytes;                      // that these take (own_bytes, passes.h)
+};
+
 class GroupSums {
  public:
-  // `lines`: of a picture; `nodes`: the most a group has.
-  GroupSums(std::size_t lines, std::size_t nodes);
+  // `lines`: of a picture.
+  explicit GroupSums(std::size_t lines);
 
-  // Collective over the group. `line_counts`: edge boxes a line of the caller's triangles; `own_bytes`: the memory that
-  // these take (own_bytes, passes.h).
-  void add_up(const collectives::Group& group, std::span<const std::uint32_t> line_counts, std::uint64_t own_bytes);
+  // Collective over the group. Throws Failure, on all nodes of the group, where one line of all nodes together exceeds
+  // what a LineLoad counts; for certain if they have fewer than 2^50 edge boxes.
+  void add_up(const collectives::Group& group, const OwnLoad& own);
 
-  // EBC of all nodes: lines + 1 running totals, as mapping.h wants them.
+  // EBC of all nodes: lines + 1 running totals.
   std::span<const std::uint64_t> ebc() const { return ebc_; }
-  // Of each node of the group.
-  std::span<const std::uint64_t> own_bytes() const { return own_bytes_; }
+  // The running totals that a mapping makes even (mapping.h): EBC, or for `cost` those of line_cost.
+  std::span<const std::uint64_t> weights(wire::Mapping mapping) const {
+    return mapping == wire::Mapping::cost ? costs_ : ebc_;
+  }
+  // Of all nodes, that edge boxes cover on these lines.
+  std::uint64_t samples_on(const geometry::LineRange& range) const;
+  std::uint64_t bytes() const { return sums_.back(); }
 
  private:
-  std::vector<double> sent_;  // running totals of line_counts, then for each node its own_bytes, or 0 if another's
-  std::vector<double> work_;
+  void check_bounds(std::uint64_t edge_boxes) const;
+
+  std::vector<std::uint64_t> sums_;  // each line's load, packed; edge boxes; bytes
+  std::vector<std::uint64_t> work_;
   std::vector<std::uint64_t> ebc_;
-  std::vector<std::uint64_t> own_bytes_;
+  std::vector<std::uint64_t> costs_;
 };
 
 }  // namespace mars::group

@@ -18,7 +18,7 @@ constexpr std::uint64_t kTravelling = sizeof(geometry::Triangle) + sizeof(raster
 constexpr std::uint64_t kInLine = sizeof(raster::EdgeBox);
 
 std::uint64_t fixed_bytes(const FrameLoad& load) {
-  return group::fixed_bytes(load.line_counts.size(), load.homes.size());
+  return group::fixed_bytes(load.line_loads.size(), load.homes.size());
 }
 
 // Of a home on whose lines all nodes have so many edge boxes, at most.
@@ -36,7 +36,7 @@ std::uint64_t own_boxes_in(const FrameLoad& load, const Pass& pass) {
   std::uint64_t boxes = 0;
   for (const geometry::LineRange& home : load.homes) {
     const geometry::LineRange part = part_of(home, pass);
-    for (std::uint32_t line = part.first; line < part.last; ++line) boxes += load.line_counts[line];
+    for (std::uint32_t line = part.first; line < part.last; ++line) boxes += load.line_loads[line].boxes();
   }
   return boxes;
 }
@@ -51,13 +51,11 @@ std::uint64_t memory_in(const FrameLoad& load, int node, const Pass& pass) {
   return own_bytes({std::min(own_boxes, load.triangles), own_boxes}, load.travels) + received_bytes(load, boxes);
 }
 
-// By what every node knows of all.
+// By what every node knows of all: as if one had made all triangles.
 bool one_pass_fits_all(const FrameLoad& load, std::uint64_t memory) {
-  for (std::size_t n = 0; n < load.homes.size(); ++n) {
-    const std::uint64_t received = received_bytes(load, boxes_on(load, load.homes[n]));
-    if (load.own_bytes[n] + received + fixed_bytes(load) > memory) return false;
-  }
-  return true;
+  std::uint64_t most = 0;
+  for (const geometry::LineRange& home : load.homes) most = std::max(most, boxes_on(load, home));
+  return load.all_bytes + received_bytes(load, most) + fixed_bytes(load) <= memory;
 }
 
 }  // namespace
@@ -92,7 +90,7 @@ std::uint64_t memory_for(const FrameLoad& load, int node, std::uint32_t passes) 
 }
 
 std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) {
-  const std::uint64_t height = load.line_counts.size();
+  const std::uint64_t height = load.line_loads.size();
   std::uint32_t passes = 1;
   while (memory_for(load, node, passes) > memory && passes < 2 * height) passes *= 2;
   if (const std::uint64_t needed = memory_for(load, node, passes); needed > memory)
@@ -103,13 +101,13 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory) 
 }
 
 void wait_for_all(const collectives::Group& group) {
-  double nothing = 0, work = 0;
+  std::uint64_t nothing = 0, work = 0;
   if (group.count > 1) collectives::group_high(group, {&nothing, 1}, {&work, 1});
 }
 
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory) {
   if (one_pass_fits_all(load, memory)) return 1;
-  double most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
+  std::uint64_t most = passes_for(load, static_cast<int>(mynode()), memory), work = 0;
   if (load.group.count > 1) collectives::group_high(load.group, {&most, 1}, {&work, 1});
   return static_cast<std::uint32_t>(most);
 }

@@ -8,6 +8,7 @@
 
 #include "hal/collectives/group.h"
 #include "node/geometry/line_range.h"
+#include "node/raster/line_load.h"
 
 namespace mars::group {
 
@@ -41,12 +42,12 @@ std::uint64_t fixed_bytes(std::size_t lines, std::size_t nodes);
 // A frame as a node of the group knows it when lines are mapped.
 struct FrameLoad {
   collectives::Group group;
-  std::span<const std::uint64_t> ebc;          // of all nodes (mapping.h)
-  std::span<const geometry::LineRange> homes;  // of the group's nodes
-  std::span<const std::uint64_t> own_bytes;    // of the group's nodes
-  std::span<const std::uint32_t> line_counts;  // edge boxes a line of the node's own triangles
-  std::uint64_t triangles;                     // of its own
-  bool travels;                                // some nodes of the group cannot read each other's memory
+  std::span<const std::uint64_t> ebc;            // of all nodes (mapping.h)
+  std::span<const geometry::LineRange> homes;    // of the group's nodes
+  std::uint64_t all_bytes;                       // own_bytes of the group's nodes, added up
+  std::span<const raster::LineLoad> line_loads;  // of the node's own triangles
+  std::uint64_t triangles;                       // of its own
+  bool travels;                                  // some nodes of the group cannot read each other's memory
 };
 
 // A bound on the bytes that node `node` uses in any of `passes` passes.
@@ -60,7 +61,7 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory);
 void wait_for_all(const collectives::Group& group);
 
 // The number of passes that suffices on all nodes of the group, the same on each; collective. Nodes exchange their
-// numbers only where one pass might not suffice for one of them, which all know from the sums.
+// numbers only where one pass might not suffice if one node had made all triangles, which all know from the sums.
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory);
 
 }  // namespace mars::group

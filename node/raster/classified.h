@@ -6,6 +6,7 @@
 
 #include "node/geometry/triangle.h"
 #include "node/raster/edge_box.h"
+#include "node/raster/line_load.h"
 #include "node/shape/vertices.h"
 
 namespace mars::raster {
@@ -64,7 +65,7 @@ struct SetUpSpace {
   geometry::Triangle* first;  // triangles count from here
   geometry::Triangle* next;
   UnsortedEdgeBox* last_box;         // the one stored last
-  std::uint32_t* line_counts;        // edge boxes a line, of all that is added
+  LineLoad* line_loads;              // of all that is added
   const std::uint8_t* wanted_lines;  // 1: edge boxes there are stored and counted
 };
 

@@ -28,7 +28,7 @@ bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
       *--out.last_box = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
                          static_cast<std::uint16_t>(row),
                          moving};
-    ++out.line_counts[row];
+    out.line_loads[row] += LineLoad(1, static_cast<std::uint64_t>(columns.last - columns.first));
     ++boxes;
   }
   out.edge_boxes += boxes;
@@ -100,12 +100,12 @@ struct FewVertices {
 
 }  // namespace
 
-SetUps::SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<std::uint32_t> line_counts,
+SetUps::SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<LineLoad> line_loads,
                std::span<const std::uint8_t> wanted_lines) {
   this->first = first;
   begin = next = reinterpret_cast<geometry::Triangle*>(memory.data());
   last_box = end = reinterpret_cast<UnsortedEdgeBox*>(memory.data() + memory.size());
-  this->line_counts = line_counts.data();
+  this->line_loads = line_loads.data();
   this->wanted_lines = wanted_lines.data();
 }
 

@@ -21,7 +21,7 @@ namespace mars::raster {
 // edge boxes from its end towards the front. What no longer fits is still counted.
 struct SetUps : SetUpSpace {
   // Edge boxes name triangles by their distance from `first`, whole cache lines before `memory`.
-  SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<std::uint32_t> line_counts,
+  SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<LineLoad> line_loads,
          std::span<const std::uint8_t> wanted_lines);
 
   std::span<const geometry::Triangle> triangles() const { return {begin, static_cast<std::size_t>(next - begin)}; }

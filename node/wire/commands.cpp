@@ -52,7 +52,7 @@ LoadCommand read_load(std::span<const std::byte> message, int nodes, const std::
   const auto machines = items_behind<std::int32_t>(message, sizeof(Load));
   require(load.film_bytes > 0, kName, "the film's size");
   require(load.credits >= 1 && load.credits <= kMaxCredits, kName, "credits");
-  require(load.mapping == Mapping::greedy || load.mapping == Mapping::optimal, kName, "the mapping");
+  require(load.mapping <= Mapping::cost, kName, "the mapping");
   require(load.groups >= 1 && load.groups <= nodes, kName, "the number of groups");
   require(load.traced <= 1, kName, "whether to trace");
   for (std::int32_t node = 0; node < nodes; ++node) {

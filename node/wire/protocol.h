@@ -12,8 +12,7 @@
 //   host -> node   Load (+ film block to one node a machine, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   edge-box counts; Triangles and DepthLines, in any order of the senders: those of two keyframes
-//   cannot
+//   node -> node   counts a line; Triangles and DepthLines, in any order of the senders: those of two keyframes cannot
 //                  mix, for the sum of the counts comes between
 #pragma once
 
@@ -71,7 +70,7 @@ struct Hello {
 
 static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version has it");
 
-enum class Mapping : std::uint32_t { greedy, optimal };
+enum class Mapping : std::uint32_t { greedy, optimal, cost };
 
 // Bytes of the film block in one kFilmBlock message; the last has the rest.
 inline constexpr std::uint64_t kFilmPiece = std::uint64_t{16} << 20;
@@ -140,6 +139,7 @@ struct WorkCounts {
   std::uint64_t triangles;         // made from its own patches, touching a sample
   std::uint64_t edge_boxes_diced;  // of those triangles
   std::uint64_t edge_boxes;        // drawn on its own lines
+  std::uint64_t samples;           // that these cover
   std::uint64_t pixels;            // shaded
   std::uint64_t bytes_to_nodes;
   std::uint64_t bytes_to_host;   // in strips, whether by slot or by message
@@ -177,7 +177,7 @@ struct Strip {
   std::uint32_t by_message;  // as the slot's Credit said
   std::uint64_t pixels;
   std::uint64_t edge_box_total;  // EBC's last entry (keyframes)
-  double load_ratio;             // max / average load of the mapping (keyframes; 1 for an inbetween)
+  double load_ratio;             // max / average of what the mapping makes even (keyframes; 1 for an inbetween)
   PhaseTimes times;
   WorkCounts work;
 };

@@ -1,5 +1,6 @@
 // Steady traffic allocates nothing, on any rank: after a warm-up, operator new is counted.
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -39,8 +40,8 @@ namespace {
 struct Buffers {
   std::vector<char> out = std::vector<char>(200'000, 'x');
   std::vector<char> in = std::vector<char>(200'000);
-  std::vector<double> values = std::vector<double>(1000);
-  std::vector<double> work = std::vector<double>(1000);
+  std::vector<std::uint64_t> values = std::vector<std::uint64_t>(1000);
+  std::vector<std::uint64_t> work = std::vector<std::uint64_t>(1000);
 };
 
 // Messages of many lengths, expected and not, to nodes and the host, and collectives.

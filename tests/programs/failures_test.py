@@ -26,7 +26,7 @@ class CommandLine(ProgramTest):
                             (["--size", "0x10"], "--size: '0x10'"),
                             (["--size", "16"], "like 960x540"),
                             (["--frames", "9-3"], "--frames: '9-3' ends before it begins"),
-                            (["--mapping", "best"], "--mapping: 'best' is not greedy or optimal"),
+                            (["--mapping", "best"], "--mapping: 'best' is not greedy or optimal or cost"),
                             (["--backend", "smoke"], "not auto or mpi or threads")]:
             with self.subTest(words=words):
                 self.fail_clearly(2, "render", TEAPOT, "-o", "out", *words, says=says)

@@ -5,10 +5,12 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "node/group/mapping.h"
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -60,6 +62,7 @@ struct Cluster {
   int nodes;
   int nodes_each = 1;  // of its machines
   std::uint32_t groups = 1;
+  wire::Mapping mapping = wire::Mapping::greedy;
 };
 
 void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& out,
@@ -68,6 +71,7 @@ void run_counted(const wire::FilmData& film, const Cluster& cluster, Counted& ou
   RunOptions options;
   options.nodes = cluster.nodes;
   options.work.groups = cluster.groups;
+  options.farm.mapping = cluster.mapping;
   options.work.frames = std::move(frames);
   out.strip_bytes.assign(static_cast<std::size_t>(cluster.nodes) + 1, 0);
   options.wrap = [&](messages::Backend& inner) {
@@ -139,6 +143,21 @@ TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
   EXPECT_EQ(after, any.edge_box_total);
   EXPECT_NEAR(any.load_ratio, static_cast<double>(most) * GetParam() / static_cast<double>(after), 1e-9);
   EXPECT_LT(any.load_ratio, 1.5) << "the load is about even";
+}
+
+// By the plain twin.
+TEST_P(Division, SamplesAreThoseThatEdgeBoxesCover) {
+  Counted counted;
+  run_counted(film_, {GetParam()}, counted, {0});
+  std::vector<std::uint64_t> samples(film_.settings.height);
+  for (const raster::PlainTriangle& t : draw_reference(FilmBlock(film_).view(), 0).triangles)
+    for (const raster::UnsortedEdgeBox& box :
+         raster::plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
+                                  static_cast<std::int32_t>(film_.settings.height)))
+      samples[box.line] += std::uint64_t{box.box.last} - box.box.first;
+  for (const Strip& strip : counted.run.report.strips)
+    EXPECT_EQ(strip.work.samples,
+              std::accumulate(samples.begin() + strip.first_line, samples.begin() + strip.last_line, std::uint64_t{0}));
 }
 
 std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
@@ -273,6 +292,42 @@ TEST(Division, EveryGroupGetsATask) {
   std::set<std::int32_t> contributors;
   for (const wire::Strip& strip : run_film(film.bytes(), options).report.strips) contributors.insert(strip.node);
   EXPECT_EQ(contributors.size(), 4u);
+}
+
+// A few wide edge boxes a line above, many narrow ones below.
+wire::FilmData wide_and_narrow() {
+  FilmMaker maker(320, 200, 1);
+  const std::uint32_t material = maker.add_material(kClay), box = maker.add_shape(crowd(8, 8, 1, 1).patches);
+  maker.add_segment(box, material, {placed({-3, 0, 0.2}, 6)});
+  for (int i = 0; i < 60; ++i)
+    maker.add_segment(box, material, {placed({-3.0 + 0.2 * (i % 30), 0, -0.5 - 0.6 * (i / 30)}, 0.3)});
+  maker.set_cameras({looking({0, -9, 0}, {0, 0, 0}, 40)});
+  return maker.make();
+}
+
+// The greatest work of a node, weighted as its lines are.
+std::uint64_t greatest_cost(const wire::FilmData& film, int nodes, wire::Mapping mapping) {
+  Counted counted;
+  run_counted(film, {nodes, 1, 1, mapping}, counted);
+  std::uint64_t greatest = 0, all = 0;
+  for (const Strip& strip : counted.run.report.strips) {
+    const std::uint64_t cost = group::line_cost({strip.work.edge_boxes, strip.work.samples});
+    greatest = std::max(greatest, cost);
+    all += cost;
+  }
+  if (mapping == wire::Mapping::cost) {
+    EXPECT_NEAR(counted.run.report.strips.front().load_ratio,
+                static_cast<double>(greatest) * nodes / static_cast<double>(all), 1e-9);
+  }
+  return greatest;
+}
+
+TEST(Division, CostMakesTheWorkEvenWhereBoxesDoNot) {
+  const wire::FilmData film = wide_and_narrow();
+  for (const int nodes : {2, 3, 4}) {
+    const std::uint64_t greedy = greatest_cost(film, nodes, wire::Mapping::greedy);
+    EXPECT_LT(greatest_cost(film, nodes, wire::Mapping::cost), greedy * 9 / 10) << nodes << " nodes";
+  }
 }
 
 // CZB lines travel only where moving parts can be seen, once to each machine with nodes that draw inbetweens; on one

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/hal/machines_backend.h"
@@ -60,12 +61,16 @@ TEST_P(Identity, AnyNumberOfNodes) {
 }
 
 TEST_P(Identity, AnyMappingAndGroups) {
-  for (const std::uint32_t groups : {1u, 2u, 5u}) {
+  for (const auto& [groups, mapping] : {std::pair{1u, wire::Mapping::optimal},
+                                        {1u, wire::Mapping::cost},
+                                        {2u, wire::Mapping::greedy},
+                                        {2u, wire::Mapping::cost},
+                                        {5u, wire::Mapping::optimal}}) {
     RunOptions options;
     options.nodes = 5;
     options.work.groups = groups;
-    options.farm.mapping = groups == 2 ? wire::Mapping::greedy : wire::Mapping::optimal;
-    expect_as_from_scratch(options, std::to_string(groups) + "-groups");
+    options.farm.mapping = mapping;
+    expect_as_from_scratch(options, std::to_string(groups) + "-groups-mapping-" + std::to_string(int(mapping)));
   }
 }
 

@@ -44,6 +44,7 @@ ordered_json work_json(const wire::WorkCounts& work) {
           {"triangles", work.triangles},
           {"edge_boxes_diced", work.edge_boxes_diced},
           {"edge_boxes", work.edge_boxes},
+          {"samples", work.samples},
           {"pixels", work.pixels},
           {"bytes_to_nodes", work.bytes_to_nodes},
           {"bytes_to_host", work.bytes_to_host},

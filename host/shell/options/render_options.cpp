@@ -34,7 +34,7 @@ constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
 constexpr std::array kWords<SinkKind>{"png", "none"};
 template <>
-constexpr std::array kWords<wire::Mapping>{"greedy", "optimal"};
+constexpr std::array kWords<wire::Mapping>{"greedy", "optimal", "cost"};
 
 template <typename Enumeration>
 requires std::is_enum_v<Enumeration>
@@ -179,9 +179,10 @@ std::vector<Entry> table() {
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
       option(compiles, "--size", "WxH", &RenderOptions::size,
              "Picture size in pixels; default: the film's. Example: --size 960x540"),
-      option(all, "--mapping", "greedy|optimal", &RenderOptions::mapping,
-             "How scanlines are divided among nodes: the thesis's heuristic or the exact optimum. "
-             "Example: --mapping optimal"),
+      option(
+          all, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
+          "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic or exactly, or exactly by "
+          "what they cost. Example: --mapping optimal"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
              "Example: --intervals keyframes"),

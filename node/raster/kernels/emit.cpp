@@ -24,10 +24,10 @@ Float4 load(const float* four) {
 
 // An edge box in two moves: columns are first | last << 16.
 void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_moving, UnsortedEdgeBox* out) {
-  const std::uint32_t words[] = {number, columns, line_and_moving};
-  static_assert(offsetof(UnsortedEdgeBox, line) == 8 && offsetof(UnsortedEdgeBox, moving) == 10 &&
-                sizeof words == sizeof *out);
-  std::memcpy(out, words, sizeof words);
+  static_assert(offsetof(UnsortedEdgeBox, line) == 8 && offsetof(UnsortedEdgeBox, moving) == 10 && sizeof *out == 12);
+  const std::uint64_t box = number | std::uint64_t{columns} << 32;
+  std::memcpy(out, &box, sizeof box);
+  std::memcpy(reinterpret_cast<std::byte*>(out) + sizeof box, &line_and_moving, sizeof line_and_moving);
 }
 
 }  // namespace
@@ -62,11 +62,11 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
     const auto rows = static_cast<std::uint32_t>(c.last_row[lane]) - first_row;
     const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
     for (std::uint32_t r = 0; r < rows; ++r) {
-      const std::uint32_t row = first_row + r, columns = c.columns[r][lane];
-      const bool wanted = (columns != 0) & (space.wanted_lines[row] != 0);
+      const std::uint32_t row = first_row + r, all = ~0u * space.wanted_lines[row], columns = c.columns[r][lane] & all;
+      const bool wanted = columns != 0;
       put(number, columns, row | moving, space.last_box - 1);
       space.last_box -= wanted;
-      space.line_counts[row] += wanted;
+      space.line_loads[row] += LineLoad(wanted, (columns >> 16) - (columns & 0xffff));
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;

@@ -12,22 +12,22 @@ constexpr std::size_t kMemory = std::size_t{1} << 30;  // address space; pages c
 
 }  // namespace
 
-Workload::Workload(const std::filesystem::path& film)
-    : film_(film::load_film(film)),
+Workload::Workload(const std::filesystem::path& film, const film::CompileOptions& options)
+    : film_(film::load_film(film, options)),
       view_(film_.view()),
       scene_(view_),
       made_memory_(kMemory),
       filled_memory_(kMemory),
       made_(made_memory_.bytes()),
       filled_(filled_memory_.bytes()),
-      line_counts_(view_.settings().height),
-      ebc_(line_counts_.size() + 1),
-      wanted_(line_counts_.size(), 1) {
+      line_loads_(view_.settings().height),
+      ebc_(line_loads_.size() + 1),
+      wanted_(line_loads_.size(), 1) {
   scene_.set_interval(0);
   scene_.set_frame(0);
   const simd::InstructionSet set = simd::best_instruction_set("");
   make(set);
-  for (std::size_t line = 0; line < line_counts_.size(); ++line) ebc_[line + 1] = ebc_[line] + line_counts_[line];
+  for (std::size_t line = 0; line < line_loads_.size(); ++line) ebc_[line + 1] = ebc_[line] + line_loads_[line].boxes();
   fill();
   shape::Dicer dicer(set);
   dice(dicer);
@@ -56,7 +56,7 @@ void Workload::make(simd::InstructionSet set) {
   counts_ = {};
   auto* const first = reinterpret_cast<geometry::Triangle*>(made_memory_.bytes().data());
   const node::Tessellation own = node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {},
-                                                                   {wanted_, line_counts_}, {made_, first}, counts_);
+                                                                   {wanted_, line_loads_}, {made_, first}, counts_);
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
   polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};

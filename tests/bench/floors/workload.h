@@ -19,7 +19,7 @@ namespace mars::bench {
 class Workload {
  public:
   // Throws Failure where the film cannot be read.
-  explicit Workload(const std::filesystem::path& film);
+  explicit Workload(const std::filesystem::path& film, const film::CompileOptions& options = {});
 
   // The steps again: patches to vertices; these to triangles and edge boxes; those into their lines.
   void dice(shape::Dicer& dicer);
@@ -30,6 +30,7 @@ class Workload {
   std::uint64_t classified() const { return classified_; }    // triangles of all diced patches
   const shading::Shading& shading() const { return shading_; }
   const raster::LineBoxes& boxes() const { return boxes_; }
+  const std::vector<raster::LineLoad>& line_loads() const { return line_loads_; }
   std::uint32_t width() const { return static_cast<std::uint32_t>(scene_.width()); }
   std::uint32_t height() const { return static_cast<std::uint32_t>(scene_.height()); }
   // The visible stretches of one triangle each, line by line.
@@ -44,7 +45,7 @@ class Workload {
   geometry::Scene scene_;
   messages::PrivateMemory made_memory_, filled_memory_;
   raster::Arena made_, filled_;
-  std::vector<std::uint32_t> line_counts_;
+  std::vector<raster::LineLoad> line_loads_;
   std::vector<std::uint64_t> ebc_;
   std::vector<std::uint8_t> wanted_;
   raster::Polygons polygons_{};

@@ -53,7 +53,7 @@ void expect_made(const FrameMemory& memory, const raster::LineBoxes& part, int n
 }
 
 void meet(const collectives::Group& group) {
-  double nothing = 0, work = 0;
+  std::uint64_t nothing = 0, work = 0;
   collectives::group_high(group, {&nothing, 1}, {&work, 1});
 }
 

@@ -1,4 +1,4 @@
-// Mapping of scanlines to nodes: greedy against figure 4.7 word for word, optimal against every partition
+// Mapping of scanlines to nodes: greedy against figure 4.7 word for word, optimal and cost against every partition
 // there is.
 #include "node/group/mapping.h"
 
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "node/wire/film_parts.h"
 #include "tests/node/shape/patches.h"
 
 namespace mars::group {
@@ -107,6 +108,29 @@ TEST(Mapping, OptimalIsTheBestOfAllPartitions) {
   }
 }
 
+// What lines cost, word for word.
+Totals random_costs(shape::Random& random, int lines) {
+  std::vector<std::uint64_t> costs;
+  for (int line = 0; line < lines; ++line) {
+    const auto boxes = static_cast<std::uint64_t>(random.whole(0, 2) ? random.whole(0, 300) : 0);
+    const std::uint64_t samples = boxes * static_cast<std::uint64_t>(random.whole(1, 500));
+    costs.push_back(kBoxCost * boxes + kSampleCost * samples);
+    EXPECT_EQ(line_cost({boxes, samples}), costs.back());
+  }
+  return prefix_sum(costs);
+}
+
+TEST(Mapping, CostIsTheBestOfAllPartitions) {
+  shape::Random random(4);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Totals costs = random_costs(random, random.whole(1, 9));
+    const auto nodes = static_cast<std::size_t>(random.whole(1, 5));
+    const auto ranges = mapped(wire::Mapping::cost, costs, nodes);
+    expect_tiled(ranges, costs.size() - 1);
+    ASSERT_EQ(greatest(costs, ranges), best_of_all(costs, 0, nodes)) << "trial " << trial;
+  }
+}
+
 TEST(Mapping, OptimalIsNeverWorseThanGreedy) {
   shape::Random random(3);
   for (int trial = 0; trial < 500; ++trial) {
@@ -127,7 +151,7 @@ TEST(Mapping, GreedyKeepsTheRemainder) {
 
 TEST(Mapping, OneHeavyLineLeavesNodesWithoutAny) {
   const Totals ebc = prefix_sum({0, 0, 100, 0});
-  for (const wire::Mapping mapping : {wire::Mapping::greedy, wire::Mapping::optimal}) {
+  for (const wire::Mapping mapping : {wire::Mapping::greedy, wire::Mapping::optimal, wire::Mapping::cost}) {
     const auto ranges = mapped(mapping, ebc, 6);
     expect_tiled(ranges, 4);
     EXPECT_EQ(greatest(ebc, ranges), 100u);
@@ -136,9 +160,18 @@ TEST(Mapping, OneHeavyLineLeavesNodesWithoutAny) {
 
 TEST(Mapping, NothingToDraw) {
   const Totals ebc = prefix_sum({0, 0, 0});
-  for (const wire::Mapping mapping : {wire::Mapping::greedy, wire::Mapping::optimal})
+  for (const wire::Mapping mapping : {wire::Mapping::greedy, wire::Mapping::optimal, wire::Mapping::cost})
     expect_tiled(mapped(mapping, ebc, 4), 3);
   EXPECT_EQ(load_ratio(ebc, mapped(wire::Mapping::greedy, ebc, 4)), 1.0);
+}
+
+// As many boxes and samples on each of the most lines as a LineLoad holds.
+TEST(Mapping, LargestCostsStayWithin64Bits) {
+  const std::uint64_t most = line_cost({raster::LineLoad::kMostBoxes, raster::LineLoad::kMostSamples});
+  EXPECT_EQ(most, kBoxCost * raster::LineLoad::kMostBoxes + kSampleCost * raster::LineLoad::kMostSamples);
+  const Totals costs = prefix_sum(std::vector<std::uint64_t>(wire::kMaxSide, most));
+  EXPECT_EQ(costs.back() / wire::kMaxSide, most);
+  EXPECT_EQ(mapped(wire::Mapping::cost, costs, 1024)[1023], (LineRange{wire::kMaxSide - 16, wire::kMaxSide}));
 }
 
 // Totals of the largest film: 2^32 patches of 2^17 triangles on 1024 nodes stay within 64 bits.

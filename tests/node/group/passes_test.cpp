@@ -37,6 +37,7 @@ class Frame {
       : group_{0, static_cast<int>(counts.size())},
         travels_(travels && counts.size() > 1),
         counts_(std::move(counts)),
+        loads_(counts_.size()),
         triangles_(std::move(triangles)),
         homes_(counts_.size()),
         ebc_(counts_[0].size() + 1) {
@@ -45,7 +46,10 @@ class Frame {
       for (const auto& own : counts_) ebc_[line + 1] += own[line];
     }
     map_greedy(ebc_, homes_);
-    for (std::size_t n = 0; n < counts_.size(); ++n) own_bytes_.push_back(group::own_bytes(made(n), travels_));
+    for (std::size_t n = 0; n < counts_.size(); ++n) {
+      for (const std::uint32_t boxes : counts_[n]) loads_[n].emplace_back(boxes, 0);
+      all_bytes_ += group::own_bytes(made(n), travels_);
+    }
   }
 
   std::size_t nodes() const { return counts_.size(); }
@@ -53,9 +57,7 @@ class Frame {
   MadeCounts made(std::size_t n) const {
     return {triangles_[n], std::accumulate(counts_[n].begin(), counts_[n].end(), std::uint64_t{0})};
   }
-  FrameLoad load(std::size_t n) const {
-    return {group_, ebc_, homes_, own_bytes_, counts_[n], triangles_[n], travels_};
-  }
+  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, all_bytes_, loads_[n], triangles_[n], travels_}; }
   const std::vector<LineRange>& homes() const { return homes_; }
   bool travels() const { return travels_; }
   std::uint64_t boxes(std::size_t n, const LineRange& lines) const {
@@ -67,10 +69,11 @@ class Frame {
   collectives::Group group_;
   bool travels_;
   std::vector<std::vector<std::uint32_t>> counts_;
+  std::vector<std::vector<raster::LineLoad>> loads_;
   std::vector<std::uint64_t> triangles_;
   std::vector<LineRange> homes_;
   std::vector<std::uint64_t> ebc_;
-  std::vector<std::uint64_t> own_bytes_;
+  std::uint64_t all_bytes_ = 0;
 };
 
 Frame random_frame(shape::Random& random, int nodes, int lines) {
@@ -188,23 +191,23 @@ TEST(Passes, SayWhatOneLineNeeds) {
 
 struct Agreement {
   std::vector<std::uint32_t> passes;
-  std::vector<std::uint64_t> own_bytes;
   std::uint64_t messages = 0;  // for the agreement alone
 };
 
 // As nodes of a group on the threads backend, each with its own counts.
 Agreement agree(const Frame& frame, std::uint64_t memory) {
-  Agreement out{std::vector<std::uint32_t>(frame.nodes()), {}, 0};
+  Agreement out{std::vector<std::uint32_t>(frame.nodes()), 0};
   messages::Counts counts;
   std::mutex mutex;
   const auto node = [&] {
     const auto self = static_cast<std::size_t>(mynode());
     const auto nodes = static_cast<int>(frame.nodes());
-    GroupSums sums(frame.lines(), frame.nodes());
+    GroupSums sums(frame.lines());
     FrameLoad load = frame.load(self);
-    sums.add_up({0, nodes}, load.line_counts, group::own_bytes(frame.made(self), frame.travels()));
+    const MadeCounts made = frame.made(self);
+    sums.add_up({0, nodes}, {load.line_loads, made.edge_boxes, group::own_bytes(made, frame.travels())});
     EXPECT_TRUE(std::ranges::equal(sums.ebc(), load.ebc));
-    EXPECT_TRUE(std::ranges::equal(sums.own_bytes(), load.own_bytes));
+    EXPECT_EQ(sums.bytes(), load.all_bytes);
     const std::uint64_t before = counts.sent({.from = mynode()}).messages;
     out.passes[self] = agree_on_passes(load, memory);
     const std::lock_guard lock(mutex);

@@ -44,10 +44,10 @@ Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surfa
             const PatchIdentity& identity, Way way, const std::vector<std::uint8_t>& wanted_lines, std::size_t bytes) {
   GuardedMemory memory(bytes);
   Made made;
-  made.line_counts.resize(static_cast<std::size_t>(picture.height));
-  const std::vector<std::uint8_t> all(made.line_counts.size(), 1);
+  made.line_loads.resize(static_cast<std::size_t>(picture.height));
+  const std::vector<std::uint8_t> all(made.line_loads.size(), 1);
   auto* const first = reinterpret_cast<geometry::Triangle*>(memory.inside().data());
-  SetUps out(memory.inside(), first, made.line_counts, wanted_lines.empty() ? all : wanted_lines);
+  SetUps out(memory.inside(), first, made.line_loads, wanted_lines.empty() ? all : wanted_lines);
   SetUp set_up(set, picture.projection, picture.width, picture.height);
   if (way == Way::at_a_time)
     set_up.add(surface, identity, out);

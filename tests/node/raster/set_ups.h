@@ -11,11 +11,16 @@ namespace mars::raster {
 struct Made {
   std::vector<geometry::Triangle> triangles;
   std::vector<UnsortedEdgeBox> boxes;  // the first first
-  std::vector<std::uint32_t> line_counts;
+  std::vector<LineLoad> line_loads;
   std::uint64_t touching = 0;
   std::uint64_t edge_boxes = 0;
   bool all_stored = false;
 };
+
+// Of one edge box.
+inline LineLoad load_of(const UnsortedEdgeBox& unsorted) {
+  return {1, std::uint64_t{unsorted.box.last} - unsorted.box.first};
+}
 
 enum class Way { at_a_time, plainly };  // SetUp::add, SetUp::add_plainly
 

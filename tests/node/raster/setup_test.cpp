@@ -200,11 +200,11 @@ TEST_F(SetUpTest, GroundReachesPastTheEye) {
 TEST_F(SetUpTest, CountsEdgeBoxes) {
   const Emitted emitted = set_up(square(1.0 / 120, 4), 1);  // 1 pixel is 1/120 unit: [319, 321) x [239, 241)
   EXPECT_EQ(emitted.touching, 2u);
-  EXPECT_EQ(emitted.edge_boxes, emitted.line_counts[239] + emitted.line_counts[240]);
+  EXPECT_EQ(emitted.edge_boxes, emitted.line_loads[239].boxes() + emitted.line_loads[240].boxes());
   EXPECT_EQ(samples_on(emitted, 239), 2);
   EXPECT_EQ(samples_on(emitted, 240), 2);
   for (std::uint32_t line = 0; line < kHeight; ++line)
-    EXPECT_EQ(emitted.line_counts[line] > 0, line == 239 || line == 240) << line;
+    EXPECT_EQ(emitted.line_loads[line].boxes() > 0, line == 239 || line == 240) << line;
 }
 
 std::size_t bytes_of(const Made& made) {
@@ -240,7 +240,7 @@ void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& al
   const Made some = raster::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
   ASSERT_EQ(some.touching, all.touching);
   ASSERT_EQ(some.edge_boxes, all.edge_boxes);
-  ASSERT_EQ(some.line_counts, all.line_counts);
+  ASSERT_EQ(some.line_loads, all.line_loads);
   ASSERT_EQ(some.all_stored, some.boxes.size() == all.boxes.size());
   ASSERT_LE(bytes_of(some), bytes);
   ASSERT_TRUE(bytes >= bytes_of(all) || !some.all_stored);
@@ -302,12 +302,12 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
   std::fill(wanted.begin() + 200, wanted.begin() + 230, std::uint8_t{1});
   wanted[300] = 1;
   std::vector<Whole> expected;
-  std::vector<std::uint32_t> counts(kHeight);
+  std::vector<LineLoad> loads(kHeight);
   for (const Whole& one : by_triangle(all)) {
     Whole on_wanted{one.triangle, {}};
     for (const UnsortedEdgeBox& unsorted : one.boxes)
       if (wanted[unsorted.line]) on_wanted.boxes.push_back(unsorted);
-    for (const UnsortedEdgeBox& unsorted : on_wanted.boxes) ++counts[unsorted.line];
+    for (const UnsortedEdgeBox& unsorted : on_wanted.boxes) loads[unsorted.line] += load_of(unsorted);
     if (!on_wanted.boxes.empty()) expected.push_back(on_wanted);
   }
   EXPECT_LT(expected.size(), all.triangles.size());
@@ -317,7 +317,7 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
     EXPECT_TRUE(some.all_stored);
     EXPECT_EQ(some.touching, expected.size());
     EXPECT_EQ(some.edge_boxes, some.boxes.size());
-    EXPECT_EQ(some.line_counts, counts);
+    EXPECT_EQ(some.line_loads, loads);
     const auto found = by_triangle(some);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {

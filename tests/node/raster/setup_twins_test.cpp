@@ -30,7 +30,7 @@ const double kScale = kPicture.projection.scale;
 // `turned_over`, if any, counts those that snapping turned over.
 Made expected_of(const std::vector<PlainTriangle>& plain, bool moving, int* turned_over = nullptr) {
   Made out;
-  out.line_counts.resize(kHeight);
+  out.line_loads.resize(kHeight);
   for (const PlainTriangle& t : plain) {
     auto boxes = plain_edge_boxes(t.corners, kWidth, kHeight);
     if (boxes.empty()) continue;
@@ -38,7 +38,7 @@ Made expected_of(const std::vector<PlainTriangle>& plain, bool moving, int* turn
     for (UnsortedEdgeBox& unsorted : boxes) {
       unsorted.box.triangle = static_cast<std::uint32_t>(out.triangles.size());
       unsorted.moving = moving;
-      ++out.line_counts[unsorted.line];
+      out.line_loads[unsorted.line] += load_of(unsorted);
       out.boxes.push_back(unsorted);
     }
     out.triangles.push_back(t.record);
@@ -100,7 +100,7 @@ class SetUpTwins : public testing::Test {
         const Made made = set_up(set, kPicture, dicer, identity, way);
         ASSERT_TRUE(same_bits(made.triangles, expected.triangles));
         ASSERT_TRUE(same_bits(made.boxes, expected.boxes));
-        ASSERT_EQ(made.line_counts, expected.line_counts);
+        ASSERT_EQ(made.line_loads, expected.line_loads);
         ASSERT_EQ(made.touching, expected.touching);
         ASSERT_EQ(made.edge_boxes, expected.edge_boxes);
         ASSERT_TRUE(made.all_stored);

@@ -94,7 +94,7 @@ TEST_F(LoadCommands, WithValuesThatMakeNoSense) {
   EXPECT_TRUE(refused([&] { load_.groups = 0; }));
   EXPECT_TRUE(refused([&] { load_.groups = 4; }));
   EXPECT_TRUE(refused([&] { load_.traced = 2; }));
-  EXPECT_TRUE(refused([&] { load_.mapping = static_cast<Mapping>(2); }));
+  EXPECT_TRUE(refused([&] { load_.mapping = static_cast<Mapping>(3); }));
   EXPECT_TRUE(refused([&] { machines_[0] = 1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = -1; }));
   EXPECT_TRUE(refused([&] { machines_[2] = 1; })) << "node 1 is on machine 0";

@@ -19,6 +19,7 @@ wire::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last)
   strip.load_ratio = 1.25;
   strip.times.dice = 0.5;
   strip.work.triangles = 10 + static_cast<std::uint64_t>(node);
+  strip.work.samples = 500;
   strip.work.credits_waited = 2;
   return strip;
 }
@@ -66,6 +67,7 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
   ASSERT_EQ(keyframe["nodes"].size(), 2u) << "the last strip of each node, in their order";
   EXPECT_EQ(keyframe["nodes"][0]["node"], 0);
   EXPECT_EQ(keyframe["nodes"][1]["work"]["triangles"], 11);
+  EXPECT_EQ(keyframe["nodes"][1]["work"]["samples"], 500);
   EXPECT_EQ(keyframe["nodes"][1]["seconds"]["dice"], 0.5);
   EXPECT_EQ(report["frames"][1]["kind"], "inbetween");
   EXPECT_EQ(report["frames"][1]["nodes"].size(), 1u);

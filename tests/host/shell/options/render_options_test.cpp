@@ -115,7 +115,7 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
       {{"--groups", "0"}, "or auto"},
       {{"--block", "99999"}, "from 1 to 16384"},
       {{"--backend", "pvm"}, "auto or mpi or threads"},
-      {{"--mapping", ""}, "greedy or optimal"},
+      {{"--mapping", ""}, "greedy or optimal or cost"},
       {{"--intervals", "x"}, "auto or keyframes"},
       {{"--sink", "gif"}, "png or none"},
       {{"--size", "960"}, "is not a size"},
