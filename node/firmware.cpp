@@ -105,7 +105,8 @@ void Firmware::load() {
   renderer_.emplace(*film_, load, machines, instruction_set_);
   groups_ = load.groups;
   command_.reserve(sizeof(wire::Render) + film_->settings().frames * sizeof(std::uint32_t));
-  const wire::Loaded loaded{renderer_->outbox().slots()};
+  wire::Loaded loaded{renderer_->outbox().slots(), {}};
+  copy_text(renderer_->refusal(), loaded.apart);
   csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
 }
 

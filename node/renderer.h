@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hal/collectives/group.h"
@@ -40,6 +41,8 @@ class Renderer {
   void finish();
 
   group::Outbox& outbox() { return outbox_; }
+  // Why the machine's nodes do not read each other's triangles; "" where they do, or where there is one.
+  const std::string& refusal() const { return memory_.refusal(); }
   // The current frame, for a fault's report.
   std::uint32_t frame() const { return report_.strip().frame; }
 

@@ -92,7 +92,8 @@ struct Load {
 
 // The node has the film and its slots.
 struct Loaded {
-  messages::MemoryName slots;  // `credits` of kSlotBytes each
+  messages::MemoryName slots;   // `credits` of kSlotBytes each
+  std::array<char, 256> apart;  // why it does not read the triangles of nodes with which it shares memory; "": it does
 };
 
 // Frames of one interval for one group: the first is rendered by all its nodes as the keyframe, the others go

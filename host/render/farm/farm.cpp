@@ -102,6 +102,7 @@ bool Farm::load_film() {
   report_.film_bytes = film_block_.size();
   const bool loaded = farm::load_film(film_block_, load, inbox_);
   if (loaded) slots_.give_all();
+  if (loaded && listener_.warned) std::ranges::for_each(inbox_.apart(), listener_.warned);
   report_.load_seconds = dclock() - booted;
   return loaded;
 }

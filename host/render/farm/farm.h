@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/render/farm/cancellation.h"
@@ -40,6 +41,7 @@ struct FinishedFrame {
 struct FarmListener {
   // All nodes are there; keyframes and inbetweens are what will be drawn.
   std::function<void(std::span<const wire::Hello>, std::uint32_t keyframes, std::uint32_t inbetweens)> booted;
+  std::function<void(const std::string& text)> warned;
   std::function<void(const FinishedFrame&)> finished;  // the sinks have it
   // If there is one, tasks are given to the first group alone, one at a time: it is asked when the sinks have all
   // frames given before, and may wait. False: no more frames are wanted.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <utility>
 
 #include "hal/nx/nx_messages.h"
@@ -64,6 +65,7 @@ NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, NodeSlots& slots
       hellos_(static_cast<std::size_t>(nodes_)),
       greeted_(hellos_.size()),
       loaded_(hellos_.size()),
+      apart_(hellos_.size()),
       ended_(hellos_.size()) {}
 
 std::string NodeInbox::name_of(int node) const {
@@ -140,8 +142,22 @@ void NodeInbox::receive_loaded() {
   const bool first = !loaded_[static_cast<std::size_t>(node)];
   require(infocount() == sizeof loaded && first, node, "word of the film that makes no sense");
   crecv(wire::kLoaded, &loaded, sizeof loaded);
+  require(is_text(loaded.apart), node, "a reason that is no text");
   loaded_[static_cast<std::size_t>(node)] = true;
+  apart_[static_cast<std::size_t>(node)] = loaded.apart.data();
   slots_.attach(node, loaded.slots);
+}
+
+std::vector<std::string> NodeInbox::apart() const {
+  std::set<std::string> told;  // machines
+  std::vector<std::string> texts;
+  for (std::size_t node = 0; node < apart_.size(); ++node) {
+    const std::string host = hellos_[node].host.data();
+    if (!apart_[node].empty() && told.insert(host).second)
+      texts.push_back("nodes on " + host + " do not read each other's triangles in place (" + apart_[node] +
+                      "): they send them, which takes longer");
+  }
+  return texts;
 }
 
 StripMessage NodeInbox::receive_strip(StripStore& store) {

@@ -41,6 +41,8 @@ class NodeInbox {
   const std::vector<wire::Hello>& hellos() const { return hellos_; }
   // Waits until every node has the film, and attaches their slots. False: cancelled before.
   bool wait_until_loaded();
+  // Of the machines whose nodes do not share memory then, one text each.
+  std::vector<std::string> apart() const;
   // Waits for a message of this type; info* then describe it. A node's fault is thrown instead.
   void wait(long type) const;
 
@@ -79,7 +81,8 @@ class NodeInbox {
   std::vector<wire::Hello> hellos_;
   std::vector<bool> greeted_;
   std::vector<bool> loaded_;
-  std::vector<bool> ended_;  // its trace
+  std::vector<std::string> apart_;  // why, as each node says
+  std::vector<bool> ended_;         // its trace
   std::vector<messages::Event> events_;
 };
 

@@ -32,6 +32,7 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
     report(booted_event(hellos, backend_));
     report(progress_);
   };
+  listener.warned = [this](const std::string& text) { report(events::Warning{text}); };
   listener.finished = [this](const farm::FinishedFrame& frame) {
     report(events::FrameTaken{frame.number, frame.interval, frame.kind});
     progress_.count(frame.kind, frame.interval, frame.seconds);

@@ -195,7 +195,7 @@ TEST(DamagedMessages, StripInASlot) {
   };
   exchange.boot_node = [&] {
     slot.emplace(wire::kSlotBytes);
-    ScriptedNode::send(wire::kLoaded, wire::Loaded{slot->name()});
+    ScriptedNode::send(wire::kLoaded, wire::Loaded{slot->name(), {}});
   };
   exchange.boot_host = [&] {
     host.emplace();

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <set>
+#include <string_view>
 #include <thread>
 
 #include "host/render/farm/node_inbox.h"
@@ -41,6 +43,28 @@ TEST(Farm, EveryFrameComes) {
   }
   expect_all_frames(film, 3, 1, {7});
   expect_all_frames(film, 3, 3, {0, 4, 11});
+}
+
+TEST(Farm, WarnsOnceOfEachMachineWhoseNodesDoNotShareMemory) {
+  ScriptedRun run;
+  run.nodes = 4;
+  run.work = {frames_to(2), true, 1};
+  std::vector<std::string> warnings;
+  run.listener.warned = [&](const std::string& text) { warnings.push_back(text); };
+  run.render(EmptyFilm({1, 1}), [] {
+    ScriptedNode node;
+    wire::Hello hello = ScriptedNode::hello();
+    hello.host = {'n', static_cast<char>('0' + mynode() / 2)};
+    ScriptedNode::send(wire::kHello, hello);
+    if (!node.take_load()) return;
+    wire::Loaded loaded = node.loaded();
+    if (mynode() < 2) std::ranges::copy(std::string_view("no room"), loaded.apart.begin());
+    ScriptedNode::send(wire::kLoaded, loaded);
+    node.draw_all();
+  });
+  EXPECT_EQ(warnings,
+            std::vector<std::string>{"nodes on n0 do not read each other's triangles in place (no room): they "
+                                     "send them, which takes longer"});
 }
 
 TEST(Farm, ReportsEachFrameWhereItIsAskedTo) {

@@ -52,7 +52,7 @@ class ScriptedNode {
   wire::Loaded loaded() {
     if (!seen_) return {};
     slots_.emplace(static_cast<std::size_t>(load.credits) * wire::kSlotBytes);
-    return {slots_->name()};
+    return {slots_->name(), {}};
   }
 
   // Its clock is asked first where the run is traced.
