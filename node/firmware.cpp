@@ -59,13 +59,15 @@ Firmware::Firmware(const NodeIdentity& identity)
   wire::Hello hello{};
   hello.stamp = wire::own_stamp();
   hello.node = static_cast<std::int32_t>(mynode());
-  hello.machine = messages::neighbourhood().machine;
-  hello.rank = messages::neighbourhood().rank;
+  const messages::Neighbourhood here = messages::neighbourhood();
+  hello.machine = here.machine;
+  hello.rank = here.rank;
   hello.seat = identity.seat;
   hello.memory = identity.memory;
   copy_text(identity.host, hello.host);
   copy_text(identity.binding, hello.binding);
   copy_text(simd::name_of(instruction_set_), hello.simd);
+  copy_text(here.refusal, hello.apart);
   csend(wire::kHello, &hello, sizeof hello, myhost(), 0);
 }
 

@@ -60,12 +60,13 @@ struct Hello {
   WireStamp stamp;
   std::array<char, 64> host;  // name of its machine
   std::int32_t node;
-  std::int32_t machine;              // lowest node id on the same machine
+  std::int32_t machine;              // lowest node id on the same machine; its own if it shares no memory with them
   std::int32_t rank;                 // its number in the job that started it (MPI's)
   std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
   std::uint64_t memory;              // bytes it may use for one frame's triangles and edge boxes
   std::array<char, 64> binding;      // processors it is bound to, as hwloc lists them; "" if free
   std::array<char, 16> simd;         // widest instruction set its kernels use
+  std::array<char, 128> apart;       // why it shares no memory with other nodes of its machine; "" if it does
 };
 
 static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version has it");

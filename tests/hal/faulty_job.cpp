@@ -1,5 +1,7 @@
 // A rank of jobs that must end with a failure, quickly (mpi_faults_test.cpp): argument 1 says how, or 1 the
 // way and 2 the moment (faults/faults.h).
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <string>
 
@@ -7,6 +9,7 @@
 #include "hal/messages/process.h"
 #include "hal/messages/shared_memory.h"
 #include "hal/mpi/start.h"
+#include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "tests/hal/faults/faults.h"
 
@@ -57,6 +60,14 @@ void apart() {
   csend(2, nullptr, 0, myhost(), 0);
 }
 
+void fills_shared_memory() {
+  if (mynode() == myhost()) return;
+  const SharedMemory memory(8 << 20);
+  if (mynode() == 0) std::fill(memory.bytes().begin(), memory.bytes().end(), std::byte{3});
+  gsync();
+  if (memory.bytes().back() != std::byte{3}) throw Failure("nodes share no memory", "", "");
+}
+
 void nothing() {}
 
 // Nobody receives these.
@@ -77,6 +88,7 @@ int run(int argc, char** argv) {
       {"too_much_shared_memory", too_much_shared_memory},
       {"leaves_messages", leaves_messages},
       {"apart", apart},
+      {"fills_shared_memory", fills_shared_memory},
   };
   if (argc > 2)
     faults::run_rank({argv[1], argv[2]});

@@ -49,6 +49,19 @@ class Backends(ProgramTest):
         self.assertEqual(self.verified_hash("out"), self.expected())
 
     @needs_mpi
+    def test_nodes_that_are_kept_apart(self):
+        """Each in a user namespace, as containers may be: they cannot see each other's memory."""
+        apart = ["unshare", "--user", "--map-root-user"]
+        if self.run_program(*apart, "true").returncode != 0:
+            self.skipTest("no user namespaces here")
+        done = self.run_program(*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", FILM, "-o", "out", *FEW, ":", "-n", 3,
+                                *apart, PROGRAMS / "mars-node")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("cannot share memory"), 1, done.stdout)
+        self.assertRegex(done.stdout, r'"warning","text":"the nodes on .* cannot share memory \(.*ermission denied')
+        self.assertEqual(self.verified_hash("out"), self.expected())
+
+    @needs_mpi
     def test_combined_program(self):
         self.succeed(*OWN_MPIRUN, "-n", 4, PROGRAMS / "mars-ranks", FILM, "-o", "out", *FEW)
         self.assertEqual(self.verified_hash("out"), self.expected())

@@ -112,7 +112,8 @@ void NodeInbox::receive_hello() {
   require(message.size() == sizeof(wire::Hello), node, "a greeting of another size");
   wire::Hello hello;
   std::memcpy(&hello, message.data(), sizeof hello);
-  require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd), node, "names that are no text");
+  require(is_text(hello.host) && is_text(hello.binding) && is_text(hello.simd) && is_text(hello.apart), node,
+          "names that are no text");
   const auto index = static_cast<std::size_t>(node);
   require(hello.node == node && !greeted_[index], node, "another node's greeting");
   hellos_[index] = hello;

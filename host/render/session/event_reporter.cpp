@@ -1,8 +1,11 @@
 #include "host/render/session/event_reporter.h"
 
 #include <iostream>
+#include <map>
 #include <set>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace mars::session {
 namespace {
@@ -19,6 +22,18 @@ events::Booted booted_event(std::span<const wire::Hello> hellos, const std::stri
   return event;
 }
 
+// One for each machine whose nodes are kept apart.
+std::vector<events::Warning> warnings_of(std::span<const wire::Hello> hellos) {
+  std::map<std::string, std::string> reasons;  // by machine
+  for (const wire::Hello& hello : hellos)
+    if (hello.apart[0] != 0) reasons.emplace(hello.host.data(), hello.apart.data());
+  std::vector<events::Warning> warnings;
+  for (const auto& [machine, reason] : reasons)
+    warnings.push_back({"the nodes on " + machine + " cannot share memory (" + reason +
+                        "): each has a film of its own, and they send each other messages"});
+  return warnings;
+}
+
 }  // namespace
 
 void EventReporter::report(const events::Event& event) const { std::cout << events::line_of(event) << std::flush; }
@@ -30,6 +45,7 @@ farm::FarmListener EventReporter::listener(std::size_t intervals) {
     progress_.keyframes.of = keyframes;
     progress_.inbetweens.of = inbetweens;
     report(booted_event(hellos, backend_));
+    for (const events::Warning& warning : warnings_of(hellos)) report(warning);
     report(progress_);
   };
   listener.warned = [this](const std::string& text) { report(events::Warning{text}); };
