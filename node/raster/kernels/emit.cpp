@@ -61,8 +61,9 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
       if (wanted_lines[r] == 0) continue;
       const std::uint32_t columns = c.columns[r][lane];
       const bool covers = columns != 0;  // too often either way for a branch
-      put(number, columns, line_and_moving, space.last_box - 1);
-      space.last_box -= covers;
+      UnsortedEdgeBox* const box = space.last_box - 1;
+      put(number, columns, line_and_moving, box);
+      space.last_box = covers ? box : space.last_box;
       line_loads[r] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
     }
     if (space.last_box == before) continue;
