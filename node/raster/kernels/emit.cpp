@@ -52,19 +52,18 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const UnsortedEdgeBox* const before = space.last_box;
     const auto number = static_cast<std::uint32_t>(space.next - space.first);
-    const auto first_row = static_cast<std::size_t>(c.first_row[lane]);
-    const auto rows = static_cast<std::size_t>(c.last_row[lane]) - first_row;
-    const std::uint8_t* const wanted_lines = space.wanted_lines + first_row;
-    LineLoad* const line_loads = space.line_loads + first_row;
-    auto line_and_moving = static_cast<std::uint32_t>(first_row | std::size_t{identity.moving} << 16);
-    for (std::size_t r = 0; r < rows; ++r, ++line_and_moving) {
-      if (wanted_lines[r] == 0) continue;
-      const std::uint32_t columns = c.columns[r][lane];
-      const bool covers = columns != 0;  // too often either way for a branch
+    const auto first_row = static_cast<std::uint32_t>(c.first_row[lane]);
+    const auto rows = static_cast<std::uint32_t>(c.last_row[lane]) - first_row;
+    const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
+    // Without a branch: which rows are covered is not foreseen.
+    for (std::uint32_t r = 0; r < rows; ++r) {
+      const std::uint32_t row = first_row + r, wanted = -std::uint32_t{space.wanted_lines[row]};
+      const std::uint32_t columns = c.columns[r][lane] & wanted;
+      const bool covers = columns != 0;
       UnsortedEdgeBox* const box = space.last_box - 1;
-      put(number, columns, line_and_moving, box);
+      put(number, columns, row | moving, box);
       space.last_box = covers ? box : space.last_box;
-      line_loads[r] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
+      space.line_loads[row] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;
