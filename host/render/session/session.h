@@ -20,7 +20,7 @@ struct RenderJob {
   std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
   std::string folder;  // for the frames; "": they go nowhere
   film::FrameSet frames;
-  wire::Mapping mapping = wire::Mapping::greedy;
+  wire::Mapping mapping = wire::Mapping::cost;
   bool coherence = true;
   std::uint32_t block = 16;            // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;            // as in PlanRequest

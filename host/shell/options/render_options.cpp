@@ -181,8 +181,8 @@ std::vector<Entry> table() {
              "Picture size in pixels; default: the film's. Example: --size 960x540"),
       option(
           all, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
-          "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic or exactly, or exactly by "
-          "what they cost. Example: --mapping optimal"),
+          "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "
+          "exactly by edge boxes and the samples that they cover; default: cost. Example: --mapping greedy"),
       option(compiles, "--intervals", "auto|keyframes", &RenderOptions::intervals,
              "Where render intervals are cut: where it saves work, or at the animator's keyframes. "
              "Example: --intervals keyframes"),

@@ -61,12 +61,15 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
     const auto first_row = static_cast<std::uint32_t>(c.first_row[lane]);
     const auto rows = static_cast<std::uint32_t>(c.last_row[lane]) - first_row;
     const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
+    // Without a branch: which rows are covered is not foreseen.
     for (std::uint32_t r = 0; r < rows; ++r) {
-      const std::uint32_t row = first_row + r, all = ~0u * space.wanted_lines[row], columns = c.columns[r][lane] & all;
-      const bool wanted = columns != 0;
-      put(number, columns, row | moving, space.last_box - 1);
-      space.last_box -= wanted;
-      space.line_loads[row] += LineLoad(wanted, (columns >> 16) - (columns & 0xffff));
+      const std::uint32_t row = first_row + r, wanted = -std::uint32_t{space.wanted_lines[row]};
+      const std::uint32_t columns = c.columns[r][lane] & wanted;
+      const bool covers = columns != 0;
+      UnsortedEdgeBox* const box = space.last_box - 1;
+      put(number, columns, row | moving, box);
+      space.last_box = covers ? box : space.last_box;
+      space.line_loads[row] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;
