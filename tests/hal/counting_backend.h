@@ -24,6 +24,7 @@ class Counts {
  public:
   struct Sent {
     std::uint64_t messages = 0;
+    std::uint64_t empty = 0;  // of them, without a byte
     std::uint64_t bytes = 0;
   };
   // Which messages: what is not given is any. The host's id is the number of nodes.
@@ -37,6 +38,7 @@ class Counts {
     const std::lock_guard lock(mutex_);
     Sent& sent = sent_[{from, to, type}];
     ++sent.messages;
+    sent.empty += length == 0 ? 1 : 0;
     sent.bytes += length;
   }
 
@@ -49,9 +51,17 @@ class Counts {
         continue;
       }
       sum.messages += sent.messages;
+      sum.empty += sent.empty;
       sum.bytes += sent.bytes;
     }
     return sum;
+  }
+
+  // visit(from, to, type, sent) for all that was sent.
+  template <typename Visit>
+  void visit(const Visit& visit) const {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, sent] : sent_) std::apply(visit, std::tuple_cat(key, std::tie(sent)));
   }
 
   void clear() {
