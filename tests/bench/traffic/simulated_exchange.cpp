@@ -1,10 +1,9 @@
 // The exchange of triangles in one keyframe, as a list of bench-traffic counted it, on nodes that smpirun simulates:
 // bench-simulated-exchange.so LIST. Printed for each route: what a node sends, mean and greatest, and microseconds from
-// when all begin until the last has all. Computing takes no time.
+// when all begin until the last has all. Computing takes no time. The routes:
 //   listed    the messages of the list as they are
-//   agreed    one message for each pair of nodes that has something, after a reduction that tells each node how many
-//   come crystal   log2 P messages a node, one across each dimension of the hypercube, which carry all that has to
-//   cross it
+//   agreed    a reduction tells each node how many messages come; then one for each pair of nodes that has something
+//   crystal   log2 P messages a node, one across each dimension of the hypercube, with all that has to cross it
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
