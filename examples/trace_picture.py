@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Draws one keyframe of each trace (mars render --trace) to one time scale: the host's and the nodes' steps, and below
-them their messages and waits.
+"""Draws one keyframe of each trace (mars render --trace) to one time scale: the steps of the host and of each node, and
+below them their messages (dark) and waits (grey). Pale is what belongs to other frames. Arrows are messages: sums
+orange, triangles and their edge boxes red, CZB purple, strips blue, others grey.
 
 usage: trace_picture.py TRACE [TRACE ...] -o PICTURE.png [--titles TITLE ...] [--keyframe N]
 
-Without --keyframe: the quickest one but the first two, which find memory cold. Needs gnuplot. docs/tracing.md explains
-what is seen."""
+Without --keyframe: the one that takes the nodes the median time. Needs gnuplot."""
 import argparse
 import json
 import subprocess
@@ -13,7 +13,7 @@ import sys
 
 WIDTH, ROW, LEFT, RIGHT, TOP, BOTTOM = 1500, 26, 90, 20, 34, 46  # pixels
 LETTER = 7  # pixels of a letter
-WARM = 2
+PALE = 0.35
 COLORS = {"dice": "#8fb7e8", "sum": "#f2b36b", "map": "#c9c9f5", "exchange": "#ef8f8f", "fill": "#b5d991",
           "scanline": "#7fcdbb", "depth": "#d5a6e0", "credit": "#e8e08f", "strip": "#9ecae1", "compose": "#74a9cf",
           "prepare": "#d0d1e6", "give": "#a6bddb"}
@@ -33,7 +33,7 @@ class Keyframe:
         for event in events:
             if event["ph"] == "X" and event["name"].startswith("keyframe "):
                 spans.setdefault(int(event["name"].split()[1]), []).append(event)
-        self.number = self.quickest(spans) if number is None else number
+        self.number = self.middle(spans) if number is None else number
         if self.number not in spans:
             sys.exit(f"{path}: has no keyframe {self.number}")
         begin = min(e["ts"] for e in spans[self.number])
@@ -45,14 +45,17 @@ class Keyframe:
             event["begin"] = (event["ts"] - begin) / 1000
             event["end"] = event["begin"] + event.get("dur", 0) / 1000
         self.milliseconds = (end - begin) / 1000
+        self.nodes_milliseconds = self.length(spans[self.number])
         self.bars = [e for e in inside if e["ph"] == "X" and not e["name"].startswith(("keyframe ", "inbetween "))]
         begun = {e["id"]: e for e in inside if e["ph"] == "s"}
         self.arrows = [(begun[e["id"]], e) for e in inside if e["ph"] == "f" and e["id"] in begun]
 
     @staticmethod
-    def quickest(spans):
-        length = lambda number: (max(e["ts"] + e["dur"] for e in spans[number]) - min(e["ts"] for e in spans[number]))
-        return min(sorted(spans)[WARM:] or sorted(spans), key=length)
+    def length(spans):
+        return (max(e["ts"] + e["dur"] for e in spans) - min(e["ts"] for e in spans)) / 1000
+
+    def middle(self, spans):
+        return sorted(spans, key=lambda number: self.length(spans[number]))[len(spans) // 2]
 
     def rows(self):
         """From the top: the host, then the nodes."""
@@ -87,19 +90,19 @@ class Drawing:
             self.label("host" if rank == keyframe.host else f"node {rank}", -6 * self.per_pixel, y + 0.5, "right")
             y += 2
         for bar in keyframe.bars:
-            self.bar(bar, tops[bar["pid"]])
+            self.bar(bar, tops[bar["pid"]], PALE if bar["args"].get("frame") != keyframe.number else 1)
         for begin, end in keyframe.arrows:
             if begin["pid"] != end["pid"]:
                 self.arrow(begin, end, tops)
         return y + 0.3
 
-    def bar(self, event, top):
+    def bar(self, event, top, density):
         kind, name = event["cat"], event["name"]
         begin, end = max(event["begin"], 0), min(event["end"], self.most)
         color = {"wait": WAITING, "message": MESSAGE}.get(kind) or COLORS.get(name, OTHER)
         y, height = (top, 0.9) if kind == "phase" else (top + 0.95, 0.4)
         self.commands.append(f"set object rect from {begin},{y} to {end},{y + height} front fillcolor rgb '{color}' "
-                             f"fillstyle solid noborder")
+                             f"fillstyle transparent solid {density} noborder")
         if kind == "phase":
             text = f"{name} {end - begin:.1f}"
             for fitting in (text, name):
@@ -132,7 +135,8 @@ def main():
     titles = wanted.titles or [f"{path}, keyframe {k.number}" for path, k in zip(wanted.traces, keyframes)]
     if len(titles) != len(keyframes):
         parser.error("as many titles as traces")
-    titles = [f"{title}: {k.milliseconds:.1f} ms" for title, k in zip(titles, keyframes)]
+    titles = [f"{title}: the nodes are done after {k.nodes_milliseconds:.1f} ms, the host after {k.milliseconds:.1f} ms"
+              for title, k in zip(titles, keyframes)]
     drawing = Drawing(keyframes, titles, wanted.output)
     subprocess.run(["gnuplot"], input="\n".join(drawing.commands), text=True, check=True)
 

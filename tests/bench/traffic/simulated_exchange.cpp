@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -45,6 +46,7 @@ class Node {
   // No longer than `longest_`, unless nothing else is on its way.
   void start(int to, std::size_t length);
   void receive(int from, std::size_t capacity);
+  void post_receives();
   void finish();
 
   int rank_ = 0;
@@ -89,6 +91,20 @@ void Node::receive(int from, std::size_t capacity) {
   MPI_Recv(received_.data(), static_cast<int>(capacity), MPI_BYTE, from, 1, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
 }
 
+// Whatever comes first is taken first.
+void Node::post_receives() {
+  std::size_t sum = 0, offset = 0;
+  for (int from = 0; from < nodes_; ++from) sum += bytes(from, rank_);
+  received_.resize(std::max(received_.size(), sum));
+  for (int from = 0; from < nodes_; ++from) {
+    const std::size_t length = bytes(from, rank_);
+    if (length == 0) continue;
+    requests_.emplace_back();
+    MPI_Irecv(received_.data() + std::exchange(offset, offset + length), static_cast<int>(length), MPI_BYTE, from, 1,
+              MPI_COMM_WORLD, &requests_.back());
+  }
+}
+
 void Node::finish() {
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   requests_.clear();
@@ -115,14 +131,13 @@ Sent Node::agreed() {
     finish();
     count(length);
   }
+  post_receives();
   for (int i = 1; i < nodes_; ++i) {
     const int to = (rank_ + i) % nodes_;
     if (bytes(rank_, to) == 0) continue;
     start(to, bytes(rank_, to));
     count(bytes(rank_, to));
   }
-  for (int from = 0; from < nodes_; ++from)
-    if (bytes(from, rank_) > 0) receive(MPI_ANY_SOURCE, longest_);
   finish();
   return sent;
 }
