@@ -115,9 +115,9 @@ TEST_P(Tracing, MessagesAreThoseSent) {
   std::map<std::tuple<int, int, int>, messages::Counts::Sent> traced;
   for (const auto& [event, rank] : trace_.records()) {
     if (event.kind != Kind::sent) continue;
-    auto& [messages, bytes] = traced[{rank, event.peer, event.what}];
-    ++messages;
-    bytes += event.value;
+    messages::Counts::Sent& sent = traced[{rank, event.peer, event.what}];
+    ++sent.messages;
+    sent.bytes += event.value;
   }
   std::uint64_t between_nodes = 0;
   for (const auto& [key, sent] : traced) {

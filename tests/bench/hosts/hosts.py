@@ -94,7 +94,7 @@ def main():
     parser.add_argument("--against", metavar="BUILD", help="the folder of another build, to be measured in turn")
     parser.add_argument("--scenes", nargs="+", default=["s2"], choices=["s1", "s1m", "s2"])
     parser.add_argument("--hosts", type=int, nargs="+", default=[1, 2, 4], choices=range(1, len(HOSTS) + 1))
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--keyframes", type=int, default=20, help="counted in each run")
     parser.add_argument("--rate", help="limit what each host receives, as tc says it: 1gbit")
     wanted = parser.parse_args()
