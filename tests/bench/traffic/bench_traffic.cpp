@@ -22,7 +22,7 @@ namespace mars::bench {
 namespace {
 
 // Bytes of all nodes together for a frame's triangles and edge boxes: enough for one pass.
-constexpr std::uint64_t kMemory = std::uint64_t{4} << 30;
+constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
 
 struct Course {
   std::string film;
