@@ -24,6 +24,7 @@ class Counts {
  public:
   struct Sent {
     std::uint64_t messages = 0;
+    std::uint64_t empty = 0;  // of them, without a byte
     std::uint64_t bytes = 0;
     std::uint64_t empty = 0;  // messages without a byte
   };
@@ -38,6 +39,7 @@ class Counts {
     const std::lock_guard lock(mutex_);
     Sent& sent = sent_[{from, to, type}];
     ++sent.messages;
+    sent.empty += length == 0 ? 1 : 0;
     sent.bytes += length;
     sent.empty += length == 0;
   }
@@ -51,10 +53,18 @@ class Counts {
         continue;
       }
       sum.messages += sent.messages;
+      sum.empty += sent.empty;
       sum.bytes += sent.bytes;
       sum.empty += sent.empty;
     }
     return sum;
+  }
+
+  // visit(from, to, type, sent) for all that was sent.
+  template <typename Visit>
+  void visit(const Visit& visit) const {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, sent] : sent_) std::apply(visit, std::tuple_cat(key, std::tie(sent)));
   }
 
   void clear() {

@@ -32,12 +32,6 @@ std::string text_of(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-std::string message_name(std::int32_t type) {
-  if (type >= messages::kFirstInternalType) return "sums";
-  const auto index = static_cast<std::size_t>(type);
-  return index < kMessageNames.size() ? kMessageNames[index] : "type " + std::to_string(type);
-}
-
 class Writer {
  public:
   Writer(const Trace& trace, const document::Write& write) : trace_(trace), write_(write) {}
@@ -219,6 +213,12 @@ void Writer::write(const TraceHead& head) {
 }
 
 }  // namespace
+
+std::string message_name(std::int32_t type) {
+  if (type >= messages::kFirstInternalType) return "sums";
+  const auto index = static_cast<std::size_t>(type);
+  return index < kMessageNames.size() ? kMessageNames[index] : "type " + std::to_string(type);
+}
 
 void write_trace(const std::filesystem::path& path, const TraceHead& head, const Trace& trace) {
   document::write_whole_file(path, [&](const document::Write& write) { Writer(trace, write).write(head); });
