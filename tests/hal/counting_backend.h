@@ -26,7 +26,6 @@ class Counts {
     std::uint64_t messages = 0;
     std::uint64_t empty = 0;  // of them, without a byte
     std::uint64_t bytes = 0;
-    std::uint64_t empty = 0;  // messages without a byte
   };
   // Which messages: what is not given is any. The host's id is the number of nodes.
   struct Which {
@@ -41,7 +40,6 @@ class Counts {
     ++sent.messages;
     sent.empty += length == 0 ? 1 : 0;
     sent.bytes += length;
-    sent.empty += length == 0;
   }
 
   Sent sent(const Which& which) const {
@@ -55,7 +53,6 @@ class Counts {
       sum.messages += sent.messages;
       sum.empty += sent.empty;
       sum.bytes += sent.bytes;
-      sum.empty += sent.empty;
     }
     return sum;
   }
