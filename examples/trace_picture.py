@@ -90,7 +90,7 @@ class Drawing:
             self.label("host" if rank == keyframe.host else f"node {rank}", -6 * self.per_pixel, y + 0.5, "right")
             y += 2
         for bar in keyframe.bars:
-            self.bar(bar, tops[bar["pid"]], PALE if bar["args"].get("frame") != keyframe.number else 1)
+            self.bar(bar, tops[bar["pid"]], 1 if bar["args"].get("frame", keyframe.number) == keyframe.number else PALE)
         for begin, end in keyframe.arrows:
             if begin["pid"] != end["pid"]:
                 self.arrow(begin, end, tops)

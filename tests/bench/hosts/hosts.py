@@ -29,14 +29,9 @@ def testbed(*words, **more):
 class Cluster:
     """The hosts, whose folder is seen by all: each has a /tmp of its own."""
 
-    def __init__(self, rate):
-        self.rate = rate
-
     def __enter__(self):
         testbed("up", stdout=subprocess.DEVNULL)
         self.folder = tempfile.TemporaryDirectory(dir="/var/tmp")
-        for host in HOSTS if self.rate else ():
-            testbed("slow", host, self.rate)
         return self
 
     def __exit__(self, *_):
@@ -96,10 +91,9 @@ def main():
     parser.add_argument("--hosts", type=int, nargs="+", default=[1, 2, 4], choices=range(1, len(HOSTS) + 1))
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--keyframes", type=int, default=20, help="counted in each run")
-    parser.add_argument("--rate", help="limit what each host receives, as tc says it: 1gbit")
     wanted = parser.parse_args()
     builds = traffic.builds_of(wanted)
-    with Cluster(wanted.rate) as cluster:
+    with Cluster() as cluster:
         for scene in wanted.scenes:
             measure(cluster, scene, wanted, builds)
 

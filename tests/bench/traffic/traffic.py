@@ -71,7 +71,7 @@ def main():
     parser.add_argument("--scenes", nargs="+", default=["s1", "s2"], choices=["s1", "s1m", "s2", "s3"])
     parser.add_argument("--nodes", type=int, nargs="+", default=[16, 64, 256])
     parser.add_argument("--each", nargs="+", default=["1", "4", "all"], help="nodes on a machine")
-    parser.add_argument("--mpi", type=int, nargs="*", default=[16], metavar="NODES",
+    parser.add_argument("--mpi", type=int, nargs="+", default=[], metavar="NODES",
                         help="also this many nodes as MPI processes of this machine, by their trace")
     wanted = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:

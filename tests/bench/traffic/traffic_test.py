@@ -36,13 +36,10 @@ class Counting(unittest.TestCase):
         film = traffic.Film("s1", self.folder, [160, 90])
         rows = dict(messages_sent.rows_of(traffic.on_threads(BUILD, film, 3, 1), 3))
         self.assertTrue(all(node.bytes > 0 for node in rows["triangles"]), rows)
-        self.assertEqual([a.messages + b.messages + c.messages for a, b, c in
-                          zip(rows["sums"], rows["triangles"], rows["edge boxes"])],
-                         [node.messages for node in rows["to nodes"]])
 
     def test_the_command_shows_a_table(self):
         run = subprocess.run([os.path.join(BUILD, "bin", "mars"), "bench", "traffic", "--scenes", "s1", "--nodes", "2",
-                              "--each", "all", "--mpi"], capture_output=True, text=True)
+                              "--each", "all"], capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("s1, a keyframe, 2 nodes, on one machine", run.stdout)
 
