@@ -9,7 +9,7 @@ namespace mars::raster {
 
 class LineLoad {
  public:
-  // Of one line, of all nodes together; beyond, counts are wrong, and GroupSums fails.
+  // Of one line, of all nodes together. Beyond, one count spills into the other or is lost; GroupSums finds that.
   static constexpr std::uint64_t kMostBoxes = (std::uint64_t{1} << 28) - 1;
   static constexpr std::uint64_t kMostSamples = (std::uint64_t{1} << 36) - 1;
 
