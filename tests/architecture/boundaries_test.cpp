@@ -227,6 +227,7 @@ TEST(Boundaries, KernelsIncludeLittle) {
                        "node/raster/classified.h",
                        "node/raster/edge_box.h",
                        "node/raster/kernels.h",
+                       "node/raster/line_load.h",
                        "node/shading/kernels.h",
                        "node/shading/shading.h",
                        "node/shape/kernels.h",

@@ -142,7 +142,10 @@ void print_unevenness(const Film& film) {
 
 void print_counts(const Workload& work, const std::string& name) {
   std::uint64_t boxes = 0, samples = 0;
-  for (const raster::LineLoad& load : work.line_loads()) boxes += load.boxes(), samples += load.samples();
+  for (const raster::LineLoad& load : work.line_loads()) {
+    boxes += load.boxes();
+    samples += load.samples();
+  }
   std::printf("%s: %llu edge boxes, %llu samples, %llu pixels\n", name.c_str(), static_cast<unsigned long long>(boxes),
               static_cast<unsigned long long>(samples), static_cast<unsigned long long>(work.pixels()));
 }
