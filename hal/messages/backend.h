@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "hal/messages/neighbourhood.h"
@@ -18,12 +17,6 @@ namespace mars::messages {
 struct Envelope {
   int from = 0;
   int type = 0;
-  std::size_t length = 0;
-};
-
-// Where one node's bytes are in a buffer of all nodes' bytes.
-struct ByteRange {
-  std::size_t offset = 0;
   std::size_t length = 0;
 };
 
@@ -78,14 +71,9 @@ class Backend {
     return false;
   }
 
-  // Collectives of all nodes by the network's own means, where it has them: done when sent(ticket). Buffers
-  // stay untouched and arrays unread by others until then. In place, element by element; and to each node a
-  // range of `out`, from each one of `in`.
+  // A reduction of all nodes by the network's own means, where it has it: done when sent(ticket). In place, element by
+  // element; `x` stays untouched until then.
   virtual std::optional<Ticket> start_reduce(const Reduction& /*reduction*/, void* /*x*/, std::size_t /*n*/) {
-    return {};
-  }
-  virtual std::optional<Ticket> start_all_to_all(const void* /*out*/, std::span<const ByteRange> /*to*/, void* /*in*/,
-                                                 std::span<const ByteRange> /*from*/) {
     return {};
   }
 

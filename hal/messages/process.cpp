@@ -261,40 +261,20 @@ void Process::send_internal(int to, const void* data, std::size_t length) {
   if (ticket) wait_sent(*ticket);
 }
 
-// Returns how many bytes came; where they are too many, their message is then `too_long`.
-std::size_t Process::receive_internal(const char* call, const Selection& selection, const ReceiveBuffer& into,
-                                      Message*& too_long) {
+std::size_t Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
+  const Selection selection{kFirstInternalType + from, from};
   const Envelope before = info_;
   try {
-    receive_now(call, selection, into, nullptr);
+    receive_now(call, selection, {data, length}, nullptr);
   } catch (const CallFailure& failure) {
-    too_long = matching_.find(selection);
+    Message* too_long = matching_.find(selection);
     if (failure.code != kMessageTooLong || too_long == nullptr) throw;
     info_ = too_long->envelope;
-  }
-  const std::size_t came = info_.length;
-  info_ = before;
-  return came;
-}
-
-std::size_t Process::receive_internal(const char* call, int from, void* data, std::size_t length) {
-  Message* too_long = nullptr;
-  const std::size_t came = receive_internal(call, {kFirstInternalType + from, from}, {data, length}, too_long);
-  if (too_long != nullptr) {
     matching_.remove(too_long);
     pool_.release(too_long);
   }
-  return came;
-}
-
-std::size_t Process::receive_internal(const char* call, int from, std::vector<std::byte>& buffer, std::size_t at) {
-  Message* too_long = nullptr;
-  const Selection selection{kFirstInternalType + from, from};
-  const std::size_t came = receive_internal(call, selection, {buffer.data() + at, buffer.size() - at}, too_long);
-  if (too_long != nullptr) {
-    buffer.resize(at + 2 * came);
-    receive_internal(call, from, buffer.data() + at, came);
-  }
+  const std::size_t came = info_.length;
+  info_ = before;
   return came;
 }
 
@@ -308,12 +288,6 @@ Ticket Process::start_internal(int to, const void* data, std::size_t length) {
 
 bool Process::reduce(const Reduction& reduction, void* x, std::size_t n) {
   const std::optional<Ticket> ticket = backend_.start_reduce(reduction, x, n);
-  if (ticket) wait_sent(*ticket);
-  return ticket.has_value();
-}
-
-bool Process::all_to_all(const void* out, std::span<const ByteRange> to, void* in, std::span<const ByteRange> from) {
-  const std::optional<Ticket> ticket = backend_.start_all_to_all(out, to, in, from);
   if (ticket) wait_sent(*ticket);
   return ticket.has_value();
 }

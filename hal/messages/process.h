@@ -9,9 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "hal/messages/collective_method.h"
 #include "hal/messages/progress.h"
@@ -71,8 +69,6 @@ class Process : public Progress {
   // more than `length`, they are discarded.
   void send_internal(int to, const void* data, std::size_t length);
   std::size_t receive_internal(const char* call, int from, void* data, std::size_t length);
-  // Likewise, behind the first `at` bytes of `buffer`, which grows as needed.
-  std::size_t receive_internal(const char* call, int from, std::vector<std::byte>& buffer, std::size_t at);
   // As send_internal, but `data` stays untouched until wait_sent.
   Ticket start_internal(int to, const void* data, std::size_t length);
   using Progress::wait_sent;
@@ -83,7 +79,6 @@ class Process : public Progress {
 
   // By the network's own means, see backend.h; false where it has none.
   bool reduce(const Reduction& reduction, void* x, std::size_t n);
-  bool all_to_all(const void* out, std::span<const ByteRange> to, void* in, std::span<const ByteRange> from);
 
   // The orderly end: waits for all ranks, discards messages that were not received.
   void finish();
@@ -106,8 +101,6 @@ class Process : public Progress {
   void start_exchange(const Outgoing& message, const Selection& selection, const ReceiveBuffer& into, Request& answer);
   Request& known_request(const char* call, long mid);
   void check_handler(const char* call, const Handler& handler) const;
-  std::size_t receive_internal(const char* call, const Selection& selection, const ReceiveBuffer& into,
-                               Message*& too_long);
 
   CollectiveMethod collectives_ = CollectiveMethod::automatic;
   std::unique_ptr<Extension> extension_;

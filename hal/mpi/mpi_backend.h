@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -42,8 +41,6 @@ class MpiBackend : public messages::Backend {
   void take(void* buffer) override;
   bool receive_soon(int type, void* buffer, std::size_t capacity, messages::Envelope& came) override;
   std::optional<messages::Ticket> start_reduce(const messages::Reduction& reduction, void* x, std::size_t n) override;
-  std::optional<messages::Ticket> start_all_to_all(const void* out, std::span<const messages::ByteRange> to, void* in,
-                                                   std::span<const messages::ByteRange> from) override;
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override;
   messages::Neighbourhood neighbourhood() override;
@@ -110,7 +107,6 @@ class MpiBackend : public messages::Backend {
   std::size_t next_pending_ = 0;      // to look at
   std::vector<MPI_Request> tickets_;  // by ticket
   std::vector<messages::Ticket> free_tickets_;
-  std::vector<int> counts_;          // of an all-to-all under way: lengths to, offsets to, lengths from, offsets from
   std::vector<std::byte> operands_;  // of a reduction under way: SMPI's MPI_IN_PLACE reads a copy that it has freed
   std::optional<messages::Envelope> peeked_;
   messages::Message* opened_ = nullptr;  // the peeked message itself where it had to be received for its type or length

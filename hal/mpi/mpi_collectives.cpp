@@ -1,9 +1,7 @@
 // MPI's own collectives, in the form that does not wait: their blocking forms spin.
-#include <algorithm>
 #include <climits>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "hal/failure/failure.h"
@@ -36,11 +34,6 @@ MPI_Op operation(messages::Reduction::Rule rule) {
   return MPI_OP_NULL;
 }
 
-bool fits(std::span<const messages::ByteRange> ranges) {
-  return std::all_of(ranges.begin(), ranges.end(),
-                     [](const messages::ByteRange& each) { return each.offset + each.length <= INT_MAX; });
-}
-
 }  // namespace
 
 // Where MPI waits well it is done on return.
@@ -60,25 +53,6 @@ std::optional<messages::Ticket> MpiBackend::start_reduce(const messages::Reducti
   succeed(
       MPI_Iallreduce(operands_.data(), x, static_cast<int>(n), type, operation(reduction.rule), nodes_only_, &request),
       "MPI_Iallreduce");
-  return ticket_of_collective(request);
-}
-
-std::optional<messages::Ticket> MpiBackend::start_all_to_all(const void* out, std::span<const messages::ByteRange> to,
-                                                             void* in, std::span<const messages::ByteRange> from) {
-  if (!fits(to) || !fits(from))
-    throw Failure("an exchange of more bytes than MPI carries at once", "node " + std::to_string(rank_),
-                  "exchange less than 2 GB at once, or set MARS_NX_COLLECTIVES to cube");
-  counts_.clear();
-  for (const std::span<const messages::ByteRange> ranges : {to, from}) {
-    for (const messages::ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.length));
-    for (const messages::ByteRange& each : ranges) counts_.push_back(static_cast<int>(each.offset));
-  }
-  const int* counts = counts_.data();
-  const std::size_t n = to.size();
-  MPI_Request request = MPI_REQUEST_NULL;
-  succeed(MPI_Ialltoallv(out, counts, counts + n, MPI_BYTE, in, counts + 2 * n, counts + 3 * n, MPI_BYTE, nodes_only_,
-                         &request),
-          "MPI_Ialltoallv");
   return ticket_of_collective(request);
 }
 

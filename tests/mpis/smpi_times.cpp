@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "hal/collectives/crystal_router.h"
 #include "hal/mpi/start.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
@@ -12,7 +11,6 @@
 namespace {
 
 constexpr int kRounds = 3;
-constexpr long kMostDirect = 128;  // nodes: more messages at once take SimGrid too long
 
 // The longest that a node takes for one of several in a row; all nodes call.
 void measure(const char* what, long bytes, double part, const std::function<void()>& once) {
@@ -44,15 +42,6 @@ void sum(long n) {
   measure("gdsum", n * 8, 1, [&] { gdsum(x.data(), n, work.data()); });
 }
 
-void exchange(const char* what, mars::collectives::Route route, std::size_t bytes) {
-  const std::vector<std::byte> data(bytes);
-  std::vector<mars::collectives::Parcel> parcels;
-  for (int node = 0; node < numnodes(); ++node) parcels.push_back({node, data});
-  mars::collectives::CrystalRouter router;
-  const mars::collectives::Group all{0, static_cast<int>(numnodes())};
-  measure(what, static_cast<long>(bytes), 1, [&] { router.exchange(all, parcels, route); });
-}
-
 int measure_all(int, char**) {
   if (mynode() == myhost()) return 0;
   for (const long bytes : {0, 100, 101, 10000})
@@ -60,10 +49,6 @@ int measure_all(int, char**) {
   if (numnodes() > 2) ping_pong("across the cube", numnodes() - 1, 0);
   measure("gsync", 0, 1, gsync);
   for (const long n : {1, 1000}) sum(n);
-  for (const std::size_t bytes : {16, 1024}) {
-    exchange("all to all, crystal", mars::collectives::Route::crystal, bytes);
-    if (numnodes() <= kMostDirect) exchange("all to all, direct", mars::collectives::Route::direct, bytes);
-  }
   return 0;
 }
 

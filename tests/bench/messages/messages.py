@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """What NX's calls cost beside MPI's own: csend and crecv against MPI_Send and MPI_Recv, gdsum against MPI_Allreduce,
-best and middle of 200 rounds in turn, in one run each; the share of a core that a waiting host uses; and, from 8 nodes
-on, a sparse all-to-all by the crystal router, by direct messages and by MPI_Ialltoallv."""
+best and middle of 200 rounds in turn, in one run each; and the share of a core that a waiting host uses."""
 import argparse
 import os
 import subprocess
@@ -17,12 +16,10 @@ def main():
     program = os.path.join(wanted.build, "bench", "messages", "bench-messages")
     if not os.path.exists(program):
         sys.exit("bench-messages was not built: it needs MPI (./bootstrap)")
-    routes = os.path.join(wanted.build, "bench", "messages", "bench-routes")
     root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     for nodes in wanted.nodes:
-        for each in [program] if nodes < 8 else [program, routes]:
-            command = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n", str(nodes + 1), each]
-            subprocess.run(command, check=True, env={**os.environ, **root})
+        command = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n", str(nodes + 1), program]
+        subprocess.run(command, check=True, env={**os.environ, **root})
 
 
 if __name__ == "__main__":
