@@ -37,7 +37,7 @@ class Assembly {
   struct Pasted {
     std::uint32_t number;
     wire::FrameKind kind;
-    compositor::Frame* whole;  // the finished frame; nullptr while strips of it are to come
+    compositor::Frame* whole;    // the finished frame; nullptr while strips of it are to come
     std::vector<NodeSlot> free;  // slots of strips that were pasted now and were not their node's last of the frame
     std::vector<NodeSlot> held;  // those of the nodes' last strips, where it is whole
   };
