@@ -133,7 +133,8 @@ TEST_F(OutboxTest, WhereNoMemoryIsSharedStripsGoByMessage) {
   Outbox outbox(kWidth, 1);
   EXPECT_FALSE(messages::AttachedMemory::attach(host.rank(), outbox.slots(), wire::kSlotBytes));
   host.give(0, 1);
-  EXPECT_EQ(send(outbox).work.bytes_to_host, host.messages.back().length);
+  const wire::Strip header = send(outbox);
+  EXPECT_EQ(header.work.bytes_to_host, host.messages.back().length);
 }
 
 TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {
