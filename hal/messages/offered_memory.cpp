@@ -9,6 +9,7 @@
 namespace mars::messages {
 
 OfferedMemory::OfferedMemory(std::size_t bytes) : offer_(process().backend().offer(bytes)), size_(bytes) {
+  if (offer_.block == nullptr) offer_ = {{}, map_pages(bytes)};
   if (offer_.block == nullptr)
     throw within_limits("the machine does not give " + std::to_string(bytes) + " bytes that processes can share", "",
                         "use a machine with more memory");

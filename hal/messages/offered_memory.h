@@ -14,7 +14,8 @@
 namespace mars::messages {
 
 // `bytes` zeroed bytes, aligned to a page, of which the machine gives pages as they are first touched. Others can
-// attach them as long as this lives. Throws Failure where the machine does not give that much.
+// attach them as long as this lives; nobody can where the machine lets no process share memory. Throws Failure where it
+// does not give that much.
 class OfferedMemory {
  public:
   explicit OfferedMemory(std::size_t bytes);

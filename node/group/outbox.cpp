@@ -51,10 +51,10 @@ void Outbox::take_command() {
 }
 
 void Outbox::receive_credit() {
-  wire::Credit credit;
-  crecv(wire::kCredit, &credit, sizeof credit);
-  const auto message = std::as_bytes(std::span(&credit, 1)).first(static_cast<std::size_t>(infocount()));
-  wire::read_credit(message, owned_, slots_.size());
+  wire::Credit received;
+  crecv(wire::kCredit, &received, sizeof received);
+  const auto message = std::as_bytes(std::span(&received, 1)).first(static_cast<std::size_t>(infocount()));
+  const wire::Credit& credit = wire::read_credit(message, owned_, slots_.size());
   slots_[credit.slot].by_message = credit.by_message;
   owned_ |= std::uint32_t{1} << credit.slot;
 }

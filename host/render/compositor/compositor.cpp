@@ -205,8 +205,8 @@ void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std
 
 void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
   for (std::uint32_t row = 0; row < constant_.rows(); ++row)
-    frame.stale.for_stretches(
-        row, [&](std::uint32_t first, std::uint32_t last) { write_back(frame, row, first, last); });
+    frame.stale.for_stretches(row,
+                              [&](std::uint32_t first, std::uint32_t last) { write_back(frame, row, first, last); });
   frame.stale.clear();
   frame.number = number;
   frame.changed_since = last_number_;

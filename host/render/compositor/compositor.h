@@ -1,8 +1,8 @@
 // What the host does with image data (thesis 4.10): the CFB of an interval is kept as the saved background;
 // a frame is that background with the MFB of its moving parts over it. One bit a block of pixels says which
 // blocks were overwritten; only these are written back when a picture is used again, and of them only those that
-// the new pixels do not cover. One Compositor serves one interval after another; frames come from a sink pool (or anywhere) and may pass from one compositor to
-// another.
+// the new pixels do not fill. One Compositor serves one interval after another; frames come from a sink pool (or
+// anywhere) and may pass from one compositor to another.
 //
 //   begin_interval, then for its keyframe
 //   begin_frame, paste_constant and paste_moving for each strip as it comes, finish_frame,
@@ -37,8 +37,8 @@ class Compositor {
   // has all CFB so far.
   void paste_constant(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels, Frame* keyframe);
 
-  // `frame` will show the saved background, this part of it and what comes until it is finished: its flagged blocks
-  // are stale, and where it showed another background the blocks in which either has CFB.
+  // When `frame` is finished it will show the saved background wherever nothing is pasted. Until then the blocks that
+  // were overwritten are stale, and where it showed another background those in which either has CFB.
   void begin_frame(Frame& frame) const;
   // Part of the MFB goes over it.
   void paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels);

@@ -54,7 +54,7 @@ class Farm {
   std::size_t next_task_ = 0;
   struct WithSink {
     FinishedFrame frame;
-    std::vector<NodeSlot> held;  // until then
+    std::vector<NodeSlot> held;  // that go back to their nodes when it is taken
   };
   std::unordered_map<std::uint32_t, WithSink> with_sinks_;
   StripStore store_;

@@ -33,6 +33,9 @@ class ScriptedHost : public transport_template::TemplateBackend {
   };
 
   bool has_host() const override { return true; }
+  messages::Offer offer(std::size_t bytes) override {
+    return memory_is_shared ? TemplateBackend::offer(bytes) : messages::Offer{};
+  }
   messages::Ticket start_send(int to, int type, const void* data, std::size_t length) override {
     Sent message{to, type, {}, length, data, transport_is_quick};
     EXPECT_GE(length, sizeof message.strip);
@@ -61,6 +64,7 @@ class ScriptedHost : public transport_template::TemplateBackend {
 
   std::vector<Sent> messages;
   std::deque<std::function<void()>> script;
+  bool memory_is_shared = true;
   bool transport_is_quick = true;  // else messages are gone when the test sets it
   int waits = 0;
 };
@@ -122,6 +126,15 @@ TEST_F(OutboxTest, AStripGoesAsItsCreditSays) {
   std::uint32_t pixel = 0;
   std::memcpy(&pixel, slots + wire::kSlotBytes + sizeof(wire::Strip), sizeof pixel);
   EXPECT_EQ(pixel, 1000u);
+}
+
+TEST_F(OutboxTest, WhereNoMemoryIsSharedStripsGoByMessage) {
+  host.memory_is_shared = false;
+  Outbox outbox(kWidth, 1);
+  EXPECT_FALSE(messages::AttachedMemory::attach(host.rank(), outbox.slots(), wire::kSlotBytes));
+  host.give(0, 1);
+  const wire::Strip header = send(outbox);
+  EXPECT_EQ(header.work.bytes_to_host, host.messages.back().length);
 }
 
 TEST_F(OutboxTest, WaitsForCreditAndSaysSo) {

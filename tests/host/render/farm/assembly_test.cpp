@@ -126,8 +126,7 @@ void expect_put_together(unsigned seed) {
         not_pasted -= pasted->free.size();
         EXPECT_EQ(pasted->kind == wire::FrameKind::keyframe, pasted->number == task.frames.front());
         if (pasted->whole == nullptr) continue;
-        EXPECT_EQ(pasted->held.size(),
-                  pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
+        EXPECT_EQ(pasted->held.size(), pasted->number == task.frames.front() ? static_cast<std::size_t>(nodes) : 1u);
         pool.submit(pasted->whole);
       }
     }

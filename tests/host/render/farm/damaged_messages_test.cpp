@@ -39,7 +39,8 @@ class Damage {
   // Some of its bytes and words changed; now and then also its length, where that may be.
   Bytes damaged(Bytes message, bool length_too = true) {
     for (int changes = below(4); changes >= 0; --changes) change(message);
-    if (length_too && below(8) == 0) message.resize(static_cast<std::size_t>(below(static_cast<int>(2 * message.size()) + 2)));
+    if (length_too && below(8) == 0)
+      message.resize(static_cast<std::size_t>(below(static_cast<int>(2 * message.size()) + 2)));
     if (below(50) == 0)
       for (std::byte& byte : message) byte = static_cast<std::byte>(below(256));
     return message;
@@ -234,9 +235,7 @@ TEST(DamagedMessages, Trace) {
   std::memcpy(sound.data(), events.data(), sound.size());
   trace::Trace trace;
   trace.begin(std::vector{sound_hello()}, 0);
-  EXPECT_GT(
-      refused_of(wire::kTrace, sound, [&] { trace.add(0, Inbox().inbox.receive_events()); }),
-      kMessages / 10);
+  EXPECT_GT(refused_of(wire::kTrace, sound, [&] { trace.add(0, Inbox().inbox.receive_events()); }), kMessages / 10);
   const sinks::TemporaryFolder folder;
   trace::write_trace(folder.path() / "trace.json", {"film", "threads"}, trace);
 }

@@ -250,11 +250,12 @@ void expect_slot_refused(const std::string& what,
 
 TEST(Inbox, StripsInSlotsOfAnotherSize) {
   for (const std::size_t bytes : {std::size_t{0}, sizeof(wire::Strip) - 1, sizeof(wire::Strip) + 1}) {
-    const std::string failure = failure_of_slot([bytes](ScriptedNode&, std::span<std::byte>, const wire::Strip& header) {
-      Bytes message(sizeof header + 1);
-      std::memcpy(message.data(), &header, sizeof header);
-      send_bytes(wire::kStrip, message.data(), bytes);
-    });
+    const std::string failure =
+        failure_of_slot([bytes](ScriptedNode&, std::span<std::byte>, const wire::Strip& header) {
+          Bytes message(sizeof header + 1);
+          std::memcpy(message.data(), &header, sizeof header);
+          send_bytes(wire::kStrip, message.data(), bytes);
+        });
     EXPECT_EQ(failure, "n1 (node 1): sent a strip of an impossible size (please report it)");
   }
   const std::string broken = "a strip that is not what its header says";
@@ -272,10 +273,12 @@ TEST(Inbox, StripsInSlotsThatDrawWhereTheyMustNot) {
   const auto put_run = [](std::span<std::byte> slot, const wire::Run& run) {
     std::memcpy(slot.last(sizeof run).data(), &run, sizeof run);
   };
-  expect_slot_refused("pixels outside the picture",
-                      [&](std::span<std::byte> slot, wire::Strip&) { put_run(slot, {3, 16, 1}); });
-  expect_slot_refused("pixels outside the strip's lines",
-                      [&](std::span<std::byte> slot, wire::Strip&) { put_run(slot, {~0u, 0, 1}); });
+  expect_slot_refused("pixels outside the picture", [&](std::span<std::byte> slot, wire::Strip&) {
+    put_run(slot, {3, 16, 1});
+  });
+  expect_slot_refused("pixels outside the strip's lines", [&](std::span<std::byte> slot, wire::Strip&) {
+    put_run(slot, {~0u, 0, 1});
+  });
 }
 
 TEST(Inbox, StripsInSlotsThatAreNotTheNodes) {
