@@ -6,7 +6,7 @@ import subprocess
 
 Sent = collections.namedtuple("Sent", "messages empty bytes")
 NONE = Sent(0, 0, 0)
-KINDS = ("sums", "triangles", "edge boxes", "CZB", "Strip")  # those with a row of their own; edge boxes: of 0.2.0
+KINDS = ("sums", "triangles", "edge boxes", "CZB", "Strip")  # those with a row of their own; edge boxes: older programs'
 MEASURING = ("Clock", "Trace")  # a traced run's own
 
 
