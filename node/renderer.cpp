@@ -129,7 +129,8 @@ void Renderer::fill_own_lines(const raster::Polygons& own) {
 }
 
 std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
-  sums_.add_up(group_, {line_loads_, made.edge_boxes, group::own_bytes(made, triangles_travel())});
+  const bool large = group::is_large(group::own_bytes(made, triangles_travel()), memory_.frame_bytes());
+  sums_.add_up(group_, {line_loads_, made.edge_boxes, large});
   report_.strip().edge_box_total = sums_.ebc().back();
   report_.clock(wire::Phase::sum);
   const auto weights = sums_.weights(mapping_);
@@ -137,7 +138,7 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
   report_.strip().load_ratio = group::load_ratio(weights, homes());
   report_.strip().work.samples = sums_.samples_on(homes()[member()]);
   const std::uint32_t passes = group::agree_on_passes(
-      {group_, sums_.ebc(), homes(), sums_.bytes(), line_loads_, made.triangles, triangles_travel()},
+      {group_, sums_.ebc(), homes(), sums_.large(), line_loads_, made.triangles, triangles_travel()},
       memory_.frame_bytes());
   report_.strip().work.passes = passes;
   report_.clock(wire::Phase::map);

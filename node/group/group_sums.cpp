@@ -18,7 +18,7 @@ void GroupSums::add_up(const collectives::Group& group, const OwnLoad& own) {
   const std::size_t lines = own.lines.size();
   std::ranges::transform(own.lines, sums_.begin(), &LineLoad::packed);
   sums_[lines] = own.edge_boxes;
-  sums_[lines + 1] = own.bytes;
+  sums_[lines + 1] = own.large ? 1 : 0;
   if (group.count > 1) collectives::group_sum(group, sums_, work_);
   for (std::size_t line = 0; line < lines; ++line) {
     const LineLoad load = LineLoad::of_packed(sums_[line]);

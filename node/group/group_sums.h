@@ -1,5 +1,5 @@
-// The sums over a group in a keyframe, in one message exchange: what there is to draw on each line (EBC), and the
-// memory that all nodes' triangles take.
+// The sums over a group in a keyframe, in one message exchange: what there is to draw on each line (EBC), and how many
+// nodes might be short of memory.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace mars::group {
 struct OwnLoad {
   std::span<const raster::LineLoad> lines;  // of its own triangles
   std::uint64_t edge_boxes;                 // on all lines
-  std::uint64_t bytes;                      // that these take (own_bytes, passes.h)
+  bool large;                               // these take much of its memory (is_large, passes.h)
 };
 
 class GroupSums {
@@ -38,12 +38,13 @@ class GroupSums {
   }
   // Of all nodes, that edge boxes cover on these lines.
   std::uint64_t samples_on(const geometry::LineRange& range) const;
-  std::uint64_t bytes() const { return sums_.back(); }
+  // Nodes whose load is large.
+  std::uint64_t large() const { return sums_.back(); }
 
  private:
   void check_bounds(std::uint64_t edge_boxes) const;
 
-  std::vector<std::uint64_t> sums_;  // each line's load, packed; edge boxes; bytes
+  std::vector<std::uint64_t> sums_;  // each line's load, packed; edge boxes; large nodes
   std::vector<std::uint64_t> work_;
   std::vector<std::uint64_t> ebc_;
   std::vector<std::uint64_t> costs_;

@@ -51,11 +51,11 @@ std::uint64_t memory_in(const FrameLoad& load, int node, const Pass& pass) {
   return own_bytes({std::min(own_boxes, load.triangles), own_boxes}, load.travels) + received_bytes(load, boxes);
 }
 
-// By what every node knows of all: as if one had made all triangles.
+// By what every node knows of all.
 bool one_pass_fits_all(const FrameLoad& load, std::uint64_t memory) {
   std::uint64_t most = 0;
   for (const geometry::LineRange& home : load.homes) most = std::max(most, boxes_on(load, home));
-  return load.all_bytes + received_bytes(load, most) + fixed_bytes(load) <= memory;
+  return load.large == 0 && received_bytes(load, most) + fixed_bytes(load) <= memory / 2;
 }
 
 }  // namespace
@@ -79,6 +79,8 @@ std::uint64_t own_bytes(const MadeCounts& made, bool travels) {
   const std::uint64_t a_box = sizeof(raster::UnsortedEdgeBox) + kInLine + (travels ? kTravelling : 0);
   return made.triangles * sizeof(geometry::Triangle) + made.edge_boxes * a_box;
 }
+
+bool is_large(std::uint64_t own_bytes, std::uint64_t memory) { return own_bytes > memory / 2; }
 
 std::uint64_t fixed_bytes(std::size_t lines, std::size_t nodes) { return 2 * 32 * lines + 512 * nodes + 4096; }
 

@@ -35,6 +35,10 @@ struct MadeCounts {
 // nodes, as copies.
 std::uint64_t own_bytes(const MadeCounts& made, bool travels);
 
+// Whether these take more than half of a node's memory. Where no node's do, one pass fits if what comes from others
+// fits the other half.
+bool is_large(std::uint64_t own_bytes, std::uint64_t memory);
+
 // Bytes of a pass besides triangles and edge boxes, in a picture of `lines` lines: the counting sorts' arrays, and the
 // rounding of each piece of memory, of which each node of a group may send one.
 std::uint64_t fixed_bytes(std::size_t lines, std::size_t nodes);
@@ -44,7 +48,7 @@ struct FrameLoad {
   collectives::Group group;
   std::span<const std::uint64_t> ebc;            // of all nodes (mapping.h)
   std::span<const geometry::LineRange> homes;    // of the group's nodes
-  std::uint64_t all_bytes;                       // own_bytes of the group's nodes, added up
+  std::uint64_t large;                           // nodes of the group whose own triangles are (is_large)
   std::span<const raster::LineLoad> line_loads;  // of the node's own triangles
   std::uint64_t triangles;                       // of its own
   bool travels;                                  // some nodes of the group cannot read each other's memory
@@ -61,7 +65,7 @@ std::uint32_t passes_for(const FrameLoad& load, int node, std::uint64_t memory);
 void wait_for_all(const collectives::Group& group);
 
 // The number of passes that suffices on all nodes of the group, the same on each; collective. Nodes exchange their
-// numbers only where one pass might not suffice if one node had made all triangles, which all know from the sums.
+// numbers only where one pass might not suffice for one of them, which all know from the sums.
 std::uint32_t agree_on_passes(const FrameLoad& load, std::uint64_t memory);
 
 }  // namespace mars::group

@@ -48,7 +48,6 @@ class Frame {
     map_greedy(ebc_, homes_);
     for (std::size_t n = 0; n < counts_.size(); ++n) {
       for (const std::uint32_t boxes : counts_[n]) loads_[n].emplace_back(boxes, 0);
-      all_bytes_ += group::own_bytes(made(n), travels_);
     }
   }
 
@@ -57,7 +56,7 @@ class Frame {
   MadeCounts made(std::size_t n) const {
     return {triangles_[n], std::accumulate(counts_[n].begin(), counts_[n].end(), std::uint64_t{0})};
   }
-  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, all_bytes_, loads_[n], triangles_[n], travels_}; }
+  FrameLoad load(std::size_t n) const { return {group_, ebc_, homes_, 0, loads_[n], triangles_[n], travels_}; }
   const std::vector<LineRange>& homes() const { return homes_; }
   bool travels() const { return travels_; }
   std::uint64_t boxes(std::size_t n, const LineRange& lines) const {
@@ -73,7 +72,6 @@ class Frame {
   std::vector<std::uint64_t> triangles_;
   std::vector<LineRange> homes_;
   std::vector<std::uint64_t> ebc_;
-  std::uint64_t all_bytes_ = 0;
 };
 
 Frame random_frame(shape::Random& random, int nodes, int lines) {
@@ -205,9 +203,10 @@ Agreement agree(const Frame& frame, std::uint64_t memory) {
     GroupSums sums(frame.lines());
     FrameLoad load = frame.load(self);
     const MadeCounts made = frame.made(self);
-    sums.add_up({0, nodes}, {load.line_loads, made.edge_boxes, group::own_bytes(made, frame.travels())});
+    const bool large = is_large(group::own_bytes(made, frame.travels()), memory);
+    sums.add_up({0, nodes}, {load.line_loads, made.edge_boxes, large});
+    load.large = sums.large();
     EXPECT_TRUE(std::ranges::equal(sums.ebc(), load.ebc));
-    EXPECT_EQ(sums.bytes(), load.all_bytes);
     const std::uint64_t before = counts.sent({.from = mynode()}).messages;
     out.passes[self] = agree_on_passes(load, memory);
     const std::lock_guard lock(mutex);
