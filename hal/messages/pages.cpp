@@ -30,7 +30,12 @@ std::shared_ptr<std::byte> map_pages(std::size_t bytes, std::optional<int> file)
 }
 
 // The machine need not.
-void prefer_large_pages(std::span<std::byte> block) { madvise(block.data(), block.size(), MADV_HUGEPAGE); }
+void prefer_large_pages(std::span<std::byte> block) {
+  void* first = block.data();
+  std::size_t left = block.size();
+  constexpr std::size_t kPage = 4096;
+  if (std::align(kPage, kPage, first, left) != nullptr) madvise(first, left / kPage * kPage, MADV_HUGEPAGE);
+}
 
 Failure too_much_to_share(std::size_t bytes, const std::string& where) {
   return within_limits("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes", where,

@@ -10,7 +10,9 @@ namespace mars::group {
 Outbox::Outbox(std::size_t width, int slots)
     : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
       strip_(width),
-      slots_(static_cast<std::size_t>(slots)) {}
+      slots_(static_cast<std::size_t>(slots)) {
+  memory_.prefer_large_pages();
+}
 
 // Of the slots it takes always the same first: what lies there is the likeliest to be in a cache still.
 raster::StripBuffer& Outbox::begin(bool constant, wire::WorkCounts& work) {
