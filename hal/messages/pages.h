@@ -16,7 +16,8 @@ namespace mars::messages {
 // (ulimit -v), or where the machine does not give them.
 std::shared_ptr<std::byte> map_pages(std::size_t bytes, std::optional<int> file = std::nullopt);
 
-// Lets the machine give large pages (2 MiB), where it has them, for the whole pages in `block`: before they are touched.
+// Lets the machine give large pages (2 MiB), where it has them, for the whole pages in `block`: before they are
+// touched.
 void prefer_large_pages(std::span<std::byte> block);
 
 // Of a block that a machine's nodes cannot share; `where` names the one that throws it.
