@@ -50,7 +50,7 @@ FilmBlock::FilmBlock(const wire::FilmData& film) {
   std::memcpy(words_.data(), packed.data(), size_);
 }
 
-FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
+FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& options) {
   const wire::FilmView view(film, "test film");
   const wire::FilmSettings& settings = view.settings();
   farm::FarmOptions farm = options.farm;
@@ -63,16 +63,23 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
   const farm::Plan plan = farm::make_plan(view, work, options.nodes);
   MemorySink sink;
   FilmRun run;
-  const auto host = [&] {
+  {
     sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
     run.report = farm::render_film(film, plan, farm, pool, {});
-  };
-  const auto node = [&] {
-    if (options.around_node) options.around_node();
-    node::run_node({"test", "", {}, options.memory, options.simd});
-  };
-  threads::run_threads(options.nodes, host, node, options.wrap);
+  }
   run.frames = sink.release();
+  return run;
+}
+
+void run_as_node(const RunOptions& options) {
+  if (options.around_node) options.around_node();
+  node::run_node({"test", "", {}, options.memory, options.simd});
+}
+
+FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
+  FilmRun run;
+  threads::run_threads(
+      options.nodes, [&] { run = render_as_host(film, options); }, [&] { run_as_node(options); }, options.wrap);
   return run;
 }
 

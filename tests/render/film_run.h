@@ -45,6 +45,9 @@ class FilmBlock {
 };
 
 FilmRun run_film(std::span<const std::byte> film, const RunOptions& options = {});
+// The parts of the host and of each node, in a job of any transport.
+FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& options);
+void run_as_node(const RunOptions& options);
 
 // EXPECTs at least one frame, and equal pictures for equal frames; where they differ writes both and their difference
 // as PNG files into the working directory, named after `name`.
