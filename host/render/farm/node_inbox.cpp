@@ -156,7 +156,7 @@ std::vector<std::string> NodeInbox::apart() const {
     const std::string host = hellos_[node].host.data();
     if (!apart_[node].empty() && told.insert(host).second)
       texts.push_back("nodes on " + host + " do not read each other's triangles in place (" + apart_[node] +
-                      "): they send them, which takes longer");
+                      "): they send them, which takes longer; raise the limit, or set MARS_MEMORY to fewer MiB");
   }
   return texts;
 }

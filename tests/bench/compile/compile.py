@@ -50,8 +50,9 @@ def measure(mars, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True, help="the build's folder")
+    parser = argparse.ArgumentParser(prog="mars bench compile", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--segments", type=int, default=100_000)
     parser.add_argument("--joints", type=int, default=100, help="of one figure")
     parser.add_argument("--frames", type=int, nargs="+", default=[10, 100, 500],

@@ -58,8 +58,9 @@ def show(title, unit, xs, nodes):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True, help="the build's folder")
+    parser = argparse.ArgumentParser(prog="mars bench growth", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--frames", type=int, default=8, help="rendered of each; the best counts")
     wanted = parser.parse_args()
     mars = os.path.join(wanted.build, "bin", "mars")

@@ -189,6 +189,12 @@ int run(std::vector<std::filesystem::path> paths) {
 }  // namespace mars::bench
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--help") {
+    std::puts(
+        "mars bench lines [FILM ...]: what a scanline costs (docs/measuring.md); default: s1, s1m, s2, s3, demo, "
+        "visit");
+    return 0;
+  }
   try {
     return mars::bench::run({argv + 1, argv + argc});
   } catch (const mars::Failure& failure) {

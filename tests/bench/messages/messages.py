@@ -8,8 +8,9 @@ import sys
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True, help="the build's folder")
+    parser = argparse.ArgumentParser(prog="mars bench messages", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--nodes", type=int, nargs="+", default=[1, 2, 4, 8],
                         help="one: ping-pong with the host; more: their sums")
     wanted = parser.parse_args()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What a node sends in a keyframe: messages, those without a byte, and bytes, to nodes and to the host. README.md says
-what is counted and how."""
+"""What a node sends in a keyframe: messages, those without a byte, and bytes, to nodes and to the host.
+tests/bench/traffic/README.md says what is counted and how."""
 import argparse
 import os
 import subprocess
@@ -50,15 +50,18 @@ def builds_of(wanted):
     return {**others, "this build": wanted.build}
 
 
+def layouts(wanted):
+    """Numbers of nodes, in all and on each machine; each pair once."""
+    on_each = lambda nodes, each: nodes if each == "all" else min(int(each), nodes)
+    return dict.fromkeys((nodes, on_each(nodes, each)) for each in wanted.each for nodes in wanted.nodes)
+
+
 def measure(scene, wanted, folder):
     film, builds = Film(scene, folder), builds_of(wanted)
-    for each in wanted.each:
-        for nodes in wanted.nodes:
-            nodes_each = nodes if each == "all" else int(each)
-            where = "on one machine" if nodes_each >= nodes else f"{nodes_each} on each machine"
-            messages_sent.show(f"{scene}, {film.about}, {nodes} nodes, {where}, a node:",
-                               {name: on_threads(build, film, nodes, nodes_each) for name, build in builds.items()},
-                               nodes)
+    for nodes, each in layouts(wanted):
+        where = "on one machine" if each == nodes else f"{each} on each machine"
+        messages_sent.show(f"{scene}, {film.about}, {nodes} nodes, {where}, a node:",
+                           {name: on_threads(build, film, nodes, each) for name, build in builds.items()}, nodes)
     for nodes in wanted.mpi:
         messages_sent.show(f"{scene}, {film.about}, {nodes} nodes, MPI on one machine, a node:",
                            {name: by_trace(build, film, nodes, "mpi", folder) for name, build in builds.items()}, nodes)
@@ -68,9 +71,10 @@ def main():
     parser = argparse.ArgumentParser(prog="mars bench traffic", description=__doc__)
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--against", metavar="BUILD", help="the folder of another build, to be counted beside this one")
-    parser.add_argument("--scenes", nargs="+", default=["s1", "s2"], choices=["s1", "s1m", "s2", "s3"])
-    parser.add_argument("--nodes", type=int, nargs="+", default=[16, 64, 256])
-    parser.add_argument("--each", nargs="+", default=["1", "4", "all"], help="nodes on a machine")
+    parser.add_argument("--scenes", nargs="+", default=["s1", "s2"], choices=["s1", "s1m", "s2", "s3"],
+                        help="default: s1 s2")
+    parser.add_argument("--nodes", type=int, nargs="+", default=[16, 64, 256], help="default: 16 64 256")
+    parser.add_argument("--each", nargs="+", default=["1", "4", "all"], help="nodes on each machine; default: 1 4 all")
     parser.add_argument("--mpi", type=int, nargs="+", default=[], metavar="NODES",
                         help="also this many nodes as MPI processes of this machine, by their trace")
     wanted = parser.parse_args()

@@ -62,9 +62,9 @@ TEST(Farm, WarnsOnceOfEachMachineWhoseNodesDoNotShareMemory) {
     ScriptedNode::send(wire::kLoaded, loaded);
     node.draw_all();
   });
-  EXPECT_EQ(warnings,
-            std::vector<std::string>{"nodes on n0 do not read each other's triangles in place (no room): they "
-                                     "send them, which takes longer"});
+  EXPECT_EQ(warnings, std::vector<std::string>{
+                          "nodes on n0 do not read each other's triangles in place (no room): they "
+                          "send them, which takes longer; raise the limit, or set MARS_MEMORY to fewer MiB"});
 }
 
 TEST(Farm, ReportsEachFrameWhereItIsAskedTo) {
