@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kMiB = 1024 * 1024;
 
 constexpr std::array<Setting, 7> kTable = {{
-    {"MARS_MEMORY", "MiB that a node may use for one frame", "a share of the machine's memory"},
+    {"MARS_MEMORY", "MiB that a node may use for its frames", "a share of the machine's memory"},
     {"MARS_NX_HANDLERS", "thread: handlers of NX programs run on a thread of their own; or calls",
      "they run inside of NX calls"},
     {"MARS_NX_COLLECTIVES", "cube, mpi or auto: global operations by NX messages or MPI's own",

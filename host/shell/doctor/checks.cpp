@@ -12,7 +12,7 @@ namespace {
 using State = Finding::State;
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
-constexpr std::uint64_t kLittleMemory = 256 * kMiB;  // for a node's frame
+constexpr std::uint64_t kLittleMemory = 256 * kMiB;  // for a node's frames
 constexpr std::uint64_t kLeastShared = 16 * kMiB;
 constexpr std::uint64_t kSharedByANode = 4 * kMiB;     // Open MPI's segment for messages
 constexpr std::uint64_t kLittleTemporary = 16 * kMiB;  // free
@@ -140,7 +140,7 @@ Finding check_memory(const Facts& facts) {
   if (data != 0) found += ", " + bytes_text(data) + " a process (ulimit -d)";
   const std::uint64_t share =
       facts.memory_setting.value_or(topology::memory_share(facts.memory, facts.limit, static_cast<int>(facts.nodes)));
-  found += "; for a node's frame " + bytes_text(share) + (facts.memory_setting ? " (MARS_MEMORY)" : "");
+  found += "; for a node's frames " + bytes_text(share) + (facts.memory_setting ? " (MARS_MEMORY)" : "");
   if (share >= kLittleMemory) return {State::good, about, found, ""};
   return {State::note, about, found,
           "if frames take several passes (--report): fewer --nodes, or more memory (sbatch --mem, "
