@@ -12,7 +12,7 @@ struct NodeIdentity {
   std::string host;                  // name of its machine
   std::string binding;               // processors it is bound to, as text; "" if free
   std::array<std::int32_t, 5> seat;  // as in Hello
-  std::uint64_t memory;              // bytes it may use for one frame's triangles and edge boxes
+  std::uint64_t memory;              // bytes it may use for triangles and edge boxes of its frames
   std::string simd;                  // widest instruction set allowed, "" for any (best_instruction_set)
 };
 

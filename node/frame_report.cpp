@@ -1,5 +1,6 @@
 #include "node/frame_report.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "hal/messages/process.h"
@@ -28,11 +29,12 @@ void FrameReport::clock(wire::Phase phase) {
 
 void FrameReport::skip_clock() { clock_ = dclock(); }
 
-void FrameReport::set_strip(const geometry::LineRange& lines, bool last, std::uint64_t memory) {
+void FrameReport::note_memory(std::uint64_t bytes) { strip_.work.memory = std::max(strip_.work.memory, bytes); }
+
+void FrameReport::set_strip(const geometry::LineRange& lines, bool last) {
   strip_.last = last ? 1 : 0;
   strip_.first_line = lines.first;
   strip_.last_line = lines.last;
-  strip_.work.memory = memory;
   strip_.work.bytes_to_nodes = messages::traffic().to_nodes.bytes - sent_before_;
 }
 

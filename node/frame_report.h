@@ -22,8 +22,10 @@ class FrameReport {
   void clock(wire::Phase phase);
   // Leaves the time since the last call out: it belongs to no phase.
   void skip_clock();
-  // Prepares the header of the frame's next strip; `memory`: bytes in use at the peak.
-  void set_strip(const geometry::LineRange& lines, bool last, std::uint64_t memory);
+  // The frame had so many bytes in use.
+  void note_memory(std::uint64_t bytes);
+  // Prepares the header of the frame's next strip.
+  void set_strip(const geometry::LineRange& lines, bool last);
   // Records the frame as a span.
   void end() const;
 

@@ -82,7 +82,6 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
 // Every line is wanted, so that all edge boxes are counted.
 Tessellation Renderer::tessellate_all() {
   memory_.begin_frame();
-  memory_.arena().reset_peak();
   std::ranges::fill(wanted_lines_, std::uint8_t{1});
   const Tessellation own = tessellate();
   report_.strip().work.triangles = own.made.triangles;
@@ -91,8 +90,10 @@ Tessellation Renderer::tessellate_all() {
   return own;
 }
 
-// The triangles of the pass's lines, made again.
+// The triangles of the pass's lines, made again. No node goes on before all have published them and have received what
+// was sent in the pass before.
 Tessellation Renderer::tessellate_part(const group::Pass& pass) {
+  report_.note_memory(memory_.arena().peak());
   memory_.begin_frame();
   group::mark_lines(homes(), pass, wanted_lines_);
   const Tessellation own = tessellate();
@@ -221,7 +222,8 @@ void Renderer::finish_exchange(const group::Pass& pass) {
 }
 
 void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
-  report_.set_strip(lines, last, memory_.arena().peak());
+  report_.note_memory(memory_.arena().peak());
+  report_.set_strip(lines, last);
   outbox_.send(report_.strip());
   ++report_.strip().number;
   report_.skip_clock();  // sending belongs to no phase

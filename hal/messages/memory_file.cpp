@@ -111,7 +111,7 @@ Offer offer_file(int rank, std::size_t bytes, std::string& refusal) {
   Descriptor file(memfd_create(name.label().c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING));
   struct stat facts = {};
   if (!file || !grow_and_seal(file.number(), size_for(bytes)) || fstat(file.number(), &facts) != 0) {
-    refusal = std::string("memfd_create: ") + std::strerror(errno);
+    refusal = std::string("a file in memory: ") + std::strerror(errno);
     return {};
   }
   name.descriptor = file.number();

@@ -23,9 +23,6 @@ class OfferedMemory {
   std::span<std::byte> bytes() const { return {offer_.block.get(), size_}; }
   const MemoryName& name() const { return offer_.name; }
 
-  // As PrivateMemory's. Each rank asks for itself.
-  void prefer_large_pages();
-
  private:
   Offer offer_;
   std::size_t size_;
@@ -39,7 +36,6 @@ class AttachedMemory {
   static std::optional<AttachedMemory> attach(int rank, const MemoryName& name, std::size_t bytes);
 
   std::span<std::byte> bytes() const { return {block_.get(), size_}; }
-  void prefer_large_pages();
 
  private:
   AttachedMemory(std::shared_ptr<std::byte> block, std::size_t size) : block_(std::move(block)), size_(size) {}

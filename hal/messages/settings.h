@@ -21,7 +21,7 @@ struct Setting {
 std::span<const Setting> settings_table();
 
 struct Settings {
-  std::optional<std::uint64_t> memory;     // bytes a node may use for one frame; none: the program decides
+  std::optional<std::uint64_t> memory;     // bytes a node may use for its frames; none: the program decides
   std::optional<std::uint64_t> nx_memory;  // bytes of messages under way between mars-nx's processes; none: it decides
   std::optional<bool> nx_host;             // rank 0 of an MPI job is the host; none: its program decides
   bool nx_strict = false;                  // long messages are not buffered (hal/messages/rendezvous.h)

@@ -9,7 +9,7 @@
 namespace mars::group {
 namespace {
 
-constexpr std::size_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoParcel = 0xffffffff;
 
 // visit(unsorted) for all own edge boxes in the order of polygon numbers: those that stand still, then the others.
 template <typename Visit>
@@ -46,9 +46,10 @@ void TriangleExchange::send_triangles(const collectives::Group& group, const ras
     std::size_t boxes = 0;
     if (i > 0 && !memory.reads(node))
       for (const raster::LineLoad& load : on_home(line_loads)) boxes += load.boxes();
-    std::ranges::fill(on_home(std::span(parcel_of_)), static_cast<std::uint32_t>(boxes > 0 ? parcels_.size() : kNone));
-    if (boxes == 0) continue;
-    // With room for one triangle an edge box, the most there can be.
+    const auto parcel = boxes > 0 ? static_cast<std::uint32_t>(parcels_.size()) : kNoParcel;
+    std::ranges::fill(on_home(std::span(parcel_of_)), parcel);
+    if (parcel == kNoParcel) continue;
+    // It may hold one triangle an edge box, the most there can be.
     const auto message = memory.arena().take<std::byte>(triangles_at(boxes) + boxes * sizeof(geometry::Triangle));
     parcels_.push_back({node, message, reinterpret_cast<raster::UnsortedEdgeBox*>(message.data() + kBoxesAt) + boxes,
                         reinterpret_cast<geometry::Triangle*>(message.data() + triangles_at(boxes))});
@@ -66,9 +67,9 @@ void TriangleExchange::send_triangles(const collectives::Group& group, const ras
 void TriangleExchange::fill_parcels(const raster::Polygons& own) {
   if (parcels_.empty()) return;
   visit_all(own, [&](const raster::UnsortedEdgeBox& unsorted) {
-    const std::uint32_t home = parcel_of_[unsorted.line];
-    if (home == kNone) return;
-    Parcel& parcel = parcels_[home];
+    const std::uint32_t number = parcel_of_[unsorted.line];
+    if (number == kNoParcel) return;
+    Parcel& parcel = parcels_[number];
     if (std::exchange(parcel.last_triangle, unsorted.box.triangle) != unsorted.box.triangle)
       parcel.triangles[parcel.triangle_count++] = own.triangles[unsorted.box.triangle];
     raster::UnsortedEdgeBox& copy = *--parcel.next_box = unsorted;

@@ -50,7 +50,7 @@ class TriangleExchange {
 
   PendingMessages pending_;
   std::vector<Parcel> parcels_;
-  std::vector<std::uint32_t> parcel_of_;  // by line, parcels_.size() where none; only lines of `homes` are set
+  std::vector<std::uint32_t> parcel_of_;  // by line, kNoParcel where none; only lines of `homes` are set
 };
 
 }  // namespace mars::group

@@ -15,8 +15,8 @@ constexpr std::size_t kPage = 4096;
 
 // So that parts begin at pages, and triangles of a whole block have numbers of 32 bits.
 std::size_t bytes_of_part(std::size_t neighbours, std::uint64_t bytes) {
-  if (neighbours == 1) return bytes;
   const std::uint64_t most = std::uint64_t{shading::kNoTriangle} * sizeof(geometry::Triangle);
+  if (neighbours == 1) return std::min(bytes, most);
   return std::min(bytes / kParts, most / (kParts * neighbours)) / kPage * kPage;
 }
 

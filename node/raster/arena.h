@@ -23,11 +23,10 @@ class Arena {
   std::span<std::byte> rest() const { return block_.subspan(front_, back_ - front_); }
   void take_ends(std::size_t at_front, std::size_t at_back);
 
-  void clear() { front_ = 0, back_ = block_.size(); }
+  void clear() { front_ = 0, back_ = block_.size(), peak_ = 0; }
 
   std::size_t size() const { return block_.size(); }
-  std::size_t peak() const { return peak_; }  // most bytes in use since reset_peak()
-  void reset_peak() { peak_ = used(); }
+  std::size_t peak() const { return peak_; }  // most bytes in use since clear()
 
  private:
   // Items begin on multiples of this: a cache line.

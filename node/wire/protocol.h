@@ -12,8 +12,8 @@
 //   host -> node   Load (+ film block to one node a machine, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   counts a line; Triangles and DepthLines, in any order of the senders: those of two keyframes cannot
-//                  mix, for the sum of the counts comes between
+//   node -> node   counts a line; Triangles and DepthLines, in any order of the senders: those of two keyframes, or of
+//                  two passes of one, cannot mix, for all nodes of the group meet between them
 #pragma once
 
 #include <array>
@@ -63,7 +63,7 @@ struct Hello {
   std::int32_t machine;              // lowest node id on the same machine; its own if it shares no memory with them
   std::int32_t rank;                 // its number in the job that started it (MPI's)
   std::array<std::int32_t, 5> seat;  // core, L2, L3, NUMA domain, package that hold it; -1: several
-  std::uint64_t memory;              // bytes it may use for one frame's triangles and edge boxes
+  std::uint64_t memory;              // bytes it may use for triangles and edge boxes of its frames
   std::array<char, 64> binding;      // processors it is bound to, as hwloc lists them; "" if free
   std::array<char, 16> simd;         // widest instruction set its kernels use
   std::array<char, 128> apart;       // why it shares no memory with other nodes of its machine; "" if it does
@@ -84,7 +84,7 @@ inline constexpr std::int32_t kMaxCredits = 4;
 struct Load {
   WireStamp stamp;
   std::uint64_t film_bytes;
-  std::uint64_t memory;  // bytes for one frame's triangles and edge boxes, the same on every node
+  std::uint64_t memory;  // bytes for triangles and edge boxes of a node's frames, the same on every node
   std::int32_t credits;  // slots that the node makes for its strips, 1..kMaxCredits; all are the host's at first
   Mapping mapping;
   std::int32_t groups;   // that the nodes form side by side (collectives::group_of), for all Render commands

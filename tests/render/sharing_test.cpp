@@ -4,9 +4,11 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "hal/failure/failure.h"
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -18,7 +20,10 @@ constexpr std::uint32_t kWidth = 160, kHeight = 120, kFrames = 12;
 
 wire::FilmData film(std::uint32_t interval) { return crowd(kWidth, kHeight, kFrames, interval); }
 
-// Sleeps before each message of one type that one node sends.
+constexpr long kLooks = 0;  // in place of a message's type
+
+// One node sleeps before each message of one type that it sends, or before each look for messages: so also between the
+// sum of EBC and its first line.
 class SlowNode : public messages::MachinesBackend {
  public:
   SlowNode(messages::Backend& inner, messages::Counts& counts, messages::Machines& machines, int node, long type)
@@ -28,10 +33,28 @@ class SlowNode : public messages::MachinesBackend {
     if (rank() == node_ && type == type_) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return messages::MachinesBackend::start_send(to, type, data, length);
   }
+  std::optional<messages::Envelope> peek() override {
+    if (rank() == node_ && type_ == kLooks) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return messages::MachinesBackend::peek();
+  }
 
  private:
   int node_;
   long type_;
+};
+
+// The second machine shares film and CZB among its nodes, but not their frames' memory.
+class SmallMachine : public messages::MachinesBackend {
+ public:
+  using MachinesBackend::MachinesBackend;
+
+  std::shared_ptr<std::byte> share(std::size_t bytes) override {
+    if (neighbourhood().machine > 0 && bytes > kMost) throw Failure("there is too little", "", "");
+    return MachinesBackend::share(bytes);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16 << 20;
 };
 
 struct SharedRun {
@@ -50,7 +73,7 @@ void PrintTo(const Nodes& n, std::ostream* out) {
   *out << n.count << " nodes, " << n.each << " a machine, " << n.groups << " groups";
 }
 
-void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = 0,
+void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = wire::kStrip,
          std::uint64_t memory = 256 << 20) {
   messages::Machines machines(nodes.each);
   RunOptions options;
@@ -92,28 +115,54 @@ TEST(Sharing, AnyMachinesAndGroups) {
   }
 }
 
+// While one node has not begun to draw a pass the others make the triangles of the next.
 TEST(Sharing, InSeveralPasses) {
   const wire::FilmData data = film(4);
-  SharedRun rendered;
-  run(data, {4, 2}, rendered, -1, 0, 200'000);
-  EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
-  expect_pictures(rendered, data, from_scratch(data));
+  const FilmRun expected = from_scratch(data);
+  for (const int each : {4, 2}) {
+    SharedRun rendered;
+    run(data, {4, each}, rendered, 1, kLooks, 200'000);
+    EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
+    expect_pictures(rendered, data, expected);
+  }
 }
 
 // While one node is late with its inbetweens the others have come to the next keyframe; while it is late with its
-// home lines they want to begin with theirs.
+// home lines they want to begin with theirs; while it has not read their triangles they make others.
 TEST(Sharing, ASlowNodeIsWaitedFor) {
   const wire::FilmData data = film(3);
   const FilmRun expected = from_scratch(data);
   for (const int each : {4, 2})
     for (int slow = 0; slow < 4; ++slow)
-      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kDepthLines}}) {
+      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kDepthLines}, kLooks}) {
         SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " +
                      std::to_string(type));
         SharedRun rendered;
         run(data, {4, each}, rendered, slow, type);
         expect_pictures(rendered, data, expected);
       }
+}
+
+TEST(Sharing, NodesThatCannotReadEachOthersTrianglesSendThem) {
+  const wire::FilmData data = film(4);
+  messages::Machines machines(2);
+  SharedRun rendered;
+  RunOptions options;
+  options.nodes = 4;
+  options.work.groups = 1;
+  options.wrap = [&](messages::Backend& inner) {
+    return std::make_unique<SmallMachine>(inner, rendered.counts, machines);
+  };
+  rendered.film = run_film(FilmBlock(data).bytes(), options);
+  expect_pictures(rendered, data, from_scratch(data));
+  const auto messages = [&](int from, int to) {
+    return rendered.counts.sent({.from = from, .to = to, .type = wire::kTriangles}).messages;
+  };
+  EXPECT_EQ(messages(0, 1) + messages(1, 0), 0u);
+  EXPECT_GT(messages(2, 3), 0u);
+  EXPECT_GT(messages(3, 2), 0u);
+  ASSERT_EQ(rendered.film.warnings.size(), 1u);
+  EXPECT_NE(rendered.film.warnings[0].find("(there is too little)"), std::string::npos) << rendered.film.warnings[0];
 }
 
 TEST(Sharing, NoLineOfCzbTravelsOnOneMachine) {

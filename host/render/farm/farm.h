@@ -22,7 +22,7 @@ namespace mars::farm {
 
 struct FarmOptions {
   wire::Mapping mapping = wire::Mapping::cost;
-  std::uint64_t memory = 0;                    // bytes for a frame on a node; 0: as the node with the least offers
+  std::uint64_t memory = 0;                    // bytes for frames on a node; 0: as the node with the least offers
   std::int32_t credits = wire::kMaxCredits;    // strips a node may have on the way
   bool each_frame = false;                     // report what is known of each frame, which grows with the film
   trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded

@@ -150,11 +150,11 @@ void NodeInbox::receive_loaded() {
 }
 
 std::vector<std::string> NodeInbox::apart() const {
-  std::set<std::string> told;  // machines
+  std::set<std::string> machines;  // that are reported
   std::vector<std::string> texts;
   for (std::size_t node = 0; node < apart_.size(); ++node) {
     const std::string host = hellos_[node].host.data();
-    if (!apart_[node].empty() && told.insert(host).second)
+    if (!apart_[node].empty() && machines.insert(host).second)
       texts.push_back("nodes on " + host + " do not read each other's triangles in place (" + apart_[node] +
                       "): they send them, which takes longer; raise the limit, or set MARS_MEMORY to fewer MiB");
   }

@@ -74,7 +74,7 @@ std::optional<StripMessage> StripMessage::read(const wire::Strip& header, std::s
   if (header.by_message != 0 || !parts || parts->end > slot.size()) return std::nullopt;
   StripBytes runs = store.take(parts->end - parts->runs);
   const std::byte* start = runs.data.get();
-  std::memcpy(runs.data.get(), slot.data() + parts->runs, runs.size);
+  std::ranges::copy(slot.subspan(parts->runs, runs.size), runs.data.get());
   StripMessage strip(header, std::move(runs), start, slot.data() + parts->pixels);
   if (!strip.count_pixels()) return std::nullopt;
   return strip;
