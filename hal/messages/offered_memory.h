@@ -22,6 +22,8 @@ class OfferedMemory {
 
   std::span<std::byte> bytes() const { return {offer_.block.get(), size_}; }
   const MemoryName& name() const { return offer_.name; }
+  // As PrivateMemory's.
+  void prefer_large_pages();
 
  private:
   Offer offer_;
