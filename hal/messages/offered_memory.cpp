@@ -15,6 +15,8 @@ OfferedMemory::OfferedMemory(std::size_t bytes) : offer_(process().backend().off
                         "use a machine with more memory");
 }
 
+void OfferedMemory::prefer_large_pages() { messages::prefer_large_pages(bytes()); }
+
 std::optional<AttachedMemory> AttachedMemory::attach(int rank, const MemoryName& name, std::size_t bytes) {
   std::shared_ptr<std::byte> block = process().backend().attach(rank, name, bytes);
   if (block == nullptr) return std::nullopt;

@@ -23,6 +23,9 @@ class OfferedMemory {
   std::span<std::byte> bytes() const { return {offer_.block.get(), size_}; }
   const MemoryName& name() const { return offer_.name; }
 
+  // As PrivateMemory's. Each rank asks for itself.
+  void prefer_large_pages();
+
  private:
   Offer offer_;
   std::size_t size_;

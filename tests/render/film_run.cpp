@@ -65,9 +65,7 @@ FilmRun run_film(std::span<const std::byte> film, const RunOptions& options) {
   FilmRun run;
   const auto host = [&] {
     sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
-    farm::FarmListener listener;
-    listener.warned = [&](const std::string& text) { run.warnings.push_back(text); };
-    run.report = farm::render_film(film, plan, farm, pool, listener);
+    run.report = farm::render_film(film, plan, farm, pool, {});
   };
   const auto node = [&] {
     if (options.around_node) options.around_node();
