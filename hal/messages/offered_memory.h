@@ -25,6 +25,9 @@ class OfferedMemory {
   // As PrivateMemory's.
   void prefer_large_pages();
 
+  // As PrivateMemory's. Each rank asks for itself.
+  void prefer_large_pages();
+
  private:
   Offer offer_;
   std::size_t size_;

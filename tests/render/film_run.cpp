@@ -65,9 +65,7 @@ FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& option
   FilmRun run;
   {
     sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
-    farm::FarmListener listener;
-    listener.warned = [&](const std::string& text) { run.warnings.push_back(text); };
-    run.report = farm::render_film(film, plan, farm, pool, listener);
+    run.report = farm::render_film(film, plan, farm, pool, {});
   }
   run.frames = sink.release();
   return run;

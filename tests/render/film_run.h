@@ -30,7 +30,6 @@ struct RunOptions {
 struct FilmRun {
   std::map<std::uint32_t, Pixels> frames;
   farm::FarmReport report;
-  std::vector<std::string> warnings;
 };
 
 // The packed film, aligned as FilmView wants it.
