@@ -72,14 +72,15 @@ MemoryLimit memory_limit(const fs::path& root) { return {group_limit(root), proc
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
   std::uint64_t share = std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);
-  const auto limit_to = [&](std::uint64_t most, std::uint64_t used, std::uint64_t part) {
+  const auto limit_to = [&](std::uint64_t most, std::uint64_t used, int parts) {
     if (most == 0) return;
     const std::uint64_t left = most - std::min(most, used);
-    share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(threads) / part));
+    share = std::min(share, std::max(kLeastShare, left / static_cast<std::uint64_t>(parts)));
   };
-  // A thread's memory beside its frame has its addresses from the start, but becomes data only later.
-  limit_to(limit.each.addresses, limit.used.addresses, 2);
-  limit_to(limit.each.data, limit.used.data, 4);
+  // A process sees the memory of all nodes here, and shares none that takes more than half of its addresses. A thread's
+  // memory beside its frame has its addresses from the start, but becomes data only later.
+  limit_to(limit.each.addresses, limit.used.addresses, processes == 1 ? 2 : 4 * processes);
+  limit_to(limit.each.data, limit.used.data, 4 * threads);
   return share;
 }
 

@@ -22,9 +22,6 @@ class OfferedMemory {
 
   std::span<std::byte> bytes() const { return {offer_.block.get(), size_}; }
   const MemoryName& name() const { return offer_.name; }
-  // As PrivateMemory's.
-  void prefer_large_pages();
-
   // As PrivateMemory's. Each rank asks for itself.
   void prefer_large_pages();
 

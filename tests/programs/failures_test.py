@@ -152,6 +152,13 @@ class Memory(ProgramTest):
             printed = self.fail_clearly(1, *draw, says="ulimit -v: the limit of 300000 kB", preexec_fn=limit).stderr
             self.assertTrue(self.within(int(re.search(r"raise it to (\d+) or more", printed)[1]), "mars", *draw))
 
+    def test_nodes_read_each_others_triangles_within_limits(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1000000 << 10, 1000000 << 10))
+        for backend in self.backends():
+            printed = self.succeed("mars", "render", TEAPOT, "--sink", "none", "--nodes", 4, "--frames", "0", "--backend",
+                                   backend, preexec_fn=limit)
+            self.assertNotIn("warning", printed)
+
     def test_a_limit_of_data_is_named(self):
         limit = lambda: resource.setrlimit(resource.RLIMIT_DATA, (100000 << 10, 100000 << 10))
         for backend in self.backends():

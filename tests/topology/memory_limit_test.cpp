@@ -102,13 +102,14 @@ TEST(MemoryShare, IsHalfOfAnEqualPartOfTheLeast) {
   EXPECT_EQ(memory_share(16 * kGiB, {}, 4), 2 * kGiB);
   EXPECT_EQ(memory_share(16 * kGiB, {8 * kGiB, {}, {}}, 4), kGiB);
   EXPECT_EQ(memory_share(16 * kGiB, {64 * kGiB, {}, {}}, 4), 2 * kGiB);
-  EXPECT_EQ(memory_share(16 * kGiB, {0, {kGiB}, {}}, 4), kGiB / 2);
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {kGiB}, {}}, 1), kGiB / 2);
   EXPECT_EQ(memory_share(1024 * kGiB, {}, 1), 4 * kGiB);
-  EXPECT_EQ(memory_share(16 * kGiB, {0, {8 * kGiB}, {}}, 4, 4), kGiB) << "threads share the process's limit";
-  EXPECT_EQ(memory_share(16 * kGiB, {0, {3 * kGiB}, {2 * kGiB}}, 4), kGiB / 2) << "less what is in use";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {8 * kGiB}, {}}, 4), kGiB / 2) << "each process sees the memory of all";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {8 * kGiB}, {}}, 4, 4), kGiB / 2) << "so does one of four threads";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {3 * kGiB}, {2 * kGiB}}, 1), kGiB / 2) << "less what is in use";
   EXPECT_EQ(memory_share(16 * kGiB, {0, {kGiB}, {2 * kGiB}}, 4), kMiB);
   EXPECT_EQ(memory_share(16 * kGiB, {0, {0, kGiB}, {2 * kGiB}}, 4, 2), kGiB / 8) << "addresses in use are no data";
-  EXPECT_EQ(memory_share(16 * kGiB, {0, {3 * kGiB, 2 * kGiB}, {2 * kGiB, kGiB}}, 4), kGiB / 4) << "the lesser of both";
+  EXPECT_EQ(memory_share(16 * kGiB, {0, {3 * kGiB, 2 * kGiB}, {2 * kGiB, kGiB}}, 1), kGiB / 4) << "the lesser of both";
   EXPECT_EQ(memory_share(0, {}, 1), kGiB / 2);
   EXPECT_EQ(memory_share(0, {256 * kMiB, {}, {}}, 1), 128 * kMiB);
 }
