@@ -129,7 +129,7 @@ TEST(Checks, Memory) {
   expect(State::good, "memory", "32 GiB; for a node's frames 2.0 GiB", "", [](Facts&) {});
   expect(State::good, "memory", "32 GiB, 8.0 GiB of it for this job (cgroup); for a node's frames 512 MiB", "",
          [](Facts& f) { f.limit.together = 8 * kGiB; });
-  expect(State::good, "memory", "16 GiB of addresses a process (ulimit -v); for a node's frame 512 MiB", "",
+  expect(State::good, "memory", "16 GiB of addresses a process (ulimit -v); for a node's frames 512 MiB", "",
          [](Facts& f) { f.limit.each.addresses = 16 * kGiB; });
   expect(State::good, "memory", "1.0 GiB a process (ulimit -d)", "", [](Facts& f) { f.limit.each.data = kGiB; });
   expect(State::note, "memory", "for a node's frames 64 MiB", "fewer --nodes",
