@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "hal/collectives/group_sum.h"
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
+#include "node/group/passes.h"
 #include "tests/hal/machines_backend.h"
 
 namespace mars::group {
@@ -52,11 +52,6 @@ void expect_made(const FrameMemory& memory, const raster::LineBoxes& part, int n
   }
 }
 
-void meet(const collectives::Group& group) {
-  std::uint64_t nothing = 0, work = 0;
-  collectives::group_high(group, {&nothing, 1}, {&work, 1});
-}
-
 // Keyframes with zero to two inbetweens after them, drawn by nodes of which each is the slow one in turn.
 void draw_film(int nodes, int nodes_each, std::uint32_t groups) {
   messages::Machines machines(nodes_each);
@@ -77,7 +72,7 @@ void draw_film(int nodes, int nodes_each, std::uint32_t groups) {
       memory.begin_frame();
       const raster::LineBoxes own = make(memory, frame);
       memory.publish(own);
-      meet(group);
+      wait_for_all(group);
       if (static_cast<int>(frame) % nodes == self) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       std::vector<raster::LineBoxes> parts;
       memory.read_published(parts);
