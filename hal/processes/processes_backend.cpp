@@ -160,9 +160,11 @@ std::shared_ptr<std::byte> ProcessesBackend::share(std::size_t bytes) {
                                           : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE,
                                                  segment_.descriptor(), static_cast<off_t>(begin));
   if (block == MAP_FAILED) {
-    throw Failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes",
-                  "node " + std::to_string(rank()),
-                  "use a machine with more memory, or set MARS_NX_MEMORY to more MiB");
+    const Failure failure("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes",
+                          "node " + std::to_string(rank()),
+                          "use a machine with more memory, or set MARS_NX_MEMORY to more MiB");
+    if (verdict == Share::granted) segment_.stop(failure.what());  // the others have it, and would rely on this node
+    throw failure;
   }
   return {static_cast<std::byte*>(block), [this, number, begin, size](std::byte* old) {
             munmap(old, size);

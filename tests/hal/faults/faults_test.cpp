@@ -1,13 +1,18 @@
 // Falls of a node over threads, where it can only throw, and over forked processes.
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "hal/failure/failure.h"
+#include "hal/messages/shared_memory.h"
+#include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
 #include "hal/processes/run_processes.h"
 #include "hal/threads/run_threads.h"
@@ -51,6 +56,27 @@ TEST_P(OverProcesses, AllEnd) {
 
 INSTANTIATE_TEST_SUITE_P(Faults, OverProcesses, testing::Combine(testing::ValuesIn(kWays), testing::ValuesIn(kMoments)),
                          [](const auto& info) { return std::get<0>(info.param) + "_" + std::get<1>(info.param); });
+
+// One node's limit of addresses leaves no room for what the others have: none may go on as if all had it.
+TEST(OverProcesses, EndWhereOneNodeAloneCannotShare) {
+  constexpr std::size_t kMany = std::size_t{1} << 30;
+  const auto node = [] {
+    if (mynode() == 1) {
+      const rlimit limit{kMany, kMany};
+      setrlimit(RLIMIT_AS, &limit);
+    }
+    try {
+      const messages::SharedMemory shared(kMany);
+      gsync();
+    } catch (const Failure&) {
+      gsync();  // as a caller does that has another way
+    }
+    return 0;
+  };
+  EXPECT_NE(processes::run_processes(
+                2, [] { return 0; }, node),
+            0);
+}
 
 }  // namespace
 }  // namespace mars::faults
