@@ -14,6 +14,7 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
                    simd::InstructionSet set)
     : scene_(film),
       mapping_(load.mapping),
+      pixel_format_(load.pixel_format),
       tessellator_(set),
       z_buffer_(set, scene_.width()),
       neighbours_(machines, load.groups),
@@ -236,8 +237,19 @@ bool Renderer::triangles_travel() const {
 }
 
 shading::Shading Renderer::shading() const {
-  return {memory_.first_triangle(), scene_.film().materials().data(), scene_.lights().data(),
-          static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
+  const wire::FilmSettings& settings = scene_.film().settings();
+  shading::Shading shading{};
+  shading.triangles = memory_.first_triangle();
+  shading.materials = scene_.film().materials().data();
+  shading.lights = scene_.lights().data();
+  shading.light_count = static_cast<std::uint32_t>(scene_.lights().size());
+  shading.projection = scene_.projection();
+  shading.pattern = shape::sample_pattern(settings.samples);
+  shading.encoding = color::encoding_of(settings, scene_.camera(), pixel_format_);
+  shading.ambient = settings.ambient;
+  std::ranges::copy(scene_.up(), shading.up);
+  shading.fog = settings.fog;
+  return shading;
 }
 
 }  // namespace mars::node

@@ -78,6 +78,7 @@ class Renderer {
   std::optional<Tracer> tracer_;
   geometry::Scene scene_;
   wire::Mapping mapping_;
+  wire::PixelFormat pixel_format_;
   Tessellator tessellator_;
   raster::ZBuffer z_buffer_;
   raster::Neighbours neighbours_;

@@ -11,12 +11,15 @@ namespace {
 constexpr float kGuardPixels = 32768;  // screen places stay below 2^24 / 256, exact in a float
 
 EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
-  EyeLight out{light.kind == 1, {}, {light.color[0], light.color[1], light.color[2]}};
+  EyeLight out{light.kind,      {},         {light.color[0], light.color[1], light.color[2]}, {}, light.cos_inner,
+               light.cos_outer, light.reach};
+  const bool has_place = light.kind != wire::LightKind::directional;
   for (std::size_t r = 0; r < 3; ++r) {
     const auto& row = world_to_eye.m[r];
-    const double offset = out.point ? row[3] : 0.0;
+    const double offset = has_place ? row[3] : 0.0;
     out.vector[r] =
         static_cast<float>(row[0] * light.vector[0] + row[1] * light.vector[1] + row[2] * light.vector[2] + offset);
+    out.axis[r] = static_cast<float>(row[0] * light.axis[0] + row[1] * light.axis[1] + row[2] * light.axis[2]);
   }
   return out;
 }
@@ -71,6 +74,11 @@ void Scene::set_frame(std::uint32_t frame) {
   projection_ = projection_of(camera, width(), height());
   for (std::size_t i = 0; i < lights_.size(); ++i)
     lights_[i] = to_eye(film_.lights()[film_.value_at(film_.light_tracks()[i], frame)], camera.world_to_eye);
+}
+
+std::array<float, 3> Scene::up() const {
+  const auto& to_eye = camera().world_to_eye.m;
+  return {static_cast<float>(to_eye[0][2]), static_cast<float>(to_eye[1][2]), static_cast<float>(to_eye[2][2])};
 }
 
 shape::EyeMatrix Scene::matrix(std::size_t segment) const {

@@ -2,6 +2,7 @@
 // current frame, in eye space.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,6 +27,9 @@ class Scene {
   std::int32_t height() const { return static_cast<std::int32_t>(film_.settings().height); }
   const shape::Projection& projection() const { return projection_; }
   std::span<const EyeLight> lights() const { return lights_; }
+  const wire::Camera& camera() const { return film_.camera_at(frame_); }
+  // The world's z axis in eye space.
+  std::array<float, 3> up() const;
 
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
   // Number of the segment's first patch or meshlet among all of the film.

@@ -17,6 +17,10 @@ struct ShadingKernels {
   // their pixels to `pixels`; says how many of each.
   Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
                   std::uint32_t* pixels);
+  // The light that `count` fragments of line `line`, in any order, send to the eye, before exposure: red, green and
+  // blue to light[0..2], which have kVectorSlack to spare.
+  void (*shade_fragments)(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
+                          float* const* light);
 };
 
 const ShadingKernels& shading_kernels(simd::InstructionSet set);

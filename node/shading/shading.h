@@ -3,8 +3,10 @@
 
 #include <cstdint>
 
+#include "node/color/encoding.h"
 #include "node/geometry/eye_light.h"
 #include "node/geometry/triangle.h"
+#include "node/shape/sample_pattern.h"
 #include "node/shape/vertices.h"
 #include "node/wire/film_parts.h"
 #include "node/wire/run.h"
@@ -18,6 +20,18 @@ struct Shading {
   const geometry::EyeLight* lights;
   std::uint32_t light_count;
   shape::Projection projection;
+  shape::SamplePattern pattern;  // of the film's pixels
+  color::Encoding encoding;
+  wire::AmbientLight ambient;
+  float up[3];  // the world's z axis, in eye space
+  wire::Fog fog;
+};
+
+// A sample to be shaded, of a line that is known.
+struct Fragment {
+  std::uint32_t triangle;
+  std::uint16_t column;
+  std::uint16_t sample;  // its number in the pattern
 };
 
 // Columns [first, last); none where last <= first.

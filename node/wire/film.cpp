@@ -72,14 +72,26 @@ bool all_finite(const Range& numbers) {
                      [](auto number) { return number >= -kLargest && number <= kLargest; });
 }
 
+bool is_light(const std::array<float, 3>& color) {
+  return std::ranges::all_of(color, [](float channel) { return channel >= 0 && channel <= kMostLight; });
+}
+
+bool is_share(float number) { return number >= 0 && number <= 1; }
+
 bool sound(const FilmSettings& s) {
   return s.width >= 1 && s.width <= kMaxSide && s.height >= 1 && s.height <= kMaxSide && s.frames >= 1 &&
-         s.frames <= kMostFrames && s.dice <= 256 && all_finite(s.background) && s.rate > 0 && s.rate <= 1e6f;
+         s.frames <= kMostFrames && s.dice <= 256 && is_light(s.background) && s.rate > 0 && s.rate <= 1e6f &&
+         std::has_single_bit(s.samples) && s.samples <= kMostSamples && s.color_space <= ColorSpace::linear &&
+         s.curve <= Curve::filmic && is_light(s.ambient.sky) && is_light(s.ambient.ground) && is_light(s.fog.color) &&
+         all_finite(std::array{s.fog.start, s.fog.end});
 }
 
 bool sound(const Material& m) {
-  return all_finite(m.color) && all_finite(std::array{m.ambient, m.diffuse, m.specular}) && m.exponent >= 0 &&
-         m.exponent <= 65535 && (m.sides == 1 || m.sides == 2);
+  return std::ranges::all_of(m.color, is_share) &&
+         std::ranges::all_of(std::array{m.ambient, m.diffuse, m.specular}, [](float n) { return n >= 0 && n <= 10; }) &&
+         m.exponent >= 0 && m.exponent <= 65535 && (m.sides == 1 || m.sides == 2) &&
+         m.interpolation <= Interpolation::flat && m.reflection <= Reflection::metallic_roughness &&
+         is_share(m.roughness) && is_share(m.metallic) && m.refraction > 1 && m.refraction <= 100;
 }
 
 bool sound(const Matrix& matrix) {
@@ -88,10 +100,14 @@ bool sound(const Matrix& matrix) {
 
 bool sound(const Camera& camera) {
   return sound(camera.world_to_eye) && camera.focal > 0 && camera.focal <= 1e6 && camera.near >= 1e-9 &&
-         camera.far > camera.near && camera.far <= kLargest;
+         camera.far > camera.near && camera.far <= kLargest && camera.exposure > 0 && camera.exposure <= 1e6;
 }
 
-bool sound(const Light& light) { return light.kind <= 1 && all_finite(light.vector) && all_finite(light.color); }
+bool sound(const Light& light) {
+  return light.kind <= LightKind::spot && all_finite(light.vector) && is_light(light.color) && all_finite(light.axis) &&
+         light.cos_outer >= -1 && light.cos_outer <= light.cos_inner && light.cos_inner <= 1 && light.reach >= 0 &&
+         light.reach <= kLargest;
+}
 
 bool sound(const std::array<float, 3>& vector) { return all_finite(vector); }
 
@@ -247,8 +263,17 @@ void FilmView::check_intervals(const std::string& where) const {
     const auto list = moving(interval);
     const bool ascending = std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
     require(ascending && (list.empty() || list.back() < segments_.size()), where, "an interval's movers are broken");
+    require(exposed_evenly(interval), where, "its exposure changes within an interval");
   }
   require(next == settings_->frames, where, "its intervals do not cover its frames");
+}
+
+bool FilmView::exposed_evenly(const Interval& interval) const {
+  const double exposure = camera_at(interval.first_frame).exposure;
+  return std::ranges::all_of(changes_.subspan(settings_->camera.first, settings_->camera.count), [&](const Change& c) {
+    const bool within = c.frame > interval.first_frame && c.frame - interval.first_frame < interval.frame_count;
+    return !within || cameras_[c.value].exposure == exposure;
+  });
 }
 
 void FilmView::check_meshlets(const std::string& where) const {

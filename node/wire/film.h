@@ -92,6 +92,7 @@ class FilmView {
   void check_meshlets(const std::string& where) const;
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;
+  bool exposed_evenly(const Interval& interval) const;
 
   const FilmSettings* settings_ = nullptr;
   std::span<const Patch> patches_;

@@ -1,7 +1,7 @@
 // The parts of a compiled film (film.h): plain structs, as they lie in the block. Angles are gone here:
 // matrices only.
 //
-// Units: world lengths; colours 0..1 as they are shown (no gamma); frames count from 0.
+// Units: world lengths; colours and light in the film's ColorSpace; frames count from 0.
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 2;
+inline constexpr std::uint32_t kFilmVersion = 3;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
+inline constexpr std::uint32_t kMostSamples = 16;        // of a pixel
 
 // A bicubic Bezier patch: point (i, j) is points[4 * j + i], i along u, j along v, in the unit cube.
 // The outside is where d/du x d/dv points.
@@ -76,26 +77,77 @@ struct Segment {
   Track material;
 };
 
-// Phong's: ambient + diffuse * N.L coloured, specular * (R.V)^exponent white, per light.
+// What is interpolated over a triangle: its normal, shaded at each sample; or the colours of its vertices; or nothing,
+// one colour for all of it (thesis 4.2).
+enum class Interpolation : std::uint32_t { phong, gouraud, flat };
+
+// How a surface reflects light (thesis 4.1).
+enum class Reflection : std::uint32_t { phong, blinn_phong, cook_torrance, metallic_roughness };
+
+// What a reflection model does not name, it does not use.
 struct Material {
-  std::array<float, 3> color;
+  std::array<float, 3> color;  // 0..1
+  // Ambient and diffuse light are coloured, specular light is white, each scaled by one of these. Phong's highlight is
+  // (R.V)^exponent, Blinn's (N.H)^exponent. Not metallic_roughness's.
   float ambient;
   float diffuse;
   float specular;
   float exponent;
   std::uint32_t sides;  // 1: seen from outside only; 2: the normal turns to the eye
+  Interpolation interpolation = Interpolation::phong;
+  Reflection reflection = Reflection::phong;
+  float roughness = 0.5f;   // cook_torrance: Beckmann's m; metallic_roughness: glTF's
+  float metallic = 0;       // metallic_roughness's, 0..1
+  float refraction = 1.5f;  // cook_torrance's index, above 1
 
   bool operator==(const Material&) const = default;
 };
 
-// kind 0: directional, `vector` is the unit direction to the light; 1: a point light at `vector`.
+enum class LightKind : std::uint32_t { directional, point, spot };
+
+// Light of a kind's colour at most, in the sum of what nodes compute always finite.
+inline constexpr float kMostLight = 1e5f;
+
 struct Light {
-  std::uint32_t kind;
-  std::array<float, 3> vector;
-  std::array<float, 3> color;  // times intensity
+  LightKind kind;
+  std::array<float, 3> vector;  // the unit direction to a directional light, else the light's place
+  std::array<float, 3> color;   // times intensity, 0..kMostLight
+  // A spot shines along this unit direction: fully within the inner cone, not at all outside the outer one, smoothly
+  // between. Cosines of the cones' half angles, outer <= inner.
+  std::array<float, 3> axis = {};
+  float cos_inner = 1;
+  float cos_outer = 1;
+  // Where a point light or spot has half its brightness: at distance d it is 1 / (1 + (d / reach)^2). 0: it does not
+  // fall off.
+  float reach = 0;
 
   bool operator==(const Light&) const = default;
 };
+
+// Light from all around, scaled by each material's `ambient`: from above `sky`, from below `ground`, by the z of the
+// normal in the world evenly between them.
+struct AmbientLight {
+  std::array<float, 3> sky = {1, 1, 1};
+  std::array<float, 3> ground = {1, 1, 1};
+
+  bool operator==(const AmbientLight&) const = default;
+};
+
+// Surfaces take on the fog's colour evenly from `start` to `end`, distances along the view axis; none if end <= start.
+struct Fog {
+  std::array<float, 3> color = {};
+  float start = 0;
+  float end = 0;
+
+  bool operator==(const Fog&) const = default;
+};
+
+// coded: colours are numbers as they are shown, lit as if they were light. linear: they are light, which exposure, a
+// curve and sRGB's encoding make pixels of.
+enum class ColorSpace : std::uint32_t { coded, linear };
+
+// From exposed light to what is shown of it, both linear.
+enum class Curve : std::uint32_t { none, filmic };
 
 // The eye looks along -z of its own frame, x to the right, y up. `focal` = 1 / tan(half the vertical field of
 // view). Nothing nearer than near or farther than far is drawn.
@@ -104,6 +156,7 @@ struct Camera {
   double focal;
   double near;
   double far;
+  double exposure = 1;  // light is multiplied by it; the same throughout a render interval
 
   bool operator==(const Camera&) const = default;
 };
@@ -124,8 +177,13 @@ struct FilmSettings {
   std::uint32_t frames;  // 1..kMostFrames
   std::uint32_t dice;    // 0: adaptive; N: every patch N x N quads
   std::array<float, 3> background;
-  float rate;    // frames a second
-  Track camera;  // indices into cameras
+  float rate;                 // frames a second
+  Track camera;               // indices into cameras
+  std::uint32_t samples = 1;  // a pixel: 1, 2, 4, 8 or 16
+  ColorSpace color_space = ColorSpace::coded;
+  Curve curve = Curve::none;  // of linear films
+  AmbientLight ambient;
+  Fog fog;
 };
 
 }  // namespace mars::wire

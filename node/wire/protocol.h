@@ -21,6 +21,7 @@
 #include <cstdint>
 
 #include "hal/messages/offer.h"
+#include "node/wire/pixel_format.h"
 #include "node/wire/run.h"
 #include "node/wire/stamp.h"
 
@@ -89,6 +90,8 @@ struct Load {
   Mapping mapping;
   std::int32_t groups;   // that the nodes form side by side (collectives::group_of), for all Render commands
   std::uint32_t traced;  // 1: the node records what it does and sends it as Trace
+  PixelFormat pixel_format;
+  std::uint64_t still_memory;  // bytes that a node adds to what its machine keeps of stationary parts for inbetweens
 };
 
 // The node has the film and its slots.
@@ -161,9 +164,9 @@ inline constexpr std::size_t kMaxStripBytes = std::size_t{768} << 10;
 inline constexpr std::size_t kSlotBytes = 2 * kMaxStripBytes + 4096;
 
 // A part of one node's part of one frame: the pixels of its stationary parts (CFB, keyframes only) and then those of
-// its moving parts (MFB). Followed by all pixels, each one uint32 (red in the lowest byte, then green, blue,
-// 0), then by constant_runs + moving_runs Run that say where they go, in the same order. The message has all that
-// by_message; else it ends with the struct, and the rest lies behind it in the slot.
+// its moving parts (MFB). Followed by all pixels in Load's format, then by constant_runs + moving_runs Run that say
+// where they go, in the same order. The message has all that by_message; else it ends with the struct, and the rest
+// lies behind it in the slot.
 struct Strip {
   std::uint32_t frame;
   std::uint32_t interval;

@@ -122,12 +122,14 @@ TEST(Boundaries, NodeOpensNoFileAndPrintsNothing) {
   for (const std::string& file : files_including(world)) EXPECT_FALSE(begins(file, "node/")) << file;
 }
 
-// Of the node, the host knows the wire and pure shape; only programs link both sides, and choose a transport.
+// Of the node, the host knows the wire, pure shape and what a pixel is; only programs link both sides, and choose a
+// transport.
 TEST(Boundaries, HostAndNodeShareTheWire) {
   for (const Source& source : sources()) {
     if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;
     for (const std::string& include : source.includes) {
-      EXPECT_TRUE(!begins(include, "node/") || begins(include, "node/wire/") || begins(include, "node/shape/"))
+      EXPECT_TRUE(!begins(include, "node/") || begins(include, "node/wire/") || begins(include, "node/shape/") ||
+                  include == "node/color/encoding.h")
           << source.path << " includes " << include;
       EXPECT_FALSE(is_transport(include)) << source.path << " includes " << include;
     }
@@ -178,7 +180,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
 // Of node/, each folder knows only those before it; firmware, renderer and tessellator know them all.
 TEST(Boundaries, NodesFoldersStandOnOneAnother) {
   std::vector<std::string> known;
-  for (const char* folder : {"wire", "simd", "shape", "geometry", "shading", "raster", "group"}) {
+  for (const char* folder : {"wire", "simd", "color", "shape", "geometry", "shading", "raster", "group"}) {
     known.push_back("node/" + std::string(folder) + "/");
     expect_includes(known.back(), [&](const std::string& include) {
       return !begins(include, "node/") ||
@@ -206,7 +208,7 @@ TEST(Boundaries, ContentKnowsNoMessages) {
   for (const char* folder : {"host/child/", "host/content/", "host/images/"})
     expect_includes(folder, [](const std::string& i) {
       return begins(i, "host/") || begins(i, "hal/failure/") || begins(i, "topology/") || begins(i, "node/wire/") ||
-             begins(i, "node/shape/");
+             begins(i, "node/shape/") || i == "node/color/encoding.h";
     });
 }
 
@@ -225,8 +227,9 @@ TEST(Boundaries, KernelsIncludeLittle) {
   const Files plain = {"node/geometry/eye_light.h", "node/geometry/triangle.h", "node/raster/classified.h",
                        "node/raster/edge_box.h",    "node/raster/kernels.h",    "node/raster/line_load.h",
                        "node/shading/kernels.h",    "node/shading/shading.h",   "node/shape/kernels.h",
+                       "node/color/encoding.h",     "node/color/kernels.h",     "node/shape/sample_pattern.h",
                        "node/shape/vertices.h",     "node/simd/vector_slack.h", "node/simd/vectors.h",
-                       "node/wire/film_parts.h",    "node/wire/run.h"};
+                       "node/wire/film_parts.h",    "node/wire/pixel_format.h", "node/wire/run.h"};
   const Files standard = {"array", "bit", "cstddef", "cstdint", "cstring"};
   const std::regex kernels("^node/(\\w+/)+kernels/"), functions("^node/\\w+/kernels/functions\\.h$");
   int seen = 0;

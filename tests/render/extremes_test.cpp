@@ -25,7 +25,7 @@ wire::FilmData scene(std::uint32_t width, std::uint32_t height, const std::vecto
   FilmMaker maker(width, height, 1);
   const std::uint32_t material = maker.add_material(kClay);
   for (const Body& body : bodies) maker.add_segment(maker.add_shape(body.patches), material, {body.matrix});
-  maker.add_light({0, {0, -0.6f, 0.8f}, {1, 1, 1}});
+  maker.add_light({wire::LightKind::directional, {0, -0.6f, 0.8f}, {1, 1, 1}});
   maker.set_cameras({camera});
   return maker.make();
 }

@@ -56,9 +56,10 @@ void add_crowd(FilmMaker& maker, bool moving) {
 
 void add_lights(FilmMaker& maker) {
   const double l = std::sqrt(0.4 * 0.4 + 0.7 * 0.7 + 0.8 * 0.8);
-  maker.add_light(
-      {0, {static_cast<float>(-0.4 / l), static_cast<float>(-0.7 / l), static_cast<float>(0.8 / l)}, {1, 1, 1}});
-  maker.add_light({1, {3, -2, 5}, {0.3f, 0.3f, 0.5f}});
+  maker.add_light({wire::LightKind::directional,
+                   {static_cast<float>(-0.4 / l), static_cast<float>(-0.7 / l), static_cast<float>(0.8 / l)},
+                   {1, 1, 1}});
+  maker.add_light({wire::LightKind::point, {3, -2, 5}, {0.3f, 0.3f, 0.5f}});
 }
 
 }  // namespace

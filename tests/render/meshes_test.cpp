@@ -23,7 +23,7 @@ const wire::Matrix kAsItIs{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
 wire::Camera at_origin() { return {kAsItIs, 2.5, 0.1, 100}; }
 
 Pixels draw(FilmMaker& maker, int nodes = 2) {
-  maker.add_light({0, {0.4f, 0.3f, 0.866f}, {1, 1, 1}});
+  maker.add_light({wire::LightKind::directional, {0.4f, 0.3f, 0.866f}, {1, 1, 1}});
   maker.set_cameras({at_origin()});
   RunOptions options;
   options.nodes = nodes;
@@ -127,7 +127,7 @@ TEST(Meshes, FromWithinABodyItIsAllRound) {
     FilmMaker maker(kWidth, kHeight, 1);
     wire::Matrix matrix = placed({-0.55 * size, -0.48 * size, -0.6 * size}, size, 0.1);
     maker.add_segment(maker.add_shape(modeler::cut_meshlets(mesh_ball(9, 30))), maker.add_material(kClay), {matrix});
-    maker.add_light({0, {0, 0, 1}, {1, 1, 1}});
+    maker.add_light({wire::LightKind::directional, {0, 0, 1}, {1, 1, 1}});
     wire::Camera camera = at_origin();
     camera.near = 0.01;
     camera.far = 1e9;

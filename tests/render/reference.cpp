@@ -120,7 +120,7 @@ Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Ref
   for (const geometry::EyeLight& light : scene.lights()) {
     Vec to{light.vector[0], light.vector[1], light.vector[2]};
     const double w = 1 / sample.depth;
-    if (light.point) to = unit({to.x - dx * w, to.y + dy * w, to.z + w});
+    if (light.kind != wire::LightKind::directional) to = unit({to.x - dx * w, to.y + dy * w, to.z + w});
     const double facing = dot(n, to);
     if (facing <= 0) continue;
     const double mirrored = 2 * facing * dot(n, eye) - dot(to, eye);

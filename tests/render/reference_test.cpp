@@ -59,7 +59,7 @@ wire::FilmData body(const std::vector<wire::Patch>& patches, std::uint32_t size,
   FilmMaker maker(size, size, 1);
   maker.add_segment(maker.add_shape(patches), maker.add_material({{0.5f, 0.7f, 0.9f}, 0.1f, 0.65f, 0.45f, 20, 2}),
                     {placed({-std::cos(turn) + std::sin(turn), -std::sin(turn) - std::cos(turn), -1}, 2, turn)});
-  maker.add_light({0, {-0.48f, -0.6f, 0.64f}, {1, 1, 1}});
+  maker.add_light({wire::LightKind::directional, {-0.48f, -0.6f, 0.64f}, {1, 1, 1}});
   maker.set_cameras({looking({0, -8, 0}, {0, 0, 0}, 30)});
   wire::FilmData film = maker.make();
   film.settings.dice = dice;
@@ -172,8 +172,9 @@ TEST(Closed, NoTriangleIsLitFromBehind) {
       const double angle = 0.26 * i;
       film.cameras = {looking({4 * std::sin(angle), -4 * std::cos(angle), 2.5}, {0, 0, 0}, 40)};
       // A light at the eye lights every normal that is turned to the eye.
-      film.lights = {
-          {1, {static_cast<float>(4 * std::sin(angle)), static_cast<float>(-4 * std::cos(angle)), 2.5f}, {1, 1, 1}}};
+      film.lights = {{wire::LightKind::point,
+                      {static_cast<float>(4 * std::sin(angle)), static_cast<float>(-4 * std::cos(angle)), 2.5f},
+                      {1, 1, 1}}};
       const Pixels pixels = draw_body(film);
       int dark = 0;
       for (std::size_t k = 240; k + 240 < pixels.size(); ++k) {

@@ -136,7 +136,7 @@ class Compiler {
       const glm::dvec3 vector =
           light.directional ? animator::direction_at(light.vector, frame) : animator::value_at(light.vector, frame);
       const glm::dvec3 color = animator::value_at(light.intensity, frame) * animator::value_at(light.color, frame);
-      track.add(frame, {light.directional ? 0u : 1u, floats(vector), floats(glm::max(color, 0.0))});
+      track.add(frame, {light.directional ? wire::LightKind::directional : wire::LightKind::point, floats(vector), floats(glm::max(color, 0.0))});
     }
     data_.light_tracks.push_back(track.write(data_.changes));
   }

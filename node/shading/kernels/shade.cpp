@@ -113,7 +113,7 @@ void face(const shape::Projection& p, std::uint32_t line, const geometry::EyeLig
 
     Floats to[3] = {vector[0], vector[1], vector[2]};
     Floats both = unit;  // 1 / (|n| |to|)
-    if (light.point) {
+    if (light.kind != wire::LightKind::directional) {
       // The place is -eye * w; the length of `to` does not matter.
       for (int axis = 0; axis < 3; ++axis) to[axis] = hn::Add(hn::Mul(vector[axis], inverse_w), eye[axis]);
       const Floats square = dot(to, to);

@@ -3,6 +3,6 @@
 namespace mars::shading::MARS_SET {
 
 extern const ShadingKernels shading_kernels;
-const ShadingKernels shading_kernels = {shade};
+const ShadingKernels shading_kernels = {shade, nullptr};
 
 }  // namespace mars::shading::MARS_SET

@@ -86,9 +86,10 @@ Triangle random_triangle(shape::Random& random, std::size_t materials) {
 }
 
 geometry::EyeLight random_light(shape::Random& random) {
-  geometry::EyeLight light{random.whole(0, 1) == 1, {}, {}};
+  geometry::EyeLight light{};
+  light.kind = random.whole(0, 1) == 1 ? wire::LightKind::point : wire::LightKind::directional;
   shape::Vec3 to{random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 1)};
-  const double scale = light.point ? 5 : 1 / shape::length(to);
+  const double scale = light.kind != wire::LightKind::directional ? 5 : 1 / shape::length(to);
   for (std::size_t k = 0; k < 3; ++k) {
     light.vector[k] = static_cast<float>(to[k] * scale);
     light.color[k] = static_cast<float>(random.real(0, 0.8));
@@ -143,7 +144,7 @@ shape::Vec3 phong(const Scenery& scenery, std::uint32_t column) {
   for (std::size_t c = 0; c < 3; ++c) color[c] = m.ambient * m.color[c];
   for (const geometry::EyeLight& light : scenery.lights) {
     const shape::Vec3 vector{light.vector[0], light.vector[1], light.vector[2]};
-    const shape::Vec3 to = light.point ? unit(vector - place) : vector;
+    const shape::Vec3 to = light.kind != wire::LightKind::directional ? unit(vector - place) : vector;
     const double facing = shape::dot(normal, to);
     if (facing <= 0) continue;
     const double mirrored = 2 * facing * shape::dot(normal, eye) - shape::dot(to, eye);
@@ -248,7 +249,7 @@ TEST(Shade, AmbientAndWhite) {
   scenery.triangles.resize(2);
   for (Triangle& t : scenery.triangles) set_plane(t, shape::kDepth, 1, 0, 0);
   scenery.triangles[1].material = 1;
-  scenery.lights = {{false, {0, 0, 1}, {1, 1, 1}}};
+  scenery.lights = {{wire::LightKind::directional, {0, 0, 1}, {1, 1, 1}, {}, 1, 1, 0}};
   scenery.ids = {0, 1};
   EXPECT_EQ(shade_all(scenery).pixels, (std::vector<std::uint32_t>{51 | 26 << 8, 0xffffff}));
 }

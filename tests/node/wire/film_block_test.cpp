@@ -102,7 +102,7 @@ TEST(FilmBlock, RefusesNumbersOutOfRange) {
       {"focal 0", [](FilmData& f) { f.cameras[0].focal = 0; }},
       {"near 0", [](FilmData& f) { f.cameras[0].near = 0; }},
       {"far before near", [](FilmData& f) { f.cameras[0].far = 0.05; }},
-      {"light of no kind", [](FilmData& f) { f.lights[1].kind = 2; }},
+      {"light of no kind", [](FilmData& f) { f.lights[1].kind = static_cast<LightKind>(3); }},
   };
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e30}) {
     const auto b = static_cast<float>(bad);

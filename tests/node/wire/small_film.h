@@ -30,7 +30,7 @@ inline FilmData small_film() {
   film.materials = {{{1, 0, 0}, 0.1f, 0.6f, 0.3f, 20, 2}, {{0, 1, 0}, 0.1f, 0.6f, 0.3f, 2.5f, 1}};
   film.matrices = {moved(0), moved(1), moved(2)};
   film.cameras = {{moved(0), 2, 0.1, 100}};
-  film.lights = {{0, {0, 0, 1}, {1, 1, 1}}, {1, {1, 2, 3}, {1, 1, 1}}};
+  film.lights = {{wire::LightKind::directional, {0, 0, 1}, {1, 1, 1}}, {wire::LightKind::point, {1, 2, 3}, {1, 1, 1}}};
   film.light_tracks = {{0, 1}, {4, 2}};
   film.changes = {{0, 0}, {0, 0}, {1, 1}, {2, 2}, {0, 0}, {2, 1}};
   film.intervals = {{0, 2, 0, 1}, {2, 1, 1, 2}};
