@@ -40,10 +40,10 @@ struct Block {
   std::uint32_t count = 0;
 
   void clear() { count = stretch_count = 0; }
-  // Of sample `at`, after those of all before it.
-  void note_material(std::uint32_t at, std::uint32_t material) {
-    if (stretch_count > 0 && stretches[stretch_count - 1].material == material) return;
-    stretches[stretch_count++] = {at, material};
+  void begin_stretch(std::uint32_t at, std::uint32_t material) { stretches[stretch_count++] = {at, material}; }
+  // Of the latest stretch, or `none`.
+  std::uint32_t last_material(std::uint32_t none) const {
+    return stretch_count > 0 ? stretches[stretch_count - 1].material : none;
   }
 };
 

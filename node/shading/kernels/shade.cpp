@@ -43,14 +43,14 @@ std::uint32_t find(bool something, const std::uint32_t* ids, std::uint32_t colum
 // One line of pixels with one sample each.
 class Line {
  public:
-  Line(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Block& block)
+  Line(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Block& block)
       : triangles_(shading.triangles),
         ids_(ids),
         y_(static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset),
         center_(shading.projection.center[0] - 0.5f),
         per_pixel_(1.0f / shading.projection.scale) {
     const Floats up = constant((static_cast<float>(line) + 0.5f - shading.projection.center[1]) * per_pixel_);
-    for (std::uint32_t k = 0; k < kCapacity; k += kLanes) {
+    for (std::uint32_t k = 0; k < kBlock && extent.first + k < extent.last; k += kLanes) {
       hn::Store(up, kFloats, block.eye[1] + k);
       hn::Store(constant(1.0f), kFloats, block.eye[2] + k);
     }
@@ -62,11 +62,15 @@ class Line {
     Places sample = {static_cast<std::int32_t>(column) * shape::kSubpixels + shape::kSampleOffset, y_, 0, 0};
     const Places step = {shape::kSubpixels, 0, 0, 0};
     const std::uint32_t* id = ids_ + column;
-    std::uint32_t at = block.count;
-    for (const std::uint32_t* end = id + count; id != end; ++id, ++at, sample += step) {
+    float(*values)[shape::kValues] = block.values + block.count;
+    std::uint32_t material = block.last_material(~triangles_[*id].material);
+    for (const std::uint32_t* end = id + count; id != end; ++id, ++values, sample += step) {
       const geometry::Triangle& t = triangles_[*id];
-      block.note_material(at, t.material);
-      evaluate(t, sample, block.values[at]);
+      if (t.material != material) {
+        material = t.material;
+        block.begin_stretch(static_cast<std::uint32_t>(values - block.values), material);
+      }
+      evaluate(t, sample, *values);
     }
     const Floats center = constant(center_), per_pixel = constant(per_pixel_);
     for (std::uint32_t k = 0; k < count; k += kLanes) {
@@ -95,7 +99,7 @@ void add_fragments(const Shading& shading, const Fragment* fragments, std::uint3
     const geometry::Triangle& t = shading.triangles[fragment.triangle];
     const std::int32_t x = fragment.column * shape::kSubpixels + shading.pattern.x[fragment.sample];
     const std::int32_t y = static_cast<std::int32_t>(line) * shape::kSubpixels + shading.pattern.y[fragment.sample];
-    block.note_material(k, t.material);
+    if (k == 0 || t.material != block.last_material(0)) block.begin_stretch(k, t.material);
     evaluate(t, Places{x, y, 0, 0}, block.values[k]);
     block.eye[0][k] = (p.center[0] - static_cast<float>(x) * kPixel) * per_pixel;
     block.eye[1][k] = (static_cast<float>(y) * kPixel - p.center[1]) * per_pixel;
@@ -110,7 +114,7 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
              void* pixels) {
   Shaded done{0, 0};
   Block block;
-  const Line samples(shading, ids, line, block);
+  const Line samples(shading, ids, line, extent, block);
   const std::size_t pixel_bytes = wire::pixel_bytes(shading.encoding.format);
   const auto flush = [&] {
     if (block.count == 0) return;
