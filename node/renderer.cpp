@@ -7,6 +7,7 @@
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "node/group/mapping.h"
+#include "node/shading/shading_of.h"
 
 namespace mars::node {
 
@@ -237,18 +238,8 @@ bool Renderer::triangles_travel() const {
 }
 
 shading::Shading Renderer::shading() const {
-  const wire::FilmSettings& settings = scene_.film().settings();
-  shading::Shading shading{};
+  shading::Shading shading = shading::shading_of(scene_, pixel_format_);
   shading.triangles = memory_.first_triangle();
-  shading.materials = scene_.film().materials().data();
-  shading.lights = scene_.lights().data();
-  shading.light_count = static_cast<std::uint32_t>(scene_.lights().size());
-  shading.projection = scene_.projection();
-  shading.pattern = shape::sample_pattern(settings.samples);
-  shading.encoding = color::encoding_of(settings, scene_.camera(), pixel_format_);
-  shading.ambient = settings.ambient;
-  std::ranges::copy(scene_.up(), shading.up);
-  shading.fog = settings.fog;
   return shading;
 }
 

@@ -9,6 +9,9 @@
 namespace mars::shading::MARS_SET {
 
 Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
-             std::uint32_t* pixels);
+             void* pixels);
+
+void shade_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
+                     float* const* light);
 
 }  // namespace mars::shading::MARS_SET

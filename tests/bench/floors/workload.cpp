@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "node/shading/shading_of.h"
 #include "node/tessellator.h"
 
 namespace mars::bench {
@@ -60,8 +61,8 @@ void Workload::make(simd::InstructionSet set) {
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
   polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};
-  shading_ = {triangles, view_.materials().data(), scene_.lights().data(),
-              static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
+  shading_ = shading::shading_of(scene_);
+  shading_.triangles = triangles;
 }
 
 void Workload::fill() {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -30,7 +31,14 @@ struct Scenery {
   shape::Projection view = shape::projection(640, 480, 2);
 
   Shading shading() const {
-    return {triangles.data(), materials.data(), lights.data(), static_cast<std::uint32_t>(lights.size()), view};
+    Shading shading{};
+    shading.triangles = triangles.data();
+    shading.materials = materials.data();
+    shading.lights = lights.data();
+    shading.light_count = static_cast<std::uint32_t>(lights.size());
+    shading.projection = view;
+    shading.pattern = shape::sample_pattern(16);
+    return shading;
   }
 };
 
@@ -129,16 +137,15 @@ shape::Vec3 unit(const shape::Vec3& a) {
   return size > 0 ? shape::Vec3{a[0] / size, a[1] / size, a[2] / size} : shape::Vec3{};
 }
 
-// Phong's sum over the lights, 0..255.
-shape::Vec3 phong(const Scenery& scenery, std::uint32_t column) {
-  const Triangle& t = scenery.triangles[scenery.ids[column]];
+// Phong's sum over the lights at (x, y), 1/256 pixel; 0..1.
+shape::Vec3 phong(const Scenery& scenery, const Triangle& t, double x, double y) {
   const wire::Material& m = scenery.materials[t.material];
-  const double dx = 256.0 * column + 128 - t.first_x, dy = 256.0 * scenery.line + 128 - t.first_y;
+  const double dx = x - t.first_x, dy = y - t.first_y;
   const shape::Vec3 normal =
       unit({at(t, shape::kNormalX, dx, dy), at(t, shape::kNormalY, dx, dy), at(t, shape::kNormalZ, dx, dy)});
   const double w = 1 / at(t, shape::kDepth, dx, dy);
-  const shape::Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
-                          -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
+  const shape::Vec3 place{(x / 256 - scenery.view.center[0]) / scenery.view.scale * w,
+                          -(y / 256 - scenery.view.center[1]) / scenery.view.scale * w, -w};
   const shape::Vec3 eye = unit(shape::Vec3{} - place);
   shape::Vec3 color;
   for (std::size_t c = 0; c < 3; ++c) color[c] = m.ambient * m.color[c];
@@ -152,8 +159,32 @@ shape::Vec3 phong(const Scenery& scenery, std::uint32_t column) {
     for (std::size_t c = 0; c < 3; ++c)
       color[c] += (m.diffuse * m.color[c] * facing + m.specular * highlight) * light.color[c];
   }
-  for (double& c : color) c = 255 * std::clamp(c, 0.0, 1.0);
+  for (double& c : color) c = std::clamp(c, 0.0, 1.0);
   return color;
+}
+
+// Fragments of one line that jump between columns, triangles and samples.
+std::vector<Fragment> random_fragments(shape::Random& random, int count) {
+  std::vector<Fragment> fragments(static_cast<std::size_t>(count));
+  for (Fragment& fragment : fragments)
+    fragment = {static_cast<std::uint32_t>(random.whole(0, 19)), static_cast<std::uint16_t>(random.whole(0, 639)),
+                static_cast<std::uint16_t>(random.whole(0, 15))};
+  return fragments;
+}
+
+using Light = std::array<std::vector<float>, 3>;
+
+Light shade_fragments(const Scenery& scenery, const std::vector<Fragment>& fragments, simd::InstructionSet set) {
+  Light light;
+  float* planes[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    light[c].resize(fragments.size() + simd::kVectorSlack);
+    planes[c] = light[c].data();
+  }
+  shading_kernels(set).shade_fragments(scenery.shading(), fragments.data(),
+                                       static_cast<std::uint32_t>(fragments.size()), scenery.line, planes);
+  for (auto& plane : light) plane.resize(fragments.size());
+  return light;
 }
 
 TEST(Shade, IsPhongsFormula) {
@@ -167,13 +198,44 @@ TEST(Shade, IsPhongsFormula) {
       if (scenery.ids[column] == kGap) continue;
       const std::uint32_t value = result.pixels.at(pixel++);
       EXPECT_EQ(value >> 24, 0u);
-      const shape::Vec3 right = phong(scenery, column);
+      const shape::Vec3 right =
+          phong(scenery, scenery.triangles[scenery.ids[column]], 256.0 * column + 128, 256.0 * scenery.line + 128);
       for (std::size_t c = 0; c < 3; ++c)
-        worst = std::max(worst, std::abs(right[c] - static_cast<double>(value >> (8 * c) & 255)));
+        worst = std::max(worst, std::abs(255 * right[c] - static_cast<double>(value >> (8 * c) & 255)));
     }
     EXPECT_EQ(pixel, result.pixels.size());
   }
   EXPECT_LE(worst, 1.0);
+}
+
+TEST(Shade, FragmentsAreLitAtTheirOwnSamples) {
+  shape::Random random(65);
+  double worst = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Scenery scenery = random_scenery(random, 1);
+    const auto fragments = random_fragments(random, random.whole(1, 700));
+    const Light light = shade_fragments(scenery, fragments, simd::best_instruction_set(""));
+    const shape::SamplePattern& pattern = shape::sample_pattern(16);
+    for (std::size_t k = 0; k < fragments.size(); ++k) {
+      const Fragment& f = fragments[k];
+      const shape::Vec3 right = phong(scenery, scenery.triangles[f.triangle], 256.0 * f.column + pattern.x[f.sample],
+                                      256.0 * scenery.line + pattern.y[f.sample]);
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(right[c] - static_cast<double>(light[c][k])));
+    }
+  }
+  EXPECT_LE(worst, 0.5 / 255);
+}
+
+TEST(Shade, FragmentsHaveTheSameBitsEverywhere) {
+  shape::Random random(66);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Scenery scenery = random_scenery(random, 1);
+    const auto fragments = random_fragments(random, random.whole(1, 700));
+    const Light narrow = shade_fragments(scenery, fragments, simd::best_instruction_set("sse2"));
+    for (const simd::InstructionSet set : simd::all_sets())
+      EXPECT_EQ(shade_fragments(scenery, fragments, set), narrow) << simd::name_of(set) << ", trial " << trial;
+  }
 }
 
 TEST(Shade, GivesTheSameBitsEverywhere) {
