@@ -20,13 +20,15 @@ struct Tessellator::Output {
 
 Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set) {}
 
-Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
-                                     const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work) {
+Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
+                                     const TriangleSpace& space, wire::WorkCounts& work) {
   std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = 0;
-  raster::SetUps out(space.arena.rest(), space.first, lines.loads, lines.wanted);
-  if (kind == wire::FrameKind::keyframe) add(scene, false, scatter, out, work);
+  raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
+  out.want(lines.wanted_still);
+  if (!lines.wanted_still.empty()) add(scene, false, scatter, out, work);
   const std::size_t stationary = out.boxes().size();
+  out.want(lines.wanted);
   add(scene, true, scatter, out, work);
   const auto boxes = out.boxes();
   space.arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
@@ -37,7 +39,7 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKi
 
 void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
                       wire::WorkCounts& work) {
-  Output output{{instruction_set_, scene.projection(), scene.width(), scene.height()}, out, work};
+  Output output{{instruction_set_, scene.projection(), scene.width(), scene.height(), scene.pattern()}, out, work};
   for (std::size_t s = 0; s < scene.film().segments().size(); ++s)
     if (scene.moves(s) == moving) add_segment(scene, s, scatter, output);
 }

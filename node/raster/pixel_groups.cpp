@@ -13,7 +13,7 @@ PixelGroups::PixelGroups(simd::InstructionSet set, std::size_t width, std::uint3
       color_kernels_(color::color_kernels(set)),
       width_(width),
       samples_(samples),
-      fragments_(width * samples + simd::kVectorSlack),
+      fragments_(width * samples + 2 * simd::kVectorSlack),
       masks_(fragments_.size()),
       pixels_(fragments_.size()) {
   for (auto& channel : light_) channel.resize(fragments_.size());
@@ -21,6 +21,8 @@ PixelGroups::PixelGroups(simd::InstructionSet set, std::size_t width, std::uint3
 
 void PixelGroups::shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
                         const shading::Extent& extent) {
+  counts_ = {0, 0};
+  if (extent.first >= extent.last) return;
   counts_ = kernels_.group(shading.pattern, seen, extent, groups());
   shading_kernels_.shade_fragments(shading, fragments_.data(), count(), line, light().channel);
 }

@@ -13,6 +13,7 @@ Shading shading_of(const geometry::Scene& scene, wire::PixelFormat format) {
   shading.projection = scene.projection();
   shading.pattern = shape::sample_pattern(settings.samples);
   shading.encoding = color::encoding_of(settings, scene.camera(), format);
+  std::ranges::copy(settings.background, shading.background);
   shading.ambient = settings.ambient;
   std::ranges::copy(scene.up(), shading.up);
   shading.fog = settings.fog;

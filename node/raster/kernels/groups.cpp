@@ -30,6 +30,16 @@ class Grouping {
     counts_.pixels += kLanes;
   }
 
+  // As many pixels from `column` on; `same`: one bit for each whose samples all show the same.
+  void add_mixed(std::uint32_t column, std::uint32_t same) {
+    for (const std::uint32_t end = column + kLanes; column < end; ++column, same >>= 1) {
+      if ((same & 1) == 0)
+        add_pixel(column);
+      else if (seen_.ids[column] != shading::kNoTriangle)
+        put({seen_.ids[column], static_cast<std::uint16_t>(column), 0}, all(), counts_.pixels++);
+    }
+  }
+
   // One pixel of any groups.
   void add_pixel(std::uint32_t column) {
     std::uint32_t triangles[shape::kMostSamples];
@@ -83,6 +93,12 @@ class Grouping {
   GroupCounts counts_{0, 0};
 };
 
+std::uint32_t bits(hn::Mask<NumberTag> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(kNumbers, mask, bytes);
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
+
 // By each pixel's masks: the share of samples that are in it.
 Floats share(Numbers masks, Floats a_sample) {
   return hn::Mul(hn::ConvertTo(kFloats, hn::BitCast(kInts, hn::PopulationCount(masks))), a_sample);
@@ -107,7 +123,7 @@ GroupCounts group(const shape::SamplePattern& pattern, const LineSamples& seen, 
     if (hn::AllTrue(kNumbers, hn::AndNot(empty, same))) {
       grouping.add_whole(column, first);
     } else if (!hn::AllTrue(kNumbers, empty)) {
-      for (std::uint32_t k = 0; k < kLanes; ++k) grouping.add_pixel(column + k);
+      grouping.add_mixed(column, bits(same));
     }
   }
   for (; column < extent.last; ++column) grouping.add_pixel(column);
