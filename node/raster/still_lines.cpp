@@ -8,41 +8,22 @@
 namespace mars::raster {
 namespace {
 
-constexpr std::size_t kHeadBytes = 64;
-
-constexpr std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
-
 std::size_t depth_bytes(std::size_t width, std::size_t samples) { return width * samples * sizeof(float); }
 
-std::size_t line_bytes(std::size_t width, std::size_t samples, std::size_t groups_per_column) {
-  return whole_cache_lines(kHeadBytes + depth_bytes(width, samples) + width * sizeof(std::uint32_t) +
-                           width * groups_per_column * sizeof(StillGroup));
-}
-
 }  // namespace
-
-StillPlan plan_still_lines(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint64_t bytes) {
-  if (samples == 1) return {depth_bytes(width, 1), 0, height};
-  StillPlan plan{0, samples, 0};
-  for (;; plan.groups_per_column /= 2) {
-    plan.line_bytes = line_bytes(width, samples, plan.groups_per_column);
-    plan.lines = static_cast<std::uint32_t>(std::min<std::uint64_t>(height, bytes / plan.line_bytes));
-    if (plan.lines == height || plan.groups_per_column == 1) return plan;
-  }
-}
 
 StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
                        const shape::SamplePattern& pattern, std::uint64_t bytes_a_node)
     : width_(width),
       samples_(static_cast<std::size_t>(pattern.count)),
-      plan_(plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
+      plan_(wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
                              bytes_a_node * neighbours.nodes().size())),
       memory_(neighbours,
-              plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
+              wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
                                bytes_a_node * neighbours.most())
                   .bytes(),
               plan_.bytes()) {
-  static_assert(sizeof(Head) == kHeadBytes);
+  static_assert(sizeof(Head) == wire::kStillHeadBytes);
 }
 
 std::byte* StillLines::slot(std::uint32_t line) const {
@@ -58,12 +39,12 @@ bool StillLines::begin_line(std::uint32_t line, std::uint32_t groups) {
 }
 
 std::span<float> StillLines::depth(std::uint32_t line, std::uint32_t sample) {
-  const std::size_t begin = samples_ == 1 ? 0 : kHeadBytes + depth_bytes(width_, sample);
+  const std::size_t begin = samples_ == 1 ? 0 : wire::kStillHeadBytes + depth_bytes(width_, sample);
   return {reinterpret_cast<float*>(slot(line) + begin), width_};
 }
 
 StillGroups StillLines::groups(std::uint32_t line) {
-  std::byte* const end = slot(line) + kHeadBytes + depth_bytes(width_, samples_);
+  std::byte* const end = slot(line) + wire::kStillHeadBytes + depth_bytes(width_, samples_);
   return {reinterpret_cast<std::uint32_t*>(end),
           reinterpret_cast<StillGroup*>(end + width_ * sizeof(std::uint32_t))};
 }
@@ -82,7 +63,7 @@ std::span<float> StillLines::depths(const geometry::LineRange& lines) {
 }
 
 std::size_t StillLines::packed_bytes(const Head& head) const {
-  return kHeadBytes + depth_bytes(width_, samples_) + width_ * sizeof(std::uint32_t) +
+  return wire::kStillHeadBytes + depth_bytes(width_, samples_) + width_ * sizeof(std::uint32_t) +
          head.groups * sizeof(StillGroup);
 }
 

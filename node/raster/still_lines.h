@@ -16,14 +16,11 @@
 #include "node/geometry/line_range.h"
 #include "node/raster/neighbours.h"
 #include "node/shape/sample_pattern.h"
+#include "node/wire/still_plan.h"
 
 namespace mars::raster {
 
-// A shaded group of a pixel's still samples.
-struct StillGroup {
-  float light[3];
-  std::uint32_t samples;  // one bit each
-};
+using wire::StillGroup;
 
 // The still groups of a line of pixels: those of column x are groups[x == 0 ? 0 : end[x - 1], end[x]), by their lowest
 // samples.
@@ -36,19 +33,6 @@ struct StillGroups {
     return {groups + begin, end[column] - begin};
   }
 };
-
-// How much memory the lines of a picture take: computed by the host too, before any node has it.
-struct StillPlan {
-  std::size_t line_bytes;           // of a line
-  std::uint32_t groups_per_column;  // that a line has memory for on average; 0 with one sample a pixel
-  std::uint32_t lines;              // that fit
-
-  std::size_t bytes() const { return line_bytes * lines; }
-};
-
-// For a picture of `width` x `height` within `bytes`. Where several samples do not fit, first lines have memory for
-// fewer groups, then fewer lines are kept. With one sample a pixel all lines are kept, whatever they take.
-StillPlan plan_still_lines(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint64_t bytes);
 
 class StillLines {
  public:
@@ -93,7 +77,7 @@ class StillLines {
 
   std::size_t width_;
   std::size_t samples_;
-  StillPlan plan_;
+  wire::StillPlan plan_;
   NeighboursMemory memory_;
   std::uint32_t interval_ = 0;
   geometry::LineRange lines_{0, 0};

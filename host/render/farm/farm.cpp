@@ -26,6 +26,7 @@ class Farm {
  private:
   bool greet_nodes();
   bool load_film();
+  NodeMemory node_memory() const;
   void render();
   void stop_nodes();
 
@@ -94,7 +95,9 @@ bool Farm::load_film() {
   const double booted = dclock();
   tracing_.emplace(options_.trace, inbox_);
   wire::Load load{};
-  load.memory = options_.memory;
+  report_.node_memory = node_memory();
+  load.memory = report_.node_memory.frames;
+  load.still_memory = report_.node_memory.still;
   load.credits = options_.credits;
   load.mapping = options_.mapping;
   load.groups = static_cast<std::int32_t>(groups_.size());
@@ -105,6 +108,12 @@ bool Farm::load_film() {
   if (loaded && listener_.warned) std::ranges::for_each(inbox_.apart(), listener_.warned);
   report_.load_seconds = dclock() - booted;
   return loaded;
+}
+
+NodeMemory Farm::node_memory() const {
+  std::uint64_t bytes = options_.memory;
+  if (bytes == 0) bytes = std::ranges::min(inbox_.hellos(), {}, &wire::Hello::memory).memory;
+  return share_node_memory(bytes, options_.still_memory, wire::FilmView(film_block_, "film").settings());
 }
 
 void Farm::render() {
