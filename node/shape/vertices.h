@@ -82,6 +82,13 @@ struct Vertices {
   std::uint8_t* outside;  // 1: nearer than near, farther than far, or beyond the guard band
 };
 
+// What vertices have instead of a normal where triangles carry colours, as seen from one side: red, green and blue, and
+// 1 / w, colour / w.
+struct VertexColors {
+  float* color[3];
+  float (*values)[kValues];
+};
+
 // Vertices of one triangle, counter-clockwise seen from outside in an eye space that is not mirrored.
 struct Corner3 {
   std::uint32_t a, b, c;
