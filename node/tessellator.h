@@ -12,6 +12,7 @@
 #include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 #include "node/raster/setup.h"
+#include "node/shading/colored_surface.h"
 #include "node/shape/dice.h"
 #include "node/wire/protocol.h"
 
@@ -65,6 +66,7 @@ class Tessellator {
   simd::InstructionSet instruction_set_;
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
+  shading::ColoredSurface colored_;
 };
 
 }  // namespace mars::node

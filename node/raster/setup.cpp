@@ -172,12 +172,14 @@ void SetUp::add_one(const shape::Vertices& v, const shape::Corner3& corners, con
 
 void SetUp::add_clipped(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity,
                         SetUps& out) const {
+  const bool faces = faces_eye(v, corners);
+  const auto* varying = v.colors ? v.colors[faces ? 0 : 1].color : v.normal;
   geometry::ClipPolygon polygon;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c}) {
     geometry::ClipVertex& vertex = polygon.vertex[static_cast<std::size_t>(polygon.count++)];
     for (int axis = 0; axis < 3; ++axis) {
       vertex.place[axis] = v.place[axis][corner];
-      vertex.normal[axis] = v.normal[axis][corner];
+      vertex.varying[axis] = varying[axis][corner];
     }
   }
   geometry::clip(projection_, polygon);
@@ -185,17 +187,19 @@ void SetUp::add_clipped(const shape::Vertices& v, const shape::Corner3& corners,
   for (int i = 0; i < polygon.count; ++i)
     for (int axis = 0; axis < 3; ++axis) {
       few.numbers[axis][i] = polygon.vertex[static_cast<std::size_t>(i)].place[axis];
-      few.numbers[3 + axis][i] = polygon.vertex[static_cast<std::size_t>(i)].normal[axis];
+      few.numbers[3 + axis][i] = polygon.vertex[static_cast<std::size_t>(i)].varying[axis];
     }
   shape::Projection wider = projection_;
   wider.near /= kSlack;
   wider.far *= kSlack;
   wider.guard *= kSlack;
   shape_kernels_.project(wider, few.view(), polygon.count);
-  const bool faces = faces_eye(v, corners);
+  const shape::VertexColors colors[2] = {{{}, few.values}, {{}, few.values}};
+  shape::Vertices cut = few.view();
+  if (v.colors) cut.colors = colors;
   for (std::uint32_t i = 1; static_cast<int>(i) + 1 < polygon.count; ++i) {
     const bool whole = few.flags[0] + few.flags[i] + few.flags[i + 1] == 0;  // not where numbers overflowed
-    if (whole) add_whole(few.view(), {0, i, i + 1}, faces, identity, out);
+    if (whole) add_whole(cut, {0, i, i + 1}, faces, identity, out);
   }
 }
 

@@ -21,6 +21,10 @@ struct ShadingKernels {
   // blue to light[0..2], which have kVectorSlack to spare.
   void (*shade_fragments)(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
                           float* const* light);
+  // The light that `count` vertices, all of one material, send to the eye, without fog. `side`: 1 as seen from outside,
+  // -1 from inside.
+  void (*shade_vertices)(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,
+                         std::uint32_t count, const shape::VertexColors& out);
 };
 
 const ShadingKernels& shading_kernels(simd::InstructionSet set);

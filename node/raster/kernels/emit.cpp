@@ -34,10 +34,11 @@ void put(std::uint32_t number, std::uint32_t part, std::uint32_t line_and_moving
 
 void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, const ScreenShape& shape,
                    const PatchIdentity& identity, geometry::Triangle& out) {
-  const float sign = shape.faces ? 1.0f : -1.0f;
+  const float sign = shape.faces || v.colors ? 1.0f : -1.0f;
+  const float(*values)[shape::kValues] = v.colors ? v.colors[shape.faces ? 0 : 1].values : v.values;
   const Float4 turned = {1, sign, sign, sign};
-  const Float4 first = turned * load(v.values[corners.a]);
-  const Float4 d1 = turned * load(v.values[corners.b]) - first, d2 = turned * load(v.values[corners.c]) - first;
+  const Float4 first = turned * load(values[corners.a]);
+  const Float4 d1 = turned * load(values[corners.b]) - first, d2 = turned * load(values[corners.c]) - first;
   const Float4 per_x = (d1 * shape.y2 - d2 * shape.y1) * shape.inverse;
   const Float4 per_y = (d2 * shape.x1 - d1 * shape.x2) * shape.inverse;
   std::memcpy(out.at_first, &first, sizeof first);

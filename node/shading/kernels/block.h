@@ -20,6 +20,14 @@ inline Floats dot(const Floats* a, const Floats* b) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
+// Whether triangles carry colours instead of normals.
+inline bool is_colored(const wire::Material& m) { return m.interpolation != wire::Interpolation::phong; }
+
+// Whether samples of both materials can be in one block.
+inline bool share_model(const wire::Material& a, const wire::Material& b) {
+  return is_colored(a) ? is_colored(b) : !is_colored(b) && a.reflection == b.reflection;
+}
+
 // From sample `first` of a block on, until the next.
 struct Stretch {
   std::uint32_t first;
@@ -33,7 +41,8 @@ struct Block {
   alignas(64) float values[kCapacity][shape::kValues];
   alignas(64) float eye[3][kCapacity];  // from the sample's place towards the eye: the place is -eye * w
   alignas(64) float facing[kCapacity];  // of one light: N.L
-  alignas(64) float square[kCapacity];  // and (R.V)^2; 0 where it is not to be seen
+  alignas(64) float square[kCapacity];  // and (R.V)^2 or (N.H)^2; 0 where it is not to be seen
+  alignas(64) float bright[kCapacity];  // and how much of it arrives, where that differs
   alignas(64) float color[3][kCapacity];
   Stretch stretches[kBlock];
   std::uint32_t stretch_count = 0;
@@ -41,6 +50,11 @@ struct Block {
 
   void clear() { count = stretch_count = 0; }
   void begin_stretch(std::uint32_t at, std::uint32_t material) { stretches[stretch_count++] = {at, material}; }
+  bool takes(const wire::Material* materials, std::uint32_t material) const {
+    return stretch_count == 0 || share_model(model(materials), materials[material]);
+  }
+  // One of its materials, all of which share_model.
+  const wire::Material& model(const wire::Material* materials) const { return materials[stretches[0].material]; }
   // Of the latest stretch, or `none`.
   std::uint32_t last_material(std::uint32_t none) const {
     return stretch_count > 0 ? stretches[stretch_count - 1].material : none;
@@ -49,7 +63,9 @@ struct Block {
 
 // What the block's samples send to the eye: to Block::color, before exposure.
 void shade_to_light(const Shading& shading, Block& block);
-// The same, encoded.
+// What its vertices send there, whose triangles will carry it: no fog, no bound.
+void light_vertices(const Shading& shading, Block& block);
+// What its samples send there, encoded.
 void shade_to_pixels(const Shading& shading, Block& block, std::byte* pixels);
 
 }  // namespace mars::shading::MARS_SET

@@ -45,6 +45,7 @@ class Line {
  public:
   Line(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, Block& block)
       : triangles_(shading.triangles),
+        materials_(shading.materials),
         ids_(ids),
         y_(static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset),
         center_(shading.projection.center[0] - 0.5f),
@@ -56,9 +57,10 @@ class Line {
     }
   }
 
-  // Adds `count` samples from `column` on, none of them a gap, and as many as fit. Whether neighbours show
-  // the same triangle is not asked: the answer costs more than the planes of a sample.
-  void add(std::uint32_t column, std::uint32_t count, Block& block) const {
+  // Adds `count` samples from `column` on, none of them a gap, and as many as fit; fewer, perhaps none, where one
+  // has another model. Says how many. Whether neighbours show the same triangle is not asked: the answer costs more
+  // than the planes of a sample.
+  std::uint32_t add(std::uint32_t column, std::uint32_t count, Block& block) const {
     Places sample = {static_cast<std::int32_t>(column) * shape::kSubpixels + shape::kSampleOffset, y_, 0, 0};
     const Places step = {shape::kSubpixels, 0, 0, 0};
     const std::uint32_t* id = ids_ + column;
@@ -67,45 +69,75 @@ class Line {
     for (const std::uint32_t* end = id + count; id != end; ++id, ++values, sample += step) {
       const geometry::Triangle& t = triangles_[*id];
       if (t.material != material) {
+        if (!block.takes(materials_, t.material)) break;
         material = t.material;
         block.begin_stretch(static_cast<std::uint32_t>(values - block.values), material);
       }
       evaluate(t, sample, *values);
     }
+    count = static_cast<std::uint32_t>(id - (ids_ + column));
     const Floats center = constant(center_), per_pixel = constant(per_pixel_);
     for (std::uint32_t k = 0; k < count; k += kLanes) {
       const Floats columns = hn::Iota(kFloats, static_cast<float>(column + k));
       hn::StoreU(hn::Mul(hn::Sub(center, columns), per_pixel), kFloats, block.eye[0] + block.count + k);
     }
     block.count += count;
+    return count;
   }
 
  private:
   const geometry::Triangle* triangles_;
+  const wire::Material* materials_;
   const std::uint32_t* ids_;
   std::int32_t y_;
   float center_;
   float per_pixel_;
 };
 
-// Puts fragments of line `line` into the block.
+// Puts up to `count` fragments of line `line` into the block, as many as fit and share its model.
 void add_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
                    Block& block) {
   const shape::Projection& p = shading.projection;
   const float per_pixel = 1.0f / p.scale;
   constexpr float kPixel = 1.0f / shape::kSubpixels;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  std::uint32_t k = 0;
+  for (; k < count && k < kBlock; ++k) {
     const Fragment& fragment = fragments[k];
     const geometry::Triangle& t = shading.triangles[fragment.triangle];
     const std::int32_t x = fragment.column * shape::kSubpixels + shading.pattern.x[fragment.sample];
     const std::int32_t y = static_cast<std::int32_t>(line) * shape::kSubpixels + shading.pattern.y[fragment.sample];
-    if (k == 0 || t.material != block.last_material(0)) block.begin_stretch(k, t.material);
+    if (k == 0 || t.material != block.last_material(0)) {
+      if (!block.takes(shading.materials, t.material)) break;
+      block.begin_stretch(k, t.material);
+    }
     evaluate(t, Places{x, y, 0, 0}, block.values[k]);
     block.eye[0][k] = (p.center[0] - static_cast<float>(x) * kPixel) * per_pixel;
     block.eye[1][k] = (static_cast<float>(y) * kPixel - p.center[1]) * per_pixel;
     block.eye[2][k] = 1;
   }
-  block.count = count;
+  block.count = k;
+}
+
+// Puts vertices from `first` on into the block, up to `last`, as many as fit. Some lie behind the eye or at it: 1 / w
+// is replaced by what takes the place to a distance of about 1, and there is a direction to the eye even from the eye.
+void add_vertices(const shape::Vertices& v, std::uint32_t first, std::uint32_t last, float side, Block& block) {
+  constexpr float kLeast = 1e-9f;
+  block.count = last - first < kBlock ? last - first : kBlock;
+  for (std::uint32_t k = 0; k < block.count; k += kLanes) {
+    Floats place[3], normal[3], size = zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      place[axis] = hn::LoadU(kFloats, v.place[axis] + first + k);
+      normal[axis] = hn::Mul(constant(side), hn::LoadU(kFloats, v.normal[axis] + first + k));
+      size = hn::Max(size, hn::Abs(place[axis]));
+    }
+    const auto apart = hn::Gt(size, constant(kLeast));
+    const Floats nearer = hn::Div(constant(1.0f), hn::Max(size, constant(kLeast)));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Floats there = constant(axis == 2 ? 1.0f : 0.0f);
+      hn::Store(hn::IfThenElse(apart, hn::Neg(hn::Mul(place[axis], nearer)), there), kFloats, block.eye[axis] + k);
+    }
+    hn::StoreInterleaved4(nearer, normal[0], normal[1], normal[2], kFloats, block.values[k]);
+  }
 }
 
 }  // namespace
@@ -127,11 +159,11 @@ Shaded shade(const Shading& shading, const std::uint32_t* ids, std::uint32_t lin
     const std::uint32_t end = find(false, ids, first, last);
     runs[done.runs++] = {line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(end - first)};
     for (std::uint32_t column = first; column < end;) {
-      if (block.count == kBlock) flush();
       const std::uint32_t capacity = kBlock - block.count;
       const std::uint32_t count = end - column < capacity ? end - column : capacity;
-      samples.add(column, count, block);
-      column += count;
+      const std::uint32_t added = count > 0 ? samples.add(column, count, block) : 0;
+      if (added < count || count == 0) flush();
+      column += added;
     }
     first = find(true, ids, end, last);
   }
@@ -144,11 +176,32 @@ void shade_fragments(const Shading& shading, const Fragment* fragments, std::uin
   Block block;
   for (std::uint32_t done = 0; done < count; done += block.count) {
     block.clear();
-    add_fragments(shading, fragments + done, count - done < kBlock ? count - done : kBlock, line, block);
+    add_fragments(shading, fragments + done, count - done, line, block);
     shade_to_light(shading, block);
     for (int c = 0; c < 3; ++c)
       for (std::uint32_t k = 0; k < block.count; k += kLanes)
         hn::StoreU(hn::Load(kFloats, block.color[c] + k), kFloats, light[c] + done + k);
+  }
+}
+
+void shade_vertices(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,
+                    std::uint32_t count, const shape::VertexColors& out) {
+  Block block;
+  for (std::uint32_t done = 0; done < count; done += block.count) {
+    block.clear();
+    block.begin_stretch(0, material);
+    add_vertices(vertices, done, count, side, block);
+    light_vertices(shading, block);
+    for (std::uint32_t k = 0; k < block.count; k += kLanes) {
+      Floats values[shape::kValues], color[3];
+      hn::LoadInterleaved4(kFloats, vertices.values[done + k], values[0], values[1], values[2], values[3]);
+      for (int c = 0; c < 3; ++c) {
+        color[c] = hn::Load(kFloats, block.color[c] + k);
+        hn::StoreU(color[c], kFloats, out.color[c] + done + k);
+      }
+      hn::StoreInterleaved4(values[0], hn::Mul(color[0], values[0]), hn::Mul(color[1], values[0]),
+                            hn::Mul(color[2], values[0]), kFloats, out.values[done + k]);
+    }
   }
 }
 
