@@ -110,8 +110,8 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
   const LineTable lines{wanted_lines_, report_.is_keyframe() ? wanted_lines_ : unkept_lines(), line_loads_};
-  const Tessellation own = tessellator_.tessellate(scene_, scatter, lines,
-                                                   {memory_.arena(), memory_.first_triangle()}, report_.strip().work);
+  const Tessellation own = tessellator_.tessellate(scene_, scatter, lines, {memory_.arena(), memory_.first_triangle()},
+                                                   report_.strip().work);
   std::transform_inclusive_scan(line_loads_.begin(), line_loads_.end(), line_totals_.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
   report_.clock(wire::Phase::dice);

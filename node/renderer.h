@@ -91,13 +91,13 @@ class Renderer {
   group::Outbox outbox_;
 
   // Of the current interval.
-  std::vector<std::uint8_t> contributes_;   // 1: the node draws inbetweens; by nodes of the group
+  std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
 
   // Of the current frame.
-  collectives::Group group_;                  // that draws it
-  std::vector<raster::LineLoad> line_loads_;  // of own triangles
-  std::vector<std::uint64_t> line_totals_;    // of their edge boxes, before each line and at the end
-  std::vector<raster::LineBoxes> parts_;      // edge boxes of the lines to be drawn; own ones first
+  collectives::Group group_;                      // that draws it
+  std::vector<raster::LineLoad> line_loads_;      // of own triangles
+  std::vector<std::uint64_t> line_totals_;        // of their edge boxes, before each line and at the end
+  std::vector<raster::LineBoxes> parts_;          // edge boxes of the lines to be drawn; own ones first
   std::vector<std::uint8_t> wanted_lines_;        // in the current pass
   std::vector<std::uint8_t> wanted_still_lines_;  // likewise, of stationary parts in an inbetween
   std::vector<geometry::LineRange> homes_;

@@ -8,7 +8,7 @@ namespace mars::raster {
 
 // One triangle's part of one sub-scanline, at least one sample. A picture has at most 2^14 columns.
 struct EdgeBox {
-  std::uint32_t triangle;   // index into the frame's triangles
+  std::uint32_t triangle;    // index into the frame's triangles
   std::uint32_t first : 14;  // column
   std::uint32_t after : 14;  // columns after the first
   std::uint32_t sample : 4;  // its number in a pixel's pattern: which of the line's sub-scanlines it is on

@@ -1,5 +1,5 @@
-// The samples that a triangle covers, row by row (SamplePattern). Decided in exact integers, half-open on the left and top, so
-// neighbours neither share a sample nor leave one out.
+// The samples that a triangle covers, row by row (SamplePattern). Decided in exact integers, half-open on the left and
+// top, so neighbours neither share a sample nor leave one out.
 #pragma once
 
 #include <cstdint>

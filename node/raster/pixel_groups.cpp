@@ -57,8 +57,7 @@ void PixelGroups::resolve_over(const StillGroups& still, const shading::Shading&
 void PixelGroups::add_uncovered(const StillGroups& still, std::uint32_t pixel) {
   const std::uint32_t covered = masks_[pixel];
   for (const StillGroup& group : still.of(fragments_[pixel].column)) {
-    const float weight =
-        static_cast<float>(std::popcount(group.samples & ~covered)) / static_cast<float>(samples_);
+    const float weight = static_cast<float>(std::popcount(group.samples & ~covered)) / static_cast<float>(samples_);
     for (std::size_t c = 0; c < 3; ++c) light_[c][pixel] += weight * group.light[c];
     masks_[pixel] |= group.samples;
   }

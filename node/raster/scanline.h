@@ -1,5 +1,5 @@
-// The scanline z-buffer, a line of pixels at a time: visibility first and shading after, so that hidden samples are never
-// shaded.
+// The scanline z-buffer, a line of pixels at a time: visibility first and shading after, so that hidden samples are
+// never shaded.
 #pragma once
 
 #include <cstddef>

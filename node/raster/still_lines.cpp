@@ -17,10 +17,10 @@ StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::u
     : width_(width),
       samples_(static_cast<std::size_t>(pattern.count)),
       plan_(wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
-                             bytes_a_node * neighbours.nodes().size())),
+                                   bytes_a_node * neighbours.nodes().size())),
       memory_(neighbours,
               wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
-                               bytes_a_node * neighbours.most())
+                                     bytes_a_node * neighbours.most())
                   .bytes(),
               plan_.bytes()) {
   static_assert(sizeof(Head) == wire::kStillHeadBytes);
@@ -45,8 +45,7 @@ std::span<float> StillLines::depth(std::uint32_t line, std::uint32_t sample) {
 
 StillGroups StillLines::groups(std::uint32_t line) {
   std::byte* const end = slot(line) + wire::kStillHeadBytes + depth_bytes(width_, samples_);
-  return {reinterpret_cast<std::uint32_t*>(end),
-          reinterpret_cast<StillGroup*>(end + width_ * sizeof(std::uint32_t))};
+  return {reinterpret_cast<std::uint32_t*>(end), reinterpret_cast<StillGroup*>(end + width_ * sizeof(std::uint32_t))};
 }
 
 bool StillLines::keeps(std::uint32_t line) const {

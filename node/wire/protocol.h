@@ -41,7 +41,8 @@ enum MessageType : long {
   kClock,       // host -> node: empty, asks for the time; node -> host: its dclock(), a double
   kTrace,       // messages::Event ..., closed by one of kind lost
   kTriangles,   // TriangleHead, edge boxes, triangles, each from a cache line on
-  kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are written
+  kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are
+                // written
 };
 
 // Of triangles and their edge boxes on the receiver's lines.

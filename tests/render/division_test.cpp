@@ -154,7 +154,7 @@ TEST_P(Division, SamplesAreThoseThatEdgeBoxesCover) {
     for (const raster::UnsortedEdgeBox& box :
          raster::plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
                                   static_cast<std::int32_t>(film_.settings.height)))
-      samples[box.line] += std::uint64_t{box.box.last} - box.box.first;
+      samples[box.line] += box.box.width();
   for (const Strip& strip : counted.run.report.strips)
     EXPECT_EQ(strip.work.samples,
               std::accumulate(samples.begin() + strip.first_line, samples.begin() + strip.last_line, std::uint64_t{0}));

@@ -25,7 +25,8 @@ class Grouping {
   void add_whole(std::uint32_t column, Numbers triangles) {
     const Numbers columns = hn::Add(hn::Iota(kNumbers, 0), hn::Set(kNumbers, column));  // and sample 0
     static_assert(offsetof(shading::Fragment, column) == 4 && offsetof(shading::Fragment, sample) == 6);
-    hn::StoreInterleaved2(triangles, columns, kNumbers, reinterpret_cast<std::uint32_t*>(out_.fragments + counts_.pixels));
+    hn::StoreInterleaved2(triangles, columns, kNumbers,
+                          reinterpret_cast<std::uint32_t*>(out_.fragments + counts_.pixels));
     hn::StoreU(hn::Set(kNumbers, all()), kNumbers, out_.masks + counts_.pixels);
     counts_.pixels += kLanes;
   }
@@ -52,7 +53,8 @@ class Grouping {
       for (std::uint32_t s = sample; s < samples_; ++s) mask |= std::uint32_t{triangles[s] == triangle} << s;
       left &= ~mask;
       if (triangle == shading::kNoTriangle) continue;
-      const shading::Fragment fragment{triangle, static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(sample)};
+      const shading::Fragment fragment{triangle, static_cast<std::uint16_t>(column),
+                                       static_cast<std::uint16_t>(sample)};
       if (first)
         put(fragment, mask, counts_.pixels++);
       else
@@ -118,7 +120,8 @@ GroupCounts group(const shape::SamplePattern& pattern, const LineSamples& seen, 
     const Numbers first = hn::LoadU(kNumbers, seen.ids + column);
     auto same = hn::Eq(first, first);
     for (std::int32_t s = 1; s < pattern.count; ++s)
-      same = hn::And(same, hn::Eq(first, hn::LoadU(kNumbers, seen.ids + static_cast<std::uint32_t>(s) * seen.stride + column)));
+      same = hn::And(
+          same, hn::Eq(first, hn::LoadU(kNumbers, seen.ids + static_cast<std::uint32_t>(s) * seen.stride + column)));
     const auto empty = hn::And(same, hn::Eq(first, none));
     if (hn::AllTrue(kNumbers, hn::AndNot(empty, same))) {
       grouping.add_whole(column, first);

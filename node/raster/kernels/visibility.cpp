@@ -81,8 +81,8 @@ shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, 
     extent.first = box.first < extent.first ? box.first : extent.first;
     extent.last = box.last() > extent.last ? box.last() : extent.last;
     const auto dy = static_cast<float>(top + pattern.y[box.sample] - t.first_y);
-    const auto dx =
-        static_cast<float>(static_cast<std::int32_t>(box.first) * shape::kSubpixels + pattern.x[box.sample] - t.first_x);
+    const auto dx = static_cast<float>(static_cast<std::int32_t>(box.first) * shape::kSubpixels +
+                                       pattern.x[box.sample] - t.first_x);
     const Depth plane{t.at_first[shape::kDepth] + dy * t.per_y[shape::kDepth], t.per_x[shape::kDepth]};
     const auto width = static_cast<int>(box.width());
     const std::uint32_t at = box.sample * samples.stride + box.first;

@@ -80,7 +80,7 @@ class Bench {
       shading::Extent extent{};
       spent.draw += seconds([&] {
         extent = raster.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
-                             depth_.data(), ids_.data());
+                             work_.shading().pattern, {depth_.data(), ids_.data(), 0});
       });
       shading::Shaded done{};
       spent.shade += seconds([&] {

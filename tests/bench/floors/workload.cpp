@@ -56,8 +56,8 @@ void Workload::make(simd::InstructionSet set) {
   made_.clear();
   counts_ = {};
   auto* const first = reinterpret_cast<geometry::Triangle*>(made_memory_.bytes().data());
-  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {},
-                                                                   {wanted_, line_loads_}, {made_, first}, counts_);
+  const node::Tessellation own =
+      node::Tessellator(set).tessellate(scene_, {}, {wanted_, wanted_, line_loads_}, {made_, first}, counts_);
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
   polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};
@@ -80,8 +80,8 @@ void Workload::find_pieces() {
     std::fill(depth.begin(), depth.end(), 0.0f);
     std::fill(ids.begin(), ids.end(), shading::kNoTriangle);
     const auto boxes = boxes_.stationary(line);
-    kernels.draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth.data(),
-                 ids.data());
+    kernels.draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, scene_.pattern(),
+                 {depth.data(), ids.data(), 0});
     for (std::uint32_t first = 0, last; first < width(); first = last) {
       for (last = first + 1; last < width() && ids[last] == ids[first];) ++last;
       if (ids[first] == shading::kNoTriangle) continue;

@@ -164,8 +164,9 @@ std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t wid
     if (begin >= last) continue;
     std::int32_t end = begin;
     while (end < last && covers(t, end, row)) ++end;
-    out.push_back(
-        {{0, static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end)}, static_cast<std::uint16_t>(row), 0});
+    out.push_back({{0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin - 1), 0},
+                   static_cast<std::uint16_t>(row),
+                   0});
   }
   return out;
 }
