@@ -34,7 +34,7 @@ class Hemisphere {
   void mirrored(const Surfaces& s, Floats rough, Floats* light) const {
     const Floats nz = hn::Mul(dot(s.n, up_), s.inverse_n), ne = hn::Mul(s.ne, s.inverse_n);
     const Floats product = hn::Mul(nz, ne);
-    const Floats z = hn::Mul(hn::Sub(hn::Add(product, product), dot(s.e, up_)), hn::Sqrt(s.inverse_ee));
+    const Floats z = hn::Mul(hn::Sub(hn::Add(product, product), dot(s.e, up_)), s.inverse_e());
     mix(hn::Div(z, rough), light);
   }
 
@@ -76,7 +76,7 @@ template <>
 inline void reflect_ambient(const Hemisphere& hemisphere, const Surfaces& s, const MetallicRoughness& lanes,
                             Floats* color) {
   const EnvironmentTable& table = environment_table();
-  const Floats nv = between_0_and_1(hn::Mul(hn::Mul(s.ne, s.inverse_n), hn::Sqrt(s.inverse_ee)));
+  const Floats nv = between_0_and_1(hn::Mul(hn::Mul(s.ne, s.inverse_n), s.inverse_e()));
   const Floats colored = look_up(table.colored, nv, lanes.rough), white = look_up(table.white, nv, lanes.rough);
   Floats around[3], mirrored[3];
   hemisphere.around_normal(s, around);

@@ -28,14 +28,15 @@ inline Floats fifth_power(Floats x) {
   return hn::Mul(hn::Mul(square, square), x);
 }
 
-// e^-x for x >= 0, to 1e-6 of itself up to x = 80; from there on as if x were 80. With r = x / ln 2 and k the nearest
-// whole number, 2^-r = 2^-k 2^(k - r): Taylor's polynomial of degree 6 for the second factor, its exponent's bits for
-// the first.
+// e^-x for x >= 0, to 5e-7 of itself; from 80 on as if x were 80. With k the nearest whole number to x / ln 2, this is
+// 2^-k e^y, |y| < 0.35: its exponent's bits for the first factor, Taylor's polynomial of degree 6 for the second. ln 2
+// is taken in two parts, the first of so few bits that its product with k is exact (W. J. Cody, W. Waite, "Software
+// manual for the elementary functions", 1980).
 inline Floats exp_of_minus(Floats x) {
-  constexpr float kLn2 = 0.693147181f;
-  const Floats r = hn::Mul(hn::Min(x, constant(80.0f)), constant(1.0f / kLn2));
-  const Floats k = hn::Floor(hn::Add(r, constant(0.5f)));
-  const Floats y = hn::Mul(hn::Sub(k, r), constant(kLn2));  // -0.35..0.35
+  constexpr float kPerLn2 = 1.44269504f, kLn2First = 0.693359375f, kLn2Rest = -2.12194440e-4f;
+  const Floats near = hn::Min(x, constant(80.0f));
+  const Floats k = hn::Floor(hn::Add(hn::Mul(near, constant(kPerLn2)), constant(0.5f)));
+  const Floats y = hn::Add(hn::Sub(hn::Mul(k, constant(kLn2First)), near), hn::Mul(k, constant(kLn2Rest)));
   constexpr float kFactors[] = {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1, 1};
   Floats sum = constant(kFactors[0]);
   for (int i = 1; i < 7; ++i) sum = hn::Add(hn::Mul(sum, y), constant(kFactors[i]));

@@ -23,6 +23,8 @@ struct Surfaces {
     inverse_n = hn::IfThenElseZero(hn::Gt(nn, zero()), hn::Mul(inverse, ee));
     inverse_ee = hn::Mul(inverse, length);
   }
+
+  Floats inverse_e() const { return hn::Div(constant(1.0f), hn::Sqrt(ee)); }  // a number everywhere
 };
 
 // From a vector of samples to one light.

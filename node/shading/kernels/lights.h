@@ -10,7 +10,7 @@ class Light {
   explicit Light(const geometry::EyeLight& light)
       : has_place_(light.kind != wire::LightKind::directional),
         is_spot_(light.kind == wire::LightKind::spot),
-        reach_(light.reach),
+        reach_(has_place_ ? light.reach : 0),
         cos_outer_(light.cos_outer) {
     constexpr float kSharpest = 1e-6f;
     const float width = light.cos_inner - light.cos_outer;
@@ -23,7 +23,7 @@ class Light {
   }
 
   // Whether it is not equally bright everywhere.
-  bool fades() const { return is_spot_ || (has_place_ && reach_ > 0); }
+  bool fades() const { return is_spot_ || reach_ > 0; }
   const Floats* color() const { return color_; }
 
   Rays rays(const Surfaces& s) const {

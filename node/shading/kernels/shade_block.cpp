@@ -54,19 +54,20 @@ void begin_with_ambient(const Shading& shading, const Scale& scale, Block& block
 }
 
 // Fills facing, square and, where the light fades, bright for one light.
-template <typename Highlight>
+template <typename Highlight, bool kFades>
 void face(const Light& light, Block& block) {
   for (std::uint32_t k = 0; k < block.count; k += kLanes) {
     const Surfaces surfaces(block, k);
     const Rays rays = light.rays(surfaces);
     hn::Store(rays.facing(), kFloats, block.facing + k);
     hn::Store(Highlight::square(surfaces, rays), kFloats, block.square + k);
-    if (light.fades()) hn::Store(light.brightness(surfaces, rays), kFloats, block.bright + k);
+    if constexpr (kFades) hn::Store(light.brightness(surfaces, rays), kFloats, block.bright + k);
   }
 }
 
 // Adds one light to the block's colours, or to the ambient ones of its materials if it is the first. If there are
 // `pixels`, colours are levels that are packed.
+template <bool kFades>
 void add_light(const Shading& shading, const Scale& scale, const Light& light, bool first, Block& block,
                std::uint32_t* pixels) {
   Materials<HighlightLanes> materials(shading.materials, scale, block);
@@ -81,7 +82,7 @@ void add_light(const Shading& shading, const Scale& scale, const Light& light, b
     for (int c = 0; c < 3; ++c) {
       const Floats before = first ? lanes.ambient[c] : hn::Load(kFloats, block.color[c] + k);
       Floats shines = light.color()[c];
-      if (light.fades()) shines = hn::Mul(shines, hn::Load(kFloats, block.bright + k));
+      if constexpr (kFades) shines = hn::Mul(shines, hn::Load(kFloats, block.bright + k));
       color[c] = hn::Add(before, hn::Mul(hn::Add(hn::Mul(lanes.diffuse[c], facing), mirrored), shines));
     }
     if (pixels)
@@ -89,6 +90,13 @@ void add_light(const Shading& shading, const Scale& scale, const Light& light, b
     else
       store(color, k, block);
   }
+}
+
+template <typename Highlight, bool kFades>
+void shade_light(const Shading& shading, const Scale& scale, const Light& light, bool first, Block& block,
+                 std::uint32_t* pixels) {
+  face<Highlight, kFades>(light, block);
+  add_light<kFades>(shading, scale, light, first, block, pixels);
 }
 
 // Phong's and Blinn's models. If there are `pixels`, the last light packs them.
@@ -101,8 +109,8 @@ void shade_highlights(const Shading& shading, const Scale& scale, Block& block, 
   const std::uint32_t count = shading.light_count > 0 ? shading.light_count : 1;
   for (std::uint32_t l = 0; l < count; ++l) {
     const Light light(lights[l]);
-    face<Highlight>(light, block);
-    add_light(shading, scale, light, even && l == 0, block, l + 1 == count ? pixels : nullptr);
+    const auto shade = light.fades() ? shade_light<Highlight, true> : shade_light<Highlight, false>;
+    shade(shading, scale, light, even && l == 0, block, l + 1 == count ? pixels : nullptr);
   }
 }
 

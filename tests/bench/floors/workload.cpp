@@ -35,7 +35,7 @@ Workload::Workload(const std::filesystem::path& film, const film::CompileOptions
   find_pieces();
 }
 
-void Workload::dice(shape::Dicer& dicer) {
+void Workload::dice(shape::Dicer& dicer, const std::function<void(const shape::Surface&)>& visit) {
   classified_ = 0;
   const int rate = static_cast<int>(view_.settings().dice);
   for (std::size_t s = 0; s < view_.segments().size(); ++s) {
@@ -47,6 +47,7 @@ void Workload::dice(shape::Dicer& dicer) {
         continue;
       dicer.dice(patch, scene_.projection(), rate);
       classified_ += dicer.triangles().count;
+      if (visit) visit(dicer);
     }
   }
 }
