@@ -131,7 +131,8 @@ void ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shadin
     all = {std::min(all.first, extent.first), std::max(all.last, extent.last)};
   }
   if (all.first >= all.last) return;
-  out.added(shading_kernels_.shade(shading, ids(), line, all, out.next_run(), out.next_pixel()));
+  auto* pixels = reinterpret_cast<std::uint32_t*>(out.next_pixel());
+  out.added(shading_kernels_.shade(shading, ids(), line, all, out.next_run(), pixels));
   std::fill(ids() + all.first, ids() + all.last, shading::kNoTriangle);
 }
 

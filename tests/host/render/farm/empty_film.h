@@ -13,7 +13,17 @@ class EmptyFilm {
  public:
   // Intervals of so many frames; the block has more than `bytes`.
   explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
-                     std::size_t bytes = 0) {
+                     std::size_t bytes = 0)
+      : EmptyFilm(data(intervals, width, height, bytes)) {}
+  explicit EmptyFilm(const wire::FilmData& film) {
+    const std::vector<std::byte> block = wire::pack(film);
+    words_.resize((block.size() + 7) / 8);
+    size_ = block.size();
+    std::memcpy(words_.data(), block.data(), size_);
+  }
+
+  static wire::FilmData data(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16,
+                             std::uint32_t height = 8, std::size_t bytes = 0) {
     wire::FilmData film;
     for (const std::uint32_t frames : intervals) {
       film.intervals.push_back({film.settings.frames, frames, 0, 0});
@@ -26,10 +36,7 @@ class EmptyFilm {
     film.cameras = {{{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}, 2, 0.1, 100}};
     film.changes = {{0, 0}};
     film.names.resize(bytes);
-    const std::vector<std::byte> block = wire::pack(film);
-    words_.resize((block.size() + 7) / 8);
-    size_ = block.size();
-    std::memcpy(words_.data(), block.data(), size_);
+    return film;
   }
 
   std::span<const std::byte> block() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
