@@ -13,13 +13,13 @@ class EmptyFilm {
  public:
   // Intervals of so many frames; the block has more than `bytes`.
   explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
-                     std::size_t bytes = 0)
-      : EmptyFilm(data(intervals, width, height, bytes)) {}
-  explicit EmptyFilm(const wire::FilmData& film) {
-    const std::vector<std::byte> block = wire::pack(film);
-    words_.resize((block.size() + 7) / 8);
-    size_ = block.size();
-    std::memcpy(words_.data(), block.data(), size_);
+                     std::size_t bytes = 0) {
+    pack(data(intervals, width, height, bytes));
+  }
+  static EmptyFilm of(const wire::FilmData& data) {
+    EmptyFilm film({1});
+    film.pack(data);
+    return film;
   }
 
   static wire::FilmData data(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16,
@@ -43,6 +43,13 @@ class EmptyFilm {
   wire::FilmView view() const { return {block(), "empty film"}; }
 
  private:
+  void pack(const wire::FilmData& data) {
+    const std::vector<std::byte> block = wire::pack(data);
+    words_.resize((block.size() + 7) / 8);
+    size_ = block.size();
+    std::memcpy(words_.data(), block.data(), size_);
+  }
+
   std::vector<std::uint64_t> words_;  // aligned as FilmView wants it
   std::size_t size_;
 };

@@ -60,7 +60,7 @@ TEST(Farm, TheBackgroundIsThatOfItsInterval) {
     run.work = {frames_to(7), true, 1};
     run.buffers = 2;
     run.format = format;
-    run.render(EmptyFilm(data), sound_node);
+    run.render(EmptyFilm::of(data), sound_node);
     EXPECT_EQ(run.sink.pixels, pixels_of(frames_to(7)));
     // sRGB of 0.25 is 136.96 of 255, and of 0.5 187.52.
     const int shift = format == wire::PixelFormat::rgb8 ? 16 : 0;

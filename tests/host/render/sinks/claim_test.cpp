@@ -59,7 +59,8 @@ TEST(Claim, OnlyOtherFramesOfTheSameFilmAreLetIn) {
   const std::string other = claim.refuses(film("b.json", 'b', {3}));
   EXPECT_TRUE(document::holds(other, "renders frames 0-2,9 of a.json into this folder")) << other;
   EXPECT_TRUE(document::holds(other, "(give another folder with -o, or wait)")) << other;
-  EXPECT_TRUE(document::holds(claim.refuses(film("a.json", 'b', {3})), "of another version or size of a.json into"));
+  EXPECT_TRUE(
+      document::holds(claim.refuses(film("a.json", 'b', {3})), "of another version, size or format of a.json into"));
 }
 
 TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {

@@ -514,7 +514,7 @@ TEST(Verify, ReadsEveryFormatAndNamesItsPixels) {
                                        {PictureFormat::png16, "16-bit sRGB"},
                                        {PictureFormat::exr, "half-float linear RGB"}}) {
     const fs::path path = folder / images::facts_of(format).name;
-    fill(path, in_format(format), 0x102030);
+    fill(path, in_format(format), 0x2030);
     const Verdict verdict = verify_folder(path);
     EXPECT_TRUE(verdict.troubles.empty()) << path;
     EXPECT_EQ(verdict.pixels, pixels);
