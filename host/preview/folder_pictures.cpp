@@ -9,7 +9,7 @@ FolderPictures::FolderPictures(std::filesystem::path folder)
     : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)) {
   if (manifest_.format == images::PictureFormat::exr)
     throw Failure("its frames are EXR files: light, not yet exposed or encoded to be seen", folder_.string(),
-                  "render the film with --format png too, into another folder, or preview the film itself");
+                  "render the film with --format png into another folder, or preview the film itself");
 }
 
 SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize extent) {
