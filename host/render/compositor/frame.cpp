@@ -15,8 +15,8 @@ std::vector<std::uint32_t> plain_picture(std::size_t pixels, std::uint64_t plain
   std::vector<std::uint32_t> words;
   words.reserve(count);
   messages::prefer_large_pages(std::as_writable_bytes(std::span(words.data(), count)));
-  words.resize(count);
-  fill_pixels(words, plain, wire::pixel_words(format));
+  words.assign(count, static_cast<std::uint32_t>(plain));
+  if (wire::pixel_words(format) == 2) fill_pixels(words, plain, 2);
   return words;
 }
 
