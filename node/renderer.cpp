@@ -24,7 +24,7 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       sums_(film.settings().height),
       triangle_exchange_(machines.size(), film.settings().height),
       still_exchange_(neighbours_, film.settings().samples, film.settings().height),
-      outbox_(film.settings().width, load.credits),
+      outbox_(film.settings().width, load.pixel_format, load.credits),
       contributes_(machines.size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),

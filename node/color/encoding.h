@@ -26,11 +26,11 @@ inline constexpr std::uint32_t kSteps16 = 65535;
 
 // The filmic curve: light is shown as it is up to the shoulder; where the brightest of red, green and blue, m, exceeds
 // it, all are scaled so that this becomes 1 - d^2 / (m + d - shoulder), d = 1 - shoulder, and then go towards white by
-// 1 - 1 / (1 + bleach (m - what m became)). Mid-grey stays 0.18, a grey four stops brighter is shown as 0.94, and hues
-// stay. These are the formulas of Khronos's PBR Neutral Tone Mapper
-// (github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral), with a longer shoulder and without its subtraction of
-// 0.04, which undoes what white surroundings reflect.
-inline constexpr float kShoulder = 0.6f;
+// 1 - 1 / (1 + bleach (m - what m became)). Mid-grey stays 0.18, white paper in light of 1 is shown as 0.88, a grey
+// four stops above mid-grey as 0.98, and hues stay. This is Khronos's PBR Neutral Tone Mapper
+// (github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral) without its subtraction of 0.04, which undoes what white
+// surroundings reflect.
+inline constexpr float kShoulder = 0.76f;
 inline constexpr float kBleach = 0.15f;
 
 // Exposed light is cut here, far above all that differs from white.

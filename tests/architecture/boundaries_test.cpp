@@ -65,6 +65,10 @@ TEST(Boundaries, PngInOneHostFile) {
   EXPECT_TRUE(begins(*files.begin(), "host/"));
 }
 
+TEST(Boundaries, OpenExrInOneHostFile) {
+  EXPECT_EQ(files_including(std::regex("(^OpenEXR/|(^|/)Imf)")), Files{"host/images/exr_file.cpp"});
+}
+
 TEST(Boundaries, AssimpInItsHostFolder) {
   expect_within(files_including(std::regex("^assimp/")), "host/content/importer/");
 }

@@ -3,7 +3,6 @@
 // when a sink has the frame. So a node never has more strips in the host's memory than it has credits.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -70,7 +69,7 @@ struct FarmReport {
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
                        sinks::SinkPool& sinks, const FarmListener& listener);
 
-// The pixel (protocol.h) of a colour 0..1.
-std::uint32_t pixel_of(const std::array<float, 3>& color);
+// The pixel of the film's frames where nothing is drawn, in this interval.
+std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format);
 
 }  // namespace mars::farm

@@ -91,7 +91,7 @@ std::array<double, 3> filmic(float red, float green, float blue) {
 
 TEST(Encoding, FilmicCurveKeepsGreysAndRisesToWhite) {
   EXPECT_NEAR(filmic(0.18f, 0.18f, 0.18f)[0], 65535 * srgb(0.18), 2);
-  EXPECT_NEAR(filmic(2.88f, 2.88f, 2.88f)[0], 65535 * srgb(1 - 0.16 / 2.68), 2);
+  EXPECT_NEAR(filmic(2.88f, 2.88f, 2.88f)[0], 65535 * srgb(1 - 0.24 * 0.24 / (2.88 + 0.24 - 0.76)), 2);
   double before = 0;
   for (float light = 0; light < 20; light += 0.01f) {
     const double shown = filmic(light, light, light)[0];

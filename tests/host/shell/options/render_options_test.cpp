@@ -49,6 +49,7 @@ RenderOptions unusual() {
   options.block = 5;
   options.groups = 3;
   options.sink = SinkKind::none;
+  options.format = images::PictureFormat::exr;
   options.report = "report.json";
   options.trace = "trace.json";
   options.quiet = true;
@@ -117,7 +118,8 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
       {{"--backend", "pvm"}, "auto or mpi or threads"},
       {{"--mapping", ""}, "greedy or optimal or cost"},
       {{"--intervals", "x"}, "auto or keyframes"},
-      {{"--sink", "gif"}, "png or none"},
+      {{"--sink", "gif"}, "files or none"},
+      {{"--format", "gif"}, "png or png16 or exr"},
       {{"--size", "960"}, "is not a size"},
       {{"--size", "960x"}, "is not a size"},
       {{"--size", "0x5"}, "between 1x1 and 16384"},
