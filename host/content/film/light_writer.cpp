@@ -14,8 +14,10 @@
 namespace mars::film {
 namespace {
 
-// Of one channel, by sRGB's decoding (IEC 61966-2-1).
+// Of one channel, by sRGB (IEC 61966-2-1).
 double decoded(double shown) { return shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4); }
+
+double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
 std::array<float, 3> floats(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -94,6 +96,13 @@ class LightWriter {
 
 std::array<float, 3> light_of(const glm::dvec3& color, wire::ColorSpace space) {
   return floats(light_from(color, space));
+}
+
+std::array<float, 3> shown_of(const std::array<float, 3>& light, wire::ColorSpace space) {
+  std::array<float, 3> shown = light;
+  if (space == wire::ColorSpace::linear)
+    for (float& channel : shown) channel = static_cast<float>(encoded(channel));
+  return shown;
 }
 
 void write_light_settings(const animator::Film& film, wire::FilmSettings& settings) {

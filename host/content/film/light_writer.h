@@ -13,6 +13,9 @@ namespace mars::film {
 // What a colour is in the film's colour space.
 std::array<float, 3> light_of(const glm::dvec3& color, wire::ColorSpace space);
 
+// The colour that the light is shown as, without exposure and curve: light_of's inverse.
+std::array<float, 3> shown_of(const std::array<float, 3>& light, wire::ColorSpace space);
+
 // Samples, colour space, curve, background, ambient light and fog.
 void write_light_settings(const animator::Film& film, wire::FilmSettings& settings);
 

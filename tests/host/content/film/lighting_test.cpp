@@ -72,14 +72,13 @@ TEST(Lighting, ColoursBecomeLightInLinearFilmsOnly) {
   }
 }
 
-// The encoding of IEC 61966-2-1, which goes the other way.
-TEST(Lighting, DecodingUndoesSrgbsEncoding) {
+TEST(Lighting, LightIsShownAsTheColourItWas) {
   for (int step = 0; step <= 255; ++step) {
     const double shown = step / 255.0;
-    const double light = light_of({shown, 0, 0}, wire::ColorSpace::linear)[0];
-    const double again = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-    EXPECT_NEAR(again, shown, 1e-6);
+    EXPECT_NEAR(shown_of(light_of({shown, 0, 0}, wire::ColorSpace::linear), wire::ColorSpace::linear)[0], shown, 1e-6);
+    EXPECT_EQ(shown_of(light_of({shown, 0, 0}, wire::ColorSpace::coded), wire::ColorSpace::coded)[0], float(shown));
   }
+  EXPECT_NEAR(light_of({0.02, 0, 0}, wire::ColorSpace::linear)[0], 0.02 / 12.92, 1e-9) << "IEC 61966-2-1";
 }
 
 TEST(Lighting, AModelsOwnMaterialBecomesLightToo) {
