@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -55,6 +56,13 @@ void read(const std::string& text, std::optional<images::PictureSize>& value) {
   value = images::read_picture_size(text);
 }
 
+// Samples of a pixel.
+void read(const std::string& text, std::optional<std::uint32_t>& value) {
+  value = document::number_in<std::uint32_t>(text).value_or(0);
+  if (!std::has_single_bit(*value) || *value > wire::kMostSamples)
+    throw Failure("'" + text + "' is not 1, 2, 4, 8 or 16", "", "");
+}
+
 // A number of at least one.
 struct Count {
   std::uint32_t RenderOptions::*member;
@@ -88,6 +96,8 @@ std::string text_of(const film::FrameSet& frames) { return frames.text(); }
 std::string text_of(const std::optional<images::PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
+
+std::string text_of(const std::optional<std::uint32_t>& number) { return std::to_string(*number); }
 
 // A command line that makes no sense is a usage error: it names what it concerns, exit code 2.
 template <typename Check>
@@ -181,6 +191,9 @@ std::vector<Entry> table() {
              "Frames to render, counted from 0; default: all. Example: --frames 0-9,24,30-"),
       option(compiles, "--size", "WxH", &RenderOptions::size,
              "Picture size in pixels; default: the film's. Example: --size 960x540"),
+      option(
+          compiles, "--samples", "1|2|4|8|16", &RenderOptions::samples,
+          "Samples of a pixel; default: the film's. More make smoother edges and take longer. Example: --samples 16"),
       option(
           all, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
           "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "

@@ -34,6 +34,7 @@ struct RenderOptions {
   std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
   film::FrameSet frames;
   std::optional<images::PictureSize> size;  // none: the film's own
+  std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
   wire::Mapping mapping = wire::Mapping::cost;
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch

@@ -43,6 +43,7 @@ RenderOptions unusual() {
   options.backend = Backend::threads;
   options.frames = film::FrameSet("0-9,24,30-");
   options.size = images::PictureSize{33, 44};
+  options.samples = 8;
   options.mapping = wire::Mapping::optimal;
   options.intervals = Intervals::keyframes;
   options.no_coherence = true;
@@ -120,6 +121,9 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
       {{"--intervals", "x"}, "auto or keyframes"},
       {{"--sink", "gif"}, "files or none"},
       {{"--format", "gif"}, "png or png16 or exr"},
+      {{"--samples", "3"}, "is not 1, 2, 4, 8 or 16"},
+      {{"--samples", "32"}, "is not 1, 2, 4, 8 or 16"},
+      {{"--samples", "many"}, "is not 1, 2, 4, 8 or 16"},
       {{"--size", "960"}, "is not a size"},
       {{"--size", "960x"}, "is not a size"},
       {{"--size", "0x5"}, "between 1x1 and 16384"},
