@@ -33,7 +33,7 @@ constexpr const char* kVertexShader = R"(
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 uniform mat4x3 motion;
-out vec3 n;
+centroid out vec3 n;
 void main() {
   vec3 p = motion * vec4(place, 1.0);
   gl_Position = vec4(LENS.x * p.x, -LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
@@ -42,7 +42,7 @@ void main() {
 )";
 
 constexpr const char* kFragmentShader = R"(
-in vec3 n;
+centroid in vec3 n;
 uniform vec3 own;
 out vec4 pixel;
 void main() {

@@ -68,8 +68,8 @@ class Benchmark(unittest.TestCase):
         for name, row in rows.items():
             self.assertEqual(len(row["milliseconds"]), rounds)
             self.assertEqual(row["best"], min(row["milliseconds"]))
-            # With several samples llvmpipe takes normals at the pixel's middle, also where that is not in the triangle.
-            most = 5 if "llvmpipe" in name and result["samples"] > 1 else 0.5
+            # Several samples of a triangle are shaded elsewhere in the pixel than ours and Embree's.
+            most = 1.5 if "llvmpipe" in name and result["samples"] > 1 else 0.5
             self.assertLess(row["rms"], most, f"{name}, {result['course']}, samples: {result['samples']}")
             if name.startswith("ours"):
                 self.assertAlmostEqual(row["ratio"], row["best"] / fastest)
