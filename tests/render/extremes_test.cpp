@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace mars::test {
 namespace {
@@ -34,15 +36,27 @@ wire::Matrix centred(const Vec3& middle, double size) {
   return placed({middle[0] - size / 2, middle[1] - size / 2, middle[2] - size / 2}, size);
 }
 
-double covered(const wire::FilmData& film, int nodes = 2) {
+Pixels draw(const wire::FilmData& film, int nodes) {
   RunOptions options;
   options.nodes = nodes;
-  const Pixels pixels = run_film(FilmBlock(film).bytes(), options).frames.at(0);
+  return run_film(FilmBlock(film).bytes(), options).frames.at(0);
+}
+
+// Of all pixels.
+double covered(const wire::FilmData& film, int nodes = 2) {
+  const Pixels pixels = draw(film, nodes);
   const auto shown = pixels.size() - static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), kBackground));
   return static_cast<double>(shown) / static_cast<double>(pixels.size());
 }
 
 const wire::Camera kAhead = looking({0, 0, 0}, {0, 10, 0}, 40);
+
+// Ahead, too, so that a square of side 4 which is `far` away takes the middle half of the picture's height.
+wire::Camera quarter_view(double far) {
+  wire::Camera camera = kAhead;
+  camera.focal = far / 4;
+  return camera;
+}
 
 TEST(Extremes, WhatIsBehindTheEyeIsNotSeen) {
   EXPECT_EQ(covered(scene(200, 100, {{modeler::make_sphere(), centred({0, -5, 0}, 4)}}, kAhead)), 0);
@@ -97,6 +111,23 @@ TEST(Extremes, TheLargestCommonPicture) {
   const double large = covered(scene(7680, 4320, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
   const double small = covered(scene(768, 432, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
   EXPECT_NEAR(large, small, 0.002);
+}
+
+// A line of such a picture has 16 sub-scanlines: 262144 of them do not count in 16 bits.
+TEST(Extremes, ManySamplesOfThinHighAndLargePictures) {
+  const auto torus = [](std::uint32_t width, std::uint32_t height) {
+    return scene(width, height, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead);
+  };
+  EXPECT_NEAR(covered(with_samples(torus(7680, 4320), 16)), covered(torus(768, 432)), 0.002);
+  // A box whose front is the middle half of the lines, of all columns.
+  const auto box = scene(8, 16384, {{modeler::make_box(), centred({0, 12, 0}, 4)}}, quarter_view(10));
+  const Pixels pixels = draw(with_samples(box, 16), 3);
+  for (const auto& [row, inside] :
+       {std::pair{4094u, false}, {4097u, true}, {8192u, true}, {12286u, true}, {12289u, false}})
+    for (std::uint32_t column = 0; column < 8; ++column)
+      EXPECT_EQ(pixels[8 * row + column] != kBackground, inside) << "line " << row;
+  EXPECT_EQ(covered(with_samples(scene(1, 1, {{modeler::make_box(), centred({0, 12, 0}, 9)}}, kAhead), 16)), 1);
+  EXPECT_EQ(covered(with_samples(scene(1, 1, {}, kAhead), 16)), 0);
 }
 
 TEST(Extremes, VeryWideAndVeryHighPictures) {

@@ -9,8 +9,8 @@ namespace mars::test {
 
 wire::FilmData with_samples(wire::FilmData film, std::uint32_t samples);
 
-// Without lights, each segment in one of the seven pure colours that its background, magenta, is not; nothing is shaded:
-// a pixel tells how many of its samples show which segment.
+// Without lights, each segment in one of the seven pure colours that its background, magenta, is not; nothing is
+// shaded: a pixel tells how many of its samples show which segment.
 wire::FilmData in_pure_colors(wire::FilmData film);
 
 // In linear light, exposed, with the filmic curve, in fog, lit from above and below and by a spot besides; the segments

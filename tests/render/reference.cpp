@@ -72,9 +72,9 @@ void draw(Reference& reference, std::size_t number, std::int32_t width, std::int
       for (std::int32_t s = 0; s < reference.pattern.count; ++s) {
         const std::int32_t x = 256 * column + reference.pattern.x[s], y = 256 * row + reference.pattern.y[s];
         if (!raster::covers_place(t, x, y)) continue;
-        ReferenceSample& here = layer[reference.first_sample(static_cast<std::uint32_t>(column),
-                                                             static_cast<std::uint32_t>(row)) +
-                                      static_cast<std::size_t>(s)];
+        ReferenceSample& here =
+            layer[reference.first_sample(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)) +
+                  static_cast<std::size_t>(s)];
         const float depth = depth_at(triangle.record, x, y);
         const bool nearer = depth > here.depth || (here.triangle && depth == here.depth &&
                                                    order(reference, number) < order(reference, *here.triangle));
@@ -109,8 +109,8 @@ std::vector<ReferenceGroup> Reference::groups(std::uint32_t column, std::uint32_
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(pattern.count); ++s) {
       if (!layer[first + s].triangle) continue;
       const std::size_t triangle = *layer[first + s].triangle;
-      auto group = std::find_if(out.begin() + begin, out.end(),
-                                [&](const ReferenceGroup& g) { return g.triangle == triangle; });
+      auto group =
+          std::find_if(out.begin() + begin, out.end(), [&](const ReferenceGroup& g) { return g.triangle == triangle; });
       if (group == out.end()) group = out.insert(out.end(), {triangle, s, 0});
       group->seen += !(covered_by_movers && movers[first + s].triangle);
     }

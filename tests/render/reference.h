@@ -29,9 +29,9 @@ struct ReferenceGroup {
 
 struct Reference {
   std::vector<raster::PlainTriangle> triangles;
-  std::vector<bool> moving;              // of each triangle
-  std::vector<ReferenceSample> still;    // rows of pixels from the top, of each pixel its samples
-  std::vector<ReferenceSample> movers;   // likewise, where one is nearer than what stands still
+  std::vector<bool> moving;             // of each triangle
+  std::vector<ReferenceSample> still;   // rows of pixels from the top, of each pixel its samples
+  std::vector<ReferenceSample> movers;  // likewise, where one is nearer than what stands still
   std::uint32_t width = 0;
   shape::SamplePattern pattern{};
 

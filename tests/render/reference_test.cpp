@@ -50,7 +50,8 @@ TEST(Reference, Crowd) {
 
 TEST(Reference, CrowdWithSamples) {
   for (const std::uint32_t samples : {2u, 4u, 8u, 16u})
-    for (const std::uint32_t frame : {0u, 2u}) expect_as_reference(with_samples(crowd(160, 90, 3, 3), samples), frame, 3);
+    for (const std::uint32_t frame : {0u, 2u})
+      expect_as_reference(with_samples(crowd(160, 90, 3, 3), samples), frame, 3);
 }
 
 TEST(Reference, AllModelsLightsAndInterpolations) {
