@@ -36,27 +36,19 @@ wire::Matrix centred(const Vec3& middle, double size) {
   return placed({middle[0] - size / 2, middle[1] - size / 2, middle[2] - size / 2}, size);
 }
 
-Pixels draw(const wire::FilmData& film, int nodes) {
+FilmRun draw(const wire::FilmData& film, int nodes) {
   RunOptions options;
   options.nodes = nodes;
-  return run_film(FilmBlock(film).bytes(), options).frames.at(0);
+  return run_film(FilmBlock(film).bytes(), options);
 }
 
-// Of all pixels.
 double covered(const wire::FilmData& film, int nodes = 2) {
-  const Pixels pixels = draw(film, nodes);
+  const Pixels pixels = draw(film, nodes).frames.at(0);
   const auto shown = pixels.size() - static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), kBackground));
   return static_cast<double>(shown) / static_cast<double>(pixels.size());
 }
 
 const wire::Camera kAhead = looking({0, 0, 0}, {0, 10, 0}, 40);
-
-// Ahead, too, so that a square of side 4 which is `far` away takes the middle half of the picture's height.
-wire::Camera quarter_view(double far) {
-  wire::Camera camera = kAhead;
-  camera.focal = far / 4;
-  return camera;
-}
 
 TEST(Extremes, WhatIsBehindTheEyeIsNotSeen) {
   EXPECT_EQ(covered(scene(200, 100, {{modeler::make_sphere(), centred({0, -5, 0}, 4)}}, kAhead)), 0);
@@ -119,15 +111,32 @@ TEST(Extremes, ManySamplesOfThinHighAndLargePictures) {
     return scene(width, height, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead);
   };
   EXPECT_NEAR(covered(with_samples(torus(7680, 4320), 16)), covered(torus(768, 432)), 0.002);
-  // A box whose front is the middle half of the lines, of all columns.
-  const auto box = scene(8, 16384, {{modeler::make_box(), centred({0, 12, 0}, 4)}}, quarter_view(10));
-  const Pixels pixels = draw(with_samples(box, 16), 3);
-  for (const auto& [row, inside] :
-       {std::pair{4094u, false}, {4097u, true}, {8192u, true}, {12286u, true}, {12289u, false}})
-    for (std::uint32_t column = 0; column < 8; ++column)
-      EXPECT_EQ(pixels[8 * row + column] != kBackground, inside) << "line " << row;
   EXPECT_EQ(covered(with_samples(scene(1, 1, {{modeler::make_box(), centred({0, 12, 0}, 9)}}, kAhead), 16)), 1);
   EXPECT_EQ(covered(with_samples(scene(1, 1, {}, kAhead), 16)), 0);
+}
+
+// The front of a box is the middle half of the lines; before its lower quarter another one moves.
+TEST(Extremes, ManySamplesOfMostLines) {
+  constexpr std::uint32_t kLines = 16384;
+  FilmMaker maker(8, kLines, 2);
+  const std::uint32_t box = maker.add_shape(modeler::make_box());
+  maker.add_segment(box, maker.add_material({{1, 0, 0}, 1, 0, 0, 1, 2}), {centred({0, 12, 0}, 4)});
+  const wire::Matrix mover = centred({0, 9, -1.5}, 1);
+  maker.add_segment(box, maker.add_material({{0, 1, 0}, 1, 0, 0, 1, 2}), {mover, placed({-0.501, 8.5, -2}, 1)});
+  wire::Camera camera = kAhead;
+  camera.focal = 2.5;
+  maker.set_cameras({camera});
+  const FilmRun run = draw(with_samples(maker.make(), 16), 3);
+  for (const auto& [frame, pixels] : run.frames)
+    for (const auto& [row, shown] : {std::pair{4095u, kBackground},
+                                     {4096u, 0xffu},
+                                     {8192u, 0xffu},
+                                     {10600u, 0xff00u},
+                                     {12287u, 0xff00u},
+                                     {13009u, 0xff00u},
+                                     {13012u, kBackground}})
+      for (std::uint32_t column = 0; column < 8; ++column)
+        EXPECT_EQ(pixels[8 * row + column], shown) << "line " << row << ", frame " << frame;
 }
 
 TEST(Extremes, VeryWideAndVeryHighPictures) {
