@@ -68,25 +68,25 @@ double phong_highlight(const Material& m, const Vec& n, const Vec& l, const Vec&
 
 double blinn_highlight(const Material& m, const Angles& a) { return a.nh > 0 ? std::pow(a.nh, m.exponent) : 0; }
 
-// Fresnel's reflectance of an insulator, unpolarised light (Cook and Torrance 1982).
+// Fresnel's reflectance of an insulator for unpolarised light (Cook and Torrance 1982).
 double fresnel(double index, double c) {
   const double g = std::sqrt(index * index + c * c - 1);
   return 0.5 * square((g - c) / (g + c)) * (1 + square((c * (g + c) - 1) / (c * (g - c) + 1)));
 }
 
-// F D G / (pi (N.V)) with Beckmann's D, times pi.
+// pi F D G / (4 (N.V)) with Beckmann's D.
 double cook_torrance(const Material& m, const Angles& a) {
   if (a.nv <= 0 || a.nh <= 0) return 0;
-  const double cos2 = square(a.nh), m2 = square(m.roughness);
+  const double cos2 = square(a.nh), m2 = square(std::max(m.roughness, 0.03f));
   const double d = std::exp(-(1 - cos2) / (cos2 * m2)) / (m2 * square(cos2));
   const double g = std::min({1.0, 2 * a.nh * a.nv / a.vh, 2 * a.nh * a.nl / a.vh});
-  return fresnel(m.refraction, a.vh) * d * g / a.nv;
+  return fresnel(m.refraction, a.vh) * d * g / (4 * a.nv);
 }
 
 // glTF 2.0, appendix B, times pi and N.L.
 Vec metallic_roughness(const Material& m, const Angles& a) {
   const Vec color = vec(m.color), f0 = mix(gray(0.04), color, m.metallic);
-  const double a2 = square(square(m.roughness));
+  const double a2 = square(square(std::max(m.roughness, 0.08f)));
   const Vec f = mix(f0, gray(1), std::pow(1 - a.vh, 5));
   const double d = a2 / square(square(a.nh) * (a2 - 1) + 1);
   const auto visible = [&](double c) { return 1 / (c + std::sqrt(a2 + (1 - a2) * c * c)); };
