@@ -139,10 +139,9 @@ std::int64_t area(const Corners& t) {
 }
 
 // With positive area and y downwards left sides go up, top ones to the right.
-bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
+bool covers_place(const Corners& t, std::int64_t x, std::int64_t y) {
   const std::int64_t twice = area(t);
   if (twice == 0) return false;
-  const std::int64_t x = 256 * std::int64_t{column} + 128, y = 256 * std::int64_t{row} + 128;
   const int order[] = {0, twice > 0 ? 1 : 2, twice > 0 ? 2 : 1, 0};
   for (int k = 0; k < 3; ++k) {
     const std::int64_t ax = t.x[order[k]], ay = t.y[order[k]], bx = t.x[order[k + 1]], by = t.y[order[k + 1]];
@@ -151,6 +150,10 @@ bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
     if (side < 0 || (side == 0 && !owned)) return false;
   }
   return true;
+}
+
+bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
+  return covers_place(t, 256 * std::int64_t{column} + 128, 256 * std::int64_t{row} + 128);
 }
 
 std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t width, std::int32_t height) {
