@@ -68,15 +68,21 @@ void copy_run(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
     *to = *from;
 }
 
-// Copies the runs' pixels, which begin at `source`; where they end.
-const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, const Extent& extent,
+// Copies the runs' pixels of so many words, which begin at `source`; where they end.
+template <std::size_t pixel_words>
+const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, std::size_t width,
                                std::uint32_t* picture) {
   for (const wire::Run& run : runs) {
-    const std::size_t count = run.count * extent.pixel_words;
-    copy_run(source, count, picture + (run.line * extent.width + run.first) * extent.pixel_words);
+    const std::size_t count = run.count * pixel_words;
+    copy_run(source, count, picture + (run.line * width + run.first) * pixel_words);
     source += count;
   }
   return source;
+}
+
+const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, const Extent& extent,
+                               std::uint32_t* picture) {
+  return (extent.pixel_words == 1 ? copy_runs<1> : copy_runs<2>)(runs, source, extent.width, picture);
 }
 
 }  // namespace
