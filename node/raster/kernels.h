@@ -22,7 +22,7 @@ struct LineSamples {
 };
 
 // Groups of samples that share one shading (pixel_groups.h): first that of each pixel with its lowest sample, by
-// column, then the others, by column and lowest sample.
+// column, then the others, of each pixel by their lowest samples.
 struct Groups {
   shading::Fragment* fragments;  // to be shaded
   std::uint32_t* masks;          // samples of a group, one bit each
@@ -57,7 +57,8 @@ struct RasterKernels {
   shading::Extent (*draw)(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count,
                           std::uint32_t line, const shape::SamplePattern& pattern, const LineSamples& samples);
 
-  // Groups the samples seen on columns `extent`. Arrays have kVectorSlack to spare behind a line's samples.
+  // Groups the samples seen on columns `extent`; beside these columns nothing is seen. Arrays have twice kVectorSlack
+  // to spare behind a line's samples.
   GroupCounts (*group)(const shape::SamplePattern& pattern, const LineSamples& seen, shading::Extent extent,
                        const Groups& out);
   // Each pixel's light becomes the sum of its groups' by their share of `samples`; masks become the pixels'.

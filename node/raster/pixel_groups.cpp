@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "node/simd/vector_slack.h"
 
@@ -28,16 +29,12 @@ void PixelGroups::shade(const shading::Shading& shading, const LineSamples& seen
 }
 
 void PixelGroups::copy_to(const StillGroups& still) const {
-  std::uint32_t column = 0, next = 0, other = counts_.pixels;
-  const auto copy = [&](std::uint32_t group) {
-    still.groups[next++] = {{light_[0][group], light_[1][group], light_[2][group]}, masks_[group]};
-  };
-  for (std::uint32_t pixel = 0; pixel < counts_.pixels; ++pixel) {
-    while (column < fragments_[pixel].column) still.end[column++] = next;
-    copy(pixel);
-    for (; other < count() && pixels_[other] == pixel; ++other) copy(other);
-  }
-  while (column < width_) still.end[column++] = next;
+  std::fill_n(still.end, width_, 0u);
+  for (std::uint32_t group = 0; group < count(); ++group) ++still.end[fragments_[group].column];
+  std::exclusive_scan(still.end, still.end + width_, still.end, 0u);
+  for (std::uint32_t group = 0; group < count(); ++group)
+    still.groups[still.end[fragments_[group].column]++] = {{light_[0][group], light_[1][group], light_[2][group]},
+                                                           masks_[group]};
 }
 
 void PixelGroups::resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "node/raster/kernels/functions.h"
 
@@ -15,91 +16,113 @@ using NumberTag = hn::RebindToUnsigned<FloatTag>;
 using Numbers = hn::Vec<NumberTag>;
 constexpr NumberTag kNumbers;
 
-// Grows by groups, column by column.
-class Grouping {
- public:
-  Grouping(const shape::SamplePattern& pattern, const LineSamples& seen, const Groups& out)
-      : samples_(static_cast<std::uint32_t>(pattern.count)), seen_(seen), out_(out) {}
-
-  // A vector of pixels from `column` on, each of one group.
-  void add_whole(std::uint32_t column, Numbers triangles) {
-    const Numbers columns = hn::Add(hn::Iota(kNumbers, 0), hn::Set(kNumbers, column));  // and sample 0
-    static_assert(offsetof(shading::Fragment, column) == 4 && offsetof(shading::Fragment, sample) == 6);
-    hn::StoreInterleaved2(triangles, columns, kNumbers,
-                          reinterpret_cast<std::uint32_t*>(out_.fragments + counts_.pixels));
-    hn::StoreU(hn::Set(kNumbers, all()), kNumbers, out_.masks + counts_.pixels);
-    counts_.pixels += kLanes;
-  }
-
-  // As many pixels from `column` on; `same`: one bit for each whose samples all show the same.
-  void add_mixed(std::uint32_t column, std::uint32_t same) {
-    for (const std::uint32_t end = column + kLanes; column < end; ++column, same >>= 1) {
-      if ((same & 1) == 0)
-        add_pixel(column);
-      else if (seen_.ids[column] != shading::kNoTriangle)
-        put({seen_.ids[column], static_cast<std::uint16_t>(column), 0}, all(), counts_.pixels++);
-    }
-  }
-
-  // One pixel of any groups.
-  void add_pixel(std::uint32_t column) {
-    std::uint32_t triangles[shape::kMostSamples];
-    for (std::uint32_t s = 0; s < samples_; ++s) triangles[s] = seen_.ids[s * seen_.stride + column];
-    bool first = true;
-    for (std::uint32_t left = all(); left != 0;) {
-      const auto sample = static_cast<std::uint32_t>(std::countr_zero(left));
-      const std::uint32_t triangle = triangles[sample];
-      std::uint32_t mask = 0;
-      for (std::uint32_t s = sample; s < samples_; ++s) mask |= std::uint32_t{triangles[s] == triangle} << s;
-      left &= ~mask;
-      if (triangle == shading::kNoTriangle) continue;
-      const shading::Fragment fragment{triangle, static_cast<std::uint16_t>(column),
-                                       static_cast<std::uint16_t>(sample)};
-      if (first)
-        put(fragment, mask, counts_.pixels++);
-      else
-        put_other(fragment, mask);
-      first = false;
-    }
-  }
-
-  // The others behind the first groups.
-  GroupCounts finish(std::uint32_t others_at) {
-    for (std::uint32_t k = 0; k < counts_.others; ++k) {
-      const std::uint32_t to = counts_.pixels + k, from = others_at + k;
-      out_.fragments[to] = out_.fragments[from];
-      out_.masks[to] = out_.masks[from];
-      out_.pixels[to] = out_.pixels[from];
-    }
-    return counts_;
-  }
-
-  void begin_others(std::uint32_t at) { others_at_ = at; }
-  std::uint32_t all() const { return (1u << samples_) - 1; }
-
- private:
-  void put(const shading::Fragment& fragment, std::uint32_t mask, std::uint32_t at) {
-    out_.fragments[at] = fragment;
-    out_.masks[at] = mask;
-  }
-  void put_other(const shading::Fragment& fragment, std::uint32_t mask) {
-    const std::uint32_t at = others_at_ + counts_.others++;
-    put(fragment, mask, at);
-    out_.pixels[at] = counts_.pixels - 1;
-  }
-
-  const std::uint32_t samples_;
-  const LineSamples seen_;
-  const Groups out_;
-  std::uint32_t others_at_ = 0;
-  GroupCounts counts_{0, 0};
-};
-
 std::uint32_t bits(hn::Mask<NumberTag> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(kNumbers, mask, bytes);
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
+
+// Which of a vector's pixels, and as bits.
+struct Lanes {
+  explicit Lanes(hn::Mask<NumberTag> lanes) : mask(lanes), bits(MARS_SET::bits(lanes)) {}
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(std::popcount(bits)); }
+
+  hn::Mask<NumberTag> mask;
+  std::uint32_t bits;
+};
+
+// One group in each of some pixels of a vector.
+struct GroupLanes {
+  Numbers triangles;
+  Numbers places;  // column | sample << 16
+  Numbers masks;
+
+  void store(const Lanes& lanes, std::uint32_t at, const Groups& out) const {
+    static_assert(offsetof(shading::Fragment, column) == 4 && offsetof(shading::Fragment, sample) == 6);
+    hn::StoreInterleaved2(hn::Compress(triangles, lanes.mask), hn::Compress(places, lanes.mask), kNumbers,
+                          reinterpret_cast<std::uint32_t*>(out.fragments + at));
+    hn::StoreU(hn::Compress(masks, lanes.mask), kNumbers, out.masks + at);
+  }
+};
+
+// Grows by the groups of a vector of pixels at a time.
+class Grouping {
+ public:
+  // Others are collected from `others_at` on, behind all first groups.
+  Grouping(std::uint32_t samples, std::uint32_t others_at, const Groups& out)
+      : samples_(samples), others_at_(others_at), out_(out) {}
+
+  // Of pixels from `column` on, which show triangles[sample].
+  void add(std::uint32_t column, const Numbers* triangles) {
+    const Numbers none = hn::Set(kNumbers, shading::kNoTriangle), columns = hn::Iota(kNumbers, column);
+    Numbers grouped = hn::Zero(kNumbers);  // samples that are in a group or show nothing
+    for (std::uint32_t s = 0; s < samples_; ++s)
+      grouped = hn::Or(grouped, hn::IfThenElseZero(hn::Eq(triangles[s], none), bit(s)));
+    const Lanes shown(hn::Ne(grouped, all()));
+    GroupLanes first{none, columns, hn::Zero(kNumbers)};
+    auto has_first = hn::Ne(columns, columns);
+    for (std::uint32_t s = 0; s < samples_; ++s) {
+      const auto begins = hn::Eq(hn::And(grouped, bit(s)), hn::Zero(kNumbers));
+      if (hn::AllFalse(kNumbers, begins)) continue;
+      const GroupLanes here{triangles[s], hn::Or(columns, hn::Set(kNumbers, s << 16)), samples_like(s, triangles)};
+      grouped = hn::IfThenElse(begins, hn::Or(grouped, here.masks), grouped);
+      const auto is_first = hn::AndNot(has_first, begins);
+      first = {hn::IfThenElse(is_first, here.triangles, first.triangles),
+               hn::IfThenElse(is_first, here.places, first.places), hn::IfThenElse(is_first, here.masks, first.masks)};
+      add_others(Lanes(hn::And(has_first, begins)), here, shown);
+      has_first = hn::Or(has_first, begins);
+    }
+    first.store(shown, counts_.pixels, out_);
+    counts_.pixels += shown.count();
+  }
+
+  // The same where each pixel has one group, of all its samples.
+  void add_whole(std::uint32_t column, Numbers triangles) {
+    GroupLanes{triangles, hn::Iota(kNumbers, column), all()}.store(Lanes(hn::Eq(triangles, triangles)), counts_.pixels,
+                                                                   out_);
+    counts_.pixels += kLanes;
+  }
+
+  GroupCounts finish() {
+    const auto move = [&](auto* items) {
+      std::memmove(items + counts_.pixels, items + others_at_, counts_.others * sizeof *items);
+    };
+    move(out_.fragments);
+    move(out_.masks);
+    move(out_.pixels);
+    return counts_;
+  }
+
+ private:
+  static Numbers bit(std::uint32_t sample) { return hn::Set(kNumbers, 1u << sample); }
+  Numbers all() const { return hn::Set(kNumbers, (1u << samples_) - 1); }
+
+  // Those from `sample` on that show its triangle.
+  Numbers samples_like(std::uint32_t sample, const Numbers* triangles) const {
+    Numbers samples = bit(sample);
+    for (std::uint32_t s = sample + 1; s < samples_; ++s)
+      samples = hn::Or(samples, hn::IfThenElseZero(hn::Eq(triangles[s], triangles[sample]), bit(s)));
+    return samples;
+  }
+
+  void add_others(const Lanes& lanes, const GroupLanes& groups, const Lanes& shown) {
+    if (lanes.bits == 0) return;
+    const std::uint32_t at = others_at_ + counts_.others;
+    groups.store(lanes, at, out_);
+    std::uint32_t* pixel = out_.pixels + at;
+    for (std::uint32_t left = lanes.bits; left != 0; left &= left - 1) {
+      const std::uint32_t before = shown.bits & ((left & -left) - 1);
+      *pixel++ = counts_.pixels + static_cast<std::uint32_t>(std::popcount(before));
+    }
+    counts_.others += lanes.count();
+  }
+
+  const std::uint32_t samples_;
+  const std::uint32_t others_at_;
+  const Groups out_;
+  GroupCounts counts_{0, 0};
+};
 
 // By each pixel's masks: the share of samples that are in it.
 Floats share(Numbers masks, Floats a_sample) {
@@ -110,27 +133,23 @@ Floats share(Numbers masks, Floats a_sample) {
 
 GroupCounts group(const shape::SamplePattern& pattern, const LineSamples& seen, shading::Extent extent,
                   const Groups& out) {
-  Grouping grouping(pattern, seen, out);
-  // There are at most as many first groups as columns.
-  const std::uint32_t others_at = extent.last - extent.first + simd::kVectorSlack;
-  grouping.begin_others(others_at);
+  const auto samples = static_cast<std::uint32_t>(pattern.count);
+  Grouping grouping(samples, extent.last - extent.first + simd::kVectorSlack, out);
   const Numbers none = hn::Set(kNumbers, shading::kNoTriangle);
-  std::uint32_t column = extent.first;
-  for (; column + kLanes <= extent.last; column += kLanes) {
-    const Numbers first = hn::LoadU(kNumbers, seen.ids + column);
-    auto same = hn::Eq(first, first);
-    for (std::int32_t s = 1; s < pattern.count; ++s)
-      same = hn::And(
-          same, hn::Eq(first, hn::LoadU(kNumbers, seen.ids + static_cast<std::uint32_t>(s) * seen.stride + column)));
-    const auto empty = hn::And(same, hn::Eq(first, none));
-    if (hn::AllTrue(kNumbers, hn::AndNot(empty, same))) {
-      grouping.add_whole(column, first);
-    } else if (!hn::AllTrue(kNumbers, empty)) {
-      grouping.add_mixed(column, bits(same));
+  for (std::uint32_t column = extent.first; column < extent.last; column += kLanes) {
+    Numbers triangles[shape::kMostSamples];
+    auto same = hn::Eq(none, none);
+    for (std::uint32_t s = 0; s < samples; ++s) {
+      triangles[s] = hn::LoadU(kNumbers, seen.ids + s * seen.stride + column);
+      same = hn::And(same, hn::Eq(triangles[s], triangles[0]));
     }
+    const auto empty = hn::And(same, hn::Eq(triangles[0], none));
+    if (hn::AllTrue(kNumbers, hn::AndNot(empty, same)))
+      grouping.add_whole(column, triangles[0]);
+    else if (!hn::AllTrue(kNumbers, empty))
+      grouping.add(column, triangles);
   }
-  for (; column < extent.last; ++column) grouping.add_pixel(column);
-  return grouping.finish(others_at);
+  return grouping.finish();
 }
 
 void add_groups(const Groups& groups, const GroupCounts& counts, std::uint32_t samples, const Light& light) {
