@@ -5,14 +5,7 @@
 
 namespace mars::geometry {
 
-struct EyeLight {
-  wire::LightKind kind;
-  float vector[3];  // eye space: the light's place, or the unit direction to it
-  float color[3];
-  float axis[3];    // of a spot, in eye space
-  float cos_inner;  // this and what follows: as in wire::Light
-  float cos_outer;
-  float reach;
-};
+// Its vector and its axis are in eye space.
+using EyeLight = wire::Light;
 
 }  // namespace mars::geometry

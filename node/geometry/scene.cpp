@@ -11,8 +11,7 @@ namespace {
 constexpr float kGuardPixels = 32768;  // screen places stay below 2^24 / 256, exact in a float
 
 EyeLight to_eye(const wire::Light& light, const wire::Matrix& world_to_eye) {
-  EyeLight out{light.kind,      {},         {light.color[0], light.color[1], light.color[2]}, {}, light.cos_inner,
-               light.cos_outer, light.reach};
+  EyeLight out = light;
   const bool has_place = light.kind != wire::LightKind::directional;
   for (std::size_t r = 0; r < 3; ++r) {
     const auto& row = world_to_eye.m[r];

@@ -90,8 +90,8 @@ bool sound(const Material& m) {
   return std::ranges::all_of(m.color, is_share) &&
          std::ranges::all_of(std::array{m.ambient, m.diffuse, m.specular}, [](float n) { return n >= 0 && n <= 10; }) &&
          m.exponent >= 0 && m.exponent <= 65535 && (m.sides == 1 || m.sides == 2) &&
-         m.interpolation <= Interpolation::flat && m.reflection <= Reflection::metallic_roughness &&
-         is_share(m.roughness) && is_share(m.metallic) && m.refraction > 1 && m.refraction <= 100;
+         m.interpolation <= Interpolation::flat && m.reflection <= kLastReflection && is_share(m.roughness) &&
+         is_share(m.metallic) && m.refraction > 1 && m.refraction <= 100;
 }
 
 bool sound(const Matrix& matrix) {
@@ -104,7 +104,7 @@ bool sound(const Camera& camera) {
 }
 
 bool sound(const Light& light) {
-  return light.kind <= LightKind::spot && all_finite(light.vector) && is_light(light.color) && all_finite(light.axis) &&
+  return light.kind <= kLastLightKind && all_finite(light.vector) && is_light(light.color) && all_finite(light.axis) &&
          light.cos_outer >= -1 && light.cos_outer <= light.cos_inner && light.cos_inner <= 1 && light.reach >= 0 &&
          light.reach <= kLargest;
 }

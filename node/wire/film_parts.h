@@ -83,12 +83,13 @@ enum class Interpolation : std::uint32_t { phong, gouraud, flat };
 
 // How a surface reflects light (thesis 4.1).
 enum class Reflection : std::uint32_t { phong, blinn_phong, cook_torrance, metallic_roughness };
+inline constexpr Reflection kLastReflection = Reflection::metallic_roughness;
 
 // What a reflection model does not name, it does not use.
 struct Material {
   std::array<float, 3> color;  // 0..1
   // Ambient and diffuse light are coloured, specular light is white, each scaled by one of these. Phong's highlight is
-  // (R.V)^exponent, Blinn's (N.H)^exponent. Not metallic_roughness's.
+  // (R.V)^exponent, Blinn's (N.H)^exponent. metallic_roughness uses `ambient` of them.
   float ambient;
   float diffuse;
   float specular;
@@ -104,6 +105,7 @@ struct Material {
 };
 
 enum class LightKind : std::uint32_t { directional, point, spot };
+inline constexpr LightKind kLastLightKind = LightKind::spot;
 
 // Light of a kind's colour at most, in the sum of what nodes compute always finite.
 inline constexpr float kMostLight = 1e5f;

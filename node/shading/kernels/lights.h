@@ -15,7 +15,7 @@ class Light {
     constexpr float kSharpest = 1e-6f;
     const float width = light.cos_inner - light.cos_outer;
     per_cone_ = 1.0f / (width > kSharpest ? width : kSharpest);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       vector_[axis] = constant(light.vector[axis]);
       against_axis_[axis] = constant(-light.axis[axis]);
       color_[axis] = constant(light.color[axis]);

@@ -70,7 +70,7 @@ MARS_INLINE Angles angles(const Stretch& s, const geometry::EyeLight& light, flo
               z = s.normal[2] + at * s.normal_step[2];
   const float u = s.eye[0] + at * s.eye_step[0], v = s.eye[1] + at * s.eye_step[1], w = s.eye[2] + at * s.eye_step[2];
   const float unit = 1.0f / std::sqrt(x * x + y * y + z * z), toward = 1.0f / std::sqrt(u * u + v * v + w * w);
-  const float* l = light.vector;
+  const auto& l = light.vector;
   return {(x * l[0] + y * l[1] + z * l[2]) * unit, (x * u + y * v + z * w) * unit * toward,
           (u * l[0] + v * l[1] + w * l[2]) * toward};
 }

@@ -20,7 +20,10 @@ Vec3 unit(const Vec3& a) {
   const double size = shape::length(a);
   return size > 0 ? times(1 / size, a) : Vec3{};
 }
-Vec3 vec(const float* a) { return {a[0], a[1], a[2]}; }
+template <typename Three>
+Vec3 vec(const Three& a) {
+  return {a[0], a[1], a[2]};
+}
 double limited(double cosine) { return std::clamp(cosine, 1e-4, 1.0); }
 
 double phong(const wire::Material& m, const Vec3& n, const Vec3& l, const Vec3& v) {
