@@ -33,7 +33,9 @@ constexpr std::array kWords<Backend>{"auto", "mpi", "threads"};
 template <>
 constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
-constexpr std::array kWords<SinkKind>{"png", "none"};
+constexpr std::array kWords<SinkKind>{"files", "none"};
+template <>
+constexpr std::array kWords<images::PictureFormat>{"png", "png16", "exr"};
 template <>
 constexpr std::array kWords<wire::Mapping>{"greedy", "optimal", "cost"};
 
@@ -206,7 +208,10 @@ std::vector<Entry> table() {
       number(all, "--groups", {&RenderOptions::groups, true, many},
              "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: "
              "--groups 1"),
-      option(all, "--sink", "png|none", &RenderOptions::sink,
+      option(all, "--format", "png|png16|exr", &RenderOptions::format,
+             "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
+             "default: png. Example: --format exr"),
+      option(all, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
@@ -232,7 +237,7 @@ void refuse_former_names(CLI::App& app) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options) {
-  if (options.folder.empty() && options.sink == SinkKind::png) {
+  if (options.folder.empty() && options.sink == SinkKind::files) {
     throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
   }
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
