@@ -32,7 +32,7 @@ def matt(*color):
 
 MATERIALS = {
     "grass": matt(0.42, 0.58, 0.30), "stone": matt(0.60, 0.58, 0.56), "plaster": matt(0.92, 0.86, 0.74),
-    "tile": matt(0.70, 0.30, 0.22), "pebble": glazed([0.46, 0.52, 0.60]),
+    "tile": matt(0.70, 0.30, 0.22), "pebble": glazed([0.46, 0.52, 0.60], 0.35),
     "gold": {"color": [1.0, 0.80, 0.34], "reflection": "metallic-roughness", "ambient": 0.7, "roughness": 0.4, "metallic": 1}}
 
 
@@ -175,7 +175,7 @@ def film():
         "ambient": {"sky": [0.78, 0.88, 1.0], "ground": [0.50, 0.52, 0.40]},
         "lights": [{"direction": [0.6, -0.6, 0.7], "color": [1, 0.95, 0.86], "intensity": 1.5},
                    {"direction": [-0.8, -0.3, 0.4], "color": [0.75, 0.85, 1.0], "intensity": 0.3},
-                   {"direction": [-0.4, 0.8, 0.5], "color": [1, 0.95, 0.88], "intensity": 0.5}],
+                   {"direction": [-0.4, 0.6, 0.8], "color": [1, 0.95, 0.88], "intensity": 0.4}],
         "materials": {"ball": glazed([0.72, 0.28, 0.32])},
         "models": {name: f"models/{name}.json" for name in ("landscape", "rock", "pebble", "star", "house")} | {
             "ball": {"joints": [{"name": "ball", "segment": {"shape": "sphere", "sbb": [[-0.55, -0.55, 0], [0.55, 0.55, 1.1]],

@@ -12,9 +12,9 @@ struct RigLight {
   double coded;   // and in coded ones
 };
 
-constexpr std::array<RigLight, 3> kRig{{{{-0.55, -0.70, 0.75}, {1.00, 0.95, 0.88}, 1.60, 0.95},
-                                        {{0.90, -0.50, 0.25}, {0.80, 0.88, 1.00}, 0.45, 0.30},
-                                        {{0.45, 0.85, 0.55}, {1.00, 1.00, 1.00}, 0.90, 0.45}}};
+constexpr std::array<RigLight, 3> kRig{{{{-0.55, -0.70, 0.75}, {1.00, 0.95, 0.88}, 1.60, 1.25},
+                                        {{0.90, -0.50, 0.25}, {0.80, 0.88, 1.00}, 0.45, 0.40},
+                                        {{0.45, 0.85, 0.55}, {1.00, 1.00, 1.00}, 0.90, 0.50}}};
 
 glm::dvec3 unit_or(const glm::dvec3& vector, const glm::dvec3& otherwise) {
   const double length = glm::length(vector);

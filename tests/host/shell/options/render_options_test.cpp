@@ -121,15 +121,15 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
       {{"--intervals", "x"}, "auto or keyframes"},
       {{"--sink", "gif"}, "files or none"},
       {{"--format", "gif"}, "png or png16 or exr"},
-      {{"--samples", "3"}, "is not 1, 2, 4, 8 or 16"},
-      {{"--samples", "32"}, "is not 1, 2, 4, 8 or 16"},
-      {{"--samples", "many"}, "is not 1, 2, 4, 8 or 16"},
       {{"--size", "960"}, "is not a size"},
       {{"--size", "960x"}, "is not a size"},
       {{"--size", "0x5"}, "between 1x1 and 16384"},
       {{"--size", "20000x5"}, "between 1x1 and 16384"},
       {{"--size", "5x5x5"}, "is not a size"},
       {{"--frames", "9-1"}, "ends before it begins"},
+      {{"--samples", "3"}, "is not 1, 2, 4, 8 or 16"},
+      {{"--samples", "32"}, "is not 1, 2, 4, 8 or 16"},
+      {{"--samples", "many"}, "is not 1, 2, 4, 8 or 16"},
   };
   for (const auto& [words, reason] : wrong) {
     const Reading reading = read(Program::mars, {"film.json", words[0], words[1]});
