@@ -242,7 +242,7 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
 TEST(Division, NoMessageIsEmptyBetweenMachines) {
   Counted counted;
   run_counted(crowd(320, 200, 6, 3), {8}, counted);
-  for (const int type : {wire::kTriangles, wire::kDepthLines}) {
+  for (const int type : {wire::kTriangles, wire::kStillLines}) {
     EXPECT_GT(counted.counts.sent({.type = type}).messages, 10u) << type;
     EXPECT_EQ(counted.counts.sent({.type = type}).empty, 0u) << type;
   }
@@ -382,7 +382,7 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
     Counted counted;
     run_counted(film, {4, nodes_each}, counted);
     for (int from = 0; from < 4; ++from) {
-      const auto sent = counted.counts.sent({.from = from, .type = wire::kDepthLines});
+      const auto sent = counted.counts.sent({.from = from, .type = wire::kStillLines});
       bytes[nodes_each] += sent.bytes;
       EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
     }

@@ -112,7 +112,7 @@ void expect_pictures(const SharedRun& rendered, const wire::FilmData& data, cons
   expect_same(rendered.film, expected, data.settings, "sharing");
 }
 
-std::uint64_t depth_bytes(const SharedRun& run) { return run.counts.sent({.type = wire::kDepthLines}).bytes; }
+std::uint64_t depth_bytes(const SharedRun& run) { return run.counts.sent({.type = wire::kStillLines}).bytes; }
 
 TEST(Sharing, AnyMachinesAndGroups) {
   for (const auto& [interval, samples] : {std::pair{4u, 1u}, {1u, 1u}, {4u, 4u}}) {
@@ -150,7 +150,7 @@ void expect_slow_nodes_waited_for(std::uint32_t samples) {
   const FilmRun expected = from_scratch(data);
   for (const int each : {4, 2})
     for (int slow = 0; slow < 4; ++slow)
-      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kDepthLines}, kLooks}) {
+      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kStillLines}, kLooks}) {
         SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " +
                      std::to_string(type));
         SharedRun rendered;
@@ -221,7 +221,7 @@ TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
 TEST(Sharing, NothingWithoutInbetweens) {
   SharedRun rendered;
   run(film(1), {4, 2}, rendered);
-  EXPECT_EQ(rendered.counts.sent({.type = wire::kDepthLines}).messages, 0u);
+  EXPECT_EQ(rendered.counts.sent({.type = wire::kStillLines}).messages, 0u);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ void check_plain(const wire::FilmView& film, const std::string& where) {
   if (film.settings().dice == 0) refuse("adaptive dicing", where);
   if (film.settings().camera.count != 1) refuse("a camera that moves", where);
   const auto& lights = film.light_tracks();
-  if (lights.size() != 1 || lights[0].count != 1 || film.lights()[film.value_at(lights[0], 0)].kind != 0)
+  if (lights.size() != 1 || lights[0].count != 1 ||
+      film.lights()[film.value_at(lights[0], 0)].kind != wire::LightKind::directional)
     refuse("other light than one direction", where);
   if (film.intervals().size() > 1) refuse("several render intervals", where);
   if (film.moving(film.intervals()[0]).size() > 1) refuse("several moving segments", where);

@@ -8,12 +8,15 @@ STEP = 12         # degrees that s3's teapot turns in a frame
 INTERVAL = 120    # frames of s3 from one keyframe to the next: whole turns
 
 
-def load(name, size=None, dice=None):
-    """An example as it is, but seen from outside only, and in the size and as finely diced as wanted."""
+def load(name, size=None, dice=None, samples=1):
+    """An example as it is, but seen from outside only, with so many samples a pixel, and in the size and as finely diced
+    as wanted."""
     with open(os.path.join(EXAMPLES, name + ".json")) as file:
         film = json.load(file)
     for material in film["materials"].values():
         material["sides"] = 1
+    if samples > 1:
+        film["samples"] = samples
     if size:
         film["size"] = size
     if dice:

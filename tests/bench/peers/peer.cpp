@@ -20,11 +20,8 @@ double render(const Competitor& competitor, int frames) {
 void write_ppm(const Picture& picture, const std::string& path) {
   std::vector<char> bytes;
   bytes.reserve(std::size_t{3} * picture.pixels.size());
-  for (std::uint32_t line = 0; line < picture.height; ++line) {
-    const std::uint32_t row = picture.from_the_bottom ? picture.height - 1 - line : line;
-    for (const std::uint32_t pixel : picture.pixels.subspan(std::size_t{row} * picture.width, picture.width))
-      for (int shift = 0; shift < 24; shift += 8) bytes.push_back(static_cast<char>(pixel >> shift & 255));
-  }
+  for (const std::uint32_t pixel : picture.pixels)
+    for (int shift = 0; shift < 24; shift += 8) bytes.push_back(static_cast<char>(pixel >> shift & 255));
   std::ofstream file(path, std::ios::binary);
   file << "P6\n" << picture.width << ' ' << picture.height << "\n255\n";
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -18,9 +18,8 @@ namespace mars::bench {
 
 struct Picture {
   std::uint32_t width, height;
-  // Rows from the top; red in the lowest byte, then green and blue; or from the bottom, as OpenGL has them.
+  // Rows from the top; red in the lowest byte, then green and blue.
   std::span<const std::uint32_t> pixels;
-  bool from_the_bottom = false;
 };
 
 void write_ppm(const Picture& picture, const std::string& path);

@@ -1,7 +1,8 @@
-// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween. How it was made fast: README.md.
+// Mesa's llvmpipe as a competitor: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES. How it was made fast: README.md.
 //
 // The scene is in buffers once; a frame is a few draw calls and glReadPixels. Inbetweens begin from the standing
-// part's colours and depths, which another framebuffer keeps.
+// part's colours and depths, which another framebuffer keeps. Several samples a pixel are drawn and kept in
+// multisampled framebuffers, and resolved before they are read.
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -26,25 +27,26 @@
 namespace mars::bench {
 namespace {
 
-// What stays the same for a scene is written into the shaders as numbers.
+// What stays the same for a scene is written into the shaders as numbers. Pictures are drawn upside down: OpenGL's
+// first line is the upper one then, and llvmpipe's samples are where ours are.
 constexpr const char* kVertexShader = R"(
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 uniform mat4x3 motion;
-out vec3 n;
+centroid out vec3 n;
 void main() {
   vec3 p = motion * vec4(place, 1.0);
-  gl_Position = vec4(LENS.x * p.x, LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
+  gl_Position = vec4(LENS.x * p.x, -LENS.y * p.y, -LENS.z * p.z + LENS.w, -p.z);
   n = mat3(motion) * normal;
 }
 )";
 
 constexpr const char* kFragmentShader = R"(
-in vec3 n;
+centroid in vec3 n;
 uniform vec3 own;
 out vec4 pixel;
 void main() {
-  vec3 d = vec3(gl_FragCoord.xy * REACH.x + REACH.yz, -1.0);
+  vec3 d = vec3(gl_FragCoord.x * REACH.x + REACH.y, REACH.z - gl_FragCoord.y * REACH.x, -1.0);
   float shrink = inversesqrt(dot(n, n)), toward = -inversesqrt(dot(d, d));
   float nl = dot(n, TO_LIGHT) * shrink;
   float nv = dot(n, d) * shrink * toward;
@@ -66,14 +68,14 @@ std::string defined(const char* name, const char* type, Numbers... numbers) {
 }
 
 // The film's numbers for both shaders. LENS: scale over half the picture's width and height, depth z * w = c * z + d;
-// REACH: of a pixel in the eye's plane at 1, and the lower left corner.
+// REACH: of a pixel in the eye's plane at 1, and the upper left corner.
 std::string numbers_of(const MeshHead& head) {
   const float far = 1000, near = head.near;
   const auto w = static_cast<float>(head.width), h = static_cast<float>(head.height);
   return "#version 330 core\n" +
          defined("LENS", "vec4", 2 * head.scale / w, 2 * head.scale / h, (far + near) / (far - near),
                  -2 * far * near / (far - near)) +
-         defined("REACH", "vec3", 1 / head.scale, -head.center[0] / head.scale, -(h - head.center[1]) / head.scale) +
+         defined("REACH", "vec3", 1 / head.scale, -head.center[0] / head.scale, head.center[1] / head.scale) +
          defined("TO_LIGHT", "vec3", head.to_light[0], head.to_light[1], head.to_light[2]) +
          defined("LIGHT", "vec3", head.light[0], head.light[1], head.light[2]) +
          defined("AMBIENT", "float", head.ambient) + defined("DIFFUSE", "float", head.diffuse) +
@@ -124,7 +126,7 @@ GLuint link(const MeshHead& head) {
 }
 
 struct Box {
-  GLint left, bottom;
+  GLint left, top;  // lines as in the picture
   GLsizei width, height;
 };
 
@@ -132,24 +134,32 @@ struct Box {
 Box round(const Box& a, const Box& b) {
   if (a.width == 0) return b;
   if (b.width == 0) return a;
-  const GLint left = std::min(a.left, b.left), bottom = std::min(a.bottom, b.bottom);
-  return {left, bottom, std::max(a.left + a.width, b.left + b.width) - left,
-          std::max(a.bottom + a.height, b.bottom + b.height) - bottom};
+  const GLint left = std::min(a.left, b.left), top = std::min(a.top, b.top);
+  return {left, top, std::max(a.left + a.width, b.left + b.width) - left,
+          std::max(a.top + a.height, b.top + b.height) - top};
 }
 
-GLuint framebuffer(GLsizei width, GLsizei height) {
+// `samples` 0: not multisampled.
+GLuint framebuffer(GLsizei width, GLsizei height, GLsizei samples) {
   GLuint names[3];
   glGenFramebuffers(1, &names[0]);
   glBindFramebuffer(GL_FRAMEBUFFER, names[0]);
   glGenRenderbuffers(2, &names[1]);
   glBindRenderbuffer(GL_RENDERBUFFER, names[1]);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width, height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, names[1]);
   glBindRenderbuffer(GL_RENDERBUFFER, names[2]);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT32F, width, height);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, names[2]);
   check(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "no framebuffer of this size");
   return names[0];
+}
+
+void copy(const Box& box, GLuint from, GLuint to, GLbitfield what) {
+  const GLint right = box.left + box.width, bottom = box.top + box.height;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  glBlitFramebuffer(box.left, box.top, right, bottom, box.left, box.top, right, bottom, what, GL_NEAREST);
 }
 
 struct Corner {
@@ -185,10 +195,10 @@ std::vector<const MeshPatch*> by_distance(const Mesh& mesh, bool moving) {
 
 class Renderer {
  public:
-  Renderer(const Mesh& mesh, bool inbetweens);
+  Renderer(const Mesh& mesh, bool inbetweens, int samples);
 
   void render();
-  Picture picture() const { return {mesh_.head.width, mesh_.head.height, pixels_, true}; }
+  Picture picture() const { return {mesh_.head.width, mesh_.head.height, pixels_}; }
 
  private:
   void load();
@@ -197,11 +207,12 @@ class Renderer {
   void render_whole();
   void render_inbetween();
   Box mover_box(const Motion& motion) const;
+  void read(const Box& box);
 
   const Mesh& mesh_;
   bool inbetweens_;
   GLsizei width_, height_;
-  GLuint program_ = 0, drawn_ = 0, kept_ = 0;
+  GLuint program_ = 0, drawn_ = 0, kept_ = 0, resolved_ = 0;  // the last only where there are several samples
   GLint motion_at_ = -1, own_at_ = -1;
   std::vector<Batch> batches_[2];  // what stands, what moves
   std::uint32_t number_;           // of the last frame rendered; inbetweens are all but 0
@@ -212,7 +223,7 @@ class Renderer {
 
 constexpr Motion kStill{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-Renderer::Renderer(const Mesh& mesh, bool inbetweens)
+Renderer::Renderer(const Mesh& mesh, bool inbetweens, int samples)
     : mesh_(mesh),
       inbetweens_(inbetweens),
       width_(static_cast<GLsizei>(mesh.head.width)),
@@ -228,21 +239,19 @@ Renderer::Renderer(const Mesh& mesh, bool inbetweens)
   load();
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CW);
   glClearColor(head.background[0], head.background[1], head.background[2], 1);
   glViewport(0, 0, width_, height_);
-  kept_ = framebuffer(width_, height_);
-  drawn_ = framebuffer(width_, height_);
+  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+  if (samples > 1) resolved_ = framebuffer(width_, height_, 0);
+  kept_ = framebuffer(width_, height_, samples > 1 ? samples : 0);
+  drawn_ = framebuffer(width_, height_, samples > 1 ? samples : 0);
   if (!inbetweens_) return;
   glBindFramebuffer(GL_FRAMEBUFFER, kept_);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw(false, kStill);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_);
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
-                    GL_NEAREST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
-  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+  copy({0, 0, width_, height_}, kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  read({0, 0, width_, height_});
 }
 
 void Renderer::load() {
@@ -301,39 +310,42 @@ void Renderer::render() {
     render_whole();
 }
 
+// From what was drawn.
+void Renderer::read(const Box& box) {
+  if (resolved_ != 0) copy(box, drawn_, resolved_, GL_COLOR_BUFFER_BIT);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ != 0 ? resolved_ : drawn_);
+  glReadPixels(box.left, box.top, box.width, box.height, GL_RGBA, GL_UNSIGNED_BYTE,
+               &pixels_[static_cast<std::size_t>(box.top) * mesh_.head.width + static_cast<std::size_t>(box.left)]);
+}
+
 void Renderer::render_whole() {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw(true, mesh_.motion[number_]);  // it is in front, and hides
   draw(false, kStill);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+  read({0, 0, width_, height_});
 }
 
 void Renderer::render_inbetween() {
   const Box now = mover_box(mesh_.motion[number_]);
   const Box changed = round(before_, now);
   before_ = now;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_);
-  const GLint right = changed.left + changed.width, top = changed.bottom + changed.height;
-  glBlitFramebuffer(changed.left, changed.bottom, right, top, changed.left, changed.bottom, right, top,
-                    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  copy(changed, kept_, drawn_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw(true, mesh_.motion[number_]);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
-  glReadPixels(
-      changed.left, changed.bottom, changed.width, changed.height, GL_RGBA, GL_UNSIGNED_BYTE,
-      &pixels_[static_cast<std::size_t>(changed.bottom) * mesh_.head.width + static_cast<std::size_t>(changed.left)]);
+  read(changed);
 }
 
 Box Renderer::mover_box(const Motion& motion) const {
   Box box{};
   for (const Outline& outline : mover_) {
     const Area area = cover(outline, mesh_.head, motion);
-    box = round(box, {area.left, height_ - area.bottom, area.right - area.left, area.bottom - area.top});
+    box = round(box, {area.left, area.top, area.right - area.left, area.bottom - area.top});
   }
   return box;
 }
 
 void run(int argc, char** argv) {
-  check(argc == 4, "usage: peer-llvmpipe MESH THREADS whole|inbetween");
+  check(argc == 5, "usage: peer-llvmpipe MESH THREADS whole|inbetween SAMPLES");
   // Mesa takes its memory anew for every frame: it shall not go back to the system in between.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
@@ -342,7 +354,11 @@ void run(int argc, char** argv) {
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   begin_gl();
   const Mesh mesh = read_mesh(argv[1]);
-  Renderer renderer(mesh, std::string_view(argv[3]) == "inbetween");
+  const int samples = std::stoi(argv[4]);
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  check(samples == 1 || samples <= most, "llvmpipe has " + std::to_string(most) + " samples a pixel at most");
+  Renderer renderer(mesh, std::string_view(argv[3]) == "inbetween", samples);
   const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   check(driver.find("llvmpipe") != std::string::npos, "not llvmpipe but " + driver);
   const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));

@@ -23,6 +23,7 @@ from competitor import Competitor, Team, Trouble
 SCENES = ["s1", "s1m", "s2", "s3"]
 MOST_RMS = 0.5       # of 255, between ours and Embree's picture of the same triangles
 WARMING = 5          # frames before those that count
+LLVMPIPE_SAMPLES = [1, 4]    # it can do no others
 FINE = 64            # quads along a patch's side that adaptive dicing is compared with
 MOST_IDLE = 0.05     # processor seconds a competitor may use in a second that is not its turn
 
@@ -46,23 +47,23 @@ def courses_of(scenes):
             yield Course(scene, "inbetween")
 
 
-class Field:
-    """The competitors of one course and column."""
+class Heat:
+    """The competitors of one course, column and number of samples."""
 
-    def __init__(self, wanted, course, column, folder):
+    def __init__(self, wanted, course, column, samples, folder):
         self.programs = os.path.join(wanted.build, "bench", "peers")
-        self.course, self.column, self.folder = course, column, folder
+        self.course, self.column, self.samples, self.folder = course, column, samples, folder
         self.processors = sorted(os.sched_getaffinity(0))[:column]
-        self.turns = wanted.rounds + WARMING  # the film has one more: after its last frame no order is read
-        film = films.load(course.scene, wanted.size, wanted.dice)
-        self.film = films.lengthened(film, course.frames(self.turns + 1))
+        film = films.load(course.scene, wanted.size, wanted.dice, samples)
+        # The film has one turn more: after its last frame no order is read.
+        self.film = films.lengthened(film, course.frames(WARMING + wanted.rounds + 1))
         self.mesh = os.path.join(folder, "mesh")
         self.make_mesh(films.lengthened(film, films.INTERVAL if films.turning(film) else 1))
         self.competitors = []
         self.begin_peers()
         self.begin_ours("ours", self.film)
         self.adaptive = wanted.adaptive and not films.turning(film)
-        self.ray_tracers = wanted.ray_tracers and not films.turning(film)
+        self.ray_tracers = wanted.ray_tracers and samples == 1 and not films.turning(film)
         if self.adaptive:
             self.begin_ours("ours, adaptive", self.diced("adaptive"))
 
@@ -91,22 +92,26 @@ class Field:
         return self.competitors[-1]
 
     def begin_peers(self):
-        embree, llvmpipe = self.program("peer-embree"), self.program("peer-llvmpipe")
+        embree = self.program("peer-embree")
+        llvmpipe = self.program("peer-llvmpipe") if self.samples in LLVMPIPE_SAMPLES else None
         if embree:
-            self.begin("Embree", [embree, self.mesh, str(self.column), self.course.what])
+            self.begin("Embree", self.peer_command(embree, self.column))
         # Mesa's main thread prepares what its others draw: which number is best differs from scene to scene.
         for threads in (self.column - 1, self.column) if llvmpipe else ():
-            self.begin(f"llvmpipe {threads}", [llvmpipe, self.mesh, str(threads), self.course.what])
+            self.begin(f"llvmpipe {threads}", self.peer_command(llvmpipe, threads))
         # Inbetweens may go whole to single processors, as ours do.
         if self.course.what == "inbetween" and self.column > 1:
-            self.begin_team("Embree", embree, "1")
-            self.begin_team("llvmpipe", llvmpipe, "0")
+            self.begin_team("Embree", embree, 1)
+            self.begin_team("llvmpipe", llvmpipe, 0)
 
     def begin_team(self, name, program, threads):
         if program:
-            command = [program, self.mesh, threads, self.course.what]
+            command = self.peer_command(program, threads)
             self.competitors.append(Team(f"{name}, {self.column} at a time", [
                 self.start(f"{name} {processor}", command, None, [processor]) for processor in self.processors]))
+
+    def peer_command(self, program, threads):
+        return [program, self.mesh, str(threads), self.course.what, str(self.samples)]
 
     def begin_ours(self, name, film):
         self.begin_threads(f"{name}, threads", film)
@@ -120,22 +125,6 @@ class Field:
 
     def threads_command(self, film, what):
         return [self.program("bench-ours-threads"), film, what, str(self.column)]
-
-    def compete(self, rounds):
-        for competitor in self.competitors:
-            competitor.wait_ready()
-        for turn in range(self.turns):
-            for competitor in self.competitors:
-                milliseconds = competitor.go(self.course.frames_a_turn)
-                if turn >= WARMING:
-                    competitor.milliseconds.append(milliseconds)
-
-    def check_idle(self):
-        before = [competitor.processor_seconds() for competitor in self.competitors]
-        time.sleep(1)
-        for competitor, used in zip(self.competitors, before):
-            if competitor.processor_seconds() - used > MOST_IDLE:
-                raise Trouble(f"{competitor.name} does not rest while others render")
 
     def take_picture(self, competitor):
         file = os.path.join(self.folder, competitor.name.replace(" ", "-") + ".ppm")
@@ -159,6 +148,27 @@ class Field:
             competitor.end()
 
 
+def compete(heats, rounds):
+    """All heats in turn, so that their times compare."""
+    competitors = [(heat, competitor) for heat in heats for competitor in heat.competitors]
+    for _, competitor in competitors:
+        competitor.wait_ready()
+    for turn in range(WARMING + rounds):
+        for heat, competitor in competitors:
+            milliseconds = competitor.go(heat.course.frames_a_turn)
+            if turn >= WARMING:
+                competitor.milliseconds.append(milliseconds)
+
+
+def check_idle(heats):
+    competitors = [competitor for heat in heats for competitor in heat.competitors]
+    before = [competitor.processor_seconds() for competitor in competitors]
+    time.sleep(1)
+    for competitor, used in zip(competitors, before):
+        if competitor.processor_seconds() - used > MOST_IDLE:
+            raise Trouble(f"{competitor.name} does not rest while others render")
+
+
 # Open MPI (4, then 5): more ranks than processors, bound to none, also as root as in a container.
 MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
@@ -175,24 +185,30 @@ def is_alike(row):
     return "adaptive" not in row["name"]
 
 
-def result_of(field):
-    """One course's and column's part of the JSON."""
-    files = {competitor.name: field.take_picture(competitor) for competitor in field.competitors}
+def result_of(heat):
+    """One heat's part of the JSON."""
+    files = {competitor.name: heat.take_picture(competitor) for competitor in heat.competitors}
     reference = files.get("Embree", files["ours, threads"])
     rows = [{"name": c.name, "note": c.note, "best": min(c.milliseconds), "middle": statistics.median(c.milliseconds),
              "milliseconds": c.milliseconds, "rms": pictures.rms(reference, files[c.name])}
-            for c in field.competitors]
-    result = {"course": field.course.title, "column": field.column, "competitors": rows}
-    if field.course.what == "inbetween":
-        result["latency"] = field.latency()
-    if field.adaptive:
-        fine = field.fine_picture()
+            for c in heat.competitors]
+    result = {"course": heat.course.title, "column": heat.column, "samples": heat.samples, "competitors": rows}
+    if heat.course.what == "inbetween":
+        result["latency"] = heat.latency()
+    if heat.adaptive:
+        fine = heat.fine_picture()
         for row in rows:
             row["rms_fine"] = pictures.rms(fine, files[row["name"]])
-    if field.ray_tracers:
-        traced = ray_tracers.trace(field.mesh, field.column, field.processors, field.folder)
+    if heat.ray_tracers:
+        traced = ray_tracers.trace(heat.mesh, heat.column, heat.processors, heat.folder)
         result["traced"] = [{"name": name, "milliseconds": milliseconds, "rms": pictures.rms(reference, file)}
                             for name, milliseconds, file in traced]
+    add_ratios(result)
+    return result
+
+
+def add_ratios(result):
+    rows = result["competitors"]
     peers = [row for row in rows if not is_ours(row["name"])]
     if peers:
         best = min(peers, key=lambda row: row["best"])
@@ -200,32 +216,51 @@ def result_of(field):
         for row in rows:
             if is_ours(row["name"]):
                 row["ratio"] = row["best"] / best["best"]
-    return result
+
+
+def add_costs(results):
+    """To the rows of one course and column what their samples cost, in times of one sample."""
+    of_one = {row["name"]: row["best"] for result in results if result["samples"] == 1 for row in result["competitors"]}
+    for result in results:
+        for row in result["competitors"]:
+            if result["samples"] > 1 and row["name"] in of_one:
+                row["cost"] = row["best"] / of_one[row["name"]]
+
+
+def counted(count, what):
+    return f"{count} {what}{'s' if count > 1 else ''}"
 
 
 def check_alike(result):
     for row in result["competitors"]:
         if is_ours(row["name"]) and is_alike(row) and row["rms"] > MOST_RMS:
-            raise Trouble(f"{result['course']}: the picture of {row['name']} differs from Embree's by {row['rms']:.2f} "
-                          f"of 255, more than {MOST_RMS}")
+            raise Trouble(f"{result['course']}, {counted(result['samples'], 'sample')}: the picture of {row['name']} "
+                          f"differs from Embree's by {row['rms']:.2f} of 255, more than {MOST_RMS}")
 
 
 def run_course(wanted, course, column):
-    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as ends:
-        field = Field(wanted, course, column, folder)
-        ends.callback(field.end)
-        field.compete(wanted.rounds)
-        field.check_idle()
-        return result_of(field)
+    """The results of all heats."""
+    with contextlib.ExitStack() as ends:
+        heats = []
+        for samples in wanted.samples:
+            folder = ends.enter_context(tempfile.TemporaryDirectory())
+            heats.append(Heat(wanted, course, column, samples, folder))
+            ends.callback(heats[-1].end)
+        compete(heats, wanted.rounds)
+        check_idle(heats)
+        results = [result_of(heat) for heat in heats]
+        add_costs(results)
+        return results
 
 
 def line_of(row, rms, best_peer):
     ratio = f"   {row['ratio']:.2f} of {best_peer}'s" if "ratio" in row else ""
-    return f"  {row['name']:24} {row['best']:8.2f} ({row['middle']:.2f})".ljust(48) + f"RMS {row[rms]:.2f}{ratio}"
+    cost = f"   {row['cost']:.2f} of 1 sample's" if "cost" in row else ""
+    return f"  {row['name']:24} {row['best']:8.2f} ({row['middle']:.2f})".ljust(48) + f"RMS {row[rms]:.2f}{cost}{ratio}"
 
 
 def tell(result):
-    where = f"{result['course']}, {result['column']} processor{'s' if result['column'] > 1 else ''}"
+    where = f"{result['course']}, {counted(result['column'], 'processor')}, {counted(result['samples'], 'sample')}"
     print(f"\n{where}")
     for row in filter(is_alike, result["competitors"]):
         print(line_of(row, "rms", result.get("best_peer")))
@@ -262,6 +297,12 @@ def read_command_line():
             raise argparse.ArgumentTypeError(f"the scenes are {', '.join(SCENES)}")
         return names
 
+    def samples(text):
+        numbers = [int(n) for n in text.split(",")]
+        if not set(numbers) <= {1, 2, 4, 8, 16}:
+            raise argparse.ArgumentTypeError("a pixel has 1, 2, 4, 8 or 16 samples")
+        return numbers
+
     def size(text):
         return [int(n) for n in text.split("x")]
 
@@ -271,6 +312,7 @@ def read_command_line():
     parser.add_argument("--scenes", default=",".join(SCENES), type=scenes)
     parser.add_argument("--rounds", default=15, type=int)
     parser.add_argument("--columns", default="1,2" if here > 1 else "1", type=processors, help="numbers of processors")
+    parser.add_argument("--samples", default="1", type=samples, help="a pixel, as 1,4,16: each in turn with the others")
     parser.add_argument("--size", type=size, help="of the pictures, as 1920x1080")
     parser.add_argument("--dice", type=int, help="quads along a patch's side, in place of the scene's own")
     parser.add_argument("--adaptive", action="store_true", help="ours with adaptive dicing as well, where nothing moves")
@@ -286,8 +328,9 @@ def main():
     print("ms a frame: best (middle)")
     for course in courses_of(wanted.scenes):
         for column in wanted.columns:
-            results.append(run_course(wanted, course, column))
-            tell(results[-1])
+            results += run_course(wanted, course, column)
+            for result in results[-len(wanted.samples):]:
+                tell(result)
     if wanted.output:
         with wanted.output as file:
             json.dump({"machine": processor_name(), "rounds": wanted.rounds, "results": results}, file, indent=1)

@@ -23,10 +23,10 @@ def differs(made, kept, least=1.01e-4):
 
 
 with tempfile.TemporaryDirectory() as folder:
-    for maker in "make_figures.py", "make_stones.py":
+    for maker in "make_figures.py", "make_stones.py", "make_patterns.py":
         subprocess.run([sys.executable, "-B", root / maker, folder], check=True)
     made = {path.relative_to(folder): path for path in pathlib.Path(folder).rglob("*.json")}
-    assert len(made) >= 13, made
+    assert len(made) >= 15, made
     stale = [str(name) for name, path in made.items()
              if differs(json.loads(path.read_text()), json.loads((root / name).read_text()))]
 if stale:

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Makes the pictures of docs/gallery.md: gallery.py BUILD_FOLDER PICTURE_FOLDER. Needs ./bootstrap bench, and ffmpeg."""
+import json
+import os
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, "..", "peers"))
+import films  # noqa: E402
+import quality  # noqa: E402
+
+SIZE = [960, 540]
+SAMPLES = [1, 4, 16]
+LABEL = 24  # pixels, above each picture
+
+# Name, film, frame, the part shown (x, y, side), and how often it is enlarged.
+DETAILS = [
+    ("face", "demo", 36, (424, 54, 58), 4), ("hand", "demo", 36, (362, 246, 58), 4), ("soles", "demo", 36, (470, 386, 58), 4),
+    ("horizon", "demo", 36, (322, 188, 58), 4), ("rim", "demo", 36, (640, 150, 58), 4),
+    ("zone-plate", "zone-plate", 3, (500, 18, 232), 1), ("fan", "fan", 3, (610, 150, 116), 2)]
+
+REFLECTIONS = {
+    "phong": {"reflection": "phong", "specular": 0.5, "exponent": 40},
+    "blinn-phong": {"reflection": "blinn-phong", "specular": 0.5, "exponent": 160},
+    "cook-torrance": {"reflection": "cook-torrance", "specular": 0.5, "roughness": 0.25},
+    "metallic-roughness": {"reflection": "metallic-roughness", "metallic": 0, "roughness": 0.35},
+    "the same, of metal": {"reflection": "metallic-roughness", "metallic": 1, "roughness": 0.35}}
+INTERPOLATIONS = ["flat", "gouraud", "phong"]
+
+
+def tile(number, label, part, scale):
+    """A filter of ffmpeg's: the part of an input, enlarged without smoothing, beneath its label."""
+    x, y, width, height = part
+    text = f"drawtext=font='DejaVu Sans':fontsize=14:text='{label}':x=(w-text_w)/2:y=5"
+    return (f"[{number}]crop={width}:{height}:{x}:{y},scale=iw*{scale}:ih*{scale}:flags=neighbor,"
+            f"pad=iw+4:ih+{LABEL}+2:2:{LABEL}:white,{text}[t{number}]")
+
+
+def sheet(out, columns, tiles, scale=1):
+    """`tiles`: label, picture and the part of it that is shown: x, y, width, height; all of one size."""
+    width, height = (side * scale + more for side, more in zip(tiles[0][2][2:], (4, LABEL + 2)))
+    filters = [tile(k, label, part, scale) for k, (label, _, part) in enumerate(tiles)]
+    places = "|".join(f"{k % columns * width}_{k // columns * height}" for k in range(len(tiles)))
+    names = "".join(f"[t{k}]" for k in range(len(tiles)))
+    inputs = [word for _, picture, _ in tiles for word in ("-i", picture)]
+    quality.run(["ffmpeg", "-loglevel", "error", "-y", *inputs, "-filter_complex",
+                 ";".join(filters + [f"{names}xstack=inputs={len(tiles)}:layout={places},format=rgb24"]),
+                 "-frames:v", "1", out])
+
+
+class Gallery:
+    def __init__(self, build, out, folder):
+        self.build, self.out, self.folder = build, out, folder
+
+    def file(self, name):
+        return os.path.join(self.out, name + ".png")
+
+    def details(self):
+        rendered = {}
+        for name, film, frame, (x, y, side), scale in DETAILS:
+            if (film, frame) not in rendered:
+                rendered[film, frame] = self.compared(film, frame)
+            sheet(self.file(name), 4, [(label, picture, (x, y, side, side)) for label, picture in rendered[film, frame]],
+                  scale)
+
+    def compared(self, name, frame):
+        film = quality.Film(self.build, name, SIZE, self.folder)
+        pictures = [(f"{s} sample{'s' if s > 1 else ''}", film.render(s, [frame])[0]) for s in SAMPLES]
+        return pictures + [("reference", film.references([frame])[0])]
+
+    def render(self, name, film, frame=0):
+        path, folder = os.path.join(self.folder, name + ".json"), os.path.join(self.folder, name)
+        films.save(film, path)
+        quality.run([os.path.join(self.build, "bin", "mars"), "render", path, "--backend", "threads", "--quiet",
+                     "--samples", "16", "--frames", str(frame), "-o", folder])
+        return os.path.join(folder, f"frame-{frame:04}.png")
+
+    def models(self):
+        side = 184
+        tiles = [(f"{interpolation}, {reflection}" if interpolation != "phong" else reflection,
+                  self.render(f"{interpolation}-{k}", still_life(side, {**REFLECTIONS[reflection], "interpolation": interpolation})),
+                  (0, 0, side, side))
+                 for interpolation in INTERPOLATIONS for k, reflection in enumerate(REFLECTIONS)]
+        sheet(self.file("models"), len(REFLECTIONS), tiles)
+
+    def colors(self):
+        with open(os.path.join(films.EXAMPLES, "demo.json")) as file:
+            film = json.load(file)
+        film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
+                          for name, model in film["models"].items()}
+        film["size"] = [480, 270]
+        sheet(self.file("colors"), 2, [(color, self.render(f"demo-{color}", {**film, "color": color}, 36), (0, 0, 480, 270))
+                                       for color in ("coded", "linear")])
+
+
+def still_life(side, material):
+    """A teapot and a sphere in the default light, diced coarsely, so that interpolations differ."""
+    def model(shape, box):
+        return {"joints": [{"name": shape, "segment": {"shape": shape, "sbb": box, "material": "glaze"}}]}
+    return {"frames": 1, "size": [side, side], "background": [0.32, 0.34, 0.38], "dice": 5,
+            "camera": {"eye": [0.3, -13, 5], "at": [0.3, 0, 0.9], "fov": 32},
+            "materials": {"glaze": {"color": [0.75, 0.33, 0.18], **material}},
+            "models": {"pot": model("teapot", [[-3, -2, 0], [3.525, 2, 3.15]]), "ball": model("sphere", [[-1, -1, -1], [1, 1, 1]])},
+            "actors": [{"name": "pot", "model": "pot", "place": [0.2, 1, 0.4]},
+                       {"name": "ball", "model": "ball", "place": [-1.6, -3, -0.6]}]}
+
+
+def main():
+    build, out = sys.argv[1:]
+    os.makedirs(out, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        gallery = Gallery(build, out, folder)
+        gallery.details()
+        gallery.models()
+        gallery.colors()
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except quality.Trouble as trouble:
+        sys.exit(f"gallery.py: {trouble}")
