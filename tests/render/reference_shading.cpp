@@ -171,7 +171,7 @@ Color ReferenceShading::light_of(const Material& material, const Point& point) c
 Color ReferenceShading::light_of_corner(const raster::PlainTriangle& triangle, std::size_t corner) const {
   const geometry::ClipVertex& vertex = triangle.whole[corner];
   const Vec place = vec(vertex.place);
-  const Point point{place, (triangle.faces ? 1 : -1) * unit(vec(vertex.normal)), unit(-1 * place)};
+  const Point point{place, (triangle.faces ? 1 : -1) * unit(vec(vertex.varying)), unit(-1 * place)};
   return light_of(scene_.film().materials()[triangle.record.material], point);
 }
 
