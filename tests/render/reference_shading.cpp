@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "node/shading/environment.h"
 
 namespace mars::test {
 namespace {
@@ -110,6 +111,15 @@ Vec reflected(const Material& m, const Vec& n, const Vec& l, const Vec& v) {
   }
 }
 
+// A share of EnvironmentTable, between its four numbers round N.V and the roughness.
+double look_up(const float* table, double nv, double rough) {
+  constexpr int kSide = shading::EnvironmentTable::kSide;
+  const double x = std::clamp(nv, 0.0, 1.0) * (kSide - 1), y = rough * (kSide - 1);
+  const int column = std::min(static_cast<int>(x), kSide - 2), row = std::min(static_cast<int>(y), kSide - 2);
+  const float* at = table + row * kSide + column;
+  return std::lerp(std::lerp(at[0], at[1], x - column), std::lerp(at[kSide], at[kSide + 1], x - column), y - row);
+}
+
 // How much of each corner of `whole` there is at a corner of one of its pieces; a corner that was not cut is number
 // `k`.
 Vec shares_of(const geometry::ClipVertex (&whole)[3], const geometry::ClipVertex& corner, std::size_t k) {
@@ -153,10 +163,19 @@ ReferenceShading::Point ReferenceShading::point_at(const Triangle& t, std::int32
 }
 
 Color ReferenceShading::ambient_of(const Material& material, const Point& point) const {
-  const auto up = scene_.up();
-  const wire::AmbientLight& around = settings().ambient;
-  const Vec light = mix(vec(around.ground), vec(around.sky), 0.5 + 0.5 * dot(point.normal, vec(up)));
-  return material.ambient * product(light, vec(material.color));
+  const Vec up = vec(scene_.up()), color = vec(material.color);
+  const auto around = [&](double z) {
+    return mix(vec(settings().ambient.ground), vec(settings().ambient.sky), std::clamp(0.5 + 0.5 * z, 0.0, 1.0));
+  };
+  const Vec matt = product(around(dot(point.normal, up)), color);
+  if (material.reflection != wire::Reflection::metallic_roughness) return material.ambient * matt;
+  const double rough = std::max(material.roughness, 0.08f), nv = dot(point.normal, point.eye);
+  const Vec mirror = 2 * nv * point.normal - point.eye;
+  const shading::EnvironmentTable& table = shading::environment_table();
+  const Vec share = look_up(table.colored, nv, rough) * mix(gray(0.04), color, material.metallic) +
+                    gray(look_up(table.white, nv, rough));
+  const Vec inside = (1 - material.metallic) * product(gray(1) - share, matt);
+  return material.ambient * (inside + product(share, around(dot(mirror, up) / rough)));
 }
 
 Color ReferenceShading::light_of(const Material& material, const Point& point) const {
