@@ -135,6 +135,7 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
     RunOptions options;
     options.nodes = nodes;
     options.memory = 300'000 + 200 * GetParam().film.settings.height;
+    if (GetParam().film.settings.samples > 8) options.memory += 4 << 20;  // one line has so many edge boxes
     const FilmBlock block(GetParam().film);
     const FilmRun run = run_film(block.bytes(), options);
     EXPECT_EQ(run.frames.size(), GetParam().film.settings.frames);
@@ -151,6 +152,15 @@ TEST_P(Identity, InSeveralPassesWhenMemoryIsShort) {
   }
   if (std::string(GetParam().name) == "crowd") {
     EXPECT_GT(passes, 1u) << "the memory was not short: the test shows nothing";
+  }
+}
+
+TEST_P(Identity, WithoutMemoryForStationaryParts) {
+  for (const int nodes : {1, 3}) {
+    RunOptions options;
+    options.nodes = nodes;
+    options.farm.still_memory = 0;
+    expect_as_from_scratch(options, "no-still-memory");
   }
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "node/shading/environment.h"
 
 namespace mars::test {
 namespace {
@@ -17,6 +18,9 @@ Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[
 Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
 Vec product(const Vec& a, const Vec& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double length(const Vec& a) { return std::sqrt(dot(a, a)); }
 Vec unit(const Vec& a) { return length(a) > 0 ? (1 / length(a)) * a : Vec{}; }
 Vec mix(const Vec& a, const Vec& b, double t) { return (1 - t) * a + t * b; }
@@ -107,6 +111,31 @@ Vec reflected(const Material& m, const Vec& n, const Vec& l, const Vec& v) {
   }
 }
 
+// A share of EnvironmentTable, between its four numbers round N.V and the roughness.
+double look_up(const float* table, double nv, double rough) {
+  constexpr int kSide = shading::EnvironmentTable::kSide;
+  const double x = std::clamp(nv, 0.0, 1.0) * (kSide - 1), y = rough * (kSide - 1);
+  const int column = std::min(static_cast<int>(x), kSide - 2), row = std::min(static_cast<int>(y), kSide - 2);
+  const float* at = table + row * kSide + column;
+  return std::lerp(std::lerp(at[0], at[1], x - column), std::lerp(at[kSide], at[kSide + 1], x - column), y - row);
+}
+
+// How much of each corner of `whole` there is at a corner of one of its pieces; a corner that was not cut is number
+// `k`.
+Vec shares_of(const geometry::ClipVertex (&whole)[3], const geometry::ClipVertex& corner, std::size_t k) {
+  Vec share{};
+  const Vec place = vec(corner.place), a = vec(whole[0].place), b = vec(whole[1].place), c = vec(whole[2].place);
+  if (place == vec(whole[k].place)) {
+    share[k] = 1;
+    return share;
+  }
+  const Vec normal = cross(b - a, c - a);
+  share[0] = dot(normal, cross(b - place, c - place)) / dot(normal, normal);
+  share[1] = dot(normal, cross(c - place, a - place)) / dot(normal, normal);
+  share[2] = 1 - share[0] - share[1];
+  return share;
+}
+
 // How much of each corner there is on the screen at (x, y).
 Vec weights_at(const raster::Corners& corners, std::int32_t x, std::int32_t y) {
   Vec weight;
@@ -134,10 +163,19 @@ ReferenceShading::Point ReferenceShading::point_at(const Triangle& t, std::int32
 }
 
 Color ReferenceShading::ambient_of(const Material& material, const Point& point) const {
-  const auto up = scene_.up();
-  const wire::AmbientLight& around = settings().ambient;
-  const Vec light = mix(vec(around.ground), vec(around.sky), 0.5 + 0.5 * dot(point.normal, vec(up)));
-  return material.ambient * product(light, vec(material.color));
+  const Vec up = vec(scene_.up()), color = vec(material.color);
+  const auto around = [&](double z) {
+    return mix(vec(settings().ambient.ground), vec(settings().ambient.sky), std::clamp(0.5 + 0.5 * z, 0.0, 1.0));
+  };
+  const Vec matt = product(around(dot(point.normal, up)), color);
+  if (material.reflection != wire::Reflection::metallic_roughness) return material.ambient * matt;
+  const double rough = std::max(material.roughness, 0.08f), nv = dot(point.normal, point.eye);
+  const Vec mirror = 2 * nv * point.normal - point.eye;
+  const shading::EnvironmentTable& table = shading::environment_table();
+  const Vec share = look_up(table.colored, nv, rough) * mix(gray(0.04), color, material.metallic) +
+                    gray(look_up(table.white, nv, rough));
+  const Vec inside = (1 - material.metallic) * product(gray(1) - share, matt);
+  return material.ambient * (inside + product(share, around(dot(mirror, up) / rough)));
 }
 
 Color ReferenceShading::light_of(const Material& material, const Point& point) const {
@@ -149,17 +187,32 @@ Color ReferenceShading::light_of(const Material& material, const Point& point) c
   return sum;
 }
 
-Color ReferenceShading::light_of_corners(const raster::PlainTriangle& triangle, const Vec& weight) const {
-  const Material& material = scene_.film().materials()[triangle.record.material];
+Color ReferenceShading::light_of_corner(const raster::PlainTriangle& triangle, std::size_t corner) const {
+  const geometry::ClipVertex& vertex = triangle.whole[corner];
+  const Vec place = vec(vertex.place);
+  const Point point{place, (triangle.faces ? 1 : -1) * unit(vec(vertex.varying)), unit(-1 * place)};
+  return light_of(scene_.film().materials()[triangle.record.material], point);
+}
+
+Color ReferenceShading::gouraud_light(const raster::PlainTriangle& triangle, std::int32_t x, std::int32_t y) const {
+  const Color whole[] = {light_of_corner(triangle, 0), light_of_corner(triangle, 1), light_of_corner(triangle, 2)};
+  const Vec weight = weights_at(triangle.corners, x, y);
   Color sum{};
   double weights = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point corner = point_at(triangle.record, triangle.corners.x[k], triangle.corners.y[k]);
-    const double share = weight[k] / -corner.place[2];
-    sum = sum + share * light_of(material, corner);
-    weights += share;
+    const Vec share = shares_of(triangle.whole, triangle.eye[k], k);
+    const double here = weight[k] / -triangle.eye[k].place[2];
+    for (std::size_t corner = 0; corner < 3; ++corner) sum = sum + here * share[corner] * whole[corner];
+    weights += here;
   }
   return (1 / weights) * sum;
+}
+
+Color ReferenceShading::flat_light(const raster::PlainTriangle& triangle) const {
+  const Vec a = vec(triangle.whole[0].place), b = vec(triangle.whole[1].place), c = vec(triangle.whole[2].place);
+  const Vec middle = (1.0 / 3) * (a + b + c), normal = unit(cross(b - a, c - a));
+  const Point point{middle, dot(normal, middle) < 0 ? normal : -1 * normal, unit(-1 * middle)};
+  return light_of(scene_.film().materials()[triangle.record.material], point);
 }
 
 Color ReferenceShading::in_fog(const Color& light, double w) const {
@@ -174,8 +227,8 @@ Color ReferenceShading::shade(const raster::PlainTriangle& triangle, std::int32_
   Color light{};
   switch (material.interpolation) {
     case wire::Interpolation::phong: light = light_of(material, here); break;
-    case wire::Interpolation::gouraud: light = light_of_corners(triangle, weights_at(triangle.corners, x, y)); break;
-    case wire::Interpolation::flat: light = light_of_corners(triangle, {1, 0, 0}); break;
+    case wire::Interpolation::gouraud: light = gouraud_light(triangle, x, y); break;
+    case wire::Interpolation::flat: light = flat_light(triangle); break;
   }
   light = in_fog(light, -here.place[2]);
   if (settings().color_space == wire::ColorSpace::coded)

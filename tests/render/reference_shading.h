@@ -34,8 +34,12 @@ class ReferenceShading {
   // Light that the point sends to the eye, without fog.
   Color light_of(const wire::Material& material, const Point& point) const;
   Color ambient_of(const wire::Material& material, const Point& point) const;
-  // The mean of its corners' light, weighted by `weight` / w.
-  Color light_of_corners(const raster::PlainTriangle& triangle, const std::array<double, 3>& weight) const;
+  // Light of one of the corners that the triangle had before it was clipped.
+  Color light_of_corner(const raster::PlainTriangle& triangle, std::size_t corner) const;
+  // The light of its corners, interpolated in perspective.
+  Color gouraud_light(const raster::PlainTriangle& triangle, std::int32_t x, std::int32_t y) const;
+  // The light of its middle, with the normal of its plane.
+  Color flat_light(const raster::PlainTriangle& triangle) const;
   Color in_fog(const Color& light, double w) const;
 
   geometry::Scene scene_;

@@ -136,7 +136,7 @@ TEST(Sharing, InSeveralPasses) {
     const FilmRun expected = from_scratch(data);
     for (const int each : {4, 2}) {
       SharedRun rendered;
-      run(data, {4, each}, rendered, 1, kLooks, 200'000);
+      run(data, {4, each}, rendered, 1, kLooks, samples == 1 ? 200'000 : 600'000);
       EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
       expect_pictures(rendered, data, expected);
     }

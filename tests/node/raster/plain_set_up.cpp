@@ -84,8 +84,8 @@ void set_planes(const PlainVertex (&t)[3], PlainTriangle& out) {
   }
 }
 
-void add(const PlainVertex (&t)[3], std::optional<bool> known, const PatchIdentity& identity, std::uint32_t index,
-         std::vector<PlainTriangle>& out) {
+void add(const PlainVertex (&t)[3], const PlainVertex (&whole)[3], std::optional<bool> known,
+         const PatchIdentity& identity, std::uint32_t index, std::vector<PlainTriangle>& out) {
   PlainTriangle made{};
   made.corners = {{t[0].x, t[1].x, t[2].x}, {t[0].y, t[1].y, t[2].y}};
   if (area(made.corners) == 0) return;
@@ -97,6 +97,10 @@ void add(const PlainVertex (&t)[3], std::optional<bool> known, const PatchIdenti
   made.record.patch = identity.patch;
   made.record.material = identity.material;
   made.index = index;
+  for (int k = 0; k < 3; ++k) {
+    made.eye[k] = t[k].eye;
+    made.whole[k] = whole[k].eye;
+  }
   out.push_back(made);
 }
 
@@ -113,7 +117,7 @@ void add_clipped(const PlainVertex (&t)[3], const Projection& projection, const 
   const auto corner = [&](int k) { return project(wider, polygon.vertex[static_cast<std::size_t>(k)]); };
   for (int k = 1; k + 1 < polygon.count; ++k) {
     const PlainVertex piece[3] = {corner(0), corner(k), corner(k + 1)};
-    if (!piece[0].outside && !piece[1].outside && !piece[2].outside) add(piece, faces_eye(t), identity, index, out);
+    if (!piece[0].outside && !piece[1].outside && !piece[2].outside) add(piece, t, faces_eye(t), identity, index, out);
   }
 }
 
@@ -129,7 +133,7 @@ std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const Pro
     if (t[0].outside || t[1].outside || t[2].outside)
       add_clipped(t, projection, identity, k, out);
     else
-      add(t, std::nullopt, identity, k, out);
+      add(t, t, std::nullopt, identity, k, out);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "node/geometry/clip.h"
 #include "node/raster/outline.h"
 #include "node/raster/setup.h"
 #include "node/shape/surface.h"
@@ -14,9 +15,11 @@ namespace mars::raster {
 
 struct PlainTriangle {
   Corners corners;
-  geometry::Triangle record;  // what a node makes of it
-  std::uint32_t index;        // in the patch's dicing; pieces of a clipped triangle share it
-  bool faces;                 // the side from which its corners run counter-clockwise in space is turned to the eye
+  geometry::Triangle record;      // what a node makes of it
+  std::uint32_t index;            // in the patch's dicing; pieces of a clipped triangle share it
+  bool faces;                     // the side from which its corners run counter-clockwise in space is turned to the eye
+  geometry::ClipVertex eye[3];    // its corners in eye space
+  geometry::ClipVertex whole[3];  // those of the triangle of which clipping made it; the same where none did
 };
 
 // All that are not turned away or flat, in order, whether they cover a sample or not.
