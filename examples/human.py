@@ -67,16 +67,23 @@ FACE = [("eye", (0.0670, 0.0294, 0.0921), (0.0128, 0.0142, 0.0114), 0, "white"),
         ("brow", (0.0736, 0.0323, 0.1126), (0.0071, 0.0171, 0.0034), 24, "hair")]
 
 
-def paint(color, **more):
-    return {"color": color, "ambient": 0.22, "diffuse": 0.72, "specular": 0.06, "exponent": 12, **more}
+def soft(color, specular=0.04, exponent=10):
+    """Cloth, skin, hair: a broad, weak highlight."""
+    return {"color": color, "reflection": "blinn-phong", "ambient": 0.35, "diffuse": 0.75, "specular": specular,
+            "exponent": exponent}
 
 
-MATERIALS = {"skin": paint([0.87, 0.64, 0.50], specular=0.14, exponent=16),
-             "hair": paint([0.22, 0.13, 0.09], specular=0.2),
-             "shirt": paint([0.84, 0.22, 0.20]), "trousers": paint([0.24, 0.34, 0.55]),
-             "shoe": paint([0.42, 0.25, 0.16], specular=0.3, exponent=24), "rubber": paint([0.93, 0.91, 0.86]),
-             "lips": paint([0.76, 0.44, 0.38], specular=0.2), "white": paint([0.95, 0.95, 0.93]),
-             "iris": paint([0.13, 0.10, 0.10], specular=0.6, exponent=60)}
+def glazed(color, roughness=0.25):
+    """Leather, glass, lacquer: matt under a clear layer."""
+    return {"color": color, "reflection": "cook-torrance", "ambient": 0.35, "diffuse": 0.75, "specular": 1.5,
+            "roughness": roughness}
+
+
+MATERIALS = {"skin": soft([0.87, 0.64, 0.50], 0.10, 24), "hair": soft([0.22, 0.13, 0.09], 0.12, 24),
+             "shirt": soft([0.84, 0.22, 0.20]), "trousers": soft([0.24, 0.34, 0.55]),
+             "shoe": glazed([0.42, 0.25, 0.16], 0.35), "rubber": soft([0.90, 0.88, 0.83]),
+             "lips": soft([0.76, 0.44, 0.38], 0.15, 30), "white": glazed([0.92, 0.92, 0.90]),
+             "iris": glazed([0.13, 0.10, 0.10], 0.15)}
 
 
 def scaled(vector, unit):

@@ -7,7 +7,7 @@ import math
 import pathlib
 import sys
 
-from human import human, walk
+from human import glazed, human, soft, walk
 from make_scenes import HERE, text_of
 
 # ---- Caterpillar: 14 body joints from tail to head, 20 feet, eyes, and antennae of two joints each: 40.
@@ -16,8 +16,13 @@ BODY, LENGTH = 14, 0.5            # joints, and their distance along x
 WAVE, BUMP, SLOPE = 3.5, 2.4, 1.1  # length of a wave, of the bump in it, and its steepest slope in radians
 
 
-def paint(color, **more):
-    return {"color": color, "ambient": 0.2, "diffuse": 0.75, "specular": 0.4, **more}
+def matt(color):
+    return {"color": color, "ambient": 0.35, "diffuse": 0.8, "specular": 0}
+
+
+def metal(color, roughness):
+    """It shows little but what it reflects: all light from around it."""
+    return {"color": color, "reflection": "metallic-roughness", "ambient": 0.7, "roughness": roughness, "metallic": 1}
 
 
 def slope(s):
@@ -61,9 +66,9 @@ def caterpillar():
                                    "material": "boot"}})
         joints.append({"name": f"tip-{side}", "parent": f"antenna-{side}", "place": [0, 0, 0.58], "limits": {},
                        "segment": ball(0.13, "face")})
-    materials = {"leaf": paint([0.36, 0.70, 0.26]), "lime": paint([0.78, 0.84, 0.30]),
-                 "face": paint([0.92, 0.42, 0.26]), "boot": paint([0.30, 0.20, 0.18]),
-                 "eye": paint([0.10, 0.10, 0.13], specular=1.0, exponent=80)}
+    materials = {"leaf": soft([0.36, 0.70, 0.26], 0.2, 40), "lime": soft([0.78, 0.84, 0.30], 0.2, 40),
+                 "face": soft([0.92, 0.42, 0.26], 0.2, 40), "boot": glazed([0.30, 0.20, 0.18]),
+                 "eye": glazed([0.10, 0.10, 0.13], 0.15)}
     return {"materials": materials, "joints": joints}
 
 
@@ -122,8 +127,7 @@ def robot_arm():
         bone("finger-left", "palm", [0, 0.2, 0.1], {"x": [-35, 35]}, "box", finger, "steel"),
         bone("finger-right", "palm", [0, -0.2, 0.1], {"x": [-35, 35]}, "box", finger, "steel"),
     ]
-    materials = {"paint": paint([0.96, 0.60, 0.14], exponent=50),
-                 "steel": paint([0.50, 0.53, 0.58], specular=0.8, exponent=60)}
+    materials = {"paint": glazed([0.96, 0.60, 0.14]), "steel": metal([0.66, 0.68, 0.72], 0.35)}
     return {"materials": materials, "joints": joints}
 
 
@@ -192,21 +196,21 @@ def prop(shape, sbb, material, **options):
                                                                  "material": material}}]}
 
 
-LIGHTS = [{"direction": [-0.45, -0.6, 0.9], "color": [1.0, 0.95, 0.86]},
-          {"direction": [0.9, -0.1, 0.35], "color": [0.5, 0.65, 1.0], "intensity": 0.3},
-          {"place": [-3, -4, 5], "color": [1.0, 0.85, 0.6], "intensity": 0.3}]
+SKY = {"sky": [0.76, 0.86, 1.0], "ground": [0.62, 0.57, 0.50]}
+LIGHTS = [{"direction": [-0.45, -0.6, 0.9], "color": [1.0, 0.95, 0.86], "intensity": 1.3},
+          {"direction": [0.9, -0.1, 0.35], "color": [0.70, 0.82, 1.0], "intensity": 0.3},
+          {"place": [-3, -4, 5], "color": [1.0, 0.90, 0.75], "intensity": 0.5, "reach": 6}]
 FLOOR = {"joints": [{"name": "floor", "limits": {},
                      "segment": {"shape": "box", "sbb": [[-80, -40, -0.2], [80, 120, 0]], "material": "floor"}}]}
-GLAZE = {"floor": paint([0.78, 0.76, 0.72], specular=0, sides=1),
-         "copper": paint([0.90, 0.52, 0.32], specular=0.6, exponent=50),
-         "sea": paint([0.26, 0.58, 0.72]), "rose": paint([0.86, 0.40, 0.50]),
-         "sand": paint([0.90, 0.78, 0.52]), "violet": paint([0.60, 0.48, 0.84])}
+GLAZE = {"floor": matt([0.74, 0.72, 0.68]) | {"sides": 1}, "copper": metal([0.95, 0.62, 0.45], 0.3),
+         "sea": glazed([0.26, 0.58, 0.72]), "rose": glazed([0.86, 0.40, 0.50]),
+         "sand": glazed([0.90, 0.78, 0.52]), "violet": glazed([0.60, 0.48, 0.84])}
 
 
 def tiles(size=2, columns=range(-9, 9), rows=range(-5, 20)):
     """Every second square of a chessboard, a hair above the floor: one flat patch each."""
     square = [[round(i / 3, 6), round(j / 3, 6), 1] for j in range(4) for i in range(4)]
-    return {"materials": {"slate": paint([0.50, 0.53, 0.58], specular=0.15)}, "shapes": {"square": [square]},
+    return {"materials": {"slate": matt([0.50, 0.53, 0.58])}, "shapes": {"square": [square]},
             "joints": [{"name": f"tile-{i}-{j}", "limits": {},
                         "segment": {"shape": "square", "material": "slate",
                                     "sbb": [[size * i, size * j, -0.1], [size * (i + 1), size * (j + 1), 0.004]]}}
@@ -222,7 +226,7 @@ def standing(name, model, x, y, turn=0.0, z=0.0):
 
 def film(frames, size, camera, models, actors, lights=LIGHTS, materials={}, **more):
     return {"frames": frames, "rate": 24, "size": size, "background": [0.62, 0.72, 0.82], **more, "camera": camera,
-            "lights": lights, "materials": GLAZE | materials, "models": {"floor": FLOOR, "tiles": "models/tiles.json", **models},
+            "ambient": SKY, "lights": lights, "materials": GLAZE | materials, "models": {"floor": FLOOR, "tiles": "models/tiles.json", **models},
             "actors": [{"name": "floor", "model": "floor"}, {"name": "tiles", "model": "tiles"}, *actors]}
 
 
@@ -237,9 +241,9 @@ def caterpillar_film():
 
 
 METRE = 2.9  # in the demo, where a caterpillar is a man's pet
-SUN = [{"direction": [0.55, -0.75, 0.85], "color": [1.0, 0.94, 0.82], "intensity": 1.0},
-       {"direction": [-0.90, -0.45, 0.25], "color": [0.55, 0.70, 1.0], "intensity": 0.34},
-       {"direction": [-0.50, 0.85, 0.50], "color": [1.0, 0.88, 0.70], "intensity": 0.65}]
+SUN = [{"direction": [0.55, -0.75, 0.85], "color": [1.0, 0.95, 0.86], "intensity": 1.5},
+       {"direction": [-0.90, -0.45, 0.25], "color": [0.75, 0.85, 1.0], "intensity": 0.3},
+       {"direction": [-0.50, 0.85, 0.50], "color": [1.0, 0.93, 0.82], "intensity": 0.7}]
 
 
 def hill(wide, deep, high):
@@ -265,7 +269,7 @@ def demo_film():
               standing("hill-left", "hill", -60, 110), standing("hill-right", "long-hill", 45, 115)]
     camera = {"eye": [0.6, -14.2, 4.2], "at": [-0.25, 0.8, 2.0], "fov": 29.5}
     return film(72, [960, 540], camera, models, actors, lights=SUN,
-                materials={"hill": paint([0.45, 0.60, 0.50], specular=0)})
+                materials={"hill": matt([0.45, 0.60, 0.50])})
 
 
 def robot_film():
@@ -316,12 +320,8 @@ CLOTHES = {"child": [0.93, 0.72, 0.22], "tall": [0.25, 0.52, 0.38], "stout": [0.
 
 
 def derived(name, source):
-    shirt = cloth(CLOTHES[name])
+    shirt = soft(CLOTHES[name])
     return {"from": source, "proportions": FIGURES[name], "materials": {"shirt": shirt}}
-
-
-def cloth(color):
-    return {"color": color, "ambient": 0.22, "diffuse": 0.72, "specular": 0.06, "exponent": 12}
 
 
 def wave(first):
@@ -339,7 +339,7 @@ def wave(first):
 def bodies_film():
     models = {"man": "models/human.json", **{name: f"models/{name}.json" for name in FIGURES},
               "toddler": {"from": "models/human.json", "proportions": TODDLER,
-                          "materials": {"shirt": cloth([0.90, 0.45, 0.55])}}}
+                          "materials": {"shirt": soft([0.90, 0.45, 0.55])}}}
     row = [("tall", -3.7), ("child", -1.9), ("man", 0.0), ("toddler", 1.75), ("stout", 3.5)]
     actors = [{"name": name, "model": name, "place": [x, 0.3 * abs(x), 0.0], "turn": [0, 0, -90 - 4 * x],
                "keys": wave(8 * number)} for number, (name, x) in enumerate(row)]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the measuring scenes s1, s1m, s2 and s3 beside itself.
 
-One white directional light, no antialiasing, 1920x1080, fixed dicing. A teapot's height is centred on 0.
+One white directional light, coded colours, one sample a pixel, 1920x1080, fixed dicing. A teapot's height is centred on 0.
 """
 import json
 import math
@@ -30,7 +30,8 @@ def degrees(radians):
 
 
 def film(frames, dice, camera, materials, models, actors):
-    return {"frames": frames, "rate": 24, "size": [1920, 1080], "background": [0.05, 0.06, 0.10], "dice": dice,
+    return {"frames": frames, "rate": 24, "size": [1920, 1080], "color": "coded", "samples": 1,
+            "background": [0.05, 0.06, 0.10], "dice": dice,
             "camera": camera, "lights": [{"direction": [-0.4, -0.7, 0.8]}],
             "materials": materials, "models": models, "actors": actors}
 

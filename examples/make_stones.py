@@ -8,6 +8,7 @@ import math
 import pathlib
 import sys
 
+from human import glazed
 from make_scenes import HERE, text_of
 
 
@@ -26,13 +27,13 @@ def smooth_noise(x, y):
 
 
 def matt(*color):
-    return {"color": color, "ambient": 0.2, "diffuse": 0.8, "specular": 0}
+    return {"color": color, "ambient": 0.35, "diffuse": 0.8, "specular": 0}
 
 
 MATERIALS = {
     "grass": matt(0.42, 0.58, 0.30), "stone": matt(0.60, 0.58, 0.56), "plaster": matt(0.92, 0.86, 0.74),
-    "tile": matt(0.70, 0.30, 0.22), "pebble": {"color": [0.46, 0.52, 0.60], "ambient": 0.2, "diffuse": 0.7, "specular": 0.5},
-    "gold": {"color": [0.92, 0.70, 0.22], "ambient": 0.2, "diffuse": 0.7, "specular": 0.5, "exponent": 12}}
+    "tile": matt(0.70, 0.30, 0.22), "pebble": glazed([0.46, 0.52, 0.60]),
+    "gold": {"color": [1.0, 0.80, 0.34], "reflection": "metallic-roughness", "ambient": 0.7, "roughness": 0.4, "metallic": 1}}
 
 
 def mesh_model(name, vertices, faces, material, crease):
@@ -171,9 +172,11 @@ def film():
     return {
         "frames": 48, "rate": 24, "size": [960, 540], "background": [0.70, 0.80, 0.90],
         "camera": {"eye": [0.5, -11, 4.4], "at": [0, 0.6, 0.9], "fov": 36},
-        "lights": [{"direction": [0.6, -0.6, 0.7], "color": [1, 0.94, 0.84]},
-                   {"direction": [-0.8, -0.3, 0.4], "color": [0.5, 0.6, 0.9], "intensity": 0.35}],
-        "materials": {"ball": {"color": [0.72, 0.28, 0.32], "specular": 0.5}},
+        "ambient": {"sky": [0.78, 0.88, 1.0], "ground": [0.50, 0.52, 0.40]},
+        "lights": [{"direction": [0.6, -0.6, 0.7], "color": [1, 0.95, 0.86], "intensity": 1.5},
+                   {"direction": [-0.8, -0.3, 0.4], "color": [0.75, 0.85, 1.0], "intensity": 0.3},
+                   {"direction": [-0.4, 0.8, 0.5], "color": [1, 0.95, 0.88], "intensity": 0.5}],
+        "materials": {"ball": glazed([0.72, 0.28, 0.32])},
         "models": {name: f"models/{name}.json" for name in ("landscape", "rock", "pebble", "star", "house")} | {
             "ball": {"joints": [{"name": "ball", "segment": {"shape": "sphere", "sbb": [[-0.55, -0.55, 0], [0.55, 0.55, 1.1]],
                                                             "material": "ball"}}]}},

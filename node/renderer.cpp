@@ -7,6 +7,7 @@
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
 #include "node/group/mapping.h"
+#include "node/shading/shading_of.h"
 
 namespace mars::node {
 
@@ -16,18 +17,19 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       mapping_(load.mapping),
       pixel_format_(load.pixel_format),
       tessellator_(set),
-      z_buffer_(set, scene_.width()),
+      z_buffer_(set, film.settings().width, scene_.pattern()),
       neighbours_(machines, load.groups),
-      czb_(neighbours_, scene_.width(), scene_.height()),
+      still_(neighbours_, film.settings().width, film.settings().height, scene_.pattern(), load.still_memory),
       memory_(neighbours_, load.memory),
       sums_(film.settings().height),
       triangle_exchange_(machines.size(), film.settings().height),
-      depth_exchange_(neighbours_),
-      outbox_(film.settings().width, load.credits),
+      still_exchange_(neighbours_, film.settings().samples, film.settings().height),
+      outbox_(film.settings().width, load.pixel_format, load.credits),
       contributes_(machines.size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
       wanted_lines_(film.settings().height),
+      wanted_still_lines_(film.settings().height),
       homes_(machines.size()),
       pass_homes_(machines.size()) {
   parts_.reserve(neighbours_.nodes().size() + 1);
@@ -55,7 +57,7 @@ void Renderer::finish() {
 
 void Renderer::begin_interval(const wire::Render& command, std::span<const std::uint32_t> inbetweens) {
   scene_.set_interval(command.interval);
-  moving_line_bounds_ = scene_.moving_line_bounds(inbetweens);
+  still_.begin_interval(command.interval, scene_.moving_line_bounds(inbetweens));
   std::ranges::fill(contributes_, std::uint8_t{0});
   for (std::size_t k = 0; k < inbetweens.size(); ++k)
     contributes_[static_cast<std::size_t>(
@@ -107,12 +109,25 @@ Tessellation Renderer::tessellate_part(const group::Pass& pass) {
 
 Tessellation Renderer::tessellate() {
   const Scatter scatter{static_cast<std::uint32_t>(member()), static_cast<std::uint32_t>(group_.count)};
-  const Tessellation own = tessellator_.tessellate(scene_, report_.strip().kind, scatter, {wanted_lines_, line_loads_},
-                                                   {memory_.arena(), memory_.first_triangle()}, report_.strip().work);
+  const LineTable lines{wanted_lines_, report_.is_keyframe() ? wanted_lines_ : unkept_lines(), line_loads_};
+  const Tessellation own = tessellator_.tessellate(scene_, scatter, lines, {memory_.arena(), memory_.first_triangle()},
+                                                   report_.strip().work);
   std::transform_inclusive_scan(line_loads_.begin(), line_loads_.end(), line_totals_.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
   report_.clock(wire::Phase::dice);
   return own;
+}
+
+// Those of the pass on which an inbetween needs stationary parts; none where all are kept.
+std::span<const std::uint8_t> Renderer::unkept_lines() {
+  bool any = false;
+  const geometry::LineRange lines = still_.lines();
+  for (std::uint32_t line = 0; line < wanted_lines_.size(); ++line) {
+    const bool unkept = wanted_lines_[line] == 1 && lines.has(line) && !still_.keeps(line);
+    wanted_still_lines_[line] = unkept ? 1 : 0;
+    any |= unkept;
+  }
+  return any ? wanted_still_lines_ : std::span<const std::uint8_t>();
 }
 
 bool Renderer::can_fill(const Tessellation& own) const {
@@ -187,7 +202,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
 
 void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& pass) {
   const shading::Shading shading = this->shading();
-  const bool constant = raster::any_stationary(parts_, lines);
+  const bool constant = report_.is_keyframe() && raster::any_stationary(parts_, lines);
   geometry::LineRange strip{lines.first, lines.first};
   do {
     raster::StripBuffer& buffer = outbox_.begin(constant, report_.strip().work);
@@ -206,9 +221,9 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
   while (line < lines.last && out.lines_that_fit() > 0) {
     const geometry::LineRange some{line, std::min(line + out.lines_that_fit(), lines.last)};
     if (report_.is_keyframe())
-      z_buffer_.draw_keyframe(parts_, some, shading, moving_line_bounds_, czb_, out);
+      z_buffer_.draw_keyframe(parts_, some, shading, still_, out);
     else
-      z_buffer_.draw_inbetween(parts_, some, shading, moving_line_bounds_, czb_, out);
+      z_buffer_.draw_inbetween(parts_, some, shading, still_, out);
     line = some.last;
   }
   return line;
@@ -218,7 +233,7 @@ void Renderer::finish_exchange(const group::Pass& pass) {
   triangle_exchange_.finish();
   report_.clock(wire::Phase::exchange);
   if (!pass.is_last() || !report_.is_keyframe() || group_.count == 1) return;
-  depth_exchange_.complete({group_, homes(), moving_line_bounds_, contributes_}, czb_);
+  still_exchange_.complete({group_, homes(), contributes_}, still_);
   report_.clock(wire::Phase::depth);
 }
 
@@ -237,18 +252,8 @@ bool Renderer::triangles_travel() const {
 }
 
 shading::Shading Renderer::shading() const {
-  const wire::FilmSettings& settings = scene_.film().settings();
-  shading::Shading shading{};
+  shading::Shading shading = shading::shading_of(scene_, pixel_format_);
   shading.triangles = memory_.first_triangle();
-  shading.materials = scene_.film().materials().data();
-  shading.lights = scene_.lights().data();
-  shading.light_count = static_cast<std::uint32_t>(scene_.lights().size());
-  shading.projection = scene_.projection();
-  shading.pattern = shape::sample_pattern(settings.samples);
-  shading.encoding = color::encoding_of(settings, scene_.camera(), pixel_format_);
-  shading.ambient = settings.ambient;
-  std::ranges::copy(scene_.up(), shading.up);
-  shading.fog = settings.fog;
   return shading;
 }
 

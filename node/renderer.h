@@ -12,15 +12,15 @@
 #include "hal/collectives/group.h"
 #include "node/frame_report.h"
 #include "node/geometry/scene.h"
-#include "node/group/depth_exchange.h"
+#include "node/group/still_exchange.h"
 #include "node/group/exchange.h"
 #include "node/group/frame_memory.h"
 #include "node/group/group_sums.h"
 #include "node/group/outbox.h"
 #include "node/group/passes.h"
-#include "node/raster/czb.h"
 #include "node/raster/neighbours.h"
 #include "node/raster/scanline.h"
+#include "node/raster/still_lines.h"
 #include "node/tessellator.h"
 #include "node/tracer.h"
 
@@ -53,6 +53,7 @@ class Renderer {
   Tessellation tessellate_all();
   Tessellation tessellate_part(const group::Pass& pass);
   Tessellation tessellate();
+  std::span<const std::uint8_t> unkept_lines();
   // Whether own triangles are all there and can be put into their lines. Else several passes follow, or a Failure where
   // a line has more than can be counted.
   bool can_fill(const Tessellation& own) const;
@@ -82,23 +83,23 @@ class Renderer {
   Tessellator tessellator_;
   raster::ZBuffer z_buffer_;
   raster::Neighbours neighbours_;
-  raster::Czb czb_;
+  raster::StillLines still_;
   group::FrameMemory memory_;
   group::GroupSums sums_;
   group::TriangleExchange triangle_exchange_;
-  group::DepthExchange depth_exchange_;
+  group::StillExchange still_exchange_;
   group::Outbox outbox_;
 
   // Of the current interval.
-  geometry::LineRange moving_line_bounds_;  // in its inbetweens
-  std::vector<std::uint8_t> contributes_;   // 1: the node draws inbetweens; by nodes of the group
+  std::vector<std::uint8_t> contributes_;  // 1: the node draws inbetweens; by nodes of the group
 
   // Of the current frame.
-  collectives::Group group_;                  // that draws it
-  std::vector<raster::LineLoad> line_loads_;  // of own triangles
-  std::vector<std::uint64_t> line_totals_;    // of their edge boxes, before each line and at the end
-  std::vector<raster::LineBoxes> parts_;      // edge boxes of the lines to be drawn; own ones first
-  std::vector<std::uint8_t> wanted_lines_;
+  collectives::Group group_;                      // that draws it
+  std::vector<raster::LineLoad> line_loads_;      // of own triangles
+  std::vector<std::uint64_t> line_totals_;        // of their edge boxes, before each line and at the end
+  std::vector<raster::LineBoxes> parts_;          // edge boxes of the lines to be drawn; own ones first
+  std::vector<std::uint8_t> wanted_lines_;        // in the current pass
+  std::vector<std::uint8_t> wanted_still_lines_;  // likewise, of stationary parts in an inbetween
   std::vector<geometry::LineRange> homes_;
   std::vector<geometry::LineRange> pass_homes_;
   FrameReport report_;

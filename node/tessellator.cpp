@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "node/shading/shading_of.h"
+
 namespace mars::node {
 
 // Sets up a surface's triangles, stores them and counts the work.
@@ -10,23 +12,35 @@ struct Tessellator::Output {
   raster::SetUp set_up;
   raster::SetUps& out;
   wire::WorkCounts& work;
+  shading::Shading shading;
+  shading::ColoredSurface& colored;
 
   void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
-    set_up.add(surface, identity, out);
     ++work.patches;
     work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
+    const shading::Coloring coloring{shading, identity.material, !(identity.one_sided && identity.mirrored),
+                                     !identity.one_sided || identity.mirrored};
+    switch (shading.materials[identity.material].interpolation) {
+      case wire::Interpolation::phong: return set_up.add(surface, identity, out);
+      case wire::Interpolation::gouraud: return set_up.add(colored.by_vertices(surface, coloring), identity, out);
+      case wire::Interpolation::flat:
+        for (std::uint32_t first = 0; first < surface.triangles().count; first += colored.kFlatTriangles)
+          set_up.add(colored.by_triangles(surface, first, coloring), identity, out);
+    }
   }
 };
 
-Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set) {}
+Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dicer_(set), placer_(set), colored_(set) {}
 
-Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
-                                     const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work) {
+Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
+                                     const TriangleSpace& space, wire::WorkCounts& work) {
   std::ranges::fill(lines.loads, raster::LineLoad());
   work.patches = work.vertices = 0;
-  raster::SetUps out(space.arena.rest(), space.first, lines.loads, lines.wanted);
-  if (kind == wire::FrameKind::keyframe) add(scene, false, scatter, out, work);
+  raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
+  out.want(lines.wanted_still);
+  if (!lines.wanted_still.empty()) add(scene, false, scatter, out, work);
   const std::size_t stationary = out.boxes().size();
+  out.want(lines.wanted);
   add(scene, true, scatter, out, work);
   const auto boxes = out.boxes();
   space.arena.take_ends(out.triangles().size_bytes(), boxes.size_bytes());
@@ -37,7 +51,11 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, wire::FrameKi
 
 void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, raster::SetUps& out,
                       wire::WorkCounts& work) {
-  Output output{{instruction_set_, scene.projection(), scene.width(), scene.height()}, out, work};
+  Output output{{instruction_set_, scene.projection(), scene.width(), scene.height(), scene.pattern()},
+                out,
+                work,
+                shading::shading_of(scene),
+                colored_};
   for (std::size_t s = 0; s < scene.film().segments().size(); ++s)
     if (scene.moves(s) == moving) add_segment(scene, s, scatter, output);
 }

@@ -12,6 +12,7 @@
 #include "node/raster/arena.h"
 #include "node/raster/scanline.h"
 #include "node/raster/setup.h"
+#include "node/shading/colored_surface.h"
 #include "node/shape/dice.h"
 #include "node/wire/protocol.h"
 
@@ -25,7 +26,8 @@ struct Scatter {
 
 // One a line of the picture.
 struct LineTable {
-  std::span<const std::uint8_t> wanted;  // 1: edge boxes there are stored and counted
+  std::span<const std::uint8_t> wanted;        // 1: edge boxes of moving parts there are stored and counted
+  std::span<const std::uint8_t> wanted_still;  // likewise of stationary ones, which are not made where it is empty
   std::span<raster::LineLoad> loads;
 };
 
@@ -45,11 +47,10 @@ class Tessellator {
  public:
   explicit Tessellator(simd::InstructionSet set);
 
-  // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers: of all in a
-  // keyframe, of the moving ones in an inbetween. They lie in `space`. Sets `lines.loads`, and the patches and
-  // vertices of `work`.
-  Tessellation tessellate(const geometry::Scene& scene, wire::FrameKind kind, const Scatter& scatter,
-                          const LineTable& lines, const TriangleSpace& space, wire::WorkCounts& work);
+  // Triangles of the scatter's patches and meshlets at the scene's frame, in the order of polygon numbers. They lie in
+  // `space`. Sets `lines.loads`, and the patches and vertices of `work`.
+  Tessellation tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
+                          const TriangleSpace& space, wire::WorkCounts& work);
 
  private:
   struct Output;
@@ -65,6 +66,7 @@ class Tessellator {
   simd::InstructionSet instruction_set_;
   shape::Dicer dicer_;
   geometry::MeshletPlacer placer_;
+  shading::ColoredSurface colored_;
 };
 
 }  // namespace mars::node

@@ -28,6 +28,7 @@ class Mars(CMakePackage):
     depends_on("mpi@3:", when="+mpi")
     depends_on("hwloc@2:")
     depends_on("libpng")
+    depends_on("openexr@3.1.3:")
     depends_on("assimp")
     depends_on("xxhash")
     depends_on("glm")

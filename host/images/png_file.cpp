@@ -9,8 +9,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/file.h"
-#include "node/wire/film.h"
+#include "node/wire/film_parts.h"
 
 namespace mars::images {
 
@@ -63,13 +62,13 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  // `row` has 3 * width bytes.
-  bool encode(std::uint32_t width, std::uint32_t height, const std::uint32_t* pixels, png_bytep row,
+  // `depth`: bits a channel. `row` has 3 * width of them.
+  bool encode(std::uint32_t width, std::uint32_t height, int depth, const std::uint32_t* pixels, png_bytep row,
               std::vector<std::byte>* bytes) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_write_fn(png_, bytes, append_bytes, nothing_to_flush);
-    png_set_IHDR(png_, info_, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png_, info_, width, height, depth, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     // Measured on frames of 1920x1080: 21 to 28 ms, the SUB filter with zlib's default strategy 24 to 40 ms,
     // libpng's own choices above 160 ms; the file is smaller than SUB's.
@@ -78,7 +77,10 @@ class Writer {
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_write_info(png_, info_);
     for (std::size_t line = 0; line < height; ++line) {
-      pack_row(pixels + line * width, width, row);
+      if (depth == 8)
+        pack_row(pixels + line * width, width, row);
+      else
+        pack_row16(pixels + 2 * line * width, width, row);
       png_write_row(png_, row);
     }
     png_write_end(png_, info_);
@@ -93,6 +95,15 @@ class Writer {
       row[3 * x] = static_cast<png_byte>(pixels[x]);
       row[3 * x + 1] = static_cast<png_byte>(pixels[x] >> 8);
       row[3 * x + 2] = static_cast<png_byte>(pixels[x] >> 16);
+    }
+  }
+
+  // PNG has the higher byte first.
+  static void pack_row16(const std::uint32_t* words, std::uint32_t width, png_bytep row) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      png_save_uint_16(row + 6 * x, words[2 * x] & 0xffff);
+      png_save_uint_16(row + 6 * x + 2, words[2 * x] >> 16);
+      png_save_uint_16(row + 6 * x + 4, words[2 * x + 1] & 0xffff);
     }
   }
 
@@ -111,8 +122,8 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  // Up to the size of the picture and what rows will look like: four bytes a pixel.
-  bool begin(Source* source, Image* image) {
+  // Up to the size of the picture and what rows will look like: four channels of `depth` bits a pixel.
+  bool begin(Source* source, int depth, Image* image) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_read_fn(png_, source, take_bytes);
     png_set_user_limits(png_, wire::kMaxSide, wire::kMaxSide);
@@ -120,7 +131,9 @@ class Reader {
     image->width = png_get_image_width(png_, info_);
     image->height = png_get_image_height(png_, info_);
     png_set_expand(png_);
-    png_set_scale_16(png_);
+    if (depth == 8) png_set_scale_16(png_);
+    if (depth == 16) png_set_expand_16(png_);
+    if (depth == 16) png_set_swap(png_);  // the lower byte first
     png_set_gray_to_rgb(png_);
     png_set_strip_alpha(png_);
     png_set_filler(png_, 0, PNG_FILLER_AFTER);
@@ -129,11 +142,11 @@ class Reader {
     return true;
   }
 
-  bool decode(std::uint32_t width, std::uint32_t height, std::uint32_t* pixels) {
+  bool decode(std::size_t row_words, std::uint32_t height, std::uint32_t* pixels) {
     if (setjmp(png_jmpbuf(png_))) return false;
     for (int pass = 0; pass < passes_; ++pass) {
       for (std::size_t line = 0; line < height; ++line) {
-        png_read_row(png_, reinterpret_cast<png_bytep>(pixels + line * width), nullptr);
+        png_read_row(png_, reinterpret_cast<png_bytep>(pixels + line * row_words), nullptr);
       }
     }
     png_read_end(png_, nullptr);
@@ -149,36 +162,46 @@ class Reader {
   int passes_ = 1;
 };
 
-}  // namespace
-
-std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels) {
-  check(pixels.size() == std::size_t{width} * height, "a picture has width * height pixels");
-  std::vector<png_byte> row(std::size_t{width} * 3);
+std::vector<std::byte> encode(std::uint32_t width, std::uint32_t height, int depth,
+                              std::span<const std::uint32_t> pixels) {
+  const auto bytes_a_channel = static_cast<std::size_t>(depth / 8);
+  check(pixels.size() == width * height * bytes_a_channel, "a picture has width * height pixels");
+  std::vector<png_byte> row(width * 3 * bytes_a_channel);
   std::vector<std::byte> bytes;
   bytes.reserve(pixels.size());
   Writer writer;
-  if (!writer.encode(width, height, pixels.data(), row.data(), &bytes)) {
+  if (!writer.encode(width, height, depth, pixels.data(), row.data(), &bytes)) {
     throw Failure(std::string("libpng cannot encode a picture: ") + writer.reason(), "", "");
   }
   return bytes;
 }
 
-Image read_png(const std::filesystem::path& path) {
-  const std::string bytes = document::read_file(path, kLargestPng);
-  return decode_png(std::as_bytes(std::span(bytes)), path.string());
-}
-
-Image decode_png(std::span<const std::byte> bytes, const std::string& name) {
+Image decode(std::span<const std::byte> bytes, int depth, const std::string& name) {
   const auto torn = [&](const Reader& reader) {
     return Failure(std::string("not a whole PNG picture: ") + reader.reason(), name, "render it again");
   };
   Source source{bytes.data(), bytes.data() + bytes.size()};
   Image image;
   Reader reader;
-  if (!reader.begin(&source, &image)) throw torn(reader);
-  image.pixels.resize(std::size_t{image.width} * image.height);
-  if (!reader.decode(image.width, image.height, image.pixels.data())) throw torn(reader);
+  if (!reader.begin(&source, depth, &image)) throw torn(reader);
+  const std::size_t row_words = std::size_t{image.width} * static_cast<std::size_t>(depth / 8);
+  image.pixels.resize(row_words * image.height);
+  if (!reader.decode(row_words, image.height, image.pixels.data())) throw torn(reader);
   return image;
 }
+
+}  // namespace
+
+std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels) {
+  return encode(width, height, 8, pixels);
+}
+
+std::vector<std::byte> encode_png16(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels) {
+  return encode(width, height, 16, pixels);
+}
+
+Image decode_png(std::span<const std::byte> bytes, const std::string& name) { return decode(bytes, 8, name); }
+
+Image decode_png16(std::span<const std::byte> bytes, const std::string& name) { return decode(bytes, 16, name); }
 
 }  // namespace mars::images

@@ -1,29 +1,24 @@
-// PNG files: 8-bit RGB marked sRGB. The only place that knows libpng.
+// PNG files: RGB of 8 or 16 bits marked sRGB. The only place that knows libpng.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace mars::images {
+#include "host/images/image.h"
 
-// Rows from the top, each pixel red in the lowest byte, then green, blue, 0.
-struct Image {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  std::vector<std::uint32_t> pixels;
-};
+namespace mars::images {
 
 // The bytes of a PNG file of these pixels, made fast rather than small.
 std::vector<std::byte> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels);
+// Likewise of pixels of two words, 16 bits a channel.
+std::vector<std::byte> encode_png16(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels);
 
-// Decodes an opaque PNG of any depth to 8 bits a channel. Throws Failure naming the file where it is missing,
-// torn or no PNG.
-Image read_png(const std::filesystem::path& path);
-// Likewise from a file's bytes; `name` stands for the file in failures.
+// Decodes an opaque PNG of any depth to 8 bits a channel. Throws Failure naming the file where it is torn or no PNG.
 Image decode_png(std::span<const std::byte> bytes, const std::string& name);
+// Likewise to 16 bits a channel, two words a pixel.
+Image decode_png16(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace mars::images

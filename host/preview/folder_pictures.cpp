@@ -1,14 +1,21 @@
 #include "host/preview/folder_pictures.h"
 
+#include "hal/failure/failure.h"
+#include "host/images/picture_file.h"
+
 namespace mars::preview {
 
 FolderPictures::FolderPictures(std::filesystem::path folder)
-    : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)) {}
+    : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)) {
+  if (manifest_.format == images::PictureFormat::exr)
+    throw Failure("its frames are EXR files: light, not yet exposed or encoded to be seen", folder_.string(),
+                  "render the film with --format png into another folder, or preview the film itself");
+}
 
 SharedImage FolderPictures::picture(std::uint32_t place, images::PictureSize extent) {
-  const std::filesystem::path file =
-      folder_ / sinks::frame_file_name(manifest_.frames.at(place), manifest_.film_frames);
-  return std::make_shared<const images::Image>(scaled(images::read_png(file), fitted(this->extent(), extent)));
+  const std::filesystem::path file = folder_ / sinks::frame_file_name(manifest_, manifest_.frames.at(place));
+  return std::make_shared<const images::Image>(
+      scaled(images::read_picture(images::PictureFormat::png, file), fitted(this->extent(), extent)));
 }
 
 }  // namespace mars::preview

@@ -11,7 +11,7 @@ namespace mars::preview {
 
 class FolderPictures : public Pictures {
  public:
-  // Throws Failure where the folder has no manifest.
+  // Throws Failure where the folder has no manifest, or has EXR files.
   explicit FolderPictures(std::filesystem::path folder);
 
   std::uint32_t frames() const override { return static_cast<std::uint32_t>(manifest_.frames.size()); }

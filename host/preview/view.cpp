@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/content/animator/figure.h"
+#include "host/content/film/light_writer.h"
 #include "host/preview/shape_lines.h"
 
 namespace mars::preview {
@@ -88,12 +89,13 @@ class Maker {
     view_.rate = settings.rate;
     view_.width = settings.width;
     view_.height = settings.height;
-    view_.background = settings.background;
+    view_.background = film::shown_of(settings.background, settings.color_space);
     view_.camera = settings.camera;
     view_.cameras.assign(film_.cameras().begin(), film_.cameras().end());
     view_.changes.assign(film_.changes().begin(), film_.changes().end());
     for (const wire::Matrix& matrix : film_.matrices()) view_.matrices.push_back(placing(matrix.m));
-    for (const wire::Material& material : film_.materials()) view_.colors.push_back(material.color);
+    for (const wire::Material& material : film_.materials())
+      view_.colors.push_back(film::shown_of(material.color, settings.color_space));
   }
 
   std::uint32_t add_lines(Lines lines) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/content/animator/read_materials.h"
+#include "host/content/animator/rig.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::preview {
@@ -31,12 +33,7 @@ std::vector<animator::MaterialMotion> lent_materials(const modeler::Model& model
     if (joint.segment && !joint.segment->material.empty()) names.insert(joint.segment->material);
   for (const modeler::NamedMaterial& own : model.materials) names.erase(own.name);
   std::vector<animator::MaterialMotion> materials;
-  for (const std::string& name : names) {
-    const wire::Material& m = modeler::kDefaultMaterial;
-    materials.push_back({name, animator::constant(glm::dvec3(m.color[0], m.color[1], m.color[2])),
-                         animator::constant(double(m.ambient)), animator::constant(double(m.diffuse)),
-                         animator::constant(double(m.specular)), animator::constant(double(m.exponent)), m.sides});
-  }
+  for (const std::string& name : names) materials.push_back(animator::still_material(name, modeler::kDefaultMaterial));
   return materials;
 }
 
@@ -87,8 +84,6 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   film.source = source;
   film.frames = kFrames;
   film.background = {0.12, 0.14, 0.20};
-  film.lights.push_back(
-      {true, animator::constant(glm::dvec3(0, 0, 1)), animator::constant(glm::dvec3(1)), animator::constant(1.2)});
   film.materials = lent_materials(model);
   animator::Actor actor;
   actor.name = "model";
@@ -101,6 +96,9 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   film.camera.at = animator::constant(glm::dvec3(0));
   film.camera.up = animator::constant(glm::dvec3(0, 0, 1));
   film.camera.fov = animator::constant(kFov);
+  film.camera.exposure = animator::constant(0.0);
+  film.lights = animator::rig_lights(film.camera, film.color);
+  film.ambient = animator::rig_ambient(film.color);
   film.frames = 1;
   const Ball ball = view_of(film::compile(film), &film).whole;  // its size is known when it is compiled
   film.frames = kFrames;
@@ -108,11 +106,14 @@ animator::Film turntable(modeler::Model model, const std::string& source) {
   orbit.height = 12;
   film.camera.at = animator::constant(ball.center);
   film.camera.eye.clear();
-  film.lights.front().vector.clear();
+  for (animator::LightMotion& light : film.lights) light.vector.clear();
   for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
     orbit.turn = 360.0 * frame / kFrames - 30;
-    film.camera.eye.push_back({frame, ball.center + orbit.distance * outward(orbit), animator::kLinear});
-    film.lights.front().vector.push_back({frame, outward({{}, orbit.turn - 35, 40}), animator::kLinear});
+    const glm::dvec3 eye = ball.center + orbit.distance * outward(orbit);
+    film.camera.eye.push_back({frame, eye, animator::kLinear});
+    const auto directions = animator::rig_directions(eye, ball.center, {0, 0, 1});
+    for (std::size_t i = 0; i < film.lights.size(); ++i)
+      film.lights[i].vector.push_back({frame, directions[i], animator::kLinear});
   }
   film.camera.near = std::max(orbit.distance / 1000, kNearPlane);
   film.camera.far = std::min(orbit.distance * 1000, kFarPlane);
@@ -131,7 +132,10 @@ film::CompiledFilm as_seen(const film::CompiledFilm& film, std::array<std::uint3
   settings.width = size[0];
   settings.height = size[1];
   if (camera != nullptr) {
-    put(&view.cameras()[view.value_at(settings.camera, 0)], camera, sizeof *camera);
+    const wire::Camera& first = view.camera_at(0);
+    wire::Camera by = *camera;
+    by.exposure = first.exposure;
+    put(&first, &by, sizeof by);
     settings.camera.count = 1;
   }
   put(&view.settings(), &settings, sizeof settings);

@@ -58,7 +58,7 @@ void SurfaceFrames::render(const film::CompiledFilm& film, const std::vector<std
     threads::run_threads(
         static_cast<int>(processors),
         [&] {
-          sinks::SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2, farm::pixel_of(settings.background)});
+          sinks::SinkPool pool(taker, {settings.width, settings.height, 16, 4, 2});
           farm::render_film(film.block(), plan, farm, pool, {});
         },
         [=] { run_node_job(processors); });

@@ -1,20 +1,76 @@
 #include "node/color/encoding.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "node/color/srgb_tables.h"
 
 namespace mars::color {
+namespace {
 
-Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format) {
-  return {settings.color_space, settings.curve, static_cast<float>(camera.exposure), format};
+using Color = std::array<float, 3>;
+
+void apply_filmic_curve(Color& color) {
+  const float brightest = std::max(color[0], std::max(color[1], color[2]));
+  if (brightest <= kShoulder) return;
+  constexpr float kRest = 1.0f - kShoulder;
+  const float shown = 1.0f - kRest * kRest / ((brightest + kRest) - kShoulder);
+  const float scale = shown / brightest;
+  const float kept = 1.0f / (kBleach * (brightest - shown) + 1.0f);
+  for (float& c : color) c = (c * scale - shown) * kept + shown;
 }
 
-std::uint64_t pixel_of(const Encoding&, const float* light) {
-  std::uint64_t pixel = 0;
-  for (int c = 0; c < 3; ++c) {
-    const float level = std::clamp(light[c], 0.0f, 1.0f) * 255.0f + 0.5f;
-    pixel |= static_cast<std::uint64_t>(level) << (8 * c);
+std::uint32_t nearest(float value) { return static_cast<std::uint32_t>(value + 0.5f); }
+
+// Light that the film is to show, 0..1.
+Color shown(const Encoding& encoding, const float* light) {
+  Color color{light[0], light[1], light[2]};
+  if (encoding.space == wire::ColorSpace::linear) {
+    for (float& c : color) c = std::min(c * encoding.exposure, kMostExposed);
+    if (encoding.curve == wire::Curve::filmic) apply_filmic_curve(color);
   }
-  return pixel;
+  for (float& c : color) c = std::min(std::max(c, 0.0f), 1.0f);
+  return color;
+}
+
+std::uint32_t level8(const Encoding& encoding, float y) {
+  if (encoding.space == wire::ColorSpace::coded) return nearest(y * 255.0f);
+  return encoding.srgb8[nearest(std::sqrt(y) * float{kSteps8})];
+}
+
+std::uint32_t level16(const Encoding& encoding, float y) {
+  if (encoding.space == wire::ColorSpace::coded) return nearest(y * 65535.0f);
+  return encoding.srgb16[nearest(std::sqrt(y) * float{kSteps16})];
+}
+
+// To the nearest half float, ties to even.
+std::uint32_t half_of(float value) {
+  const float cut = std::min(value, kMostHalf);
+  if (cut < 0x1p-14f) return std::bit_cast<std::uint32_t>(cut + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(cut) - (112u << 23);
+  return (bits + 0xfff + (bits >> 13 & 1)) >> 13;
+}
+
+std::uint64_t packed(std::uint64_t red, std::uint64_t green, std::uint64_t blue, int bits) {
+  return red | green << bits | blue << 2 * bits;
+}
+
+}  // namespace
+
+Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format) {
+  return {settings.color_space,  settings.curve,        static_cast<float>(camera.exposure), format,
+          srgb_levels8().data(), srgb_levels16().data()};
+}
+
+std::uint64_t pixel_of(const Encoding& encoding, const float* light) {
+  if (encoding.format == wire::PixelFormat::half)
+    return packed(half_of(light[0]), half_of(light[1]), half_of(light[2]), 16);
+  const Color y = shown(encoding, light);
+  if (encoding.format == wire::PixelFormat::rgb16)
+    return packed(level16(encoding, y[0]), level16(encoding, y[1]), level16(encoding, y[2]), 16);
+  return packed(level8(encoding, y[0]), level8(encoding, y[1]), level8(encoding, y[2]), 8);
 }
 
 }  // namespace mars::color

@@ -15,7 +15,29 @@ struct Encoding {
   wire::Curve curve = wire::Curve::none;
   float exposure = 1;
   wire::PixelFormat format = wire::PixelFormat::rgb8;
+  // Of linear films: sRGB's levels of shown light y at round(sqrt(y) * kSteps8) and at round(sqrt(y) * kSteps16), so
+  // that steps are as fine in the dark as the eye is.
+  const std::uint8_t* srgb8 = nullptr;
+  const std::uint16_t* srgb16 = nullptr;
 };
+
+inline constexpr std::uint32_t kSteps8 = 4095;
+inline constexpr std::uint32_t kSteps16 = 65535;
+
+// The filmic curve: light is shown as it is up to the shoulder; where the brightest of red, green and blue, m, exceeds
+// it, all are scaled so that this becomes 1 - d^2 / (m + d - shoulder), d = 1 - shoulder, and then go towards white by
+// 1 - 1 / (1 + bleach (m - what m became)). Mid-grey stays 0.18, white paper in light of 1 is shown as 0.88, a grey
+// four stops above mid-grey as 0.98, and hues stay. This is Khronos's PBR Neutral Tone Mapper
+// (github.com/KhronosGroup/ToneMapping/tree/main/PBR_Neutral) without its subtraction of 0.04, which undoes what white
+// surroundings reflect.
+inline constexpr float kShoulder = 0.76f;
+inline constexpr float kBleach = 0.15f;
+
+// Exposed light is cut here, far above all that differs from white.
+inline constexpr float kMostExposed = 1e6f;
+
+// The largest half float; more light is stored as it.
+inline constexpr float kMostHalf = 65504.0f;
 
 Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format);
 

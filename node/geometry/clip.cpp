@@ -27,7 +27,7 @@ ClipVertex cut(const ClipVertex& a, const ClipVertex& b, const Plane4& plane) {
   ClipVertex out;
   for (int axis = 0; axis < 3; ++axis) {
     out.place[axis] = between(a.place[axis], b.place[axis], t);
-    out.normal[axis] = between(a.normal[axis], b.normal[axis], t);
+    out.varying[axis] = between(a.varying[axis], b.varying[axis], t);
   }
   return out;
 }

@@ -9,7 +9,7 @@ namespace mars::geometry {
 
 struct ClipVertex {
   float place[3];
-  float normal[3];
+  float varying[3];  // its normal or its colour
 };
 
 // Six planes add at most one corner each.

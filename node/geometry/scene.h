@@ -11,6 +11,7 @@
 #include "node/geometry/eye_light.h"
 #include "node/geometry/line_range.h"
 #include "node/shape/bezier.h"
+#include "node/shape/sample_pattern.h"
 #include "node/wire/film.h"
 
 namespace mars::geometry {
@@ -27,6 +28,7 @@ class Scene {
   std::int32_t height() const { return static_cast<std::int32_t>(film_.settings().height); }
   const shape::Projection& projection() const { return projection_; }
   std::span<const EyeLight> lights() const { return lights_; }
+  const shape::SamplePattern& pattern() const { return shape::sample_pattern(film_.settings().samples); }
   const wire::Camera& camera() const { return film_.camera_at(frame_); }
   // The world's z axis in eye space.
   std::array<float, 3> up() const;

@@ -7,9 +7,9 @@
 
 namespace mars::group {
 
-Outbox::Outbox(std::size_t width, int slots)
+Outbox::Outbox(std::size_t width, wire::PixelFormat format, int slots)
     : memory_(static_cast<std::size_t>(slots) * wire::kSlotBytes),
-      strip_(width),
+      strip_(width, format),
       slots_(static_cast<std::size_t>(slots)) {
   memory_.prefer_large_pages();
 }

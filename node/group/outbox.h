@@ -14,8 +14,8 @@ namespace mars::group {
 
 class Outbox {
  public:
-  // `width`: of the picture. All slots are the host's at first.
-  Outbox(std::size_t width, int slots);
+  // `width`: of the picture, whose pixels have this format. All slots are the host's at first.
+  Outbox(std::size_t width, wire::PixelFormat format, int slots);
 
   const messages::MemoryName& slots() const { return memory_.name(); }
 

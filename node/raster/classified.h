@@ -7,6 +7,7 @@
 #include "node/geometry/triangle.h"
 #include "node/raster/edge_box.h"
 #include "node/raster/line_load.h"
+#include "node/shape/sample_pattern.h"
 #include "node/shape/vertices.h"
 
 namespace mars::raster {
@@ -16,8 +17,9 @@ inline constexpr int kThin = 4;
 
 // For triangles whose vertices are all on the screen's plane.
 struct ClassifyTask {
-  std::int32_t width;
+  std::int32_t width;  // pixels
   std::int32_t height;
+  shape::SamplePattern pattern;
   bool one_sided;  // those whose outside is turned away are dropped
   bool mirrored;   // their outside is the other side
 };
@@ -31,10 +33,12 @@ struct Classified {
   std::uint32_t decided;  // one bit a triangle
   std::uint32_t undecided;
   std::uint32_t faces;  // the side from which a, b, c run counter-clockwise is turned to the eye
+  // Rows (SamplePattern) from the first one of line first_line on that may have samples: [first_row, last_row).
+  alignas(64) std::int32_t first_line[shape::kBatchTriangles];
   alignas(64) std::int32_t first_row[shape::kBatchTriangles];
   alignas(64) std::int32_t last_row[shape::kBatchTriangles];
-  // Of row first_row + r at [r]: first | last << 16, or 0.
-  alignas(64) std::uint32_t columns[kMostExtent][shape::kBatchTriangles];
+  // Of these rows: first | last << 16, or 0.
+  alignas(64) std::uint32_t columns[kMostExtent * shape::kMostSamples][shape::kBatchTriangles];
   // b - a and c - a, 1/256 pixel, and 1 / twice the area.
   alignas(64) float x1[shape::kBatchTriangles];
   alignas(64) float y1[shape::kBatchTriangles];
@@ -65,6 +69,7 @@ struct SetUpSpace {
   geometry::Triangle* first;  // triangles count from here
   geometry::Triangle* next;
   UnsortedEdgeBox* last_box;         // the one stored last
+  std::uint32_t log2_samples;        // a pixel
   LineLoad* line_loads;              // of all that is added
   const std::uint8_t* wanted_lines;  // 1: edge boxes there are stored and counted
 };

@@ -14,6 +14,31 @@ enum class InstructionSet;
 
 namespace mars::raster {
 
+// The samples of one line of pixels: the sub-scanlines of its pattern, `stride` samples apart.
+struct LineSamples {
+  float* depth;
+  std::uint32_t* ids;
+  std::uint32_t stride;
+};
+
+// Groups of samples that share one shading (pixel_groups.h): first that of each pixel with its lowest sample, by
+// column, then the others, by column and lowest sample.
+struct Groups {
+  shading::Fragment* fragments;  // to be shaded
+  std::uint32_t* masks;          // samples of a group, one bit each
+  std::uint32_t* pixels;         // of the others: their pixels, as numbered by the first groups
+};
+
+struct GroupCounts {
+  std::uint32_t pixels;
+  std::uint32_t others;
+};
+
+// One array a channel: red, green, blue.
+struct Light {
+  float* channel[3];
+};
+
 struct RasterKernels {
   void (*classify)(const ClassifyTask& task, const shape::Vertices& vertices, const shape::Triangles& triangles,
                    const shape::Batch& batch, Classified& out);
@@ -27,10 +52,19 @@ struct RasterKernels {
   void (*emit)(const shape::Vertices& vertices, const shape::Triangles& triangles, const shape::Batch& batch,
                const Classified& classified, std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out);
 
-  // Draws `count` edge boxes of line `line`, in any order: a sample nearer than depth[x] takes over depth and id; of
+  // Draws `count` edge boxes of line `line`, in any order: a sample nearer than its depth takes over depth and id; of
   // two triangles as near the lower patch's is seen, within a patch the first. Says which columns the boxes span.
   shading::Extent (*draw)(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count,
-                          std::uint32_t line, float* depth, std::uint32_t* ids);
+                          std::uint32_t line, const shape::SamplePattern& pattern, const LineSamples& samples);
+
+  // Groups the samples seen on columns `extent`. Arrays have kVectorSlack to spare behind a line's samples.
+  GroupCounts (*group)(const shape::SamplePattern& pattern, const LineSamples& seen, shading::Extent extent,
+                       const Groups& out);
+  // Each pixel's light becomes the sum of its groups' by their share of `samples`; masks become the pixels'.
+  void (*add_groups)(const Groups& groups, const GroupCounts& counts, std::uint32_t samples, const Light& light);
+  // Adds the background to `pixels` pixels by the samples that their masks leave.
+  void (*add_background)(const std::uint32_t* masks, std::uint32_t pixels, std::uint32_t samples,
+                         const float* background, const Light& light);
 };
 
 const RasterKernels& raster_kernels(simd::InstructionSet set);

@@ -7,6 +7,32 @@
 namespace mars::raster {
 namespace {
 
+constexpr shading::Extent kNothing{0xffffffffu, 0};
+
+bool is_empty(const shading::Extent& extent) { return extent.first >= extent.last; }
+
+shading::Extent both(const shading::Extent& a, const shading::Extent& b) {
+  return {std::min(a.first, b.first), std::max(a.last, b.last)};
+}
+
+// Rows of samples begin on cache lines and end with kVectorSlack to spare.
+std::uint32_t stride_of(std::uint32_t width) {
+  constexpr auto kSlack = static_cast<std::uint32_t>(simd::kVectorSlack);
+  return (width - 1) / kSlack * kSlack + 2 * kSlack;
+}
+
+bool any_boxes(LineParts parts, std::span<const EdgeBox> (LineBoxes::*kind)(std::uint32_t line) const,
+               std::uint32_t line) {
+  return std::ranges::any_of(parts, [=](const LineBoxes& part) { return !(part.*kind)(line).empty(); });
+}
+
+shading::Extent moving_extent(LineParts parts, std::uint32_t line) {
+  shading::Extent extent = kNothing;
+  for (const LineBoxes& part : parts)
+    for (const EdgeBox& box : part.moving(line)) extent = both(extent, {box.first, box.last()});
+  return extent;
+}
+
 // The triangles of the first boxes, which the kernel has no time to fetch ahead.
 void fetch(const geometry::Triangle* triangles, std::span<const EdgeBox> boxes) {
   constexpr std::size_t kFirst = 32;
@@ -15,110 +41,81 @@ void fetch(const geometry::Triangle* triangles, std::span<const EdgeBox> boxes) 
 
 }  // namespace
 
-std::span<const EdgeBox> LineBoxes::of(std::uint32_t line) const {
-  return boxes.subspan(begin(line), end[line - lines.first] - begin(line));
-}
-
-std::span<const EdgeBox> LineBoxes::stationary(std::uint32_t line) const {
-  return boxes.subspan(begin(line), stationary_end[line - lines.first] - begin(line));
-}
-
-std::span<const EdgeBox> LineBoxes::moving(std::uint32_t line) const {
-  const std::size_t i = line - lines.first;
-  return boxes.subspan(stationary_end[i], end[i] - stationary_end[i]);
-}
-
-std::uint64_t LineBoxes::count(const geometry::LineRange& some) const {
-  return some.count() == 0 ? 0 : end[some.last - 1 - lines.first] - begin(some.first);
-}
-
-bool any_stationary(LineParts parts, const geometry::LineRange& lines) {
-  for (std::uint32_t line = lines.first; line < lines.last; ++line)
-    for (const LineBoxes& part : parts)
-      if (!part.stationary(line).empty()) return true;
-  return false;
-}
-
-LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals,
-                       const geometry::Triangle* first, Arena& arena)
-    : lines_(lines),
-      first_(first),
-      boxes_(arena.take<EdgeBox>(totals[lines.count()] - totals[0])),
-      end_(arena.take<std::uint64_t>(lines.count())),
-      stationary_(arena.take<std::uint64_t>(lines.count())),
-      moving_(arena.take<std::uint64_t>(lines.count())) {
-  for (std::size_t i = 0; i < end_.size(); ++i) {
-    stationary_[i] = totals[i] - totals[0];
-    end_[i] = moving_[i] = totals[i + 1] - totals[0];
-  }
-}
-
-void LineFiller::add(const Polygons& polygons) {
-  const auto first_triangle = static_cast<std::uint32_t>(polygons.triangles - first_);
-  // put(line, box) for each edge box of these lines, `line` its line's number among them.
-  const auto for_each = [this, first_triangle](std::span<const UnsortedEdgeBox> all, const auto& put) {
-    const std::uint32_t first = lines_.first, count = lines_.count();
-    for (const UnsortedEdgeBox unsorted : all) {
-      const std::uint32_t line = unsorted.line - first;
-      const EdgeBox box{first_triangle + unsorted.box.triangle, unsorted.box.first, unsorted.box.last};
-      if (line < count) put(line, box);
-    }
-  };
-  EdgeBox* const boxes = boxes_.data();
-  for_each(polygons.stationary,
-           [boxes, next = stationary_.data()](std::uint32_t line, const EdgeBox& box) { boxes[next[line]++] = box; });
-  for_each(polygons.moving,
-           [boxes, last = moving_.data()](std::uint32_t line, const EdgeBox& box) { boxes[--last[line]] = box; });
-}
-
-LineBoxes LineFiller::finish() const {
-  check(std::equal(stationary_.begin(), stationary_.end(), moving_.begin()),
-        "the edge boxes of a line are those that were counted");
-  return {lines_, boxes_, end_, stationary_};
-}
-
-ZBuffer::ZBuffer(simd::InstructionSet set, std::int32_t width)
+ZBuffer::ZBuffer(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern)
     : kernels_(raster_kernels(set)),
       shading_kernels_(shading::shading_kernels(set)),
-      width_(static_cast<std::size_t>(width)),
-      depths_((width_ - 1) / simd::kVectorSlack + 2),
-      ids_(depths_.size()) {
-  std::fill_n(ids(), ids_.size() * simd::kVectorSlack, shading::kNoTriangle);
+      pattern_(pattern),
+      stride_(stride_of(width)),
+      depths_(static_cast<std::size_t>(pattern.count) * stride_ / simd::kVectorSlack),
+      ids_(depths_.size()),
+      groups_(set, several() ? width : 0, static_cast<std::uint32_t>(pattern.count)),
+      still_end_(several() ? width : 0),
+      still_groups_(still_end_.size() * static_cast<std::size_t>(pattern.count)) {
+  std::fill_n(ids(0), ids_.size() * simd::kVectorSlack, shading::kNoTriangle);
 }
 
 void ZBuffer::draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                            const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out) {
-  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    const bool empty = std::ranges::all_of(parts, [line](const LineBoxes& part) { return part.of(line).empty(); });
-    if (empty && !czb_lines.has(line)) continue;
-    std::fill_n(depth(), width_, 0.0f);
-    draw(parts, &LineBoxes::stationary, shading, line, out.constant());
-    if (czb_lines.has(line)) std::copy_n(depth(), width_, czb.lines({line, line + 1}).data());
-    // MZB starts as CZB: nearer than it is nearer than both, and of equals what stands still was there first.
-    draw(parts, &LineBoxes::moving, shading, line, out.moving());
+                            StillLines& still, StripBuffer& out) {
+  for (std::uint32_t line = lines.first; line < lines.last; ++line)
+    if (any_boxes(parts, &LineBoxes::of, line) || still.lines().has(line)) draw_line(parts, shading, line, still, out);
+}
+
+// MZB starts as CZB: nearer than it is nearer than both, and of equals what stands still was there first.
+void ZBuffer::draw_line(LineParts parts, const shading::Shading& shading, std::uint32_t line, StillLines& still,
+                        StripBuffer& out) {
+  const shading::Extent extent = draw(parts, &LineBoxes::stationary, shading, line);
+  const bool moves = any_boxes(parts, &LineBoxes::moving, line);
+  if (several()) groups_.shade(shading, samples(), line, extent);
+  const StillGroups groups = keep(line, still);
+  if (several()) {
+    if (moves || still.lines().has(line)) groups_.copy_to(groups);
+    groups_.resolve(shading, line, out.constant());
+    forget_ids(extent);
+  } else {
+    put_samples(shading, line, extent, out.constant());
   }
+  forget_depths(moves ? both(extent, draw_moving(parts, shading, line, groups, out)) : extent);
 }
 
 void ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                             const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out) {
+                             StillLines& still, StripBuffer& out) {
   for (std::uint32_t line = lines.first; line < lines.last; ++line) {
-    std::uint32_t first = 0xffffffffu, last = 0;
-    for (const LineBoxes& part : parts)
-      for (const EdgeBox& box : part.moving(line)) {
-        first = std::min<std::uint32_t>(first, box.first);
-        last = std::max<std::uint32_t>(last, box.last);
-      }
-    if (first >= last) continue;
-    check(czb_lines.has(line), "moving parts stay on the lines that were foreseen");
-    std::copy_n(czb.lines({line, line + 1}).data() + first, last - first, depth() + first);
-    draw(parts, &LineBoxes::moving, shading, line, out.moving());
+    shading::Extent extent = moving_extent(parts, line);
+    if (is_empty(extent)) continue;
+    check(still.lines().has(line), "moving parts stay on the lines that were foreseen");
+    const bool kept = still.keeps(line);
+    if (kept)
+      take_depths(line, extent, still);
+    else
+      extent = both(extent, draw_still_again(parts, shading, line));
+    draw_moving(parts, shading, line, kept && several() ? still.groups(line) : own_still(), out);
+    forget_depths(extent);
   }
 }
 
-// Draws the line's boxes of one kind, shades what their ids show and forgets these.
-void ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line,
-                   StripBuffer::Layer& out) {
-  shading::Extent all{0xffffffffu, 0};
+shading::Extent ZBuffer::draw_still_again(LineParts parts, const shading::Shading& shading, std::uint32_t line) {
+  const shading::Extent extent = draw(parts, &LineBoxes::stationary, shading, line);
+  groups_.shade(shading, samples(), line, extent);
+  groups_.copy_to(own_still());
+  forget_ids(extent);
+  return extent;
+}
+
+shading::Extent ZBuffer::draw_moving(LineParts parts, const shading::Shading& shading, std::uint32_t line,
+                                     const StillGroups& still, StripBuffer& out) {
+  const shading::Extent extent = draw(parts, &LineBoxes::moving, shading, line);
+  if (several()) {
+    groups_.shade(shading, samples(), line, extent);
+    groups_.resolve_over(still, shading, line, out.moving());
+    forget_ids(extent);
+  } else {
+    put_samples(shading, line, extent, out.moving());
+  }
+  return extent;
+}
+
+shading::Extent ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line) {
+  shading::Extent all = kNothing;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto boxes = (parts[p].*kind)(line);
     if (p + 1 < parts.size())
@@ -126,13 +123,44 @@ void ZBuffer::draw(LineParts parts, BoxesOf kind, const shading::Shading& shadin
     else if (line + 1 < parts[0].lines.last)
       fetch(shading.triangles, (parts[0].*kind)(line + 1));
     if (boxes.empty()) continue;
-    const shading::Extent extent =
-        kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth(), ids());
-    all = {std::min(all.first, extent.first), std::max(all.last, extent.last)};
+    all = both(all, kernels_.draw(shading.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
+                                  pattern_, samples()));
   }
-  if (all.first >= all.last) return;
-  out.added(shading_kernels_.shade(shading, ids(), line, all, out.next_run(), out.next_pixel()));
-  std::fill(ids() + all.first, ids() + all.last, shading::kNoTriangle);
+  return all;
+}
+
+StillGroups ZBuffer::keep(std::uint32_t line, StillLines& still) {
+  if (!still.lines().has(line) || !still.begin_line(line, groups_.count())) return own_still();
+  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s) {
+    const auto kept = still.depth(line, s);
+    std::copy_n(depth(s), kept.size(), kept.data());
+  }
+  return several() ? still.groups(line) : own_still();
+}
+
+void ZBuffer::take_depths(std::uint32_t line, const shading::Extent& extent, StillLines& still) {
+  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
+    std::copy_n(still.depth(line, s).data() + extent.first, extent.last - extent.first, depth(s) + extent.first);
+}
+
+// With one sample a pixel: shades what is seen, and forgets it.
+void ZBuffer::put_samples(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent,
+                          StripBuffer::Layer& out) {
+  if (is_empty(extent)) return;
+  out.added(shading_kernels_.shade(shading, ids(0), line, extent, out.next_run(), out.next_pixel()));
+  forget_ids(extent);
+}
+
+void ZBuffer::forget_depths(const shading::Extent& extent) {
+  if (is_empty(extent)) return;
+  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
+    std::fill(depth(s) + extent.first, depth(s) + extent.last, 0.0f);
+}
+
+void ZBuffer::forget_ids(const shading::Extent& extent) {
+  if (is_empty(extent)) return;
+  for (std::uint32_t s = 0; s < samples_a_pixel(); ++s)
+    std::fill(ids(s) + extent.first, ids(s) + extent.last, shading::kNoTriangle);
 }
 
 }  // namespace mars::raster

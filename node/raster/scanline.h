@@ -1,84 +1,33 @@
-// The scanline z-buffer: edge boxes into place by counting sort, then line by line visibility first and
-// shading after, so that hidden samples are never shaded.
+// The scanline z-buffer, a line of pixels at a time: visibility first and shading after, so that hidden samples are
+// never shaded.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "node/geometry/line_range.h"
-#include "node/raster/arena.h"
-#include "node/raster/czb.h"
 #include "node/raster/kernels.h"
+#include "node/raster/line_boxes.h"
+#include "node/raster/pixel_groups.h"
+#include "node/raster/still_lines.h"
 #include "node/raster/strip_buffer.h"
 #include "node/shading/kernels.h"
 
 namespace mars::raster {
 
-// One node's part of a frame's triangles, in which its edge boxes count from `triangles`.
-struct Polygons {
-  const geometry::Triangle* triangles;
-  std::span<const UnsortedEdgeBox> stationary;
-  std::span<const UnsortedEdgeBox> moving;
-};
-
-// Edge boxes of lines [lines.first, lines.last): line by line the stationary ones, then the moving ones.
-struct LineBoxes {
-  geometry::LineRange lines;
-  std::span<const EdgeBox> boxes;
-  std::span<const std::uint64_t> end;             // of each line's boxes
-  std::span<const std::uint64_t> stationary_end;  // of each line's stationary boxes
-
-  std::span<const EdgeBox> of(std::uint32_t line) const;
-  std::span<const EdgeBox> stationary(std::uint32_t line) const;
-  std::span<const EdgeBox> moving(std::uint32_t line) const;
-  // How many are on some of these lines.
-  std::uint64_t count(const geometry::LineRange& some) const;
-
- private:
-  std::uint64_t begin(std::uint32_t line) const { return line == lines.first ? 0 : end[line - lines.first - 1]; }
-};
-
-// All edge boxes of some lines: one part of each node that had them sorted, with these lines among its own. Triangles
-// of all parts count from the same place.
-using LineParts = std::span<const LineBoxes>;
-
-bool any_stationary(LineParts parts, const geometry::LineRange& lines);
-
-// Puts edge boxes into their lines: a counting sort whose offsets are the running totals of their counts. Senders may
-// be added in any order; edge boxes of other lines are left out.
-class LineFiller {
- public:
-  // `totals`: one more than there are lines; totals[i] + a constant boxes are on the first i of them. Boxes will name
-  // triangles by their distance from `first`. Takes its arrays from `arena`.
-  LineFiller(const geometry::LineRange& lines, std::span<const std::uint64_t> totals, const geometry::Triangle* first,
-             Arena& arena);
-
-  void add(const Polygons& polygons);
-  // check()s that the boxes are exactly those that were counted.
-  LineBoxes finish() const;
-
- private:
-  geometry::LineRange lines_;
-  const geometry::Triangle* first_;
-  std::span<EdgeBox> boxes_;
-  std::span<std::uint64_t> end_;
-  std::span<std::uint64_t> stationary_;  // each line's from its begin, growing
-  std::span<std::uint64_t> moving_;      // and from its end, falling
-};
-
-// The z-buffer of the line that is being drawn, small enough for a core's first cache.
+// The z-buffer of the line that is being drawn, small enough for a core's caches.
 class ZBuffer {
  public:
-  ZBuffer(simd::InstructionSet set, std::int32_t width);
+  ZBuffer(simd::InstructionSet set, std::uint32_t width, const shape::SamplePattern& pattern);
 
-  // Draws `lines`: what stands still (CFB), and against it what moves (MFB). CZB of `czb_lines` goes to `czb`.
+  // Draws `lines`: what stands still (CFB), and against it what moves (MFB). Lines of `still` are written to it.
   void draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                     const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out);
-  // Draws what moves on these lines against `czb`, whose `czb_lines` have all of it, and each other.
+                     StillLines& still, StripBuffer& out);
+  // Draws what moves on these lines against `still` and each other. On lines that it does not keep the parts have what
+  // stands still too.
   void draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                      const geometry::LineRange& czb_lines, Czb& czb, StripBuffer& out);
+                      StillLines& still, StripBuffer& out);
 
  private:
   // Samples, as many as kernels take at a time.
@@ -90,17 +39,40 @@ class ZBuffer {
   };
 
   using BoxesOf = std::span<const EdgeBox> (LineBoxes::*)(std::uint32_t line) const;
-  void draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line,
-            StripBuffer::Layer& out);
 
-  float* depth() { return depths_.front().samples; }
-  std::uint32_t* ids() { return ids_.front().samples; }
+  std::uint32_t samples_a_pixel() const { return static_cast<std::uint32_t>(pattern_.count); }
+  bool several() const { return pattern_.count > 1; }
+  void draw_line(LineParts parts, const shading::Shading& shading, std::uint32_t line, StillLines& still,
+                 StripBuffer& out);
+  shading::Extent draw_still_again(LineParts parts, const shading::Shading& shading, std::uint32_t line);
+  // Over what stands still. Says which columns the boxes span, as does draw.
+  shading::Extent draw_moving(LineParts parts, const shading::Shading& shading, std::uint32_t line,
+                              const StillGroups& still, StripBuffer& out);
+  shading::Extent draw(LineParts parts, BoxesOf kind, const shading::Shading& shading, std::uint32_t line);
+
+  // Keeps a line's depths and has its groups kept, if they are needed and fit; says where the groups are to go.
+  StillGroups keep(std::uint32_t line, StillLines& still);
+  StillGroups own_still() { return {still_end_.data(), still_groups_.data()}; }
+  void take_depths(std::uint32_t line, const shading::Extent& extent, StillLines& still);
+  void put_samples(const shading::Shading& shading, std::uint32_t line, const shading::Extent& extent,
+                   StripBuffer::Layer& out);
+  void forget_depths(const shading::Extent& extent);
+  void forget_ids(const shading::Extent& extent);
+
+  LineSamples samples() { return {depths_.front().samples, ids_.front().samples, stride_}; }
+  float* depth(std::uint32_t sample) { return depths_.front().samples + sample * stride_; }
+  std::uint32_t* ids(std::uint32_t sample) { return ids_.front().samples + sample * stride_; }
 
   const RasterKernels& kernels_;
   const shading::ShadingKernels& shading_kernels_;
-  std::size_t width_;
-  std::vector<Depths> depths_;  // kVectorSlack samples more than a line
+  shape::SamplePattern pattern_;
+  std::uint32_t stride_;        // samples of a row, with kVectorSlack to spare
+  std::vector<Depths> depths_;  // row by row; 0 between lines
   std::vector<Ids> ids_;        // likewise; kNoTriangle between lines
+  PixelGroups groups_;          // of the kind that is being drawn
+  // The line's still groups, where inbetweens do not need them or they are not kept.
+  std::vector<std::uint32_t> still_end_;
+  std::vector<StillGroup> still_groups_;
 };
 
 }  // namespace mars::raster

@@ -16,19 +16,19 @@ constexpr float kSlack = 1.001f;
 
 // Counts the edge boxes and stores them if the triangle fits too; whether there were any and they were stored.
 bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
-  const std::int32_t first = outline.first_row, last = std::max(first, outline.last_row);
-  const bool fits =
-      out.bytes_left() >= sizeof(geometry::Triangle) + static_cast<std::size_t>(last - first) * sizeof(UnsortedEdgeBox);
+  const auto first = static_cast<std::uint32_t>(outline.first_row);
+  const auto last = static_cast<std::uint32_t>(std::max(outline.first_row, outline.last_row));
+  const bool fits = out.bytes_left() >= sizeof(geometry::Triangle) + (last - first) * sizeof(UnsortedEdgeBox);
   const auto number = static_cast<std::uint32_t>(out.next - out.first);
   std::uint32_t boxes = 0;
-  for (std::int32_t row = first; row < last; ++row) {
-    const Outline::Columns columns = outline.columns(row);
-    if (columns.first >= columns.last || out.wanted_lines[row] == 0) continue;
-    if (fits)
-      *--out.last_box = {{number, static_cast<std::uint16_t>(columns.first), static_cast<std::uint16_t>(columns.last)},
-                         static_cast<std::uint16_t>(row),
-                         moving};
-    out.line_loads[row] += LineLoad(1, static_cast<std::uint64_t>(columns.last - columns.first));
+  for (std::uint32_t row = first; row < last; ++row) {
+    const std::uint32_t line = row >> out.log2_samples, sample = row - (line << out.log2_samples);
+    if (out.wanted_lines[line] == 0) continue;
+    const Outline::Columns columns = outline.columns(static_cast<std::int32_t>(row));
+    if (columns.first >= columns.last) continue;
+    const auto left = static_cast<std::uint32_t>(columns.first), right = static_cast<std::uint32_t>(columns.last);
+    if (fits) *--out.last_box = {{number, left, right - left - 1, sample}, static_cast<std::uint16_t>(line), moving};
+    out.line_loads[line] += LineLoad(1, right - left);
     ++boxes;
   }
   out.edge_boxes += boxes;
@@ -36,9 +36,9 @@ bool add_boxes(const Outline& outline, bool moving, SetUps& out) {
   return fits && boxes > 0;
 }
 
-// Memory that a batch does not exceed in a picture of so many lines.
-std::size_t most_bytes(const Classified& c, std::int32_t height) {
-  const std::int32_t rows = c.undecided == 0 ? kMostExtent : std::max(kMostExtent, height);
+// Memory that a batch does not exceed in a picture of so many lines and samples a pixel.
+std::size_t most_bytes(const Classified& c, std::int32_t height, std::int32_t samples) {
+  const std::int32_t rows = samples * (c.undecided == 0 ? kMostExtent : std::max(kMostExtent, height));
   return shape::kBatchTriangles *
          (sizeof(geometry::Triangle) + static_cast<std::size_t>(rows) * sizeof(UnsortedEdgeBox));
 }
@@ -100,34 +100,37 @@ struct FewVertices {
 
 }  // namespace
 
-SetUps::SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<LineLoad> line_loads,
-               std::span<const std::uint8_t> wanted_lines) {
+SetUps::SetUps(std::span<std::byte> memory, geometry::Triangle* first, const shape::SamplePattern& pattern,
+               std::span<LineLoad> line_loads) {
   this->first = first;
+  log2_samples = static_cast<std::uint32_t>(pattern.log2_count);
   begin = next = reinterpret_cast<geometry::Triangle*>(memory.data());
   last_box = end = reinterpret_cast<UnsortedEdgeBox*>(memory.data() + memory.size());
   this->line_loads = line_loads.data();
-  this->wanted_lines = wanted_lines.data();
+  wanted_lines = nullptr;
 }
 
 std::size_t SetUps::bytes_left() const {
   return static_cast<std::size_t>(reinterpret_cast<std::byte*>(last_box) - reinterpret_cast<std::byte*>(next));
 }
 
-SetUp::SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height)
+SetUp::SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height,
+             const shape::SamplePattern& pattern)
     : shape_kernels_(shape::shape_kernels(set)),
       kernels_(raster_kernels(set)),
       projection_(projection),
       width_(width),
-      height_(height) {}
+      height_(height),
+      pattern_(pattern) {}
 
 void SetUp::add(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out) {
   if (surface.reaches_outside()) return add_plainly(surface, identity, out);
   const shape::Vertices& v = surface.vertices();
   const shape::Triangles& triangles = surface.triangles();
-  const ClassifyTask task{width_, height_, identity.one_sided, identity.mirrored};
+  const ClassifyTask task{width_, height_, pattern_, identity.one_sided, identity.mirrored};
   for (const shape::Batch& batch : std::span(triangles.batches, triangles.batch_count)) {
     kernels_.classify(task, v, triangles, batch, classified_);
-    if (out.bytes_left() < most_bytes(classified_, height_))
+    if (out.bytes_left() < most_bytes(classified_, height_, pattern_.count))
       classified_.undecided |= std::exchange(classified_.decided, 0u);
     if ((classified_.decided | classified_.undecided) != 0) add_batch(v, triangles, batch, identity, out);
   }
@@ -169,12 +172,14 @@ void SetUp::add_one(const shape::Vertices& v, const shape::Corner3& corners, con
 
 void SetUp::add_clipped(const shape::Vertices& v, const shape::Corner3& corners, const PatchIdentity& identity,
                         SetUps& out) const {
+  const bool faces = faces_eye(v, corners);
+  const auto* varying = v.colors ? v.colors[faces ? 0 : 1].color : v.normal;
   geometry::ClipPolygon polygon;
   for (const std::uint32_t corner : {corners.a, corners.b, corners.c}) {
     geometry::ClipVertex& vertex = polygon.vertex[static_cast<std::size_t>(polygon.count++)];
     for (int axis = 0; axis < 3; ++axis) {
       vertex.place[axis] = v.place[axis][corner];
-      vertex.normal[axis] = v.normal[axis][corner];
+      vertex.varying[axis] = varying[axis][corner];
     }
   }
   geometry::clip(projection_, polygon);
@@ -182,17 +187,19 @@ void SetUp::add_clipped(const shape::Vertices& v, const shape::Corner3& corners,
   for (int i = 0; i < polygon.count; ++i)
     for (int axis = 0; axis < 3; ++axis) {
       few.numbers[axis][i] = polygon.vertex[static_cast<std::size_t>(i)].place[axis];
-      few.numbers[3 + axis][i] = polygon.vertex[static_cast<std::size_t>(i)].normal[axis];
+      few.numbers[3 + axis][i] = polygon.vertex[static_cast<std::size_t>(i)].varying[axis];
     }
   shape::Projection wider = projection_;
   wider.near /= kSlack;
   wider.far *= kSlack;
   wider.guard *= kSlack;
   shape_kernels_.project(wider, few.view(), polygon.count);
-  const bool faces = faces_eye(v, corners);
+  const shape::VertexColors colors[2] = {{{}, few.values}, {{}, few.values}};
+  shape::Vertices cut = few.view();
+  if (v.colors) cut.colors = colors;
   for (std::uint32_t i = 1; static_cast<int>(i) + 1 < polygon.count; ++i) {
     const bool whole = few.flags[0] + few.flags[i] + few.flags[i + 1] == 0;  // not where numbers overflowed
-    if (whole) add_whole(few.view(), {0, i, i + 1}, faces, identity, out);
+    if (whole) add_whole(cut, {0, i, i + 1}, faces, identity, out);
   }
 }
 
@@ -210,7 +217,7 @@ void SetUp::add_whole(const shape::Vertices& v, const shape::Corner3& corners, s
                                               std::abs(t.x[2] - t.x[0]) + std::abs(t.y[2] - t.y[0]));
   const bool faces = known ? *known : sure ? area < 0 : faces_eye(v, corners);
   if (identity.one_sided && faces == identity.mirrored) return;
-  const Outline outline(t, width_, height_);
+  const Outline outline(t, width_, height_, pattern_);
   if (!add_boxes(outline, identity.moving, out)) return;
   const ScreenShape shape{static_cast<float>(t.x[1] - t.x[0]), static_cast<float>(t.y[1] - t.y[0]),
                           static_cast<float>(t.x[2] - t.x[0]), static_cast<float>(t.y[2] - t.y[0]),

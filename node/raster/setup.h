@@ -21,8 +21,12 @@ namespace mars::raster {
 // edge boxes from its end towards the front. What no longer fits is still counted.
 struct SetUps : SetUpSpace {
   // Edge boxes name triangles by their distance from `first`, whole cache lines before `memory`.
-  SetUps(std::span<std::byte> memory, geometry::Triangle* first, std::span<LineLoad> line_loads,
-         std::span<const std::uint8_t> wanted_lines);
+  // A pixel has as many samples as `pattern`.
+  SetUps(std::span<std::byte> memory, geometry::Triangle* first, const shape::SamplePattern& pattern,
+         std::span<LineLoad> line_loads);
+
+  // Of what is added from now on: edge boxes on lines with 1 are stored and counted.
+  void want(std::span<const std::uint8_t> lines) { wanted_lines = lines.data(); }
 
   std::span<const geometry::Triangle> triangles() const { return {begin, static_cast<std::size_t>(next - begin)}; }
   // The latest first.
@@ -38,7 +42,9 @@ struct SetUps : SetUpSpace {
 
 class SetUp {
  public:
-  SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height);
+  // For a picture of width x height pixels.
+  SetUp(simd::InstructionSet set, const shape::Projection& projection, std::int32_t width, std::int32_t height,
+        const shape::SamplePattern& pattern);
 
   void add(const shape::Surface& surface, const PatchIdentity& identity, SetUps& out);
   // The same without the sixteen at a time: the plain twin.
@@ -60,6 +66,7 @@ class SetUp {
   shape::Projection projection_;
   std::int32_t width_;
   std::int32_t height_;
+  shape::SamplePattern pattern_;
   Classified classified_;
 };
 

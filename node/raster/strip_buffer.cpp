@@ -13,17 +13,17 @@ constexpr std::uint32_t kLines = 8;  // drawn at most between one look at the sp
 // A strip with so many bytes goes to the host: few enough to stay in a core's cache on their way, and the host puts
 // them in place while the node draws on.
 constexpr std::size_t kFullBytes = std::size_t{512} << 10;
-constexpr std::size_t kPixels = wire::kMaxStripBytes / sizeof(std::uint32_t) + simd::kVectorSlack;  // of one layer
+constexpr std::size_t kMaxPixelBytes = 8;
+constexpr std::size_t kLayerBytes = wire::kMaxStripBytes + simd::kVectorSlack * kMaxPixelBytes;  // of one's pixels
 constexpr std::size_t kRuns = wire::kMaxStripBytes / sizeof(wire::Run);
 
 // Of both layers. Between two runs of a line is a pixel that neither has: most is taken by runs of one pixel each.
-constexpr std::size_t most_bytes_of_line(std::size_t width) {
-  return 2 * (sizeof(std::uint32_t) + sizeof(wire::Run)) * ((width + 2) / 2);
+constexpr std::size_t most_bytes_of_line(std::size_t width, std::size_t pixel_bytes) {
+  return 2 * (pixel_bytes + sizeof(wire::Run)) * ((width + 2) / 2);
 }
 
-static_assert(sizeof(wire::Strip) + 2 * kPixels * sizeof(std::uint32_t) <= wire::kSlotBytes,
-              "a slot takes a strip in the making");
-static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide) <= wire::kMaxStripBytes,
+static_assert(sizeof(wire::Strip) + 2 * kLayerBytes <= wire::kSlotBytes, "a slot takes a strip in the making");
+static_assert(sizeof(wire::Strip) + most_bytes_of_line(wire::kMaxSide, kMaxPixelBytes) <= wire::kMaxStripBytes,
               "any line fits an empty strip");
 
 // `items` to `at`, which they may overlap; returns what comes behind them.
@@ -41,16 +41,18 @@ void StripBuffer::Layer::added(const shading::Shaded& shaded) {
   run_count_ += shaded.runs;
 }
 
-StripBuffer::StripBuffer(std::size_t width)
-    : line_bytes_(most_bytes_of_line(width)), runs_(2 * kRuns * sizeof(wire::Run)) {}
+StripBuffer::StripBuffer(std::size_t width, wire::PixelFormat format)
+    : pixel_bytes_(wire::pixel_bytes(format)),
+      line_bytes_(most_bytes_of_line(width, pixel_bytes_)),
+      runs_(2 * kRuns * sizeof(wire::Run)) {}
 
 void StripBuffer::begin(std::span<std::byte> slot, bool constant) {
   check(slot.size() == wire::kSlotBytes, "a strip is made in a slot");
   slot_ = slot.data();
-  auto* pixels = reinterpret_cast<std::uint32_t*>(slot_ + sizeof(wire::Strip));
+  std::byte* pixels = slot_ + sizeof(wire::Strip);
   auto* runs = reinterpret_cast<wire::Run*>(runs_.bytes().data());
-  constant_ = {pixels, runs};
-  moving_ = constant ? Layer(pixels + kPixels, runs + kRuns) : Layer(pixels, runs);
+  constant_ = {pixels, pixel_bytes_, runs};
+  moving_ = constant ? Layer(pixels + kLayerBytes, pixel_bytes_, runs + kRuns) : Layer(pixels, pixel_bytes_, runs);
 }
 
 std::size_t StripBuffer::bytes() const {
@@ -66,7 +68,7 @@ std::uint32_t StripBuffer::lines_that_fit() const {
 std::span<const std::byte> StripBuffer::finish(wire::Strip& header) {
   header.constant_runs = static_cast<std::uint32_t>(constant_.runs().size());
   header.moving_runs = static_cast<std::uint32_t>(moving_.runs().size());
-  header.pixels = constant_.pixels().size() + moving_.pixels().size();
+  header.pixels = constant_.pixel_count() + moving_.pixel_count();
   std::byte* end = slot_ + sizeof header;
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(moving_.runs(), put(constant_.runs(), end));

@@ -19,25 +19,28 @@ class StripBuffer {
   class Layer {
    public:
     Layer() = default;
-    Layer(std::uint32_t* pixels, wire::Run* runs) : pixels_(pixels), runs_(runs) {}
+    Layer(std::byte* pixels, std::size_t pixel_bytes, wire::Run* runs)
+        : pixels_(pixels), pixel_bytes_(pixel_bytes), runs_(runs) {}
 
     // Where kernels write, with kVectorSlack to spare; added() then moves on.
-    std::uint32_t* next_pixel() { return pixels_ + pixel_count_; }
+    std::byte* next_pixel() { return pixels_ + pixel_count_ * pixel_bytes_; }
     wire::Run* next_run() { return runs_ + run_count_; }
     void added(const shading::Shaded& shaded);
 
-    std::span<const std::uint32_t> pixels() const { return {pixels_, pixel_count_}; }
+    std::size_t pixel_count() const { return pixel_count_; }
+    std::span<const std::byte> pixels() const { return {pixels_, pixel_count_ * pixel_bytes_}; }
     std::span<const wire::Run> runs() const { return {runs_, run_count_}; }
 
    private:
-    std::uint32_t* pixels_ = nullptr;
+    std::byte* pixels_ = nullptr;
+    std::size_t pixel_bytes_ = 0;
     wire::Run* runs_ = nullptr;
     std::size_t pixel_count_ = 0;
     std::size_t run_count_ = 0;
   };
 
-  // For pictures of `width`. Throws Failure where the machine does not give the memory.
-  explicit StripBuffer(std::size_t width);
+  // For pictures of `width` and pixels of this format. Throws Failure where the machine does not give the memory.
+  StripBuffer(std::size_t width, wire::PixelFormat format);
 
   // Begins an empty one in `slot`, which has kSlotBytes and is aligned to 64. `constant`: whether stationary parts will
   // come.
@@ -55,6 +58,7 @@ class StripBuffer {
  private:
   std::size_t bytes() const;
 
+  std::size_t pixel_bytes_;
   std::size_t line_bytes_;  // that a line takes at most
   std::byte* slot_ = nullptr;
   messages::PrivateMemory runs_;  // until they are put behind the pixels

@@ -14,13 +14,17 @@ namespace mars::shading {
 
 struct ShadingKernels {
   // Shades the samples of line `line` within `extent` whose id is not kNoTriangle, their runs to `runs` and
-  // their pixels to `pixels`; says how many of each.
+  // their pixels to `pixels`, encoded; says how many of each.
   Shaded (*shade)(const Shading& shading, const std::uint32_t* ids, std::uint32_t line, Extent extent, wire::Run* runs,
-                  std::uint32_t* pixels);
+                  void* pixels);
   // The light that `count` fragments of line `line`, in any order, send to the eye, before exposure: red, green and
   // blue to light[0..2], which have kVectorSlack to spare.
   void (*shade_fragments)(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
                           float* const* light);
+  // The light that `count` vertices, all of one material, send to the eye, without fog. `side`: 1 as seen from outside,
+  // -1 from inside.
+  void (*shade_vertices)(const Shading& shading, std::uint32_t material, float side, const shape::Vertices& vertices,
+                         std::uint32_t count, const shape::VertexColors& out);
 };
 
 const ShadingKernels& shading_kernels(simd::InstructionSet set);

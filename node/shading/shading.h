@@ -22,6 +22,7 @@ struct Shading {
   shape::Projection projection;
   shape::SamplePattern pattern;  // of the film's pixels
   color::Encoding encoding;
+  float background[3];
   wire::AmbientLight ambient;
   float up[3];  // the world's z axis, in eye space
   wire::Fog fog;

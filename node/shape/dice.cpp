@@ -7,7 +7,6 @@
 namespace mars::shape {
 namespace {
 
-constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1);
 constexpr int kMostTriangles = 2 * kMaxRate * kMaxRate + 8 * kMaxRate;
 constexpr int kMostBatches = 2 * kMaxRate * (kMaxRate / static_cast<int>(kBatchTriangles) + 1) + 4 * kMaxRate;
 constexpr Side kSides[] = {Side::bottom, Side::right, Side::top, Side::left};

@@ -12,6 +12,8 @@ namespace mars::shape {
 
 class Dicer : public Surface {
  public:
+  static constexpr int kMostVertices = (kMaxRate - 1) * (kMaxRate - 1) + 4 * (kMaxRate + 1);
+
   explicit Dicer(simd::InstructionSet set);
 
   // Becomes the surface of `patch`, until the next call.

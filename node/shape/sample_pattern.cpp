@@ -1,5 +1,7 @@
 #include "node/shape/sample_pattern.h"
 
+#include <bit>
+
 #include "hal/failure/failure.h"
 
 namespace mars::shape {
@@ -8,7 +10,7 @@ namespace {
 // `columns`: of each sample, of as many columns as there are samples; any two of a permutation differ.
 template <int kCount>
 constexpr SamplePattern pattern_of(const int (&columns)[kCount]) {
-  SamplePattern pattern{kCount, {}, {}};
+  SamplePattern pattern{kCount, std::countr_zero(static_cast<unsigned>(kCount)), {}, {}};
   for (int s = 0; s < kCount; ++s) {
     pattern.x[s] = (2 * columns[s] + 1) * 128 / kCount;
     pattern.y[s] = (2 * s + 1) * 128 / kCount;

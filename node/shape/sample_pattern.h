@@ -8,9 +8,11 @@ namespace mars::shape {
 
 inline constexpr int kMostSamples = 16;
 
-// Places within the pixel, 1/256 pixel; samples are numbered from the upper sub-scanline on.
+// Places within the pixel, 1/256 pixel; samples are numbered from the upper sub-scanline on. A picture's sub-scanlines
+// are its rows: row count * line + sample.
 struct SamplePattern {
   std::int32_t count;
+  std::int32_t log2_count;
   std::int32_t x[kMostSamples];
   std::int32_t y[kMostSamples];
 };

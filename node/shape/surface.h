@@ -36,7 +36,9 @@ class Surface {
 
   const ShapeKernels& kernels_;
   Vertices vertices_;
+  Triangles triangles_{};
   int vertex_count_ = 0;
+  bool reaches_outside_ = false;
 
  private:
   std::unique_ptr<float[]> numbers_;
@@ -46,8 +48,6 @@ class Surface {
   std::unique_ptr<std::uint32_t[]> corners_;
   std::unique_ptr<Batch[]> batches_;
   std::uint32_t stride_;  // of corners_
-  Triangles triangles_{};
-  bool reaches_outside_ = false;
 };
 
 }  // namespace mars::shape

@@ -70,6 +70,13 @@ struct Projection {
   float corner;  // cosine of the angle between the view axis and the picture's corner
 };
 
+// What vertices have instead of a normal where triangles carry colours, as seen from one side: red, green and blue, and
+// 1 / w, colour / w.
+struct VertexColors {
+  float* color[3];
+  float (*values)[kValues];
+};
+
 // Vertices, one array a component: eye space place and unit normal (0 where the surface has none), then
 // what projection adds: values, screen place, and whether the vertex is on the screen's plane at all. Arrays are longer
 // by kVectorSlack.
@@ -79,7 +86,8 @@ struct Vertices {
   float (*values)[kValues];  // 1 / w, normal / w
   std::int32_t* x;
   std::int32_t* y;
-  std::uint8_t* outside;  // 1: nearer than near, farther than far, or beyond the guard band
+  std::uint8_t* outside;                 // 1: nearer than near, farther than far, or beyond the guard band
+  const VertexColors* colors = nullptr;  // if any: two, seen from where corners run counter-clockwise, and from behind
 };
 
 // Vertices of one triangle, counter-clockwise seen from outside in an eye space that is not mirrored.

@@ -11,5 +11,7 @@ namespace mars::wire {
 enum class PixelFormat : std::uint32_t { rgb8, rgb16, half };
 
 constexpr std::size_t pixel_bytes(PixelFormat format) { return format == PixelFormat::rgb8 ? 4 : 8; }
+// Pictures are arrays of words of 32 bits, of which a pixel has one or two, the lower first.
+constexpr std::size_t pixel_words(PixelFormat format) { return pixel_bytes(format) / sizeof(std::uint32_t); }
 
 }  // namespace mars::wire

@@ -12,7 +12,7 @@
 //   host -> node   Load (+ film block to one node a machine, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   counts a line; Triangles and DepthLines, in any order of the senders: those of two keyframes, or of
+//   node -> node   counts a line; Triangles and StillLines, in any order of the senders: those of two keyframes, or of
 //                  two passes of one, cannot mix, for all nodes of the group meet between them
 #pragma once
 
@@ -41,7 +41,8 @@ enum MessageType : long {
   kClock,       // host -> node: empty, asks for the time; node -> host: its dclock(), a double
   kTrace,       // messages::Event ..., closed by one of kind lost
   kTriangles,   // TriangleHead, edge boxes, triangles, each from a cache line on
-  kDepthLines,  // CZB of needed home lines; empty within a machine, once they are written
+  kStillLines,  // what inbetweens need of home lines (raster/still_lines.h); empty within a machine, once they are
+                // written
 };
 
 // Of triangles and their edge boxes on the receiver's lines.

@@ -61,7 +61,7 @@ class Folders(ProgramTest):
                 self.assertClear(done.stderr, "mars: out: another run")
                 self.assertRegex(done.stderr, by + rf"\S+film.json into this folder since [\d:]+ \({says}")
         done = self.render(self.film, "29000", "--size", "32x18")
-        self.assertIn("of another version or size of ", done.stderr)
+        self.assertIn("of another version, size or format of ", done.stderr)
         self.assertIsNone(long.poll())
         long.terminate()
         long.communicate(timeout=SECONDS)

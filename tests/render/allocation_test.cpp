@@ -12,6 +12,7 @@
 #include "tests/hal/counting_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace {
 
@@ -69,9 +70,9 @@ class AllocationLog : public messages::CountingBackend {
   std::vector<long>& log_;
 };
 
-void expect_none_in_steady_state(trace::Trace* trace) {
+void expect_none_in_steady_state(const wire::FilmData& film, trace::Trace* trace) {
   constexpr int kNodes = 3;
-  const FilmBlock block(crowd(64, 36, 600, 3));
+  const FilmBlock block(film);
   std::vector<std::vector<long>> logs(kNodes + 1);
   for (auto& log : logs) log.reserve(10'000);
   messages::Counts counts;
@@ -92,11 +93,15 @@ void expect_none_in_steady_state(trace::Trace* trace) {
   }
 }
 
-TEST(Allocation, NoneInSteadyState) { expect_none_in_steady_state(nullptr); }
+TEST(Allocation, NoneInSteadyState) { expect_none_in_steady_state(crowd(64, 36, 600, 3), nullptr); }
+
+TEST(Allocation, NoneWithSamplesInLinearLight) {
+  expect_none_in_steady_state(richly_lit(with_samples(crowd(64, 36, 600, 3), 4)), nullptr);
+}
 
 TEST(Allocation, NoneWhereTheRunIsTraced) {
   trace::Trace trace;
-  expect_none_in_steady_state(&trace);
+  expect_none_in_steady_state(crowd(64, 36, 600, 3), &trace);
   EXPECT_GT(trace.records().size(), 10'000u);
 }
 

@@ -14,6 +14,7 @@
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 #include "tests/render/reference.h"
 
 namespace mars::test {
@@ -89,14 +90,52 @@ std::vector<Strip> of_kind(const Counted& counted, FrameKind kind) {
   return strips;
 }
 
-class Division : public testing::TestWithParam<int> {
- protected:
-  static constexpr std::uint32_t kFrames = 6;
-  const wire::FilmData film_ = crowd(320, 200, kFrames, kFrames);
+struct Divided {
+  int nodes;
+  std::uint32_t samples;  // a pixel
 };
 
+void PrintTo(const Divided& divided, std::ostream* out) {
+  *out << divided.nodes << " nodes, " << divided.samples << " samples";
+}
+
+class Division : public testing::TestWithParam<Divided> {
+ protected:
+  static constexpr std::uint32_t kFrames = 6;
+  const wire::FilmData film_ = with_samples(crowd(320, 200, kFrames, kFrames), GetParam().samples);
+};
+
+// What a triangle has on one line of pixels: an edge box for each sub-scanline of which it covers samples.
+struct OnLine {
+  std::uint64_t edge_boxes = 0;
+  std::uint64_t samples = 0;
+};
+
+// By line, by the plain twin; lines that the triangle does not touch are left out.
+std::map<std::uint32_t, OnLine> count_on_lines(const raster::Corners& t, const wire::FilmSettings& film) {
+  const shape::SamplePattern& pattern = shape::sample_pattern(film.samples);
+  const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
+  const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
+  const auto first_of = [](std::int32_t place) { return std::max(place / 256 - 1, 0); };
+  const auto last_of = [](std::int32_t place, std::uint32_t most) {
+    return std::min(place / 256 + 1, static_cast<std::int32_t>(most));
+  };
+  std::map<std::uint32_t, OnLine> lines;
+  for (std::int32_t line = first_of(top); line < last_of(bottom, film.height); ++line)
+    for (int s = 0; s < pattern.count; ++s) {
+      std::uint64_t covered = 0;
+      for (std::int32_t column = first_of(left); column < last_of(right, film.width); ++column)
+        covered += raster::covers_place(t, 256 * column + pattern.x[s], 256 * line + pattern.y[s]);
+      if (covered == 0) continue;
+      OnLine& here = lines[static_cast<std::uint32_t>(line)];
+      ++here.edge_boxes;
+      here.samples += covered;
+    }
+  return lines;
+}
+
 TEST_P(Division, EachNodeDicesItsOwnPatchesInAKeyframe) {
-  const int nodes = GetParam();
+  const int nodes = GetParam().nodes;
   Counted alone, divided;
   run_counted(film_, {1}, alone, {0});
   run_counted(film_, {nodes}, divided, {0});
@@ -116,10 +155,10 @@ TEST_P(Division, EachNodeDicesItsOwnPatchesInAKeyframe) {
 
 TEST_P(Division, EachNodeTouchesItsOwnLines) {
   Counted counted;
-  run_counted(film_, {GetParam()}, counted);
+  run_counted(film_, {GetParam().nodes}, counted);
   std::map<std::int32_t, Strip> by_node;
   for (const Strip& strip : of_kind(counted, FrameKind::keyframe)) by_node[strip.node] = strip;
-  ASSERT_EQ(by_node.size(), static_cast<std::size_t>(GetParam()));
+  ASSERT_EQ(by_node.size(), static_cast<std::size_t>(GetParam().nodes));
   std::uint32_t next = 0;
   for (const auto& [node, strip] : by_node) {
     EXPECT_EQ(strip.first_line, next) << "lines tile the picture in order of nodes";
@@ -130,7 +169,7 @@ TEST_P(Division, EachNodeTouchesItsOwnLines) {
 
 TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
   Counted counted;
-  run_counted(film_, {GetParam()}, counted, {0});
+  run_counted(film_, {GetParam().nodes}, counted, {0});
   std::uint64_t before = 0, after = 0, most = 0;
   for (const Strip& strip : counted.run.report.strips) {
     before += strip.work.edge_boxes_diced;
@@ -141,20 +180,17 @@ TEST_P(Division, EdgeBoxesBeforeAndAfterTheExchangeAreEbcsLast) {
   EXPECT_GT(any.edge_box_total, 0u);
   EXPECT_EQ(before, any.edge_box_total);
   EXPECT_EQ(after, any.edge_box_total);
-  EXPECT_NEAR(any.load_ratio, static_cast<double>(most) * GetParam() / static_cast<double>(after), 1e-9);
+  EXPECT_NEAR(any.load_ratio, static_cast<double>(most) * GetParam().nodes / static_cast<double>(after), 1e-9);
   EXPECT_LT(any.load_ratio, 1.5) << "the load is about even";
 }
 
 // By the plain twin.
 TEST_P(Division, SamplesAreThoseThatEdgeBoxesCover) {
   Counted counted;
-  run_counted(film_, {GetParam()}, counted, {0});
+  run_counted(film_, {GetParam().nodes}, counted, {0});
   std::vector<std::uint64_t> samples(film_.settings.height);
   for (const raster::PlainTriangle& t : draw_reference(FilmBlock(film_).view(), 0).triangles)
-    for (const raster::UnsortedEdgeBox& box :
-         raster::plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
-                                  static_cast<std::int32_t>(film_.settings.height)))
-      samples[box.line] += std::uint64_t{box.box.last} - box.box.first;
+    for (const auto& [line, here] : count_on_lines(t.corners, film_.settings)) samples[line] += here.samples;
   for (const Strip& strip : counted.run.report.strips)
     EXPECT_EQ(strip.work.samples,
               std::accumulate(samples.begin() + strip.first_line, samples.begin() + strip.last_line, std::uint64_t{0}));
@@ -165,7 +201,7 @@ std::size_t whole_cache_lines(std::size_t bytes) { return (bytes + 63) / 64 * 64
 // What nodes of several machines give each other, by the plain twin: a triangle goes once to each node of another
 // machine that is a home of its lines, with its boxes there and no others, and no message is empty.
 TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
-  const int nodes = GetParam();
+  const int nodes = GetParam().nodes;
   for (const int nodes_each : {1, 2, 3}) {
     Counted counted;
     run_counted(film_, {nodes, nodes_each}, counted, {0});
@@ -174,15 +210,14 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
     const Reference reference = draw_reference(FilmBlock(film_).view(), 0);
     std::map<std::pair<int, int>, std::uint64_t> triangles, boxes;
     for (const raster::PlainTriangle& t : reference.triangles) {
-      const auto covered = raster::plain_edge_boxes(t.corners, static_cast<std::int32_t>(film_.settings.width),
-                                                    static_cast<std::int32_t>(film_.settings.height));
+      const auto lines = count_on_lines(t.corners, film_.settings);
       const int from = static_cast<int>(t.record.patch) % nodes;
       for (int to = 0; to < nodes; ++to) {
         const Strip& home = homes[static_cast<std::size_t>(to)];
-        const auto there = std::count_if(covered.begin(), covered.end(), [&](const raster::UnsortedEdgeBox& box) {
-          return box.line >= home.first_line && box.line < home.last_line;
-        });
-        boxes[{from, to}] += static_cast<std::uint64_t>(there);
+        std::uint64_t there = 0;
+        for (const auto& [line, here] : lines)
+          if (line >= home.first_line && line < home.last_line) there += here.edge_boxes;
+        boxes[{from, to}] += there;
         triangles[{from, to}] += there > 0;
       }
     }
@@ -207,14 +242,14 @@ TEST_P(Division, TrianglesTravelOnceToEachHomeOfTheirLines) {
 TEST(Division, NoMessageIsEmptyBetweenMachines) {
   Counted counted;
   run_counted(crowd(320, 200, 6, 3), {8}, counted);
-  for (const int type : {wire::kTriangles, wire::kDepthLines}) {
+  for (const int type : {wire::kTriangles, wire::kStillLines}) {
     EXPECT_GT(counted.counts.sent({.type = type}).messages, 10u) << type;
     EXPECT_EQ(counted.counts.sent({.type = type}).empty, 0u) << type;
   }
 }
 
 TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
-  const int nodes = GetParam();
+  const int nodes = GetParam().nodes;
   Counted counted, keyframe;
   run_counted(film_, {nodes}, counted);
   std::uint64_t moving_patches = 0;
@@ -234,7 +269,7 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
 }
 
 TEST_P(Division, BytesReportedAreBytesSent) {
-  const int nodes = GetParam();
+  const int nodes = GetParam().nodes;
   Counted loading;  // groups of one node give each other nothing but what loading the film takes
   run_counted(film_, {nodes, 1, static_cast<std::uint32_t>(nodes)}, loading, {0});
   for (const int nodes_each : {1, 2, nodes}) {
@@ -262,7 +297,7 @@ TEST_P(Division, BytesReportedAreBytesSent) {
 
 // The arena holds what docs/performance.md says, at its peak, and little more.
 TEST_P(Division, MemoryIsAsTheFormulaSays) {
-  const int nodes = GetParam();
+  const int nodes = GetParam().nodes;
   for (const int nodes_each : {1, nodes}) {
     Counted counted;
     run_counted(film_, {nodes, nodes_each}, counted, {0});
@@ -281,7 +316,9 @@ TEST_P(Division, MemoryIsAsTheFormulaSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Nodes, Division, testing::Values(1, 2, 3, 5, 8));
+INSTANTIATE_TEST_SUITE_P(Nodes, Division,
+                         testing::Values(Divided{1, 1}, Divided{2, 1}, Divided{3, 1}, Divided{5, 1}, Divided{8, 1},
+                                         Divided{1, 4}, Divided{3, 4}, Divided{8, 4}, Divided{5, 16}));
 
 // As many tasks as groups: none gets two while another has none.
 TEST(Division, EveryGroupGetsATask) {
@@ -345,7 +382,7 @@ TEST(Division, DepthGoesOnlyWhereItIsNeeded) {
     Counted counted;
     run_counted(film, {4, nodes_each}, counted);
     for (int from = 0; from < 4; ++from) {
-      const auto sent = counted.counts.sent({.from = from, .type = wire::kDepthLines});
+      const auto sent = counted.counts.sent({.from = from, .type = wire::kStillLines});
       bytes[nodes_each] += sent.bytes;
       EXPECT_LE(sent.messages, 1u) << "only one node draws the one inbetween";
     }

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace mars::test {
 namespace {
@@ -34,10 +36,14 @@ wire::Matrix centred(const Vec3& middle, double size) {
   return placed({middle[0] - size / 2, middle[1] - size / 2, middle[2] - size / 2}, size);
 }
 
-double covered(const wire::FilmData& film, int nodes = 2) {
+FilmRun draw(const wire::FilmData& film, int nodes) {
   RunOptions options;
   options.nodes = nodes;
-  const Pixels pixels = run_film(FilmBlock(film).bytes(), options).frames.at(0);
+  return run_film(FilmBlock(film).bytes(), options);
+}
+
+double covered(const wire::FilmData& film, int nodes = 2) {
+  const Pixels pixels = draw(film, nodes).frames.at(0);
   const auto shown = pixels.size() - static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), kBackground));
   return static_cast<double>(shown) / static_cast<double>(pixels.size());
 }
@@ -97,6 +103,40 @@ TEST(Extremes, TheLargestCommonPicture) {
   const double large = covered(scene(7680, 4320, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
   const double small = covered(scene(768, 432, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead));
   EXPECT_NEAR(large, small, 0.002);
+}
+
+// A line of such a picture has 16 sub-scanlines: 262144 of them do not count in 16 bits.
+TEST(Extremes, ManySamplesOfThinHighAndLargePictures) {
+  const auto torus = [](std::uint32_t width, std::uint32_t height) {
+    return scene(width, height, {{modeler::make_torus(0.2), centred({0, 8, 0}, 5)}}, kAhead);
+  };
+  EXPECT_NEAR(covered(with_samples(torus(7680, 4320), 16)), covered(torus(768, 432)), 0.002);
+  EXPECT_EQ(covered(with_samples(scene(1, 1, {{modeler::make_box(), centred({0, 12, 0}, 9)}}, kAhead), 16)), 1);
+  EXPECT_EQ(covered(with_samples(scene(1, 1, {}, kAhead), 16)), 0);
+}
+
+// The front of a box is the middle half of the lines; before its lower quarter another one moves.
+TEST(Extremes, ManySamplesOfMostLines) {
+  constexpr std::uint32_t kLines = 16384;
+  FilmMaker maker(8, kLines, 2);
+  const std::uint32_t box = maker.add_shape(modeler::make_box());
+  maker.add_segment(box, maker.add_material({{1, 0, 0}, 1, 0, 0, 1, 2}), {centred({0, 12, 0}, 4)});
+  const wire::Matrix mover = centred({0, 9, -1.5}, 1);
+  maker.add_segment(box, maker.add_material({{0, 1, 0}, 1, 0, 0, 1, 2}), {mover, placed({-0.501, 8.5, -2}, 1)});
+  wire::Camera camera = kAhead;
+  camera.focal = 2.5;
+  maker.set_cameras({camera});
+  const FilmRun run = draw(with_samples(maker.make(), 16), 3);
+  for (const auto& [frame, pixels] : run.frames)
+    for (const auto& [row, shown] : {std::pair{4095u, kBackground},
+                                     {4096u, 0xffu},
+                                     {8192u, 0xffu},
+                                     {10600u, 0xff00u},
+                                     {12287u, 0xff00u},
+                                     {13009u, 0xff00u},
+                                     {13012u, kBackground}})
+      for (std::uint32_t column = 0; column < 8; ++column)
+        EXPECT_EQ(pixels[8 * row + column], shown) << "line " << row << ", frame " << frame;
 }
 
 TEST(Extremes, VeryWideAndVeryHighPictures) {

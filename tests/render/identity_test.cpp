@@ -15,6 +15,7 @@
 #include "tests/node/simd/instruction_sets.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace mars::test {
 namespace {
@@ -25,11 +26,25 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  return {{"crowd", crowd(320, 180, 7, 7)},    {"short-intervals", crowd(193, 127, 9, 2)},
-          {"flight", flight(240, 135, 5)},     {"ties", ties(160, 120)},
-          {"one-pixel", crowd(1, 1, 3, 3)},    {"one-line", crowd(301, 1, 3, 3)},
-          {"one-column", crowd(1, 203, 3, 3)}, {"one-frame", crowd(128, 96, 1, 1)},
-          {"nothing", nothing(64, 48, 3)}};
+  return {{"crowd", crowd(320, 180, 7, 7)},
+          {"short-intervals", crowd(193, 127, 9, 2)},
+          {"flight", flight(240, 135, 5)},
+          {"ties", ties(160, 120)},
+          {"one-pixel", crowd(1, 1, 3, 3)},
+          {"one-line", crowd(301, 1, 3, 3)},
+          {"one-column", crowd(1, 203, 3, 3)},
+          {"one-frame", crowd(128, 96, 1, 1)},
+          {"nothing", nothing(64, 48, 3)},
+          {"samples-2", with_samples(crowd(97, 61, 4, 4), 2)},
+          {"samples-4", richly_lit(with_samples(crowd(120, 68, 5, 5), 4))},
+          {"samples-4-short-intervals", richly_lit(with_samples(crowd(120, 68, 5, 2), 4))},
+          {"samples-16", richly_lit(with_samples(crowd(64, 40, 4, 4), 16))},
+          {"flight-4", richly_lit(with_samples(flight(80, 45, 3), 4))},
+          {"ties-8", with_samples(ties(60, 45), 8)},
+          {"linear", richly_lit(crowd(120, 68, 3, 3))},
+          {"one-pixel-16", richly_lit(with_samples(crowd(1, 1, 3, 3), 16))},
+          {"one-column-4", with_samples(crowd(1, 53, 3, 3), 4)},
+          {"nothing-4", with_samples(nothing(16, 12, 3), 4)}};
 }
 
 RunOptions from_scratch() {

@@ -7,6 +7,7 @@
 #include "hal/processes/run_processes.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace mars::test {
 namespace {
@@ -16,13 +17,20 @@ bool only_sums(const wire::Strip& strip, const wire::FilmSettings& settings) {
   return strip.work.bytes_to_nodes <= 2 * 3 * (settings.height + 2) * sizeof(std::uint64_t);
 }
 
-class OnProcesses : public testing::TestWithParam<std::uint64_t> {};
+struct Case {
+  std::uint64_t memory;
+  std::uint32_t samples;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.memory << " bytes, " << c.samples << " samples"; }
+
+class OnProcesses : public testing::TestWithParam<Case> {};
 
 TEST_P(OnProcesses, PicturesAreTheSame) {
-  const wire::FilmData data = crowd(160, 120, 12, 4);
+  const wire::FilmData data = with_samples(crowd(160, 120, 12, 4), GetParam().samples);
   const FilmBlock film(data);
   RunOptions options;
-  options.memory = GetParam();
+  options.memory = GetParam().memory;
   const FilmRun expected = run_film(film.bytes(), options);
   ASSERT_EQ(expected.frames.size(), 12u);
   for (const int nodes : {1, 2, 5}) {
@@ -43,7 +51,7 @@ TEST_P(OnProcesses, PicturesAreTheSame) {
 }
 
 // The second is so little that keyframes take several passes.
-INSTANTIATE_TEST_SUITE_P(Memory, OnProcesses, testing::Values(64 << 20, 200'000));
+INSTANTIATE_TEST_SUITE_P(Memory, OnProcesses, testing::Values(Case{64 << 20, 1}, Case{200'000, 1}, Case{64 << 20, 4}));
 
 }  // namespace
 }  // namespace mars::test

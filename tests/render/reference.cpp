@@ -1,9 +1,9 @@
 #include "tests/render/reference.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
+#include "node/color/encoding.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
 #include "node/shape/dice.h"
@@ -20,14 +20,14 @@ std::uint32_t interval_of(const wire::FilmView& film, std::uint32_t frame) {
   return i;
 }
 
-float value_at(const Triangle& t, shape::Value value, std::int32_t x, std::int32_t y) {
-  const float row = t.at_first[value] + static_cast<float>(y - t.first_y) * t.per_y[value];
-  return row + static_cast<float>(x - t.first_x) * t.per_x[value];
+float depth_at(const Triangle& t, std::int32_t x, std::int32_t y) {
+  const float row = t.at_first[shape::kDepth] + static_cast<float>(y - t.first_y) * t.per_y[shape::kDepth];
+  return row + static_cast<float>(x - t.first_x) * t.per_x[shape::kDepth];
 }
 
-// Lower comes first and wins ties.
+// Of triangles of one layer: lower comes first and wins ties.
 auto order(const Reference& reference, std::size_t triangle) {
-  return std::make_tuple(bool{reference.moving[triangle]}, reference.triangles[triangle].record.patch, triangle);
+  return std::make_tuple(reference.triangles[triangle].record.patch, triangle);
 }
 
 struct Surfaces {
@@ -59,32 +59,27 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
   }
 }
 
+// Draws one triangle into its layer.
 void draw(Reference& reference, std::size_t number, std::int32_t width, std::int32_t height) {
-  const auto& [t, record, index, faces] = reference.triangles[number];
+  const raster::PlainTriangle& triangle = reference.triangles[number];
+  const raster::Corners& t = triangle.corners;
+  std::vector<ReferenceSample>& layer = reference.moving[number] ? reference.movers : reference.still;
   const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
-  const auto sample = [](std::int32_t place) { return (place - 128) / 256; };
-  for (std::int32_t row = std::max(sample(top) - 1, 0); row <= std::min(sample(bottom) + 1, height - 1); ++row)
-    for (std::int32_t column = std::max(sample(left) - 1, 0); column <= std::min(sample(right) + 1, width - 1);
-         ++column) {
-      const std::int32_t x = 256 * column + 128, y = 256 * row + 128;
-      if (!raster::covers(t, column, row)) continue;
-      ReferenceSample& here =
-          reference.samples[static_cast<std::size_t>(row) * reference.width + static_cast<std::size_t>(column)];
-      const float depth = value_at(record, shape::kDepth, x, y);
-      const bool nearer = depth > here.depth || (here.triangle && depth == here.depth &&
-                                                 order(reference, number) < order(reference, *here.triangle));
-      if (nearer) here = {number, depth};
-    }
-}
-
-struct Vec {
-  double x, y, z;
-};
-double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec unit(const Vec& a) {
-  const double length = std::sqrt(dot(a, a));
-  return length > 0 ? Vec{a.x / length, a.y / length, a.z / length} : Vec{0, 0, 0};
+  const std::int32_t last_row = std::min(bottom / 256 + 1, height), last_column = std::min(right / 256 + 1, width);
+  for (std::int32_t row = std::max(top / 256 - 1, 0); row < last_row; ++row)
+    for (std::int32_t column = std::max(left / 256 - 1, 0); column < last_column; ++column)
+      for (std::int32_t s = 0; s < reference.pattern.count; ++s) {
+        const std::int32_t x = 256 * column + reference.pattern.x[s], y = 256 * row + reference.pattern.y[s];
+        if (!raster::covers_place(t, x, y)) continue;
+        ReferenceSample& here =
+            layer[reference.first_sample(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)) +
+                  static_cast<std::size_t>(s)];
+        const float depth = depth_at(triangle.record, x, y);
+        const bool nearer = depth > here.depth || (here.triangle && depth == here.depth &&
+                                                   order(reference, number) < order(reference, *here.triangle));
+        if (nearer) here = {number, depth};
+      }
 }
 
 }  // namespace
@@ -96,41 +91,67 @@ Reference draw_reference(const wire::FilmView& film, std::uint32_t frame) {
   Surfaces surfaces;
   Reference reference;
   reference.width = film.settings().width;
+  reference.pattern = shape::sample_pattern(film.settings().samples);
   for (std::size_t s = 0; s < film.segments().size(); ++s) add_segment(scene, s, surfaces, reference);
-  reference.samples.resize(std::size_t{reference.width} * film.settings().height);
+  reference.still.resize(reference.first_sample(0, film.settings().height));
+  reference.movers.resize(reference.still.size());
   for (std::size_t i = reference.triangles.size(); i-- > 0;) draw(reference, i, scene.width(), scene.height());
+  for (std::size_t k = 0; k < reference.movers.size(); ++k)
+    if (!(reference.movers[k].depth > reference.still[k].depth)) reference.movers[k] = {};
   return reference;
 }
 
-Color shade_reference(const wire::FilmView& film, std::uint32_t frame, const Reference& reference, std::uint32_t column,
-                      std::uint32_t row) {
-  geometry::Scene scene(film);
-  scene.set_frame(frame);
-  const ReferenceSample& sample = reference.at(column, row);
-  const Triangle& t = reference.triangles[*sample.triangle].record;
-  const auto x = static_cast<std::int32_t>(256 * column + 128), y = static_cast<std::int32_t>(256 * row + 128);
-  const Vec n = unit(
-      {value_at(t, shape::kNormalX, x, y), value_at(t, shape::kNormalY, x, y), value_at(t, shape::kNormalZ, x, y)});
-  const shape::Projection& p = scene.projection();
-  const double dx = (column + 0.5 - p.center[0]) / p.scale, dy = (row + 0.5 - p.center[1]) / p.scale;
-  const Vec eye = unit({-dx, dy, 1});
-  const wire::Material& m = film.materials()[t.material];
-  Color color{};
-  for (int c = 0; c < 3; ++c) color.channel[c] = m.ambient * m.color[static_cast<std::size_t>(c)];
-  for (const geometry::EyeLight& light : scene.lights()) {
-    Vec to{light.vector[0], light.vector[1], light.vector[2]};
-    const double w = 1 / sample.depth;
-    if (light.kind != wire::LightKind::directional) to = unit({to.x - dx * w, to.y + dy * w, to.z + w});
-    const double facing = dot(n, to);
-    if (facing <= 0) continue;
-    const double mirrored = 2 * facing * dot(n, eye) - dot(to, eye);
-    const double highlight = mirrored > 0 ? std::pow(std::min(mirrored, 1.0), m.exponent) : 0;
-    for (int c = 0; c < 3; ++c)
-      color.channel[c] +=
-          (m.diffuse * m.color[static_cast<std::size_t>(c)] * facing + m.specular * highlight) * light.color[c];
+std::vector<ReferenceGroup> Reference::groups(std::uint32_t column, std::uint32_t row) const {
+  std::vector<ReferenceGroup> out;
+  const std::size_t first = first_sample(column, row);
+  const auto add_layer = [&](const std::vector<ReferenceSample>& layer, bool covered_by_movers) {
+    const auto begin = static_cast<std::ptrdiff_t>(out.size());
+    for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(pattern.count); ++s) {
+      if (!layer[first + s].triangle) continue;
+      const std::size_t triangle = *layer[first + s].triangle;
+      auto group =
+          std::find_if(out.begin() + begin, out.end(), [&](const ReferenceGroup& g) { return g.triangle == triangle; });
+      if (group == out.end()) group = out.insert(out.end(), {triangle, s, 0});
+      group->seen += !(covered_by_movers && movers[first + s].triangle);
+    }
+  };
+  add_layer(still, true);
+  add_layer(movers, false);
+  return out;
+}
+
+Color resolve_reference(const Reference& reference, const ReferenceShading& shading, std::uint32_t column,
+                        std::uint32_t row) {
+  const shape::SamplePattern& pattern = reference.pattern;
+  Color sum{};
+  std::uint32_t left = static_cast<std::uint32_t>(pattern.count);
+  const auto add = [&](const Color& light, std::uint32_t samples) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += samples * light[c];
+    left -= samples;
+  };
+  for (const ReferenceGroup& group : reference.groups(column, row)) {
+    const auto x = static_cast<std::int32_t>(256 * column) + pattern.x[group.sample];
+    const auto y = static_cast<std::int32_t>(256 * row) + pattern.y[group.sample];
+    add(shading.shade(reference.triangles[group.triangle], x, y), group.seen);
   }
-  for (double& channel : color.channel) channel = 255 * std::clamp(channel, 0.0, 1.0);
-  return color;
+  const auto& background = shading.settings().background;
+  add({background[0], background[1], background[2]}, left);
+  for (double& channel : sum) channel /= pattern.count;
+  return sum;
+}
+
+std::vector<std::uint32_t> reference_pixels(const Reference& reference, const ReferenceShading& shading) {
+  const wire::FilmSettings& settings = shading.settings();
+  const color::Encoding encoding = color::encoding_of(settings, shading.camera(), wire::PixelFormat::rgb8);
+  std::vector<std::uint32_t> pixels;
+  for (std::uint32_t row = 0; row < settings.height; ++row)
+    for (std::uint32_t column = 0; column < settings.width; ++column) {
+      const Color light = resolve_reference(reference, shading, column, row);
+      const float rounded[] = {static_cast<float>(light[0]), static_cast<float>(light[1]),
+                               static_cast<float>(light[2])};
+      pixels.push_back(static_cast<std::uint32_t>(color::pixel_of(encoding, rounded)));
+    }
+  return pixels;
 }
 
 }  // namespace mars::test

@@ -10,35 +10,37 @@
 #include "host/content/modeler/primitives.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace mars::test {
 namespace {
 
 constexpr std::uint32_t kBackground = 0xff00ff;
 
-void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int nodes) {
+int difference(std::uint32_t a, std::uint32_t b) {
+  int most = 0;
+  for (int shift = 0; shift < 24; shift += 8)
+    most = std::max(most, std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
+  return most;
+}
+
+// No pixel is off by more than `levels` of 255.
+void expect_as_reference(const wire::FilmData& film, std::uint32_t frame, int nodes, int levels = 1) {
   const FilmBlock block(film);
-  const wire::FilmView view = block.view();
   RunOptions options;
   options.nodes = nodes;
-  const FilmRun run = run_film(block.bytes(), options);
-  const Reference reference = draw_reference(view, frame);
-  const Pixels& pixels = run.frames.at(frame);
-  int wrong_coverage = 0, wrong_color = 0, covered = 0;
-  for (std::uint32_t row = 0; row < view.settings().height; ++row)
-    for (std::uint32_t column = 0; column < view.settings().width; ++column) {
-      const std::uint32_t pixel = pixels[row * view.settings().width + column];
-      const bool shown = reference.at(column, row).triangle.has_value();
-      wrong_coverage += shown != (pixel != kBackground);
-      if (!shown) continue;
-      ++covered;
-      const Color color = shade_reference(view, frame, reference, column, row);
-      for (int c = 0; c < 3; ++c)
-        wrong_color += std::abs(color.channel[c] - static_cast<double>(pixel >> (8 * c) & 255)) > 1.0;
-    }
-  EXPECT_GT(covered, 0);
-  EXPECT_EQ(wrong_coverage, 0);
-  EXPECT_EQ(wrong_color, 0);
+  const Pixels pixels = run_film(block.bytes(), options).frames.at(frame);
+  const Reference reference = draw_reference(block.view(), frame);
+  const Pixels expected = reference_pixels(reference, {block.view(), frame});
+  ASSERT_EQ(pixels.size(), expected.size());
+  int wrong = 0, most = 0;
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    const int off = difference(pixels[k], expected[k]);
+    most = std::max(most, off);
+    wrong += off > levels;
+  }
+  EXPECT_EQ(wrong, 0) << "at most " << most << " levels off, frame " << frame << ", " << film.settings.samples
+                      << " samples";
 }
 
 TEST(Reference, Crowd) {
@@ -46,7 +48,23 @@ TEST(Reference, Crowd) {
   for (const std::uint32_t frame : {0u, 4u}) expect_as_reference(film, frame, 3);
 }
 
-TEST(Reference, FlightThroughTheNearPlane) { expect_as_reference(flight(200, 112, 4), 3, 2); }
+TEST(Reference, CrowdWithSamples) {
+  for (const std::uint32_t samples : {2u, 4u, 8u, 16u})
+    for (const std::uint32_t frame : {0u, 2u})
+      expect_as_reference(with_samples(crowd(160, 90, 3, 3), samples), frame, 3);
+}
+
+TEST(Reference, AllModelsLightsAndInterpolations) {
+  for (const std::uint32_t samples : {1u, 4u, 16u})
+    for (const std::uint32_t frame : {0u, 2u})
+      expect_as_reference(richly_lit(with_samples(crowd(160, 90, 3, 3), samples)), frame, 2, 2);
+}
+
+TEST(Reference, FlightThroughTheNearPlane) {
+  expect_as_reference(flight(200, 112, 4), 3, 2);
+  expect_as_reference(with_samples(flight(100, 56, 4), 4), 3, 2);
+  expect_as_reference(richly_lit(with_samples(flight(100, 56, 4), 2)), 3, 2, 2);
+}
 
 // Of coinciding faces what stands still wins, then the lower polygon number.
 TEST(Reference, Ties) {

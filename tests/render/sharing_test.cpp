@@ -8,18 +8,22 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "tests/hal/machines_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
+#include "tests/render/looks.h"
 
 namespace mars::test {
 namespace {
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120, kFrames = 12;
 
-wire::FilmData film(std::uint32_t interval) { return crowd(kWidth, kHeight, kFrames, interval); }
+wire::FilmData film(std::uint32_t interval, std::uint32_t samples = 1) {
+  return with_samples(crowd(kWidth, kHeight, kFrames, interval), samples);
+}
 
 constexpr long kLooks = 0;  // in place of a message's type
 
@@ -108,11 +112,11 @@ void expect_pictures(const SharedRun& rendered, const wire::FilmData& data, cons
   expect_same(rendered.film, expected, data.settings, "sharing");
 }
 
-std::uint64_t depth_bytes(const SharedRun& run) { return run.counts.sent({.type = wire::kDepthLines}).bytes; }
+std::uint64_t depth_bytes(const SharedRun& run) { return run.counts.sent({.type = wire::kStillLines}).bytes; }
 
 TEST(Sharing, AnyMachinesAndGroups) {
-  for (const std::uint32_t interval : {4u, 1u}) {
-    const wire::FilmData data = film(interval);
+  for (const auto& [interval, samples] : {std::pair{4u, 1u}, {1u, 1u}, {4u, 4u}}) {
+    const wire::FilmData data = film(interval, samples);
     const FilmRun expected = from_scratch(data);
     for (const int each : {6, 5, 4, 3, 2, 1})
       for (const std::uint32_t groups : {1u, 2u, 3u, 6u}) {
@@ -127,24 +131,26 @@ TEST(Sharing, AnyMachinesAndGroups) {
 
 // While one node has not begun to draw a pass the others make the triangles of the next.
 TEST(Sharing, InSeveralPasses) {
-  const wire::FilmData data = film(4);
-  const FilmRun expected = from_scratch(data);
-  for (const int each : {4, 2}) {
-    SharedRun rendered;
-    run(data, {4, each}, rendered, 1, kLooks, 200'000);
-    EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
-    expect_pictures(rendered, data, expected);
+  for (const std::uint32_t samples : {1u, 4u}) {
+    const wire::FilmData data = film(4, samples);
+    const FilmRun expected = from_scratch(data);
+    for (const int each : {4, 2}) {
+      SharedRun rendered;
+      run(data, {4, each}, rendered, 1, kLooks, 200'000);
+      EXPECT_GT(rendered.film.report.strips.front().work.passes, 1u);
+      expect_pictures(rendered, data, expected);
+    }
   }
 }
 
 // While one node is late with its inbetweens the others have come to the next keyframe; while it is late with its
 // home lines they want to begin with theirs; while it has not read their triangles they make others.
-TEST(Sharing, ASlowNodeIsWaitedFor) {
-  const wire::FilmData data = film(3);
+void expect_slow_nodes_waited_for(std::uint32_t samples) {
+  const wire::FilmData data = film(3, samples);
   const FilmRun expected = from_scratch(data);
   for (const int each : {4, 2})
     for (int slow = 0; slow < 4; ++slow)
-      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kDepthLines}, kLooks}) {
+      for (const long type : {long{wire::kStrip}, long{wire::kTriangles}, long{wire::kStillLines}, kLooks}) {
         SCOPED_TRACE(std::to_string(each) + " a machine, node " + std::to_string(slow) + ", type " +
                      std::to_string(type));
         SharedRun rendered;
@@ -152,6 +158,10 @@ TEST(Sharing, ASlowNodeIsWaitedFor) {
         expect_pictures(rendered, data, expected);
       }
 }
+
+TEST(Sharing, ASlowNodeIsWaitedFor) { expect_slow_nodes_waited_for(1); }
+
+TEST(Sharing, ASlowNodeIsWaitedForWithSamples) { expect_slow_nodes_waited_for(4); }
 
 TEST(Sharing, NodesThatCannotReadEachOthersTrianglesSendThem) {
   const wire::FilmData data = film(4);
@@ -211,7 +221,7 @@ TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {
 TEST(Sharing, NothingWithoutInbetweens) {
   SharedRun rendered;
   run(film(1), {4, 2}, rendered);
-  EXPECT_EQ(rendered.counts.sent({.type = wire::kDepthLines}).messages, 0u);
+  EXPECT_EQ(rendered.counts.sent({.type = wire::kStillLines}).messages, 0u);
 }
 
 }  // namespace

@@ -127,6 +127,8 @@ double rounded(double value) {
   return document::rounded_to(value, 9);
 }
 
+glm::dvec2 rounded(const glm::dvec2& value) { return {rounded(value.x), rounded(value.y)}; }
+
 glm::dvec3 rounded(const glm::dvec3& value) { return {rounded(value.x), rounded(value.y), rounded(value.z)}; }
 
 }  // namespace mars::animator

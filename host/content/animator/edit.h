@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -38,6 +39,7 @@ document::Json& actor_of(document::Json& film, const std::string& actor);
 // To nine digits, and 0 where there is less than 1e-9: for computed values that a person will read. It may
 // round beyond a limit: clamp after it.
 double rounded(double value);
+glm::dvec2 rounded(const glm::dvec2& value);
 glm::dvec3 rounded(const glm::dvec3& value);
 
 }  // namespace mars::animator

@@ -3,8 +3,11 @@
 // it. World: right-handed, z up. Angles in degrees, colours 0..1 as shown, frames from 0.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +17,8 @@
 
 namespace mars::animator {
 
+inline constexpr document::Range kExposures{-16, 16};  // stops
+
 // Where render intervals are cut: where it saves work, or at the animator's keyframes.
 enum class Cutting { automatic, keyframes };
 
@@ -21,26 +26,40 @@ struct CameraMotion {
   Channel<glm::dvec3> eye;
   Channel<glm::dvec3> at;
   Channel<glm::dvec3> up;
-  Channel<double> fov;  // vertical, degrees
-  double near = 0.1;    // nothing nearer or farther is drawn
+  Channel<double> fov;       // vertical, degrees
+  Channel<double> exposure;  // stops; of linear films
+  double near = 0.1;         // nothing nearer or farther is drawn
   double far = 10000;
 };
 
 struct LightMotion {
-  bool directional = true;
+  wire::LightKind kind = wire::LightKind::directional;
   Channel<glm::dvec3> vector;  // to the light if directional, never zero; else its place
   Channel<glm::dvec3> color;
   Channel<double> intensity;
+  Channel<double> reach;     // empty if it does not fall off
+  Channel<glm::dvec3> at;    // where a spot aims; of others empty
+  Channel<glm::dvec2> cone;  // how wide a spot opens, degrees: fully lit within x, dark outside y; of others empty
 };
 
 struct MaterialMotion {
   std::string name;
   Channel<glm::dvec3> color;
-  Channel<double> ambient;
-  Channel<double> diffuse;
-  Channel<double> specular;
-  Channel<double> exponent;
-  std::uint32_t sides = 2;
+  std::array<Channel<double>, modeler::kMaterialNumbers.size()> numbers;  // as in kMaterialNumbers
+  wire::Material shading = modeler::kDefaultMaterial;                     // reflection, interpolation and sides
+};
+
+// Light from all around, from above and from below.
+struct Ambient {
+  glm::dvec3 sky{1, 1, 1};
+  glm::dvec3 ground{1, 1, 1};
+};
+
+// Along the view axis.
+struct Fog {
+  glm::dvec3 color;
+  double start;
+  double end;
 };
 
 // A model in the film. Either `motion` moves its joints, or `matrices` its segments.
@@ -61,7 +80,12 @@ struct Film {
   double rate = 24;
   std::uint32_t width = 960;
   std::uint32_t height = 540;
+  std::uint32_t samples = 4;  // a pixel
+  wire::ColorSpace color = wire::ColorSpace::linear;
+  wire::Curve curve = wire::Curve::filmic;  // of linear films
   glm::dvec3 background{0, 0, 0};
+  Ambient ambient;
+  std::optional<Fog> fog;
   Cutting cutting = Cutting::automatic;
   std::uint32_t dice = 0;  // 0: adaptive; N: every patch N x N quads
   CameraMotion camera;

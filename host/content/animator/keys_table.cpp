@@ -17,11 +17,12 @@ struct Row {
 std::string shown_value(const KeyedPart& part, const document::Json& value) {
   if (!value.is_array()) return document::shown(value.get<double>());
   std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < value.size(); ++axis) {
     if (part.joint && !part.joint->limits[axis].free()) continue;
     if (!text.empty()) text += "  ";
     constexpr const char* axes[] = {"x ", "y ", "z "};
-    text += (part.name == "color" ? "" : axes[axis]) + document::shown(value.at(axis).get<double>());
+    text +=
+        (part.name == "color" || part.name == "cone" ? "" : axes[axis]) + document::shown(value.at(axis).get<double>());
   }
   return text.empty() ? "rests" : text;
 }

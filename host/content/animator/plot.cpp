@@ -23,12 +23,14 @@ struct Panel {
   double lowest = std::numeric_limits<double>::max(), highest = -std::numeric_limits<double>::max();
 };
 
+int axes_of(const document::Json& value) { return value.is_array() ? static_cast<int>(value.size()) : 1; }
+
 double number_of(const document::Json& value, int axis) {
   return value.is_array() ? value.at(axis).get<double>() : value.get<double>();
 }
 
 bool drawn(const KeyedPart& part, const document::Json& value, int axis) {
-  if (!value.is_array()) return axis == 0;
+  if (axis >= axes_of(value)) return false;
   return !part.joint || part.joint->limits[axis].free();
 }
 
@@ -41,7 +43,7 @@ std::string gnuplot_text(const std::string& text) {
 
 std::string row_of(std::uint32_t frame, const document::Json& value) {
   std::string row = std::to_string(frame);
-  for (int axis = 0; axis < (value.is_array() ? 3 : 1); ++axis) row += " " + document::shown(number_of(value, axis));
+  for (int axis = 0; axis < axes_of(value); ++axis) row += " " + document::shown(number_of(value, axis));
   return row + "\n";
 }
 
@@ -59,7 +61,7 @@ std::string data_of(Panel& panel, std::size_t i, std::uint32_t frames) {
     }
   }
   text += "END\n$keys" + std::to_string(i) + " << END\n";
-  for (const TrackKey& key : *panel.track) text += row_of(key.frame, key.value);
+  for (const TrackKey& key : *panel.track) text += row_of(key.frame, panel.part->value_at(key.frame));
   return text + "END\n";
 }
 

@@ -1,10 +1,14 @@
 #include "host/content/animator/read_film.h"
 
 #include <algorithm>
+#include <bit>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "host/content/animator/read_keys.h"
+#include "host/content/animator/read_lights.h"
+#include "host/content/animator/read_materials.h"
+#include "host/content/animator/rig.h"
 #include "host/content/document/file.h"
 #include "host/content/modeler/read_model.h"
 #include "node/wire/film.h"
@@ -12,16 +16,11 @@
 namespace mars::animator {
 namespace {
 
-constexpr std::string_view kFilmNames[] = {"frames", "rate",   "size",      "background", "intervals", "dice",
-                                           "camera", "lights", "materials", "models",     "actors"};
-constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "near", "far", "keys"};
-constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "ease"};
-constexpr std::string_view kLightNames[] = {"direction", "place", "color", "intensity", "keys"};
-constexpr std::string_view kLightKeyNames[] = {"frame", "direction", "place", "color", "intensity", "ease"};
-constexpr std::string_view kFilmMaterialNames[] = {"color",    "ambient", "diffuse", "specular",
-                                                   "exponent", "sides",   "keys"};
-constexpr std::string_view kMaterialKeyNames[] = {"frame",    "color",    "ambient", "diffuse",
-                                                  "specular", "exponent", "ease"};
+constexpr std::string_view kFilmNames[] = {"frames",     "rate",      "size",   "samples",   "color", "curve",
+                                           "background", "ambient",   "fog",    "intervals", "dice",  "camera",
+                                           "lights",     "materials", "models", "actors"};
+constexpr std::string_view kCameraNames[] = {"eye", "at", "up", "fov", "exposure", "near", "far", "keys"};
+constexpr std::string_view kCameraKeyNames[] = {"frame", "eye", "at", "up", "fov", "exposure", "ease"};
 constexpr std::string_view kActorNames[] = {"name",     "model",     "place", "turn",    "pose",
                                             "material", "materials", "keys",  "matrices"};
 constexpr std::string_view kActorKeyNames[] = {"frame", "place", "turn", "pose", "ease"};
@@ -30,47 +29,23 @@ constexpr std::string_view kMatricesNames[] = {"frame", "segments"};
 constexpr document::Keys kKeys[] = {{"film", kFilmNames},
                                     {"camera", kCameraNames},
                                     {"camera_key", kCameraKeyNames},
-                                    {"light", kLightNames},
-                                    {"light_key", kLightKeyNames},
-                                    {"film_material", kFilmMaterialNames},
-                                    {"material_key", kMaterialKeyNames},
                                     {"actor", kActorNames},
                                     {"actor_key", kActorKeyNames},
-                                    {"matrices_key", kMatricesNames}};
-enum KeySet {
-  kFilm,
-  kCamera,
-  kCameraKey,
-  kLight,
-  kLightKey,
-  kFilmMaterial,
-  kMaterialKey,
-  kActor,
-  kActorKey,
-  kMatrices
-};
+                                    {"matrices_key", kMatricesNames},
+                                    kLightKeys,
+                                    kLightKeyKeys,
+                                    kAmbientKeys,
+                                    kFogKeys,
+                                    kFilmMaterialKeys,
+                                    kMaterialKeyKeys};
+enum KeySet { kFilm, kCamera, kCameraKey, kActor, kActorKey, kMatrices };
 
-constexpr document::Range kShares{0, 10};
-constexpr document::Range kExponents{0, 10000};
-constexpr document::Range kIntensities{0, 1000};
 constexpr document::Range kDegrees{-1e6, 1e6};
-constexpr std::size_t kMostLights = 64;
-const glm::dvec3 kDefaultLight{-0.4, -0.7, 0.8};
-
 // Readers of one value, as settle() and add_key() want them.
 glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
 glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, kDegrees); }
-double share_of(const document::Element& element) { return document::read_number(element, kShares); }
-double exponent_of(const document::Element& element) { return document::read_number(element, kExponents); }
-double intensity_of(const document::Element& element) { return document::read_number(element, kIntensities); }
 double fov_of(const document::Element& element) { return document::read_number(element, {0.01, 179}); }
-
-glm::dvec3 direction_of(const document::Element& element) {
-  const glm::dvec3 direction = document::read_vector(element);
-  const double length = glm::length(direction);
-  if (length < 1e-9) element.refuse("has no length", "write a vector to the light");
-  return direction / length;
-}
+double exposure_of(const document::Element& element) { return document::read_number(element, kExposures); }
 
 void read_size(const document::Element& element, Film& film) {
   document::require_size(element, 2);
@@ -88,7 +63,7 @@ std::uint32_t read_dice(const document::Element& element) {
                  "write \"adaptive\" or a number of quads a side");
 }
 
-CameraMotion read_camera(const document::Element& element) {
+CameraMotion read_camera(const document::Element& element, wire::ColorSpace color) {
   const document::Fields fields(element, kKeys[kCamera]);
   CameraMotion camera;
   if (const auto keys = fields.find("keys"))
@@ -97,75 +72,23 @@ CameraMotion read_camera(const document::Element& element) {
       add_key(camera.at, key, "at", frame, ease, place_of);
       add_key(camera.up, key, "up", frame, ease, place_of);
       add_key(camera.fov, key, "fov", frame, ease, fov_of);
+      add_key(camera.exposure, key, "exposure", frame, ease, exposure_of);
     });
   if (camera.eye.empty()) fields.required("eye");
   settle(camera.eye, fields, "eye", {}, place_of);
   settle(camera.at, fields, "at", {}, place_of);
   settle(camera.up, fields, "up", {0, 0, 1}, place_of);
   settle(camera.fov, fields, "fov", 40.0, fov_of);
+  if (const bool given = !camera.exposure.empty() || fields.find("exposure"); given && color == wire::ColorSpace::coded)
+    element.refuse("has an exposure, but the film's colours are coded, as they are shown",
+                   "leave exposure out, or \"color\": \"coded\"");
+  settle(camera.exposure, fields, "exposure", 0.0, exposure_of);
   camera.near = fields.number("near", camera.near, {1e-6, 1e9});
   camera.far = fields.number("far", camera.far, {1e-6, 1e10});
   if (camera.far <= camera.near)
     element.refuse("has far " + document::shown(camera.far) + ", not beyond near " + document::shown(camera.near),
                    "make far larger");
   return camera;
-}
-
-LightMotion read_light(const document::Element& element) {
-  const document::Fields fields(element, kKeys[kLight]);
-  LightMotion light;
-  Channel<glm::dvec3> direction, place;
-  if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kKeys[kLightKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-      add_key(direction, key, "direction", frame, ease, direction_of);
-      add_key(place, key, "place", frame, ease, place_of);
-      add_key(light.color, key, "color", frame, ease, document::read_color);
-      add_key(light.intensity, key, "intensity", frame, ease, intensity_of);
-    });
-  light.directional = !direction.empty() || fields.find("direction");
-  const bool point = !place.empty() || fields.find("place");
-  if (light.directional == point)
-    element.refuse(point ? "has both a direction and a place" : "has neither a direction nor a place",
-                   "give direction to the light if it is far away, or its place if it is near");
-  settle(direction, fields, "direction", {}, direction_of);
-  settle(place, fields, "place", {}, place_of);
-  light.vector = point ? place : direction;
-  settle(light.color, fields, "color", {1, 1, 1}, document::read_color);
-  settle(light.intensity, fields, "intensity", 1.0, intensity_of);
-  return light;
-}
-
-std::vector<LightMotion> read_lights(const document::Element& list) {
-  document::require_kind(list, document::Kind::list);
-  if (list.size() > kMostLights) list.refuse("has " + std::to_string(list.size()) + " lights", "at most 64");
-  std::vector<LightMotion> lights;
-  for (const document::Element element : list) lights.push_back(read_light(element));
-  return lights;
-}
-
-LightMotion default_light() {
-  return {true, constant(glm::normalize(kDefaultLight)), constant(glm::dvec3(1, 1, 1)), constant(1.0)};
-}
-
-MaterialMotion read_film_material(const document::Element& element) {
-  const document::Fields fields(element, kKeys[kFilmMaterial]);
-  MaterialMotion material;
-  material.name = modeler::checked_name(element, element.key());
-  if (const auto keys = fields.find("keys"))
-    read_keys(*keys, kKeys[kMaterialKey], [&](const document::Fields& key, std::uint32_t frame, const Ease& ease) {
-      add_key(material.color, key, "color", frame, ease, document::read_color);
-      add_key(material.ambient, key, "ambient", frame, ease, share_of);
-      add_key(material.diffuse, key, "diffuse", frame, ease, share_of);
-      add_key(material.specular, key, "specular", frame, ease, share_of);
-      add_key(material.exponent, key, "exponent", frame, ease, exponent_of);
-    });
-  settle(material.color, fields, "color", {0.8, 0.8, 0.8}, document::read_color);
-  settle(material.ambient, fields, "ambient", 0.10, share_of);
-  settle(material.diffuse, fields, "diffuse", 0.65, share_of);
-  settle(material.specular, fields, "specular", 0.45, share_of);
-  settle(material.exponent, fields, "exponent", 32.0, exponent_of);
-  material.sides = fields.count("sides", 2, 1, 2);
-  return material;
 }
 
 // Reads the actors once the models and materials are known.
@@ -334,11 +257,40 @@ modeler::Model read_film_model(const document::Element& element, const Film& fil
   return modeler::read_model(element, materials);
 }
 
+std::uint32_t read_samples(const document::Element& element) {
+  const std::uint32_t samples = document::read_count(element, 1, wire::kMostSamples);
+  if (!std::has_single_bit(samples)) element.refuse("is " + std::to_string(samples), "write 1, 2, 4, 8 or 16");
+  return samples;
+}
+
+// How its numbers become what is shown.
+void read_colors(const document::Fields& fields, Film& film) {
+  constexpr std::string_view spaces[] = {"coded", "linear"}, curves[] = {"none", "filmic"};
+  film.color = static_cast<wire::ColorSpace>(fields.choice("color", 1, spaces));
+  const bool coded = film.color == wire::ColorSpace::coded;
+  if (const auto curve = fields.find("curve"); curve && coded)
+    curve->refuse("stands in a film whose colours are coded, as they are shown",
+                  "leave curve out, or \"color\": \"coded\"");
+  film.curve = static_cast<wire::Curve>(fields.choice("curve", coded ? 0 : 1, curves));
+  film.background = fields.color("background", film.background);
+  if (const auto fog = fields.find("fog")) film.fog = read_fog(*fog, film.background);
+}
+
+void read_lighting(const document::Fields& fields, Film& film) {
+  const auto lights = fields.find("lights"), ambient = fields.find("ambient");
+  film.lights = lights ? read_lights(*lights) : rig_lights(film.camera, film.color);
+  if (ambient)
+    film.ambient = read_ambient(*ambient);
+  else if (!lights)
+    film.ambient = rig_ambient(film.color);
+}
+
 void read_settings(const document::Fields& fields, Film& film) {
   film.frames = document::read_count(fields.required("frames"), 1, kMostFrames);
   film.rate = fields.number("rate", film.rate, {0.001, 1000});
-  film.background = fields.color("background", film.background);
+  read_colors(fields, film);
   if (const auto size = fields.find("size")) read_size(*size, film);
+  if (const auto samples = fields.find("samples")) film.samples = read_samples(*samples);
   if (const auto dice = fields.find("dice")) film.dice = read_dice(*dice);
   constexpr std::string_view cuttings[] = {"auto", "keyframes"};
   film.cutting = static_cast<Cutting>(fields.choice("intervals", 0, cuttings));
@@ -356,13 +308,9 @@ Film read_film(const document::Element& element, const std::filesystem::path& fo
   Film film;
   film.source = element.document().name();
   read_settings(fields, film);
-  film.camera = read_camera(fields.required("camera"));
-  film.lights = {default_light()};
-  if (const auto lights = fields.find("lights")) film.lights = read_lights(*lights);
-  if (const auto materials = fields.find("materials")) {
-    document::require_kind(*materials, document::Kind::object);
-    for (const document::Element material : *materials) film.materials.push_back(read_film_material(material));
-  }
+  film.camera = read_camera(fields.required("camera"), film.color);
+  read_lighting(fields, film);
+  if (const auto materials = fields.find("materials")) film.materials = read_materials(*materials);
   std::vector<std::string> model_names;
   const document::Element models = fields.required("models");
   document::require_kind(models, document::Kind::object);

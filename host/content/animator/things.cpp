@@ -14,8 +14,8 @@ namespace mars::animator {
 namespace {
 
 template <typename Value>
-KeyedPart plain(const char* name, const Channel<Value>& channel) {
-  return {name, nullptr, nullptr, [&channel](std::uint32_t frame) {
+KeyedPart plain(std::string_view name, const Channel<Value>& channel) {
+  return {std::string(name), nullptr, nullptr, [&channel](std::uint32_t frame) {
             const Stretch stretch = stretch_at(channel, frame);
             if (stretch.from == stretch.to) return written(channel[stretch.from].value);
             return written(rounded(value_at(channel, frame)));
@@ -41,26 +41,31 @@ KeyedPart turning(const std::string& name, const modeler::Joint& joint, const Ch
 
 Thing camera_of(document::Json& film, const Film& meaning) {
   const CameraMotion& camera = meaning.camera;
-  return {"camera",
-          &film.at("camera"),
-          false,
-          {plain("eye", camera.eye), plain("at", camera.at), plain("up", camera.up), plain("fov", camera.fov)}};
+  std::vector<KeyedPart> parts{plain("eye", camera.eye), plain("at", camera.at), plain("up", camera.up),
+                               plain("fov", camera.fov)};
+  if (meaning.color == wire::ColorSpace::linear) parts.push_back(plain("exposure", camera.exposure));
+  return {"camera", &film.at("camera"), false, std::move(parts)};
 }
 
 Thing light_of(document::Json& json, const LightMotion& light, std::size_t number) {
-  return {"light " + std::to_string(number),
-          &json,
-          false,
-          {light.directional ? direction(light.vector) : plain("place", light.vector), plain("color", light.color),
-           plain("intensity", light.intensity)}};
+  const bool far = light.kind == wire::LightKind::directional;
+  std::vector<KeyedPart> parts{far ? direction(light.vector) : plain("place", light.vector)};
+  if (light.kind == wire::LightKind::spot) {
+    parts.push_back(plain("at", light.at));
+    parts.push_back(plain("cone", light.cone));
+  }
+  if (!light.reach.empty()) parts.push_back(plain("reach", light.reach));
+  parts.push_back(plain("color", light.color));
+  parts.push_back(plain("intensity", light.intensity));
+  return {"light " + std::to_string(number), &json, false, std::move(parts)};
 }
 
 Thing material_of(document::Json& json, const MaterialMotion& material) {
-  return {"material '" + material.name + "'",
-          &json,
-          false,
-          {plain("color", material.color), plain("ambient", material.ambient), plain("diffuse", material.diffuse),
-           plain("specular", material.specular), plain("exponent", material.exponent)}};
+  std::vector<KeyedPart> parts{plain("color", material.color)};
+  for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i)
+    if (uses(material.shading.reflection, modeler::kMaterialNumbers[i]))
+      parts.push_back(plain(modeler::kMaterialNumbers[i].key, material.numbers[i]));
+  return {"material '" + material.name + "'", &json, false, std::move(parts)};
 }
 
 Thing actor_of(document::Json& json, const Actor& actor, const modeler::Model& model) {
@@ -132,7 +137,7 @@ std::string part_named(const Thing& thing, const std::string& name) {
   throw Failure("has no part '" + name + "'", thing.name,
                 document::did_you_mean(name, std::vector<std::string_view>(names.begin(), names.end()),
                                        thing.name == "camera"
-                                           ? "its parts are: eye, at, up, fov"
+                                           ? "its parts are: " + document::joined(names)
                                            : "its parts are place, turn and the joints of its model"));
 }
 

@@ -18,6 +18,8 @@ document::Json written(double number) {
   return number;
 }
 
+document::Json written(const glm::dvec2& v) { return document::Json::array({written(v.x), written(v.y)}); }
+
 document::Json written(const glm::dvec3& v) {
   return document::Json::array({written(v.x), written(v.y), written(v.z)});
 }

@@ -1,6 +1,7 @@
 // How values stand in a film file, and how they are read back from it.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "host/content/animator/ease.h"
@@ -9,6 +10,7 @@
 namespace mars::animator {
 
 document::Json written(double number);  // whole numbers without ".0", and no -0
+document::Json written(const glm::dvec2& pair);
 document::Json written(const glm::dvec3& vector);
 document::Json written(const Ease& ease);  // by its name, if it has one
 

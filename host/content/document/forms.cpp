@@ -7,10 +7,13 @@ namespace {
 
 // The more particular before the more general.
 constexpr Form kForms[] = {
+    {"/color", R"("linear")"},
+    {"/ambient", "[0.8, 0.9, 1]"},
     {"pose.*", "[0, 90, 0]"},
     {"segments.*", "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"},
     {"materials.*", R"({"color": [0.8, 0.4, 0.2]})"},
     {"models.*", R"("robot.json")"},
+    {"ambient.ground", "[0.4, 0.3, 0.2]"},
     {"joints.*", "[1, 1, 1.2]"},
     {"branches.*", "[1, 1, 1.2]"},
     {"proportions.joints", R"({"thigh": [1, 1, 1.2]})"},
@@ -24,6 +27,12 @@ constexpr Form kForms[] = {
     {"frames", "48"},
     {"rate", "24"},
     {"size", "[960, 540]"},
+    {"samples", "4"},
+    {"curve", R"("filmic")"},
+    {"fog", R"({"start": 10, "end": 100})"},
+    {"start", "10"},
+    {"end", "100"},
+    {"sky", "[0.8, 0.9, 1]"},
     {"background", "[0.1, 0.2, 0.3]"},
     {"intervals", R"("auto")"},
     {"camera", R"({"eye": [0, -9, 2], "at": [0, 0, 1]})"},
@@ -38,6 +47,7 @@ constexpr Form kForms[] = {
     {"at", "[0, 0, 1]"},
     {"up", "[0, 0, 1]"},
     {"fov", "40"},
+    {"exposure", "0.5"},
     {"near", "0.1"},
     {"far", "10000"},
     {"direction", "[-0.4, -0.7, 0.8]"},
@@ -46,10 +56,17 @@ constexpr Form kForms[] = {
     {"pose", R"({"elbow": [0, 90, 0]})"},
     {"color", "[0.8, 0.4, 0.2]"},
     {"intensity", "1"},
+    {"cone", "[30, 40]"},
+    {"reach", "5"},
     {"ambient", "0.1"},
     {"diffuse", "0.65"},
     {"specular", "0.45"},
     {"exponent", "32"},
+    {"roughness", "0.5"},
+    {"metallic", "1"},
+    {"refraction", "1.5"},
+    {"reflection", R"("phong")"},
+    {"interpolation", R"("phong")"},
     {"sides", "2"},
     {"name", R"("anna")"},
     {"model", R"("robot")"},
@@ -72,12 +89,14 @@ constexpr Form kForms[] = {
     {"ground", "true"},
 };
 
-// A key, and that of the object it stands in: "" where that is an item of a list.
+// A key, and that of the object it stands in: "" where that is an item of a list, or the file itself.
 struct Named {
   std::string_view key, above;
+  bool outermost;
 };
 
 bool fits(std::string_view form, const Named& named) {
+  if (form[0] == '/') return named.outermost && form.substr(1) == named.key;
   const std::size_t dot = form.find('.');
   if (dot == std::string_view::npos) return form == named.key;
   return form.substr(0, dot) == named.above && (form.substr(dot + 1) == "*" || form.substr(dot + 1) == named.key);
@@ -91,7 +110,8 @@ std::string form_of(const Element& element) {
   std::optional<Element> keyed = element;
   while (keyed && keyed->key().empty()) keyed = keyed->parent();
   if (!keyed) return "";
-  const Named named{keyed->key(), keyed->parent()->key()};
+  const std::optional<Element> above = keyed->parent();
+  const Named named{keyed->key(), above->key(), !above->parent()};
   const auto form = std::ranges::find_if(kForms, [&](const Form& each) { return fits(each.key, named); });
   if (form == std::end(kForms)) return "";
   return "\"" + std::string(named.key) + "\": " + std::string(form->value);

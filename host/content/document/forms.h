@@ -11,7 +11,8 @@
 namespace mars::document {
 
 struct Form {
-  std::string_view key;  // "place"; "limits.x" where the key means something else elsewhere; "pose.*" of any name
+  std::string_view key;  // "place"; "limits.x" where the key means something else elsewhere; "pose.*" of any name;
+                         // "/color" of the file itself
   std::string_view value;
 };
 

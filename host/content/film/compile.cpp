@@ -1,6 +1,7 @@
 #include "host/content/film/compile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -9,44 +10,17 @@
 #include <unordered_map>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/direction.h"
 #include "host/content/animator/read_film.h"
 #include "host/content/film/film_file.h"
 #include "host/content/film/intervals.h"
+#include "host/content/film/light_writer.h"
+#include "host/content/film/material_writer.h"
 #include "host/content/film/motion_writer.h"
 #include "host/content/film/shape_writer.h"
+#include "host/content/film/track_writer.h"
 
 namespace mars::film {
 namespace {
-
-// Appends to a film's values and to one track of changes those that differ from the one before.
-template <typename Value>
-class TrackWriter {
- public:
-  explicit TrackWriter(std::vector<Value>& values) : values_(values) {}
-
-  void add(std::uint32_t frame, const Value& value) {
-    if (!changes_.empty() && value == values_.back()) return;
-    changes_.push_back({frame, static_cast<std::uint32_t>(values_.size())});
-    values_.push_back(value);
-  }
-
-  wire::Track write(std::vector<wire::Change>& changes) const { return append_changes(changes, changes_); }
-
-  static wire::Track append_changes(std::vector<wire::Change>& changes, const std::vector<wire::Change>& more) {
-    if (changes.size() + more.size() > std::numeric_limits<std::uint32_t>::max())
-      throw Failure("changes too often", "", "make the film shorter, or move fewer segments");
-    const wire::Track track{static_cast<std::uint32_t>(changes.size()), static_cast<std::uint32_t>(more.size())};
-    changes.insert(changes.end(), more.begin(), more.end());
-    return track;
-  }
-
- private:
-  std::vector<Value>& values_;
-  std::vector<wire::Change> changes_;
-};
-
-std::array<float, 3> floats(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z)}; }
 
 std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& size, const std::string& source) {
   for (const std::uint32_t side : size)
@@ -56,16 +30,20 @@ std::array<std::uint32_t, 2> checked_size(const std::array<std::uint32_t, 2>& si
   return size;
 }
 
+std::uint32_t checked_samples(std::uint32_t samples, const std::string& source) {
+  if (!std::has_single_bit(samples) || samples > wire::kMostSamples)
+    throw Failure("cannot have " + std::to_string(samples) + " samples a pixel", source, "choose 1, 2, 4, 8 or 16");
+  return samples;
+}
+
 class Compiler {
  public:
-  Compiler(const animator::Film& film, const CompileOptions& options) : film_(film), options_(options) {
-    for (const animator::MaterialMotion& motion : film.materials) film_materials_.emplace(motion.name, &motion);
-  }
+  Compiler(const animator::Film& film, const CompileOptions& options) : film_(film), options_(options) {}
 
   CompiledFilm compile() {
     add_settings();
     add_camera();
-    for (const animator::LightMotion& light : film_.lights) add_light(light);
+    write_lights(film_, data_);
     for (const animator::Actor& actor : film_.actors) add_segments(actor);
     CompiledFilm compiled;
     const std::size_t matrices = write_motion(film_, data_, compiled.lines);
@@ -76,7 +54,7 @@ class Compiler {
 
   void check_camera() const {
     const animator::CameraMotion& motion = film_.camera;
-    const std::uint32_t frames = frames_to_see(motion.eye, motion.at, motion.up);
+    const std::uint32_t frames = frames_to_see(film_.frames, motion.eye, motion.at, motion.up);
     for (std::uint32_t frame = 0; frame < frames; ++frame) camera_at(frame);
   }
 
@@ -87,7 +65,9 @@ class Compiler {
 
   void add_settings() {
     const auto size = checked_size(options_.size.value_or(std::array{film_.width, film_.height}), film_.source);
-    data_.settings = {size[0], size[1], film_.frames, film_.dice, floats(film_.background), float(film_.rate), {}};
+    data_.settings = {size[0], size[1], film_.frames, film_.dice, {}, float(film_.rate), {}};
+    write_light_settings(film_, data_.settings);
+    if (options_.samples) data_.settings.samples = checked_samples(*options_.samples, film_.source);
   }
 
   wire::Camera camera_at(std::uint32_t frame) const {
@@ -111,88 +91,18 @@ class Compiler {
     camera.focal = std::cos(half) / std::sin(half);
     camera.near = motion.near;
     camera.far = motion.far;
+    camera.exposure = std::exp2(std::clamp(animator::value_at(motion.exposure, frame), animator::kExposures.lowest,
+                                           animator::kExposures.highest));
     return camera;
-  }
-
-  // Frames at which a value may differ from the frame before: 0, then up to the last key.
-  template <typename... Channels>
-  std::uint32_t frames_to_see(const Channels&... channels) const {
-    const auto last = [](const auto& channel) { return channel.size() < 2 ? 0 : channel.back().frame; };
-    return std::min(film_.frames, std::max({std::uint32_t(last(channels))...}) + 1);
   }
 
   void add_camera() {
     const animator::CameraMotion& motion = film_.camera;
     TrackWriter<wire::Camera> track(data_.cameras);
-    const std::uint32_t frames = frames_to_see(motion.eye, motion.at, motion.up, motion.fov);
+    const std::uint32_t frames =
+        frames_to_see(film_.frames, motion.eye, motion.at, motion.up, motion.fov, motion.exposure);
     for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, camera_at(frame));
     data_.settings.camera = track.write(data_.changes);
-  }
-
-  void add_light(const animator::LightMotion& light) {
-    TrackWriter<wire::Light> track(data_.lights);
-    const std::uint32_t frames = frames_to_see(light.vector, light.color, light.intensity);
-    for (std::uint32_t frame = 0; frame < frames; ++frame) {
-      const glm::dvec3 vector =
-          light.directional ? animator::direction_at(light.vector, frame) : animator::value_at(light.vector, frame);
-      const glm::dvec3 color = animator::value_at(light.intensity, frame) * animator::value_at(light.color, frame);
-      track.add(frame, {light.directional ? wire::LightKind::directional : wire::LightKind::point, floats(vector), floats(glm::max(color, 0.0))});
-    }
-    data_.light_tracks.push_back(track.write(data_.changes));
-  }
-
-  static wire::Material material_at(const animator::MaterialMotion& motion, std::uint32_t frame) {
-    // An ease that overshoots must not leave what a material can be.
-    const auto within = [&](const animator::Channel<double>& channel, double highest) {
-      return float(std::clamp(animator::value_at(channel, frame), 0.0, highest));
-    };
-    return {floats(glm::clamp(animator::value_at(motion.color, frame), 0.0, 1.0)),
-            within(motion.ambient, 10),
-            within(motion.diffuse, 10),
-            within(motion.specular, 10),
-            within(motion.exponent, 10000),
-            motion.sides};
-  }
-
-  wire::Track material_track(const animator::MaterialMotion& motion) {
-    TrackWriter<wire::Material> track(data_.materials);
-    const std::uint32_t frames =
-        frames_to_see(motion.color, motion.ambient, motion.diffuse, motion.specular, motion.exponent);
-    for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, material_at(motion, frame));
-    return track.write(data_.changes);
-  }
-
-  wire::Track material_track(const wire::Material& material) {
-    TrackWriter<wire::Material> track(data_.materials);
-    track.add(0, material);
-    return track.write(data_.changes);
-  }
-
-  // Segments of one material share a track. `key` names the material among all of the film's and its models'.
-  template <typename Material>
-  wire::Track shared_material(const std::string& key, const Material& material) {
-    const auto known = material_tracks_.find(key);
-    return known != material_tracks_.end() ? known->second
-                                           : material_tracks_.emplace(key, material_track(material)).first->second;
-  }
-
-  wire::Track find_material(const animator::Actor& actor, std::string name) {
-    bool of_film = !actor.material.empty();
-    if (of_film) name = actor.material;
-    const auto instead = std::find_if(actor.materials.begin(), actor.materials.end(),
-                                      [&](const auto& change) { return change.first == name; });
-    if (!of_film && instead != actor.materials.end()) {
-      name = instead->second;
-      of_film = true;
-    }
-    if (name.empty()) return shared_material("", modeler::kDefaultMaterial);
-    if (!of_film)
-      for (const modeler::NamedMaterial& own : film_.models[actor.model].materials)
-        if (own.name == name) return shared_material(std::to_string(actor.model) + "/" + name, own.material);
-    if (const auto found = film_materials_.find(name); found != film_materials_.end())
-      return shared_material("/" + name, *found->second);
-    fail("uses the material '" + name + "', which there is not", "actor '" + actor.name + "'",
-         "add it to the film's materials");
   }
 
   const std::vector<std::uint32_t>& shapes_of(std::size_t model) {
@@ -210,7 +120,7 @@ class Compiler {
       data_.segments.push_back({shapes[joint.segment->shape],
                                 add_name(actor.name + "/" + joint.name),
                                 {},
-                                find_material(actor, joint.segment->material)});
+                                materials_.track_of(actor, joint.segment->material)});
       instances_ += data_.shapes[data_.segments.back().shape].size();
     }
     joints_ += model.joints.size();
@@ -232,10 +142,14 @@ class Compiler {
       for (const auto& key : channel) frames.push_back(key.frame);
     };
     const auto add_all = [&](const auto&... channels) { (add(channels), ...); };
-    add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov);
-    for (const animator::LightMotion& light : film_.lights) add_all(light.vector, light.color, light.intensity);
-    for (const animator::MaterialMotion& m : film_.materials)
-      if (material_tracks_.contains("/" + m.name)) add_all(m.color, m.ambient, m.diffuse, m.specular, m.exponent);
+    add_all(film_.camera.eye, film_.camera.at, film_.camera.up, film_.camera.fov, film_.camera.exposure);
+    for (const animator::LightMotion& light : film_.lights)
+      add_all(light.vector, light.color, light.intensity, light.reach, light.at, light.cone);
+    for (const animator::MaterialMotion& material : film_.materials) {
+      if (!materials_.uses(material.name)) continue;
+      add(material.color);
+      for (const auto& channel : material.numbers) add(channel);
+    }
     for (const animator::Actor& actor : film_.actors) {
       add_all(actor.motion.place, actor.motion.turn);
       for (const auto& poses : actor.motion.pose) add(poses);
@@ -260,20 +174,22 @@ class Compiler {
   const CompileOptions& options_;
   wire::FilmData data_;
   ShapeWriter shapes_{data_};
-  std::unordered_map<std::string_view, const animator::MaterialMotion*> film_materials_;
-  std::unordered_map<std::string, wire::Track> material_tracks_;
+  MaterialWriter materials_{film_, data_};
   std::unordered_map<std::size_t, std::vector<std::uint32_t>> model_shapes_;
   std::uint64_t instances_ = 0;  // patches and meshlets of all segments
   std::uint64_t joints_ = 0;     // of all actors
 };
 
-// The same block with another size: what a frame shows does not depend on it.
-void resize(CompiledFilm& film, const std::array<std::uint32_t, 2>& wanted) {
-  const auto size = checked_size(wanted, film.source);
+// The same block with another size and other samples: what a frame shows does not depend on them.
+void change_pixels(CompiledFilm& film, const CompileOptions& options) {
   const wire::FilmView view = film.view();
   wire::FilmSettings settings = view.settings();
-  settings.width = size[0];
-  settings.height = size[1];
+  if (options.size) {
+    const auto size = checked_size(*options.size, film.source);
+    settings.width = size[0];
+    settings.height = size[1];
+  }
+  if (options.samples) settings.samples = checked_samples(*options.samples, film.source);
   const auto offset = reinterpret_cast<const std::byte*>(&view.settings()) - film.block().data();
   std::memcpy(reinterpret_cast<std::byte*>(film.lines.data()) + offset, &settings, sizeof settings);
 }
@@ -291,7 +207,7 @@ CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& 
   if (options.cutting)
     throw Failure("is compiled, its intervals are cut", path.string(), "choose --intervals with the film file itself");
   CompiledFilm film = load_compiled_film(path);
-  if (options.size) resize(film, *options.size);
+  change_pixels(film, options);
   return film;
 }
 

@@ -29,6 +29,12 @@ std::string polygons_of(const wire::FilmView& film) {
   return text;
 }
 
+std::string colors_of(const wire::FilmSettings& settings) {
+  if (settings.color_space == wire::ColorSpace::coded) return "colours     coded\n";
+  return settings.curve == wire::Curve::filmic ? "colours     linear, filmic curve\n"
+                                               : "colours     linear, no curve\n";
+}
+
 std::string table_of(const wire::FilmView& film) {
   std::string table = "  first frame   frames   moving segments\n";
   std::size_t row = 0;
@@ -48,6 +54,8 @@ std::string describe(const CompiledFilm& film) {
   const wire::FilmSettings& settings = view.settings();
   std::string text = film.source + "\n";
   text += document::formatted("size        %u x %u\n", settings.width, settings.height);
+  text += document::formatted("samples     %u a pixel\n", settings.samples);
+  text += colors_of(settings);
   text += document::formatted("frames      %u at %g a second, %.2f seconds\n", settings.frames, settings.rate,
                               settings.frames / settings.rate);
   text += settings.dice == 0 ? "dicing      adaptive\n"

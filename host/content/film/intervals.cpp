@@ -14,14 +14,19 @@ using Frames = std::vector<std::uint32_t>;
 
 class Cutter {
  public:
-  explicit Cutter(const wire::FilmData& film) : film_(film), global_(film.settings.frames, false) {
+  explicit Cutter(const wire::FilmData& film)
+      : film_(film), global_(film.settings.frames, false), exposed_(film.settings.frames, false) {
     for (const wire::Segment& segment : film.segments) {
       weights_.push_back(double(film.shapes[segment.shape].size()));
       all_ += weights_.back();
     }
     mark_global(film.settings.camera);
+    mark_exposure();
     for (const wire::Track& track : film.light_tracks) mark_global(track);
   }
+
+  // Whether an interval must begin there: the camera's exposure changes.
+  bool must_begin(std::uint32_t frame) const { return exposed_[frame]; }
 
   // First frames of the intervals that cost least.
   Frames cheapest() const {
@@ -49,11 +54,22 @@ class Cutter {
           best[end] = cost;
           cut[end] = first;
         }
-        if (first == 0 || end - first == kLongest) break;
+        if (first == 0 || must_begin(first) || end - first == kLongest) break;
         moving += last_moved[first];
       }
     }
     return starts_of(cut);
+  }
+
+  // First frames of intervals that begin at the keyframes, and where they must.
+  Frames at(std::span<const std::uint32_t> keyframes) const {
+    Frames starts = {0};
+    auto key = keyframes.begin();
+    for (std::uint32_t frame = 1; frame < film_.settings.frames; ++frame) {
+      key = std::find_if(key, keyframes.end(), [&](std::uint32_t each) { return each >= frame; });
+      if (must_begin(frame) || (key != keyframes.end() && *key == frame)) starts.push_back(frame);
+    }
+    return starts;
   }
 
   // Intervals beginning at `starts`, with what moves in each.
@@ -74,6 +90,14 @@ class Cutter {
  private:
   void mark_global(const wire::Track& track) {
     for (std::uint32_t i = 1; i < track.count; ++i) global_[film_.changes[track.first + i].frame] = true;
+  }
+
+  void mark_exposure() {
+    const wire::Track& track = film_.settings.camera;
+    for (std::uint32_t i = 1; i < track.count; ++i) {
+      const wire::Change &before = film_.changes[track.first + i - 1], &now = film_.changes[track.first + i];
+      exposed_[now.frame] = film_.cameras[now.value].exposure != film_.cameras[before.value].exposure;
+    }
   }
 
   // Calls visit(segment, frame) for every change of motion or material after frame 0, segment by segment.
@@ -145,6 +169,7 @@ class Cutter {
 
   const wire::FilmData& film_;
   std::vector<char> global_;     // frames at which camera or a light changes
+  std::vector<char> exposed_;    // frames at which the camera's exposure changes
   std::vector<double> weights_;  // patches and meshlets of each segment
   double all_ = 0;
 };
@@ -153,10 +178,7 @@ class Cutter {
 
 void cut_intervals(wire::FilmData& film, animator::Cutting cutting, std::span<const std::uint32_t> keyframes) {
   const Cutter cutter(film);
-  Frames starts = {0};
-  for (const std::uint32_t frame : keyframes)
-    if (frame > starts.back() && frame < film.settings.frames) starts.push_back(frame);
-  if (cutting == animator::Cutting::automatic) starts = cutter.cheapest();
+  const Frames starts = cutting == animator::Cutting::automatic ? cutter.cheapest() : cutter.at(keyframes);
   film.intervals.clear();
   film.moving.clear();
   cutter.fill(starts, film);

@@ -4,7 +4,7 @@
 // exchange of CZB (pixels / kPixelsPerPatch); each other frame the patches of the segments that change
 // anywhere in the interval after its first frame, or all if camera or a light does. `automatic` finds the
 // cuts of least cost by dynamic programming over the frames, with intervals of at most kLongest frames:
-// O(changes + frames * kLongest).
+// O(changes + frames * kLongest). Either way an interval begins wherever the camera's exposure changes.
 #pragma once
 
 #include <cstdint>

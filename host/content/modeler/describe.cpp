@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -140,16 +141,47 @@ std::string head_of(const Model& model) {
   return text;
 }
 
+struct MaterialColumn {
+  std::string head;
+  std::function<std::string(const wire::Material&)> cell;  // "": the material does not use it
+  bool always;                                             // else only where some material has not the default
+};
+
+std::vector<MaterialColumn> material_columns() {
+  const auto number = [](double value) { return document::formatted("%.4g", value); };
+  std::vector<MaterialColumn> columns{
+      {"color",
+       [=](const wire::Material& m) {
+         return number(m.color[0]) + " " + number(m.color[1]) + " " + number(m.color[2]);
+       },
+       true},
+      {"reflection", [](const wire::Material& m) { return std::string(word_of(m.reflection)); }, false}};
+  for (const MaterialNumber& each : kMaterialNumbers)
+    columns.push_back({std::string(each.key),
+                       [&each, number](const wire::Material& m) {
+                         return uses(m.reflection, each) ? number(m.*each.member) : std::string();
+                       },
+                       true});
+  columns.push_back(
+      {"interpolation", [](const wire::Material& m) { return std::string(word_of(m.interpolation)); }, false});
+  columns.push_back({"sides", [](const wire::Material& m) { return std::to_string(m.sides); }, true});
+  return columns;
+}
+
+bool tells(const MaterialColumn& column, const Model& model) {
+  const std::string usual = column.always ? "" : column.cell(kDefaultMaterial);
+  return std::ranges::any_of(model.materials, [&](const NamedMaterial& m) { return column.cell(m.material) != usual; });
+}
+
 std::string materials_of(const Model& model) {
   if (model.materials.empty()) return "";
-  std::vector<Row> rows{{"material", "color", "ambient", "diffuse", "specular", "exponent", "sides"}};
-  for (const NamedMaterial& each : model.materials) {
-    const wire::Material& material = each.material;
-    const auto number = [](double value) { return document::formatted("%.4g", value); };
-    const auto& color = material.color;
-    rows.push_back({each.name, number(color[0]) + " " + number(color[1]) + " " + number(color[2]),
-                    number(material.ambient), number(material.diffuse), number(material.specular),
-                    number(material.exponent), std::to_string(material.sides)});
+  std::vector<Row> rows{{"material"}};
+  for (const NamedMaterial& each : model.materials) rows.push_back({each.name});
+  for (const MaterialColumn& column : material_columns()) {
+    if (!tells(column, model)) continue;
+    rows[0].push_back(column.head);
+    for (std::size_t i = 0; i < model.materials.size(); ++i)
+      rows[i + 1].push_back(column.cell(model.materials[i].material));
   }
   return "\n" + laid_out(rows);
 }

@@ -228,14 +228,20 @@ void require_known_material(document::Json& model, const std::string& name) {
   throw Failure("is not in the model", material_of(name), near(name, materials_known(model), "add it: mars model add"));
 }
 
+void set_reflection(document::Json& material, const std::string& name) {
+  const auto known = std::ranges::find(kReflections, name);
+  if (known != std::end(kReflections))
+    for (const MaterialNumber& number : kMaterialNumbers)
+      if (!uses(static_cast<wire::Reflection>(known - kReflections), number)) material.erase(std::string(number.key));
+  material["reflection"] = name;
+}
+
 void change_material(document::Json& material, const MaterialChange& change) {
   if (change.color) material["color"] = plain_vector(*change.color);
-  const std::pair<const char*, const std::optional<double>*> numbers[] = {{"ambient", &change.ambient},
-                                                                          {"diffuse", &change.diffuse},
-                                                                          {"specular", &change.specular},
-                                                                          {"exponent", &change.exponent}};
-  for (const auto& [key, number] : numbers)
-    if (*number) material[key] = plain_number(**number);
+  if (change.reflection) set_reflection(material, *change.reflection);
+  if (change.interpolation) material["interpolation"] = *change.interpolation;
+  for (std::size_t i = 0; i < kMaterialNumbers.size(); ++i)
+    if (change.numbers[i]) material[kMaterialNumbers[i].key] = plain_number(*change.numbers[i]);
   if (change.sides) material["sides"] = *change.sides;
 }
 

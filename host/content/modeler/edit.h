@@ -3,6 +3,7 @@
 // such as a cycle of parents, is refused when the file is written. Failures name the joint, axis or material.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -38,13 +39,13 @@ inline constexpr std::string_view kResets[] = {"parent",  "place", "axes",     "
 
 struct MaterialChange {
   std::optional<glm::dvec3> color;
-  std::optional<double> ambient;
-  std::optional<double> diffuse;
-  std::optional<double> specular;
-  std::optional<double> exponent;
+  std::array<std::optional<double>, kMaterialNumbers.size()> numbers;  // as in kMaterialNumbers
+  std::optional<std::string> reflection;                               // numbers that it does not use go
+  std::optional<std::string> interpolation;
   std::optional<int> sides;
 
-  bool any() const { return color || ambient || diffuse || specular || exponent || sides; }
+  bool any() const { return *this != MaterialChange(); }
+  bool operator==(const MaterialChange&) const = default;
 };
 
 // A model without joints, to which the first is added at once.

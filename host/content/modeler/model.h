@@ -8,6 +8,7 @@
 
 #include "host/content/modeler/joint.h"
 #include "host/content/modeler/limbs.h"
+#include "host/content/modeler/material.h"
 #include "host/content/modeler/mesh.h"
 #include "node/wire/film.h"
 
@@ -31,7 +32,5 @@ struct Model {
   std::vector<NamedMaterial> materials;
   Limbs limbs{};
 };
-
-inline constexpr wire::Material kDefaultMaterial{{0.8f, 0.8f, 0.8f}, 0.10f, 0.65f, 0.45f, 32, 2};
 
 }  // namespace mars::modeler

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/modeler/material.h"
 #include "host/content/modeler/proportions.h"
 #include "host/content/modeler/read_bspline.h"
 #include "host/content/modeler/read_mesh.h"
@@ -347,19 +348,6 @@ std::string checked_name(const document::Element& element, std::string_view name
 }
 
 std::string read_name(const document::Element& element) { return checked_name(element, document::read_text(element)); }
-
-wire::Material read_material(const document::Fields& fields) {
-  constexpr document::Range share{0, 10};
-  const glm::dvec3 color = fields.color("color", {0.8, 0.8, 0.8});
-  wire::Material material = kDefaultMaterial;
-  for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
-  material.ambient = static_cast<float>(fields.number("ambient", 0.10, share));
-  material.diffuse = static_cast<float>(fields.number("diffuse", 0.65, share));
-  material.specular = static_cast<float>(fields.number("specular", 0.45, share));
-  material.exponent = static_cast<float>(fields.number("exponent", 32, {0, 10000}));
-  material.sides = fields.count("sides", 2, 1, 2);
-  return material;
-}
 
 Model read_model(const document::Element& element, std::span<const std::string_view> film_materials) {
   return ModelReader(film_materials, {}).read(element);

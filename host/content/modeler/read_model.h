@@ -17,16 +17,11 @@ namespace mars::modeler {
 Model read_model(const document::Element& element, std::span<const std::string_view> film_materials = {});
 Model load_model(const std::filesystem::path& path, std::span<const std::string_view> film_materials = {});
 
-// The object under its material keys; others than those of `keys` are refused.
-wire::Material read_material(const document::Fields& fields);
-
 // A joint's, material's or shape's name: no longer than 100 bytes, without '/'.
 std::string read_name(const document::Element& element);
 std::string checked_name(const document::Element& element, std::string_view name);
 
 // What the objects of a model file may hold, as docs/schema/model.schema.json names them.
 std::span<const document::Keys> model_keys();
-
-inline constexpr std::string_view kMaterialKeys[] = {"color", "ambient", "diffuse", "specular", "exponent", "sides"};
 
 }  // namespace mars::modeler

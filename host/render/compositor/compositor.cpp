@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/failure/failure.h"
+#include "host/render/compositor/plain_pixels.h"
 
 namespace mars::compositor {
 
@@ -28,18 +29,25 @@ void for_rows(std::span<const wire::Run> runs, std::uint32_t block, Visit visit)
   }
 }
 
-// Calls visit(at, count) for each line of pixels in the blocks [first, last) of a row.
+// A picture's size, and how many words its pixels have.
+struct Extent {
+  std::size_t width;
+  std::size_t height;
+  std::size_t pixel_words;
+};
+
+// Calls visit(at, count) for each line of words in the blocks [first, last) of a row.
 template <typename Visit>
-void for_lines(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t row, std::uint32_t first,
-               std::uint32_t last, Visit visit) {
-  const std::size_t left = std::size_t{first} * block;
-  const std::size_t right = std::min<std::size_t>(width, std::size_t{last} * block);
-  const std::size_t top = std::size_t{row} * block;
-  const std::size_t bottom = std::min<std::size_t>(height, top + block);
-  for (std::size_t line = top; line < bottom; ++line) visit(line * width + left, right - left);
+void for_lines(const Extent& extent, std::size_t block, std::size_t row, std::size_t first, std::size_t last,
+               Visit visit) {
+  const std::size_t left = first * block;
+  const std::size_t count = std::min(extent.width, last * block) - left;
+  const std::size_t bottom = std::min(extent.height, (row + 1) * block);
+  for (std::size_t line = row * block; line < bottom; ++line)
+    visit((line * extent.width + left) * extent.pixel_words, count * extent.pixel_words);
 }
 
-// The first and the last `n` of `count` pixels, n <= count <= 2n: all of them.
+// The first and the last `n` of `count` words, n <= count <= 2n: all of them.
 template <std::size_t n>
 void copy_ends(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
   std::memcpy(to, from, n * sizeof *from);
@@ -60,28 +68,37 @@ void copy_run(const std::uint32_t* from, std::size_t count, std::uint32_t* to) {
     *to = *from;
 }
 
-// Copies the runs' pixels, which begin at `source`; where they end.
-const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, std::uint32_t width,
+// Copies the runs' pixels of so many words, which begin at `source`; where they end.
+template <std::size_t pixel_words>
+const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, std::size_t width,
                                std::uint32_t* picture) {
   for (const wire::Run& run : runs) {
-    copy_run(source, run.count, picture + std::size_t{run.line} * width + run.first);
-    source += run.count;
+    const std::size_t count = run.count * pixel_words;
+    copy_run(source, count, picture + (run.line * width + run.first) * pixel_words);
+    source += count;
   }
   return source;
 }
 
+const std::uint32_t* copy_runs(std::span<const wire::Run> runs, const std::uint32_t* source, const Extent& extent,
+                               std::uint32_t* picture) {
+  return (extent.pixel_words == 1 ? copy_runs<1> : copy_runs<2>)(runs, source, extent.width, picture);
+}
+
 }  // namespace
 
-Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t background)
+Compositor::Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block, wire::PixelFormat format)
     : width_(width),
       height_(height),
-      plain_(background),
+      format_(format),
+      pixel_words_(wire::pixel_words(format)),
       constant_(width, height, block),
       last_overwritten_(width, height, block),
       fresh_(width, height, block),
       filled_lines_(constant_.columns()) {}
 
-void Compositor::begin_interval() {
+void Compositor::begin_interval(std::uint64_t plain) {
+  plain_ = plain;
   constant_.clear();
   name_ = 0;
   last_number_.reset();
@@ -93,14 +110,15 @@ void Compositor::paste_constant(std::span<const wire::Run> runs, std::span<const
   check(keyframe == nullptr || keyframe->background == name_, "a keyframe has all CFB so far");
   if (runs.empty()) return;
   name_ = new_name();
-  if (!saved_) saved_ = std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t{width_} * height_);
+  if (!saved_) saved_ = std::make_unique_for_overwrite<std::uint32_t[]>(pixel_words_ * width_ * height_);
+  const Extent extent{width_, height_, pixel_words_};
   const std::uint32_t* source = pixels.data();
   for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
     extend_background(row, part);
-    const std::uint32_t* end = copy_runs(part, source, width_, saved_.get());
+    const std::uint32_t* end = copy_runs(part, source, extent, saved_.get());
     if (keyframe != nullptr) {
       refresh(*keyframe, row, part);
-      copy_runs(part, source, width_, keyframe->pixels.data());
+      copy_runs(part, source, extent, keyframe->pixels.data());
     }
     source = end;
   });
@@ -115,8 +133,10 @@ void Compositor::extend_background(std::uint32_t row, std::span<const wire::Run>
   fresh_.for_stretches(row, [&](std::uint32_t first, std::uint32_t last) {
     constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool known) {
       if (known) return;
-      for_lines(width_, height_, constant_.block(), row, from, to,
-                [&](std::size_t at, std::size_t count) { std::fill_n(&saved_[at], count, plain_); });
+      for_lines({width_, height_, pixel_words_}, constant_.block(), row, from, to,
+                [&](std::size_t at, std::size_t count) {
+                  fill_pixels({&saved_[at], count}, plain_, pixel_words_);
+                });
     });
   });
   constant_.add_row(fresh_, row);
@@ -124,7 +144,8 @@ void Compositor::extend_background(std::uint32_t row, std::span<const wire::Run>
 }
 
 void Compositor::begin_frame(Frame& frame) const {
-  check(frame.width == width_ && frame.height == height_, "a frame has the compositor's size");
+  check(frame.width == width_ && frame.height == height_ && frame.format == format_,
+        "a frame has the compositor's size and format");
   check(frame.overwritten.block() == constant_.block(), "a frame has the compositor's blocks");
   if (frame.plain != plain_) {
     frame.stale.set_all();
@@ -184,21 +205,23 @@ void Compositor::count_filled_lines(std::span<const wire::Run> runs) {
 void Compositor::write_back(Frame& frame, std::uint32_t row, std::uint32_t first, std::uint32_t last) const {
   std::uint32_t* pixels = frame.pixels.data();
   constant_.for_parts(row, first, last, [&](std::uint32_t from, std::uint32_t to, bool drawn) {
-    for_lines(width_, height_, constant_.block(), row, from, to, [&](std::size_t at, std::size_t count) {
-      if (drawn)
-        std::copy_n(&saved_[at], count, pixels + at);
-      else
-        std::fill_n(pixels + at, count, plain_);
-    });
+    for_lines({width_, height_, pixel_words_}, constant_.block(), row, from, to,
+              [&](std::size_t at, std::size_t count) {
+                if (drawn)
+                  std::copy_n(&saved_[at], count, pixels + at);
+                else
+                  fill_pixels({pixels + at, count}, plain_, pixel_words_);
+              });
   });
 }
 
 void Compositor::paste_moving(Frame& frame, std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels) {
   check_runs(runs, pixels.size());
+  const Extent extent{width_, height_, pixel_words_};
   const std::uint32_t* source = pixels.data();
   for_rows(runs, constant_.block(), [&](std::uint32_t row, std::span<const wire::Run> part) {
     refresh(frame, row, part);
-    source = copy_runs(part, source, width_, frame.pixels.data());
+    source = copy_runs(part, source, extent, frame.pixels.data());
     for (const wire::Run& run : part) frame.overwritten.set_pixels(run.line, run.first, run.count);
   });
 }
@@ -220,7 +243,7 @@ void Compositor::finish_frame(Frame& frame, std::uint32_t number) {
   last_number_ = number;
 }
 
-void Compositor::check_runs(std::span<const wire::Run> runs, std::size_t pixels) const {
+void Compositor::check_runs(std::span<const wire::Run> runs, std::size_t words) const {
   std::size_t counted = 0;
   for (const wire::Run& run : runs) {
     if (run.count == 0 || run.line >= height_ || std::uint32_t{run.first} + run.count > width_) {
@@ -231,8 +254,9 @@ void Compositor::check_runs(std::span<const wire::Run> runs, std::size_t pixels)
     }
     counted += run.count;
   }
-  if (counted != pixels) {
-    throw Failure("a strip has " + std::to_string(pixels) + " pixels where its runs count " + std::to_string(counted),
+  if (counted * pixel_words_ != words) {
+    throw Failure("a strip has " + std::to_string(words / pixel_words_) + " pixels where its runs count " +
+                      std::to_string(counted),
                   "", "run host and nodes of the same version");
   }
 }

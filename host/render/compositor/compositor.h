@@ -4,15 +4,15 @@
 // the new pixels do not fill. One Compositor serves one interval after another; frames come from a sink pool (or
 // anywhere) and may pass from one compositor to another.
 //
-//   begin_interval, then for its keyframe
+//   begin_interval with the plain background's pixel, then for its keyframe
 //   begin_frame, paste_constant and paste_moving for each strip as it comes, finish_frame,
 //   and for each other frame, in any order and several at a time,
 //   begin_frame, paste_moving for every strip of it, finish_frame.
 //
 // An interval of one frame needs no saved background: all its pixels go over the plain one by paste_moving.
 //
-// Runs and pixels are those of mars::wire::Strip. Runs that reach outside the picture, or pixels that are not as
-// many as the runs count, throw Failure before anything is written.
+// Runs and pixels, as words of pixels, are those of mars::wire::Strip. Runs that reach outside the picture, or pixels
+// that are not as many as the runs count, throw Failure before anything is written.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +28,12 @@ namespace mars::compositor {
 
 class Compositor {
  public:
-  // `block`: side of a flag's block in pixels, at least 1. `background`: the pixel where nothing is drawn.
-  Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block, std::uint32_t background);
+  // `block`: side of a flag's block in pixels, at least 1.
+  Compositor(std::uint32_t width, std::uint32_t height, std::uint32_t block,
+             wire::PixelFormat format = wire::PixelFormat::rgb8);
 
-  // The saved background is the plain background again.
-  void begin_interval();
+  // The saved background is the plain background, whose pixel shows where nothing is drawn.
+  void begin_interval(std::uint64_t plain);
   // Part of the CFB goes into the saved background, and into `keyframe` (unless nullptr), which was begun and
   // has all CFB so far.
   void paste_constant(std::span<const wire::Run> runs, std::span<const std::uint32_t> pixels, Frame* keyframe);
@@ -49,7 +50,7 @@ class Compositor {
   std::uint64_t background_name() const { return name_; }
 
  private:
-  void check_runs(std::span<const wire::Run> runs, std::size_t pixels) const;
+  void check_runs(std::span<const wire::Run> runs, std::size_t words) const;
   void extend_background(std::uint32_t row, std::span<const wire::Run> runs);
   void refresh(Frame& frame, std::uint32_t row, std::span<const wire::Run> runs);
   void count_filled_lines(std::span<const wire::Run> runs);
@@ -57,7 +58,9 @@ class Compositor {
 
   std::uint32_t width_;
   std::uint32_t height_;
-  std::uint32_t plain_;  // the background's pixel
+  wire::PixelFormat format_;
+  std::size_t pixel_words_;
+  std::uint64_t plain_ = 0;  // the background's pixel
   // The saved background: plain background and CFB in blocks flagged as constant, nothing elsewhere. Made
   // when first needed and kept; pages where no CFB ever was are never touched.
   std::unique_ptr<std::uint32_t[]> saved_;

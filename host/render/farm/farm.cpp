@@ -10,6 +10,7 @@
 #include "host/render/farm/group_work.h"
 #include "host/render/farm/node_inbox.h"
 #include "host/render/farm/tracing.h"
+#include "node/color/encoding.h"
 
 namespace mars::farm {
 namespace {
@@ -26,6 +27,7 @@ class Farm {
  private:
   bool greet_nodes();
   bool load_film();
+  NodeMemory node_memory() const;
   void render();
   void stop_nodes();
 
@@ -41,6 +43,7 @@ class Farm {
   bool cancelled() const { return options_.cancellation != nullptr && options_.cancellation->cancelled(); }
 
   std::span<const std::byte> film_block_;
+  const wire::FilmView film_;
   const Plan& plan_;
   const FarmOptions& options_;
   sinks::SinkPool& sinks_;
@@ -65,15 +68,15 @@ class Farm {
 Farm::Farm(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options, sinks::SinkPool& sinks,
            const FarmListener& listener)
     : film_block_(film_block),
+      film_(film_block, "film"),
       plan_(plan),
       options_(options),
       sinks_(sinks),
       listener_(listener),
       slots_(static_cast<int>(numnodes()), options.credits),
-      inbox_(sinks.shape().width, sinks.shape().height, slots_, options.cancellation),
+      inbox_(sinks.shape().width, sinks.shape().height, sinks.shape().format, slots_, options.cancellation),
       frames_left_(plan.frames()) {
-  const std::uint32_t background = pixel_of(wire::FilmView(film_block, "film").settings().background);
-  for (const collectives::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape(), background);
+  for (const collectives::Group& group : plan.groups) groups_.emplace_back(group, sinks.shape());
 }
 
 FarmReport Farm::run() {
@@ -94,10 +97,13 @@ bool Farm::load_film() {
   const double booted = dclock();
   tracing_.emplace(options_.trace, inbox_);
   wire::Load load{};
-  load.memory = options_.memory;
+  report_.node_memory = node_memory();
+  load.memory = report_.node_memory.frames;
+  load.still_memory = report_.node_memory.still;
   load.credits = options_.credits;
   load.mapping = options_.mapping;
   load.groups = static_cast<std::int32_t>(groups_.size());
+  load.pixel_format = sinks_.shape().format;
   load.traced = options_.trace != nullptr ? 1 : 0;
   report_.film_bytes = film_block_.size();
   const bool loaded = farm::load_film(film_block_, load, inbox_);
@@ -105,6 +111,12 @@ bool Farm::load_film() {
   if (loaded && listener_.warned) std::ranges::for_each(inbox_.apart(), listener_.warned);
   report_.load_seconds = dclock() - booted;
   return loaded;
+}
+
+NodeMemory Farm::node_memory() const {
+  std::uint64_t bytes = options_.memory;
+  if (bytes == 0) bytes = std::ranges::min(inbox_.hellos(), {}, &wire::Hello::memory).memory;
+  return share_node_memory(bytes, options_.still_memory, wire::FilmView(film_block_, "film").settings());
 }
 
 void Farm::render() {
@@ -162,7 +174,7 @@ void Farm::give(GroupWork& to) {
   std::memcpy(message.data() + sizeof command, task.frames.data(), frames * sizeof(std::uint32_t));
   for (int node = group.first; node < group.first + group.count; ++node)
     csend(wire::kRender, message.data(), static_cast<long>(message.size()), node, 0);
-  to.give(task, given);
+  to.give(task, background_pixel(film_, film_.intervals()[task.interval], sinks_.shape().format), given);
 }
 
 void Farm::receive() {
@@ -230,13 +242,10 @@ void Farm::note_taken() {
 
 }  // namespace
 
-std::uint32_t pixel_of(const std::array<float, 3>& color) {
-  std::uint32_t pixel = 0;
-  for (int c = 0; c < 3; ++c) {
-    const float level = std::clamp(color[static_cast<std::size_t>(c)], 0.0f, 1.0f) * 255.0f + 0.5f;
-    pixel |= static_cast<std::uint32_t>(level) << (8 * c);
-  }
-  return pixel;
+std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format) {
+  const wire::FilmSettings& settings = film.settings();
+  const auto encoding = color::encoding_of(settings, film.camera_at(interval.first_frame), format);
+  return color::pixel_of(encoding, settings.background.data());
 }
 
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,

@@ -3,15 +3,16 @@
 // when a sink has the frame. So a node never has more strips in the host's memory than it has credits.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "host/render/farm/cancellation.h"
+#include "host/render/farm/node_memory.h"
 #include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "host/render/trace/trace.h"
@@ -22,7 +23,8 @@ namespace mars::farm {
 
 struct FarmOptions {
   wire::Mapping mapping = wire::Mapping::cost;
-  std::uint64_t memory = 0;                    // bytes for frames on a node; 0: as the node with the least offers
+  std::uint64_t memory = 0;                    // bytes on a node; 0: as the node with the least offers
+  std::optional<std::uint64_t> still_memory;   // of these, as in NodeMemory; none: as share_node_memory says
   std::int32_t credits = wire::kMaxCredits;    // strips a node may have on the way
   bool each_frame = false;                     // report what is known of each frame, which grows with the film
   trace::Trace* trace = nullptr;               // to be filled; none: nothing is recorded
@@ -54,6 +56,7 @@ struct FarmReport {
   std::vector<wire::Strip> strips;
   std::vector<FinishedFrame> frames;
   std::uint64_t film_bytes = 0;
+  NodeMemory node_memory;
   double load_seconds = 0;    // from the last node's Hello until all have the film
   double render_seconds = 0;  // from the first command until the last frame was composed
   double total_seconds = 0;   // until the sinks had taken it
@@ -66,7 +69,7 @@ struct FarmReport {
 FarmReport render_film(std::span<const std::byte> film_block, const Plan& plan, const FarmOptions& options,
                        sinks::SinkPool& sinks, const FarmListener& listener);
 
-// The pixel (protocol.h) of a colour 0..1.
-std::uint32_t pixel_of(const std::array<float, 3>& color);
+// The pixel of the film's frames where nothing is drawn, in this interval.
+std::uint64_t background_pixel(const wire::FilmView& film, const wire::Interval& interval, wire::PixelFormat format);
 
 }  // namespace mars::farm

@@ -11,12 +11,6 @@
 namespace mars::farm {
 namespace {
 
-std::uint64_t least_memory(std::span<const wire::Hello> hellos) {
-  return std::min_element(hellos.begin(), hellos.end(),
-                          [](const auto& a, const auto& b) { return a.memory < b.memory; })
-      ->memory;
-}
-
 void send_load(const wire::Load& load, std::span<const wire::Hello> hellos) {
   std::vector<std::byte> message(sizeof load + hellos.size() * sizeof hellos[0].machine);
   std::memcpy(message.data(), &load, sizeof load);
@@ -47,7 +41,6 @@ bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inb
   const ScopedSpan span(trace::HostSpan::load, block.size());
   load.stamp = wire::own_stamp();
   load.film_bytes = block.size();
-  if (load.memory == 0) load.memory = least_memory(inbox.hellos());
   send_load(load, inbox.hellos());
   const std::vector<long> sends = send_block(block, inbox.hellos());
   const bool loaded = inbox.wait_until_loaded();

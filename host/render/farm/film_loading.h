@@ -8,8 +8,7 @@
 
 namespace mars::farm {
 
-// `load` without stamp and film's size, which are added, and its memory, if that is 0. Waits until all nodes have the
-// film; false: cancelled before.
+// `load` without stamp and film's size, which are added. Waits until all nodes have the film; false: cancelled before.
 bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inbox);
 
 }  // namespace mars::farm

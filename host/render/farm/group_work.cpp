@@ -5,10 +5,13 @@
 
 namespace mars::farm {
 
-GroupWork::GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks, std::uint32_t background)
-    : group_(group), compositor_(sinks.width, sinks.height, sinks.block, background) {}
+GroupWork::GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks)
+    : group_(group), compositor_(sinks.width, sinks.height, sinks.block, sinks.format) {}
 
-void GroupWork::give(const Task& task, double now) { tasks_.push_back({Assembly(task, group_), now}); }
+void GroupWork::give(const Task& task, std::uint64_t background, double now) {
+  tasks_.push_back({Assembly(task, group_), background, now});
+  if (tasks_.size() == 1) begin_interval();
+}
 
 bool GroupWork::wants(const wire::Strip& strip) const {
   return std::any_of(tasks_.begin(), tasks_.end(), [&](const Given& task) { return task.assembly.wants(strip); });
@@ -26,13 +29,13 @@ bool GroupWork::prepare(sinks::SinkPool& sinks) {
 
 std::optional<GroupWork::Composed> GroupWork::compose(sinks::SinkPool& sinks, StripStore& store) {
   if (tasks_.empty()) return std::nullopt;
-  auto& [assembly, given] = tasks_.front();
+  auto& [assembly, background, given] = tasks_.front();
   std::optional<Assembly::Pasted> pasted = assembly.paste(compositor_, sinks, store);
   if (!pasted) return std::nullopt;
   Composed composed{std::move(*pasted), assembly.interval(), given};
   if (assembly.done()) {
     tasks_.pop_front();
-    compositor_.begin_interval();
+    if (!tasks_.empty()) begin_interval();
   }
   return composed;
 }

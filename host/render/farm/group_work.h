@@ -14,14 +14,14 @@ namespace mars::farm {
 
 class GroupWork {
  public:
-  // For pictures that go to `sinks`. `background`: the pixel where nothing is drawn.
-  GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks, std::uint32_t background);
+  // For pictures that go to `sinks`.
+  GroupWork(const collectives::Group& group, const sinks::SinkPool::Shape& sinks);
 
   const collectives::Group& group() const { return group_; }
   // Tasks given and not done.
   std::size_t tasks() const { return tasks_.size(); }
-  // `now`: in seconds since the first task was given to any group.
-  void give(const Task& task, double now);
+  // `background`: the pixel where nothing is drawn. `now`: in seconds since the first task was given to any group.
+  void give(const Task& task, std::uint64_t background, double now);
 
   // Whether it is a strip that is still to come.
   bool wants(const wire::Strip& strip) const;
@@ -39,8 +39,11 @@ class GroupWork {
  private:
   struct Given {
     Assembly assembly;
+    std::uint64_t background;
     double given;
   };
+
+  void begin_interval() { compositor_.begin_interval(tasks_.front().background); }
 
   collectives::Group group_;
   compositor::Compositor compositor_;  // the first task's

@@ -20,11 +20,11 @@ std::uint64_t HostMemory::most_bytes() const {
   return (std::uint64_t{frames} + backgrounds) * frame_bytes + strip_bytes();
 }
 
-HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, std::uint32_t nodes,
-                             std::uint32_t groups, std::uint32_t sink_threads) {
+HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, wire::PixelFormat format,
+                             std::uint32_t nodes, std::uint32_t groups, std::uint32_t sink_threads) {
   HostMemory memory;
   memory.budget = budget;
-  memory.frame_bytes = std::uint64_t{film.width} * film.height * sizeof(std::uint32_t);
+  memory.frame_bytes = std::uint64_t{film.width} * film.height * wire::pixel_bytes(format);
   memory.frames = kLeastFrames;
   memory.backgrounds = groups;
   memory.nodes = nodes;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "node/wire/film_parts.h"
+#include "node/wire/pixel_format.h"
 
 namespace mars::farm {
 
@@ -23,7 +24,7 @@ struct HostMemory {
 };
 
 // Backgrounds come first, then credits, then buffers: two more than the sinks have threads, but no more than fit 1 GiB.
-HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, std::uint32_t nodes,
-                             std::uint32_t groups, std::uint32_t sink_threads);
+HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, wire::PixelFormat format,
+                             std::uint32_t nodes, std::uint32_t groups, std::uint32_t sink_threads);
 
 }  // namespace mars::farm

@@ -56,9 +56,11 @@ NodeFailure::NodeFailure(const std::string& reason, int node, int frame)
 NodeFailure::NodeFailure(const std::string& reason, const std::string& where, int node)
     : Failure(reason, where, "please report it"), node(node), frame(-1) {}
 
-NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, NodeSlots& slots, const Cancellation* cancellation)
+NodeInbox::NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelFormat format, NodeSlots& slots,
+                     const Cancellation* cancellation)
     : width_(width),
       height_(height),
+      format_(format),
       slots_(slots),
       cancellation_(cancellation),
       nodes_(static_cast<int>(numnodes())),
@@ -174,7 +176,7 @@ std::optional<StripMessage> NodeInbox::receive_by_message(int node, StripStore& 
   require(size >= sizeof(wire::Strip) && size <= wire::kMaxStripBytes, node, "a strip of an impossible size");
   StripBytes bytes = store.take(size);
   crecv(wire::kStrip, bytes.data.get(), static_cast<long>(size));
-  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes));
+  std::optional<StripMessage> strip = StripMessage::read(std::move(bytes), format_);
   if (strip) take_slot(strip->header(), node);
   return strip;
 }
@@ -184,7 +186,7 @@ std::optional<StripMessage> NodeInbox::receive_by_slot(int node, StripStore& sto
   require(infocount() == sizeof header, node, "a strip of an impossible size");
   crecv(wire::kStrip, &header, sizeof header);
   take_slot(header, node);
-  return StripMessage::read(header, slots_.bytes({node, header.slot}), store);
+  return StripMessage::read(header, slots_.bytes({node, header.slot}), format_, store);
 }
 
 void NodeInbox::take_slot(const wire::Strip& strip, int sender) {

@@ -33,8 +33,9 @@ class NodeFailure : public Failure {
 
 class NodeInbox {
  public:
-  // Of all nodes of the job, for pictures of this size; `slots` are the nodes'. `cancellation` may be nullptr.
-  NodeInbox(std::uint32_t width, std::uint32_t height, NodeSlots& slots, const Cancellation* cancellation);
+  // Of all nodes of the job, for such pictures; `slots` are the nodes'. `cancellation` may be nullptr.
+  NodeInbox(std::uint32_t width, std::uint32_t height, wire::PixelFormat format, NodeSlots& slots,
+            const Cancellation* cancellation);
 
   // Waits until every node has greeted, and checks that all are of the host's own version. False: cancelled before.
   bool receive_hellos();
@@ -75,6 +76,7 @@ class NodeInbox {
 
   const std::uint32_t width_;
   const std::uint32_t height_;
+  const wire::PixelFormat format_;
   NodeSlots& slots_;
   const Cancellation* const cancellation_;
   const int nodes_;

@@ -16,16 +16,20 @@ struct Parts {
 };
 
 // None where the header makes no sense: what it promises is of no kind, or more than a strip has.
-std::optional<Parts> parts_of(const wire::Strip& header) {
+std::optional<Parts> parts_of(const wire::Strip& header, wire::PixelFormat format) {
   const bool inbetween = header.kind == wire::FrameKind::inbetween && header.constant_runs == 0;
   if (!inbetween && header.kind != wire::FrameKind::keyframe) return std::nullopt;
   const std::uint64_t runs = std::uint64_t{header.constant_runs} + header.moving_runs;
   if (header.pixels > wire::kMaxStripBytes || runs > wire::kMaxStripBytes) return std::nullopt;
   Parts parts{sizeof header, 0, 0};
-  parts.runs = parts.pixels + static_cast<std::size_t>(header.pixels) * sizeof(std::uint32_t);
+  parts.runs = parts.pixels + static_cast<std::size_t>(header.pixels) * wire::pixel_bytes(format);
   parts.end = parts.runs + static_cast<std::size_t>(runs) * sizeof(wire::Run);
   if (parts.end > wire::kMaxStripBytes) return std::nullopt;
   return parts;
+}
+
+std::span<const std::byte> pixels_in(std::span<const std::byte> strip, const Parts& parts) {
+  return strip.subspan(parts.pixels, parts.runs - parts.pixels);
 }
 
 }  // namespace
@@ -50,44 +54,46 @@ StripBytes StripStore::take(std::size_t size) {
   return bytes;
 }
 
-StripMessage::StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs, const std::byte* pixels)
+StripMessage::StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs,
+                           std::span<const std::byte> pixels)
     : header_(header),
       bytes_(std::move(bytes)),
       runs_(reinterpret_cast<const wire::Run*>(runs), std::size_t{header.constant_runs} + header.moving_runs),
-      pixels_(reinterpret_cast<const std::uint32_t*>(pixels), static_cast<std::size_t>(header.pixels)) {}
+      pixels_(reinterpret_cast<const std::uint32_t*>(pixels.data()), pixels.size() / sizeof(std::uint32_t)) {}
 
-std::optional<StripMessage> StripMessage::read(StripBytes message) {
+std::optional<StripMessage> StripMessage::read(StripBytes message, wire::PixelFormat format) {
   if (message.size < sizeof(wire::Strip)) return std::nullopt;
   wire::Strip header;
   std::memcpy(&header, message.data.get(), sizeof header);
-  const auto parts = parts_of(header);
+  const auto parts = parts_of(header, format);
   if (header.by_message != 1 || !parts || parts->end != message.size) return std::nullopt;
-  const std::byte* start = message.data.get();
-  StripMessage strip(header, std::move(message), start + parts->runs, start + parts->pixels);
-  if (!strip.count_pixels()) return std::nullopt;
+  const std::span<const std::byte> whole(message.data.get(), message.size);
+  StripMessage strip(header, std::move(message), whole.data() + parts->runs, pixels_in(whole, *parts));
+  if (!strip.count_pixels(format)) return std::nullopt;
   return strip;
 }
 
 std::optional<StripMessage> StripMessage::read(const wire::Strip& header, std::span<const std::byte> slot,
-                                               StripStore& store) {
-  const auto parts = parts_of(header);
+                                               wire::PixelFormat format, StripStore& store) {
+  const auto parts = parts_of(header, format);
   if (header.by_message != 0 || !parts || parts->end > slot.size()) return std::nullopt;
   StripBytes runs = store.take(parts->end - parts->runs);
   const std::byte* start = runs.data.get();
   std::ranges::copy(slot.subspan(parts->runs, runs.size), runs.data.get());
-  StripMessage strip(header, std::move(runs), start, slot.data() + parts->pixels);
-  if (!strip.count_pixels()) return std::nullopt;
+  StripMessage strip(header, std::move(runs), start, pixels_in(slot, *parts));
+  if (!strip.count_pixels(format)) return std::nullopt;
   return strip;
 }
 
 // Whether the runs have as many as the header says.
-bool StripMessage::count_pixels() {
-  const auto count = [](std::span<const wire::Run> runs) {
+bool StripMessage::count_pixels(wire::PixelFormat format) {
+  const auto count_words = [format](std::span<const wire::Run> runs) {
     return std::accumulate(runs.begin(), runs.end(), std::size_t{0},
-                           [](std::size_t sum, const wire::Run& run) { return sum + run.count; });
+                           [](std::size_t sum, const wire::Run& run) { return sum + run.count; }) *
+           wire::pixel_words(format);
   };
-  constant_pixels_ = count(constant_runs());
-  return constant_pixels_ + count(moving_runs()) == pixels_.size();
+  constant_words_ = count_words(constant_runs());
+  return constant_words_ + count_words(moving_runs()) == pixels_.size();
 }
 
 }  // namespace mars::farm

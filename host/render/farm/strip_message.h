@@ -35,34 +35,36 @@ class StripStore {
 
 class StripMessage {
  public:
-  // The strip that travelled whole in `message`. None unless that is exactly what the header promises.
-  static std::optional<StripMessage> read(StripBytes message);
+  // The strip that travelled whole in `message`, of pixels in this format. None unless that is exactly what the header
+  // promises.
+  static std::optional<StripMessage> read(StripBytes message, wire::PixelFormat format);
   // The strip whose header came, and whose other parts lie behind it in `slot`. None unless they fit each other.
   static std::optional<StripMessage> read(const wire::Strip& header, std::span<const std::byte> slot,
-                                          StripStore& store);
+                                          wire::PixelFormat format, StripStore& store);
 
   const wire::Strip& header() const { return header_; }
   NodeSlot slot() const { return {header_.node, header_.slot}; }
   std::span<const wire::Run> runs() const { return runs_; }
   std::span<const wire::Run> constant_runs() const { return runs_.first(header_.constant_runs); }
   std::span<const wire::Run> moving_runs() const { return runs_.subspan(header_.constant_runs); }
+  // Words of pixels.
   std::span<const std::uint32_t> pixels() const { return pixels_; }
-  std::span<const std::uint32_t> constant_pixels() const { return pixels_.first(constant_pixels_); }
-  std::span<const std::uint32_t> moving_pixels() const { return pixels_.subspan(constant_pixels_); }
+  std::span<const std::uint32_t> constant_pixels() const { return pixels_.first(constant_words_); }
+  std::span<const std::uint32_t> moving_pixels() const { return pixels_.subspan(constant_words_); }
 
   // The host's memory that it took, to be used for another.
   StripBytes release() { return std::move(bytes_); }
 
  private:
-  StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs, const std::byte* pixels);
+  StripMessage(const wire::Strip& header, StripBytes bytes, const std::byte* runs, std::span<const std::byte> pixels);
 
-  bool count_pixels();
+  bool count_pixels(wire::PixelFormat format);
 
   wire::Strip header_;
   StripBytes bytes_;
   std::span<const wire::Run> runs_;
   std::span<const std::uint32_t> pixels_;
-  std::size_t constant_pixels_ = 0;
+  std::size_t constant_words_ = 0;
 };
 
 }  // namespace mars::farm

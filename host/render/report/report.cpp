@@ -24,6 +24,13 @@ ordered_json memory_json(const farm::HostMemory& memory) {
           {"most_bytes", memory.most_bytes()}};
 }
 
+ordered_json memory_json(const farm::NodeMemory& memory) {
+  return {{"frames", memory.frames},
+          {"still", memory.still},
+          {"still_line_bytes", memory.still_plan.line_bytes},
+          {"still_lines", memory.still_plan.lines}};
+}
+
 // What the furthest neighbours share across each dimension of the hypercube of all nodes.
 ordered_json dimensions_json(const std::vector<wire::Hello>& hellos) {
   std::vector<topology::Location> nodes;
@@ -101,6 +108,7 @@ std::string report_text(const ReportHead& head, const farm::FarmReport& report) 
                             {"height", head.height},
                             {"film_bytes", report.film_bytes},
                             {"host_memory", memory_json(head.memory)},
+                            {"node_memory", memory_json(report.node_memory)},
                             {"load_seconds", report.load_seconds},
                             {"render_seconds", report.render_seconds},
                             {"total_seconds", report.total_seconds},

@@ -36,11 +36,12 @@ class Destination {
                                                 document::checksum_of(film.block()),
                                                 settings.width,
                                                 settings.height,
+                                                job.format,
                                                 settings.rate,
                                                 settings.frames,
                                                 frames,
                                                 {}});
-    sink_ = std::make_unique<sinks::PngSink>(*folder_);
+    sink_ = std::make_unique<sinks::FileSink>(*folder_);
   }
 
   sinks::Sink& sink() { return *sink_; }
@@ -59,16 +60,20 @@ std::uint32_t sink_threads(const topology::Machine& machine) {
   return static_cast<std::uint32_t>(std::clamp(machine.processors(), 2, 16));
 }
 
-farm::HostMemory memory_for(const topology::Machine& machine, const wire::FilmSettings& film, const farm::Plan& plan) {
+farm::HostMemory memory_for(const topology::Machine& machine, const wire::FilmSettings& film, wire::PixelFormat format,
+                            const farm::Plan& plan) {
   const std::uint64_t budget = topology::memory_share(machine.memory(), topology::memory_limit(), 1);
-  return farm::share_host_memory(budget, film, static_cast<std::uint32_t>(numnodes()),
+  return farm::share_host_memory(budget, film, format, static_cast<std::uint32_t>(numnodes()),
                                  static_cast<std::uint32_t>(plan.groups.size()), sink_threads(machine));
 }
 
-sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::FilmSettings& film, std::uint32_t block,
+// New buffers show the first interval's background.
+sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::FilmView& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(machine), frames);
-  return {film.width, film.height, block, frames, threads, farm::pixel_of(film.background)};
+  const wire::PixelFormat format = images::facts_of(job.format).pixels;
+  const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
+  return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
 }
 
 farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace) {
@@ -103,13 +108,13 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const farm::PlanRequest request{job.frames.of_film(settings.frames), job.coherence, job.groups};
   const farm::Plan plan = farm::make_plan(view, request, static_cast<int>(numnodes()));
   const topology::Machine machine = topology::Machine::here();
-  const farm::HostMemory memory = memory_for(machine, settings, plan);
+  const farm::HostMemory memory = memory_for(machine, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
   Destination destination(job, film, request.frames);
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  sinks::SinkPool pool(destination.sink(), pool_shape(machine, settings, job.block, memory.frames));
+  sinks::SinkPool pool(destination.sink(), pool_shape(machine, view, job, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), pool,
                                                     reporter.listener(view.intervals().size()));
   destination.finish();

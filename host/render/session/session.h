@@ -10,6 +10,7 @@
 
 #include "host/content/film/compile.h"
 #include "host/content/film/frame_set.h"
+#include "host/images/picture_format.h"
 #include "node/wire/protocol.h"
 
 namespace mars::session {
@@ -19,6 +20,7 @@ struct RenderJob {
   // Reads and compiles it, which may take long; `warn` takes one line about a probable mistake.
   std::function<film::CompiledFilm(const std::function<void(const std::string&)>& warn)> load_film;
   std::string folder;  // for the frames; "": they go nowhere
+  images::PictureFormat format = images::PictureFormat::png;
   film::FrameSet frames;
   wire::Mapping mapping = wire::Mapping::cost;
   bool coherence = true;

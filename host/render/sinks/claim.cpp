@@ -136,8 +136,8 @@ void refuse_rival(const RunFiles& run, const Manifest& wanted, const fs::path& f
     throw Failure("another run renders into this folder, and its claim cannot be read",
                   file_of(run, kClaimEnding)->string(), "give another folder with -o, or wait");
   const Manifest& theirs = rival->manifest;
-  if (theirs.checksum != wanted.checksum) {
-    const std::string which = theirs.film == wanted.film ? "another version or size of " : "";
+  if (!are_of_one_folder(theirs, wanted)) {
+    const std::string which = theirs.film == wanted.film ? "another version, size or format of " : "";
     throw Failure(description(*rival, which), folder.string(), "give another folder with -o, or wait");
   }
   std::vector<std::uint32_t> both;

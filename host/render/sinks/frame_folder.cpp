@@ -11,7 +11,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/record.h"
 
@@ -46,10 +46,10 @@ std::optional<Manifest> read_frames_json(const fs::path& folder) {
   }
 }
 
-// The folder's manifest, if it is of this very film.
-std::optional<Manifest> manifest_of_same_film(const fs::path& folder, const std::string& checksum) {
+// The folder's manifest, if these frames belong there too.
+std::optional<Manifest> manifest_for(const Manifest& wanted, const fs::path& folder) {
   std::optional<Manifest> old = read_frames_json(folder);
-  return old && old->checksum == checksum ? old : std::nullopt;
+  return old && are_of_one_folder(*old, wanted) ? old : std::nullopt;
 }
 
 void write_manifest(const Manifest& manifest, const fs::path& folder, const RunsFolder& runs) {
@@ -57,11 +57,11 @@ void write_manifest(const Manifest& manifest, const fs::path& folder, const Runs
   document::replace_file(folder / kManifestName, runs.own_file(".frames.json.part"), std::as_bytes(std::span(text)));
 }
 
-// False, and nothing is added, where the manifest is of another film.
+// False, and nothing is added, where the manifest is of another film or format.
 bool add_to_manifest(const Manifest& rendered, const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn) {
   Manifest all = read_frames_json(folder).value_or(rendered);
   turn.confirm();
-  if (all.checksum != rendered.checksum) return false;
+  if (!are_of_one_folder(all, rendered)) return false;
   add_frames(all, rendered);
   write_manifest(all, folder, runs);
   return true;
@@ -123,8 +123,8 @@ void FrameFolder::claim(const FolderTurn& turn, const Manifest& manifest) {
     if (has_claim(run) && !turn.has_ended(run)) refuse_rival(run, manifest, path_);
   settle_ended_runs(path_, runs_, turn);
   turn.confirm();
-  std::optional<Manifest> all = manifest_of_same_film(path_, manifest.checksum);
-  if (!all) {  // another film's frames under the names to come would pass as this one's if the run were interrupted
+  std::optional<Manifest> all = manifest_for(manifest, path_);
+  if (!all) {  // other frames under the names to come would pass as this one's if the run were interrupted
     for (const std::uint32_t frame : manifest.frames) remove_frame(file_of(frame));
     all = manifest;
   }
@@ -160,18 +160,16 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
   sync_folder(path_);
 }
 
-fs::path FrameFolder::file_of(std::uint32_t frame) const {
-  return path_ / frame_file_name(frame, rendered_.film_frames);
-}
+fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_file_name(rendered_, frame); }
 
 // The hash first: should the run be killed between the two, a frame without a file is missing, but a file without a
 // hash would say nothing.
-void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png) {
+void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file) {
   lease_->check();
   hashes_->add(frame, pixel_hash);
   record(frame, pixel_hash);
-  const std::string part = "." + frame_file_name(frame, rendered_.film_frames) + std::string(document::kPartSuffix);
-  document::replace_file(file_of(frame), runs_.own_file(part), png);
+  const std::string part = "." + frame_file_name(rendered_, frame) + std::string(document::kPartSuffix);
+  document::replace_file(file_of(frame), runs_.own_file(part), file);
 }
 
 // In memory too: at its end a run depends on nothing that it would have to read again.
@@ -199,12 +197,13 @@ Manifest read_manifest(const fs::path& folder) {
     throw Failure("no folder of frames: it has no frames.json", folder.string(),
                   "name the folder that was given to mars render with -o");
   for (const Manifest& rendered : unfinished)
-    if (rendered.checksum == manifest->checksum) add_frames(*manifest, rendered);
+    if (are_of_one_folder(rendered, *manifest)) add_frames(*manifest, rendered);
   return std::move(*manifest);
 }
 
-void PngSink::take(const compositor::Frame& frame) {
-  folder_.put(frame.number, pixel_hash(frame.pixels), images::encode_png(frame.width, frame.height, frame.pixels));
+void FileSink::take(const compositor::Frame& frame) {
+  folder_.put(frame.number, pixel_hash(frame.pixels),
+              images::encode_picture(folder_.format(), frame.width, frame.height, frame.pixels));
 }
 
 }  // namespace mars::sinks

@@ -1,7 +1,7 @@
-// The folder a film is rendered into: frame-0000.png and so on, and frames.json, the manifest that says which frames of
-// which film belong there, and the hash of each one's pixels. The manifest is written first, so that a folder without
-// it, or with fewer frames than it names, is known to be unfinished. From its first file to its last a run has a claim
-// there (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs (runs_folder.h).
+// The folder a film is rendered into: frame-0000.png (or .exr) and so on, and frames.json, the manifest that says which
+// frames of which film belong there, and the hash of each one's pixels. The manifest is written first, so that a folder
+// without it, or with fewer frames than it names, is known to be unfinished. From its first file to its last a run has
+// a claim there (claim.h); what it alone knows meanwhile, the hashes of its frames, is in .runs (runs_folder.h).
 #pragma once
 
 #include <chrono>
@@ -25,9 +25,9 @@ namespace mars::sinks {
 class FrameFolder {
  public:
   // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what
-  // else they left, claims the frames, and writes the manifest; where there is one of the same compiled film, its
-  // frames belong there too. Throws Failure, and has changed nothing of others', where another run's claim is in the
-  // way.
+  // else they left, claims the frames, and writes the manifest; where there is one of the same compiled film in
+  // the same format, its frames belong there too. Throws Failure, and has changed nothing of others', where another
+  // run's claim is in the way.
   FrameFolder(std::filesystem::path path, const Manifest& manifest, const ProcessName& self = this_process());
   // As finish(), but waits less for its turn; what then is not written, the next run or clear_ended_runs finds.
   ~FrameFolder();
@@ -35,10 +35,11 @@ class FrameFolder {
   FrameFolder& operator=(const FrameFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  images::PictureFormat format() const { return rendered_.format; }
   std::filesystem::path file_of(std::uint32_t frame) const;
 
   // Writes a frame's file; from several threads at once. Throws Failure where it cannot, or the claim is lost.
-  void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> png);
+  void put(std::uint32_t frame, const std::string& pixel_hash, std::span<const std::byte> file);
 
   // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
   // its files in .runs.
@@ -65,11 +66,11 @@ void clear_ended_runs(const std::filesystem::path& folder);
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.
 Manifest read_manifest(const std::filesystem::path& folder);
 
-// Writes every frame as a PNG file of the folder.
-class PngSink : public Sink {
+// Writes every frame as a file of the folder.
+class FileSink : public Sink {
  public:
   // `folder` must outlive the sink.
-  explicit PngSink(FrameFolder& folder) : folder_(folder) {}
+  explicit FileSink(FrameFolder& folder) : folder_(folder) {}
   void take(const compositor::Frame& frame) override;
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
 constexpr auto kKeys = std::to_array<std::string_view>(
-    {"film", "checksum", "width", "height", "rate", "film_frames", "frames", "pixel_hashes"});
+    {"film", "checksum", "width", "height", "format", "rate", "film_frames", "frames", "pixel_hashes"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -28,6 +28,15 @@ json stretches_of(const std::vector<std::uint32_t>& frames) {
   const film::FrameSet set(frames);
   for (const film::FrameSet::Stretch& stretch : set.stretches()) stretches.push_back({stretch.first, *stretch.last});
   return stretches;
+}
+
+// PNG where there is none: of frames that were rendered before there were others.
+images::PictureFormat format_of(const Record& record) {
+  constexpr std::size_t kLongestName = 16;
+  if (!record.has("format")) return images::PictureFormat::png;
+  const auto format = images::picture_format_of(record.text("format", kLongestName));
+  if (!format) refuse_value("format", record.value("format"), "png, png16 or exr");
+  return *format;
 }
 
 std::uint32_t frame_of(const json& number, std::uint32_t film_frames) {
@@ -70,6 +79,10 @@ std::vector<std::string> hashes_of(const json& list, std::size_t frames) {
 
 }  // namespace
 
+bool are_of_one_folder(const Manifest& a, const Manifest& b) {
+  return a.checksum == b.checksum && a.format == b.format;
+}
+
 std::string pixel_hash(const std::vector<std::uint32_t>& pixels) {
   return document::checksum_of(std::as_bytes(std::span(pixels)));
 }
@@ -106,6 +119,7 @@ json to_json(const Manifest& manifest) {
                {"checksum", manifest.checksum},
                {"width", manifest.width},
                {"height", manifest.height},
+               {"format", images::facts_of(manifest.format).name},
                {"rate", manifest.rate},
                {"film_frames", manifest.film_frames},
                {"frames", stretches_of(manifest.frames)}};
@@ -121,6 +135,7 @@ Manifest manifest_of(const json& from) {
   manifest.checksum = record.checksum("checksum");
   manifest.width = static_cast<std::uint32_t>(record.whole_number("width", 1, wire::kMaxSide));
   manifest.height = static_cast<std::uint32_t>(record.whole_number("height", 1, wire::kMaxSide));
+  manifest.format = format_of(record);
   manifest.rate = record.positive_number("rate");
   manifest.film_frames = static_cast<std::uint32_t>(record.whole_number("film_frames", 1, wire::kMostFrames));
   manifest.frames = frames_of(record.list("frames"), manifest.film_frames);
@@ -129,10 +144,11 @@ Manifest manifest_of(const json& from) {
   return manifest;
 }
 
-std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames) {
-  const std::size_t digits = std::max<std::size_t>(4, std::to_string(film_frames - 1).size());
+std::string frame_file_name(const Manifest& manifest, std::uint32_t frame) {
+  const std::size_t digits = std::max<std::size_t>(4, std::to_string(manifest.film_frames - 1).size());
   const std::string number = std::to_string(frame);
-  return "frame-" + std::string(digits - std::min(digits, number.size()), '0') + number + ".png";
+  return "frame-" + std::string(digits - std::min(digits, number.size()), '0') + number +
+         images::facts_of(manifest.format).ending;
 }
 
 }  // namespace mars::sinks

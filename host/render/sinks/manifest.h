@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/images/picture_format.h"
+
 namespace mars::sinks {
 
 struct Manifest {
@@ -14,6 +16,7 @@ struct Manifest {
   std::string checksum;  // of the compiled film: 32 hexadecimal digits (checksum.h)
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  images::PictureFormat format = images::PictureFormat::png;
   double rate = 0;                    // frames a second
   std::uint32_t film_frames = 0;      // of the whole film
   std::vector<std::uint32_t> frames;  // asked for, by one run or several, ascending
@@ -23,10 +26,13 @@ struct Manifest {
   bool operator==(const Manifest&) const = default;
 };
 
+// Whether both are of the same compiled film, in the same format: then their frames are those of one folder.
+bool are_of_one_folder(const Manifest& a, const Manifest& b);
+
 // Of one frame's pixels, in the form that Frame and Image give them.
 std::string pixel_hash(const std::vector<std::uint32_t>& pixels);
 
-// Adds the frames of another manifest of the same film, with the hashes it has. Frames of a manifest without hashes
+// Adds the frames of another manifest of the same folder, with the hashes it has. Frames of a manifest without hashes
 // have unknown ones from then on.
 void add_frames(Manifest& manifest, const Manifest& more);
 
@@ -38,6 +44,6 @@ nlohmann::json to_json(const Manifest& manifest);
 Manifest manifest_of(const nlohmann::json& from);
 
 // Names sort as frames do: as many digits as the film's last frame needs, at least four.
-std::string frame_file_name(std::uint32_t frame, std::uint32_t film_frames);
+std::string frame_file_name(const Manifest& manifest, std::uint32_t frame);
 
 }  // namespace mars::sinks

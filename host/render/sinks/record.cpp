@@ -47,6 +47,8 @@ void Record::refuse_keys_but(std::span<const std::string_view> known) const {
       throw Failure("the key " + shown_key(item.key()) + " is unknown", "", "");
 }
 
+bool Record::has(std::string_view key) const { return object_.contains(key); }
+
 const json& Record::value(std::string_view key) const {
   const auto found = object_.find(key);
   if (found == object_.end()) throw Failure("the key " + shown_key(key) + " is missing", "", "");

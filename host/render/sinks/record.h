@@ -24,6 +24,7 @@ class Record {
 
   void refuse_keys_but(std::span<const std::string_view> known) const;
 
+  bool has(std::string_view key) const;
   const nlohmann::json& value(std::string_view key) const;
   const nlohmann::json& list(std::string_view key) const;
   std::uint64_t whole_number(std::string_view key, std::uint64_t lowest, std::uint64_t highest) const;

@@ -35,7 +35,8 @@ SinkPool::~SinkPool() {
 }
 
 void SinkPool::make_frame() {
-  frames_.push_back(std::make_unique<compositor::Frame>(shape_.width, shape_.height, shape_.block, shape_.background));
+  frames_.push_back(
+      std::make_unique<compositor::Frame>(shape_.width, shape_.height, shape_.block, shape_.background, shape_.format));
   const std::lock_guard lock(mutex_);
   free_.push_back(frames_.back().get());
 }

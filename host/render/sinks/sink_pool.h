@@ -25,7 +25,8 @@ class SinkPool {
     std::uint32_t block;           // side of a flag's block in pixels
     std::uint32_t frames;          // buffers at most, at least 1
     std::uint32_t threads;         // at least 1
-    std::uint32_t background = 0;  // the pixel that new buffers show
+    std::uint64_t background = 0;  // the pixel that new buffers show
+    wire::PixelFormat format = wire::PixelFormat::rgb8;
   };
 
   // `sink` must outlive the pool.

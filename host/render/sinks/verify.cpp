@@ -6,7 +6,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 #include "host/render/sinks/frame_folder.h"
 
 namespace mars::sinks {
@@ -25,7 +25,7 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
   std::error_code none;
   if (fs::status(file, none).type() == fs::file_type::not_found) return "missing";
   try {
-    const images::Image image = images::read_png(file);
+    const images::Image image = images::read_picture(manifest.format, file);
     if (image.width != manifest.width || image.height != manifest.height) {
       return size_text(image.width, image.height) + " pixels instead of " + size_text(manifest.width, manifest.height);
     }
@@ -43,11 +43,12 @@ std::string trouble_with(const fs::path& file, const Manifest& manifest, const s
 Verdict verify_folder(const fs::path& folder) {
   const Manifest manifest = read_manifest(folder);
   Verdict verdict;
+  verdict.pixels = images::facts_of(manifest.format).pixels_text;
   verdict.compared = !manifest.pixel_hashes.empty();
   document::Checksum pixels;
   for (std::size_t i = 0; i < manifest.frames.size(); ++i) {
     const std::uint32_t frame = manifest.frames[i];
-    const fs::path file = folder / frame_file_name(frame, manifest.film_frames);
+    const fs::path file = folder / frame_file_name(manifest, frame);
     const auto expected = verdict.compared ? std::optional(manifest.pixel_hashes[i]) : std::nullopt;
     const std::string reason = trouble_with(file, manifest, expected, pixels);
     if (!reason.empty()) verdict.troubles.push_back({frame, reason});

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -243,18 +244,33 @@ void add_joint_options(CLI::App& app, Words& words) {
   app.footer(shapes_text());
 }
 
+void add_material_numbers(CLI::App& app, modeler::MaterialChange& change) {
+  constexpr std::array helps{"Share of the light from all around. Example: --ambient 0.2",
+                             "Share of a light's light, scattered. Example: --diffuse 0.7",
+                             "Strength of highlights. Example: --specular 0.1",
+                             "Sharpness of highlights. Example: --exponent 16",
+                             "How rough it is, 0 to 1. Example: --roughness 0.3",
+                             "1: a metal; 0: none. Example: --metallic 1",
+                             "Index of refraction. Example: --refraction 1.5"};
+  static_assert(helps.size() == modeler::kMaterialNumbers.size());
+  for (std::size_t i = 0; i < helps.size(); ++i)
+    app.add_option("--" + std::string(modeler::kMaterialNumbers[i].key), change.numbers[i], helps[i])
+        ->type_name(modeler::kMaterialNumbers[i].range.highest == 10 ? "SHARE" : "NUMBER");
+}
+
 void add_material_options(CLI::App& app, Words& words) {
   app.add_option("--material", words.material, "Its material. Example: --material fur")->type_name("NAME");
   add_numbers(app, "--color", words.color, 3, "R G B",
               "The material's red, green, blue, 0 to 1. Example: --color 0.6 0.4 0.2");
-  app.add_option("--ambient", words.material_change.ambient, "Ambient share of the colour. Example: --ambient 0.2")
-      ->type_name("SHARE");
-  app.add_option("--diffuse", words.material_change.diffuse, "Diffuse share of the colour. Example: --diffuse 0.7")
-      ->type_name("SHARE");
-  app.add_option("--specular", words.material_change.specular, "Strength of highlights. Example: --specular 0.1")
-      ->type_name("SHARE");
-  app.add_option("--exponent", words.material_change.exponent, "Sharpness of highlights. Example: --exponent 16")
-      ->type_name("NUMBER");
+  add_material_numbers(app, words.material_change);
+  app.add_option("--reflection", words.material_change.reflection,
+                 "How it reflects light: phong, blinn-phong, cook-torrance or metallic-roughness. "
+                 "Example: --reflection metallic-roughness")
+      ->type_name("MODEL");
+  app.add_option("--interpolation", words.material_change.interpolation,
+                 "What is interpolated over a triangle: its normal (phong), the colours of its corners (gouraud), or "
+                 "nothing (flat). Example: --interpolation flat")
+      ->type_name("WHAT");
   app.add_option("--sides", words.material_change.sides, "1: seen from outside only. Example: --sides 1")
       ->type_name("1|2");
 }

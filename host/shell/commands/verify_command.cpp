@@ -36,7 +36,7 @@ int print_verdict(const sinks::Verdict& verdict) {
   }
   std::cout << verdict.expected << " frames, all there";
   std::cout << (verdict.compared ? " and whole\n" : "; frames.json has no pixel hashes, so pixels were not compared\n");
-  std::cout << "pixels " << verdict.hash << '\n';
+  std::cout << "pixels (" << verdict.pixels << ") " << verdict.hash << '\n';
   return 0;
 }
 

@@ -38,6 +38,7 @@ film::CompiledFilm load_film_of(const options::RenderOptions& options, const War
   film::CompileOptions compiling;
   if (options.intervals == options::Intervals::keyframes) compiling.cutting = animator::Cutting::keyframes;
   if (options.size) compiling.size = {options.size->width, options.size->height};
+  compiling.samples = options.samples;
   if (options.film == options::kTrialFilm)
     return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
   return load_with_warnings(options.film, compiling, warn);

@@ -21,7 +21,8 @@ session::RenderJob job_of(const options::RenderOptions& options, const std::stri
   session::RenderJob job;
   job.film = options.film;
   job.load_film = [options](const auto& warn) { return load_film_of(options, warn); };
-  job.folder = options.sink == options::SinkKind::png ? options.folder : "";
+  job.folder = options.sink == options::SinkKind::files ? options.folder : "";
+  job.format = options.format;
   job.frames = options.frames;
   job.mapping = options.mapping;
   job.coherence = !options.no_coherence;

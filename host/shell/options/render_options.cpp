@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -32,7 +33,9 @@ constexpr std::array kWords<Backend>{"auto", "mpi", "threads"};
 template <>
 constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
-constexpr std::array kWords<SinkKind>{"png", "none"};
+constexpr std::array kWords<SinkKind>{"files", "none"};
+template <>
+constexpr std::array kWords<images::PictureFormat>{"png", "png16", "exr"};
 template <>
 constexpr std::array kWords<wire::Mapping>{"greedy", "optimal", "cost"};
 
@@ -51,6 +54,13 @@ void read(const std::string& text, film::FrameSet& value) { value = film::FrameS
 
 void read(const std::string& text, std::optional<images::PictureSize>& value) {
   value = images::read_picture_size(text);
+}
+
+// Samples of a pixel.
+void read(const std::string& text, std::optional<std::uint32_t>& value) {
+  value = document::number_in<std::uint32_t>(text).value_or(0);
+  if (!std::has_single_bit(*value) || *value > wire::kMostSamples)
+    throw Failure("'" + text + "' is not 1, 2, 4, 8 or 16", "", "");
 }
 
 // A number of at least one.
@@ -86,6 +96,8 @@ std::string text_of(const film::FrameSet& frames) { return frames.text(); }
 std::string text_of(const std::optional<images::PictureSize>& size) {
   return std::to_string(size->width) + "x" + std::to_string(size->height);
 }
+
+std::string text_of(const std::optional<std::uint32_t>& number) { return std::to_string(*number); }
 
 // A command line that makes no sense is a usage error: it names what it concerns, exit code 2.
 template <typename Check>
@@ -180,6 +192,9 @@ std::vector<Entry> table() {
       option(compiles, "--size", "WxH", &RenderOptions::size,
              "Picture size in pixels; default: the film's. Example: --size 960x540"),
       option(
+          compiles, "--samples", "1|2|4|8|16", &RenderOptions::samples,
+          "Samples of a pixel; default: the film's. More make smoother edges and take longer. Example: --samples 16"),
+      option(
           all, "--mapping", "greedy|optimal|cost", &RenderOptions::mapping,
           "How scanlines are divided among nodes: by edge boxes with the thesis's heuristic, exactly by edge boxes, or "
           "exactly by edge boxes and the samples that they cover; default: cost. Example: --mapping greedy"),
@@ -193,7 +208,10 @@ std::vector<Entry> table() {
       number(all, "--groups", {&RenderOptions::groups, true, many},
              "Groups of nodes, each rendering its own interval; 1: all nodes share one, as in the thesis. Example: "
              "--groups 1"),
-      option(all, "--sink", "png|none", &RenderOptions::sink,
+      option(all, "--format", "png|png16|exr", &RenderOptions::format,
+             "Files of the frames: PNG of 8 or 16 bits, or EXR: half floats of light before exposure and curve; "
+             "default: png. Example: --format exr"),
+      option(all, "--sink", "files|none", &RenderOptions::sink,
              "Where frames go; none writes no files, to measure rendering. Example: --sink none"),
       option(all, "--report", "FILE", &RenderOptions::report,
              "Write each node's times and work per frame as JSON. Example: --report report.json"),
@@ -219,7 +237,7 @@ void refuse_former_names(CLI::App& app) {
 
 // Checks that concern several options.
 void check_together(const RenderOptions& options) {
-  if (options.folder.empty() && options.sink == SinkKind::png) {
+  if (options.folder.empty() && options.sink == SinkKind::files) {
     throw Failure("no folder to put the frames in", "", "add -o DIR, or --sink none to measure only");
   }
   if (!options.hostfile.empty() && options.backend == Backend::threads) {

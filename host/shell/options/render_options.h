@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/content/film/frame_set.h"
+#include "host/images/picture_format.h"
 #include "host/images/picture_size.h"
 #include "node/wire/protocol.h"
 
@@ -23,7 +24,7 @@ inline constexpr const char* kTrialFilm = ":trial";
 
 enum class Backend { automatic, mpi, threads };
 enum class Intervals { automatic, keyframes };
-enum class SinkKind { png, none };
+enum class SinkKind { files, none };
 
 struct RenderOptions {
   std::string film;         // FILM.json or FILM.mars
@@ -33,14 +34,16 @@ struct RenderOptions {
   std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
   film::FrameSet frames;
   std::optional<images::PictureSize> size;  // none: the film's own
+  std::optional<std::uint32_t> samples;     // of a pixel; none: the film's own
   wire::Mapping mapping = wire::Mapping::cost;
   Intervals intervals = Intervals::automatic;
   bool no_coherence = false;  // every frame from scratch
   std::uint32_t block = 16;   // side of the compositor's blocks, pixels
   std::uint32_t groups = 0;   // intervals rendered at a time; 0: chosen by the plan
-  SinkKind sink = SinkKind::png;
-  std::string report;  // file for the measurements; "": none
-  std::string trace;   // file for a picture of the run; "": none
+  SinkKind sink = SinkKind::files;
+  images::PictureFormat format = images::PictureFormat::png;  // of the files
+  std::string report;                                         // file for the measurements; "": none
+  std::string trace;                                          // file for a picture of the run; "": none
   bool quiet = false;
 
   bool operator==(const RenderOptions&) const = default;

@@ -26,20 +26,23 @@ void order(Point& a, Point& b) {
   b = {hn::IfThenElse(swap, was.x, b.x), hn::IfThenElse(swap, was.y, b.y)};
 }
 
-// First row or column whose sample lies at or after a place.
-Ints sample_after(Ints place) { return hn::ShiftRight<8>(hn::Add(place, constant(shape::kSampleOffset - 1))); }
+// First row whose samples lie at or after y.
+Ints row_after(Ints y, const shape::SamplePattern& pattern) {
+  return hn::ShiftRight<8>(hn::Add(hn::Mul(y, constant(pattern.count)), constant(shape::kSubpixels / 2 - 1)));
+}
 
 // A side's crossing of a row is (numerator / denominator) columns from where columns are counted.
 struct Side {
-  Ints numerator, step, denominator;
+  Ints numerator, step, height, denominator;
   Floats inverse;
 
-  // At the row of sample place `y`, columns counted from sample place `x`.
-  Side(const Point& from, const Point& to, Ints x, Ints y) {
-    const Ints dx = hn::Sub(to.x, from.x), dy = hn::Sub(to.y, from.y);
-    numerator = hn::Add(hn::Mul(hn::Sub(y, from.y), dx), hn::Mul(hn::Sub(from.x, x), dy));
-    step = hn::ShiftLeft<8>(dx);
-    denominator = hn::ShiftLeft<8>(dy);
+  // At the row of sample place `y`, columns counted from place `x`.
+  Side(const Point& from, const Point& to, Ints x, Ints y, const shape::SamplePattern& pattern) {
+    const Ints dx = hn::Sub(to.x, from.x);
+    height = hn::Sub(to.y, from.y);
+    numerator = hn::Add(hn::Mul(hn::Sub(y, from.y), dx), hn::Mul(hn::Sub(from.x, x), height));
+    step = hn::Mul(dx, constant(shape::kSubpixels / pattern.count));
+    denominator = hn::ShiftLeft<8>(height);
     inverse = hn::Div(hn::Set(kFloats, 1.0f), hn::ConvertTo(kFloats, denominator));
   }
   void next_row() { numerator = hn::Add(numerator, step); }
@@ -72,37 +75,71 @@ Triangle3 load(const shape::Vertices& v, const shape::Triangles& triangles, std:
   return {corner(triangles.a), corner(triangles.b), corner(triangles.c)};
 }
 
-// Columns of those that `may` cover samples, row by row; which of them do.
-Mask set_columns(Triangle3 t, Ints left, Ints first_row, Ints last_row, Mask may, std::int32_t width,
+// Rows that a triangle may touch, of the picture's.
+struct Rows {
+  Ints first, last;
+};
+
+// Columns of those that `may` cover samples, row by row from line `line` on; which of them do. `kOne`: one sample a
+// pixel, all at the same x.
+template <bool kOne>
+Mask set_columns(Triangle3 t, Ints left, Ints line, const Rows& rows, Mask may, const ClassifyTask& task,
                  std::uint32_t lane, Classified& out) {
+  const shape::SamplePattern& pattern = task.pattern;
   order(t.a, t.b);
   order(t.b, t.c);
   order(t.a, t.b);
   const Ints column = hn::ShiftRight<8>(left);
-  const Ints x = hn::Add(hn::ShiftLeft<8>(column), constant(shape::kSampleOffset));
-  Ints y = hn::Add(hn::ShiftLeft<8>(first_row), constant(shape::kSampleOffset));
-  Side full(t.a, t.c, x, y), upper(t.a, t.b, x, y), lower(t.b, t.c, x, y);
-  const Ints end = hn::IfThenElseZero(may, hn::ShiftLeft<8>(last_row));
+  const Ints x = hn::Add(hn::ShiftLeft<8>(column), constant(kOne ? pattern.x[0] : 0));
+  Ints y = hn::Add(hn::ShiftLeft<8>(line), constant(pattern.y[0]));
+  Side full(t.a, t.c, x, y, pattern), upper(t.a, t.b, x, y, pattern), lower(t.b, t.c, x, y, pattern);
+  const Ints row_height = constant(shape::kSubpixels / pattern.count);
+  const Ints begin = hn::Mul(rows.first, row_height);
+  const Ints end = hn::IfThenElseZero(may, hn::Mul(rows.last, row_height));
   Mask covers = hn::Lt(y, y);
   for (std::int32_t r = 0;; ++r) {
-    const Mask within = hn::Lt(y, end);
+    Mask within = hn::Lt(y, end);
     if (hn::AllFalse(kInts, within)) return covers;
+    if constexpr (!kOne) within = hn::And(within, hn::Gt(y, begin));
     const Mask above = hn::Lt(y, t.b.y);
-    const Ints one = first_sample(full.numerator, full.denominator, full.inverse);
-    const Ints other = first_sample(hn::IfThenElse(above, upper.numerator, lower.numerator),
-                                    hn::IfThenElse(above, upper.denominator, lower.denominator),
+    Ints long_numerator = full.numerator, short_numerator = hn::IfThenElse(above, upper.numerator, lower.numerator);
+    if constexpr (!kOne) {
+      const Ints sample_x = constant(pattern.x[r & (pattern.count - 1)]);
+      long_numerator = hn::Sub(long_numerator, hn::Mul(sample_x, full.height));
+      short_numerator = hn::Sub(short_numerator, hn::Mul(sample_x, hn::IfThenElse(above, upper.height, lower.height)));
+    }
+    const Ints one = first_sample(long_numerator, full.denominator, full.inverse);
+    const Ints other = first_sample(short_numerator, hn::IfThenElse(above, upper.denominator, lower.denominator),
                                     hn::IfThenElse(hn::RebindMask(kFloats, above), upper.inverse, lower.inverse));
     const Ints first = hn::Max(hn::Add(hn::Min(one, other), column), hn::Zero(kInts));
-    const Ints last = hn::Min(hn::Add(hn::Max(one, other), column), constant(width));
+    const Ints last = hn::Min(hn::Add(hn::Max(one, other), column), constant(task.width));
     const Mask covered = hn::And(within, hn::Lt(first, last));
     const Ints columns = hn::IfThenElseZero(covered, hn::Or(first, hn::ShiftLeft<16>(last)));
     hn::Store(columns, kInts, reinterpret_cast<std::int32_t*>(out.columns[r]) + lane);
     covers = hn::Or(covers, covered);
-    y = hn::Add(y, constant(shape::kSubpixels));
+    y = hn::Add(y, row_height);
     full.next_row();
     upper.next_row();
     lower.next_row();
   }
+}
+
+// Columns that hold all samples between `left` and `right`.
+struct Columns {
+  Ints first, last;
+};
+Columns column_bounds(Ints left, Ints right, const ClassifyTask& task) {
+  std::int32_t least = task.pattern.x[0], most = least;
+  for (std::int32_t s = 1; s < task.pattern.count; ++s) {
+    const std::int32_t x = task.pattern.x[s];
+    least = x < least ? x : least;
+    most = x > most ? x : most;
+  }
+  const auto column_after = [](Ints place, std::int32_t x) {
+    return hn::ShiftRight<8>(hn::Add(place, constant(shape::kSubpixels - 1 - x)));
+  };
+  return {hn::Max(column_after(left, most), hn::Zero(kInts)),
+          hn::Min(column_after(right, least), constant(task.width))};
 }
 
 }  // namespace
@@ -128,20 +165,25 @@ void classify(const ClassifyTask& task, const shape::Vertices& v, const shape::T
 
     const Ints left = hn::Min(hn::Min(t.a.x, t.b.x), t.c.x), right = hn::Max(hn::Max(t.a.x, t.b.x), t.c.x);
     const Ints top = hn::Min(hn::Min(t.a.y, t.b.y), t.c.y), bottom = hn::Max(hn::Max(t.a.y, t.b.y), t.c.y);
-    const Ints first_row = hn::Max(sample_after(top), hn::Zero(kInts));
-    const Ints last_row = hn::Min(sample_after(bottom), constant(task.height));
-    const Ints first_column = hn::Max(sample_after(left), hn::Zero(kInts));
-    const Ints last_column = hn::Min(sample_after(right), constant(task.width));
-    const Mask touches = hn::And(left_over, hn::And(hn::Lt(first_row, last_row), hn::Lt(first_column, last_column)));
+    const shape::SamplePattern& pattern = task.pattern;
+    const Rows rows{hn::Max(row_after(top, pattern), hn::Zero(kInts)),
+                    hn::Min(row_after(bottom, pattern), constant(task.height * pattern.count))};
+    const Columns columns = column_bounds(left, right, task);
+    const Mask touches =
+        hn::And(left_over, hn::And(hn::Lt(rows.first, rows.last), hn::Lt(columns.first, columns.last)));
     out.undecided |= bits(hn::AndNot(sure, touches)) << lane;
     const Mask may = hn::And(touches, sure);
     if (hn::AllFalse(kInts, may)) continue;
 
-    const Mask covers = set_columns(t, left, first_row, last_row, may, task.width, lane, out);
+    const Ints first_line = hn::ShiftRightSame(rows.first, pattern.log2_count);
+    const auto set_columns = pattern.count == 1 ? MARS_SET::set_columns<true> : MARS_SET::set_columns<false>;
+    const Mask covers = set_columns(t, left, first_line, rows, may, task, lane, out);
     out.decided |= bits(covers) << lane;
     out.faces |= bits(faces) << lane;
-    hn::Store(first_row, kInts, out.first_row + lane);
-    hn::Store(last_row, kInts, out.last_row + lane);
+    const Ints first_row = hn::ShiftLeftSame(first_line, pattern.log2_count);
+    hn::Store(first_line, kInts, out.first_line + lane);
+    hn::Store(hn::Sub(rows.first, first_row), kInts, out.first_row + lane);
+    hn::Store(hn::Sub(rows.last, first_row), kInts, out.last_row + lane);
     hn::Store(hn::ConvertTo(kFloats, x1), kFloats, out.x1 + lane);
     hn::Store(hn::ConvertTo(kFloats, y1), kFloats, out.y1 + lane);
     hn::Store(hn::ConvertTo(kFloats, x2), kFloats, out.x2 + lane);

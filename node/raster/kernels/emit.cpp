@@ -22,10 +22,10 @@ Float4 load(const float* four) {
   return out;
 }
 
-// An edge box in two moves: columns are first | last << 16.
-void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_moving, UnsortedEdgeBox* out) {
+// An edge box in two moves: `part` is EdgeBox::packed.
+void put(std::uint32_t number, std::uint32_t part, std::uint32_t line_and_moving, UnsortedEdgeBox* out) {
   static_assert(offsetof(UnsortedEdgeBox, line) == 8 && offsetof(UnsortedEdgeBox, moving) == 10 && sizeof *out == 12);
-  const std::uint64_t box = number | std::uint64_t{columns} << 32;
+  const std::uint64_t box = number | std::uint64_t{part} << 32;
   std::memcpy(out, &box, sizeof box);
   std::memcpy(reinterpret_cast<std::byte*>(out) + sizeof box, &line_and_moving, sizeof line_and_moving);
 }
@@ -34,10 +34,11 @@ void put(std::uint32_t number, std::uint32_t columns, std::uint32_t line_and_mov
 
 void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, const ScreenShape& shape,
                    const PatchIdentity& identity, geometry::Triangle& out) {
-  const float sign = shape.faces ? 1.0f : -1.0f;
+  const float sign = shape.faces || v.colors ? 1.0f : -1.0f;
+  const float(*values)[shape::kValues] = v.colors ? v.colors[shape.faces ? 0 : 1].values : v.values;
   const Float4 turned = {1, sign, sign, sign};
-  const Float4 first = turned * load(v.values[corners.a]);
-  const Float4 d1 = turned * load(v.values[corners.b]) - first, d2 = turned * load(v.values[corners.c]) - first;
+  const Float4 first = turned * load(values[corners.a]);
+  const Float4 d1 = turned * load(values[corners.b]) - first, d2 = turned * load(values[corners.c]) - first;
   const Float4 per_x = (d1 * shape.y2 - d2 * shape.y1) * shape.inverse;
   const Float4 per_y = (d2 * shape.x1 - d1 * shape.x2) * shape.inverse;
   std::memcpy(out.at_first, &first, sizeof first);
@@ -52,24 +53,25 @@ void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, cons
 void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& c,
           std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out) {
   SetUpSpace space = out;
+  const std::uint32_t log2_samples = space.log2_samples, last_sample = (1u << log2_samples) - 1;
   for (std::uint32_t left = lanes & c.decided; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const UnsortedEdgeBox* const before = space.last_box;
     __builtin_prefetch(space.next + kTrianglesAhead, 1);
     __builtin_prefetch(space.last_box - kBoxesAhead, 1);
     const auto number = static_cast<std::uint32_t>(space.next - space.first);
-    const auto first_row = static_cast<std::uint32_t>(c.first_row[lane]);
-    const auto rows = static_cast<std::uint32_t>(c.last_row[lane]) - first_row;
+    const auto first_line = static_cast<std::uint32_t>(c.first_line[lane]);
+    const auto last_row = static_cast<std::uint32_t>(c.last_row[lane]);
     const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
     // Without a branch: which rows are covered is not foreseen.
-    for (std::uint32_t r = 0; r < rows; ++r) {
-      const std::uint32_t row = first_row + r, wanted = -std::uint32_t{space.wanted_lines[row]};
-      const std::uint32_t columns = c.columns[r][lane] & wanted;
+    for (auto row = static_cast<std::uint32_t>(c.first_row[lane]); row < last_row; ++row) {
+      const std::uint32_t line = first_line + (row >> log2_samples);
+      const std::uint32_t columns = c.columns[row][lane] & -std::uint32_t{space.wanted_lines[line]};
       const bool covers = columns != 0;
       UnsortedEdgeBox* const box = space.last_box - 1;
-      put(number, columns, row | moving, box);
+      put(number, EdgeBox::packed(columns, row & last_sample), line | moving, box);
       space.last_box = covers ? box : space.last_box;
-      space.line_loads[row] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
+      space.line_loads[line] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;

@@ -46,7 +46,7 @@ template <typename Tag>
 // Draws `count` samples, the first at dx, as many at once as `floats` has lanes.
 template <typename Tag>
 void draw_samples(Tag floats, const Depth& plane, float dx, int count, const geometry::Triangle* triangles,
-                  std::uint32_t triangle, float* depth, std::uint32_t* ids) {
+                  std::uint32_t triangle, float* __restrict depth, std::uint32_t* __restrict ids) {
   const hn::Rebind<std::uint32_t, Tag> numbers;
   constexpr int kStep = static_cast<int>(hn::MaxLanes(Tag()));
   const auto on_line = hn::Set(floats, plane.on_line), per_x = hn::Set(floats, plane.per_x);
@@ -71,23 +71,25 @@ void draw_samples(Tag floats, const Depth& plane, float dx, int count, const geo
 }  // namespace
 
 shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, std::uint32_t count, std::uint32_t line,
-                     float* __restrict depth, std::uint32_t* __restrict ids) {
+                     const shape::SamplePattern& pattern, const LineSamples& samples) {
   shading::Extent extent{0xffffffffu, 0};
-  const std::int32_t y = static_cast<std::int32_t>(line) * shape::kSubpixels + shape::kSampleOffset;
+  const std::int32_t top = static_cast<std::int32_t>(line) * shape::kSubpixels;
   for (std::uint32_t b = 0; b < count; ++b) {
     __builtin_prefetch(triangles + boxes[b + kAhead < count ? b + kAhead : b].triangle);
     const EdgeBox box = boxes[b];
     const geometry::Triangle& t = triangles[box.triangle];
     extent.first = box.first < extent.first ? box.first : extent.first;
-    extent.last = box.last > extent.last ? box.last : extent.last;
-    const auto dy = static_cast<float>(y - t.first_y);
-    const auto dx = static_cast<float>(box.first * shape::kSubpixels + shape::kSampleOffset - t.first_x);
+    extent.last = box.last() > extent.last ? box.last() : extent.last;
+    const auto dy = static_cast<float>(top + pattern.y[box.sample] - t.first_y);
+    const auto dx = static_cast<float>(static_cast<std::int32_t>(box.first) * shape::kSubpixels +
+                                       pattern.x[box.sample] - t.first_x);
     const Depth plane{t.at_first[shape::kDepth] + dy * t.per_y[shape::kDepth], t.per_x[shape::kDepth]};
-    const int width = box.last - box.first;
+    const auto width = static_cast<int>(box.width());
+    const std::uint32_t at = box.sample * samples.stride + box.first;
     if (width == 1)
-      draw_samples(Narrow(), plane, dx, width, triangles, box.triangle, depth + box.first, ids + box.first);
+      draw_samples(Narrow(), plane, dx, width, triangles, box.triangle, samples.depth + at, samples.ids + at);
     else
-      draw_samples(Wide(), plane, dx, width, triangles, box.triangle, depth + box.first, ids + box.first);
+      draw_samples(Wide(), plane, dx, width, triangles, box.triangle, samples.depth + at, samples.ids + at);
   }
   return extent;
 }

@@ -3,6 +3,6 @@
 namespace mars::shading::MARS_SET {
 
 extern const ShadingKernels shading_kernels;
-const ShadingKernels shading_kernels = {shade, nullptr};
+const ShadingKernels shading_kernels = {shade, shade_fragments, shade_vertices};
 
 }  // namespace mars::shading::MARS_SET

@@ -65,7 +65,11 @@ void copy_depths(const float* __restrict from, const Piece* pieces, std::size_t 
 }  // namespace
 }  // namespace MARS_SET
 
+namespace MARS_SET {
+extern const Bare::Shade bare_models[];
+}
 extern const Bare MARS_JOIN(bare_, MARS_SET);
-const Bare MARS_JOIN(bare_, MARS_SET) = {MARS_SET::shade, MARS_SET::write_depths, MARS_SET::copy_depths};
+const Bare MARS_JOIN(bare_, MARS_SET) = {MARS_SET::shade, MARS_SET::bare_models, MARS_SET::write_depths,
+                                         MARS_SET::copy_depths};
 
 }  // namespace mars::bench

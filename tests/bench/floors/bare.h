@@ -25,9 +25,13 @@ struct Stretch {
 };
 
 struct Bare {
+  using Shade = void (*)(const Stretch& stretch, const wire::Material& material, const geometry::EyeLight& light,
+                         int count, std::uint32_t* pixels);
   // Interpolates, normalises both, N.L, R.V to the 32nd by five squarings, and packs `count` pixels.
-  void (*shade)(const Stretch& stretch, const wire::Material& material, const geometry::EyeLight& light, int count,
-                std::uint32_t* pixels);
+  Shade shade;
+  // The same with other models: Blinn's, Cook's and Torrance's, metallic-roughness; and colours that are only
+  // interpolated.
+  const Shade* models;
   // The planes' depths at the samples of all pieces, each written once to the one line `depth`.
   void (*write_depths)(const geometry::Triangle* triangles, const Piece* pieces, std::size_t count, float* depth);
   // The same samples' depths, computed before and lying one behind the other at `from`.

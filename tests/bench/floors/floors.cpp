@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,6 +16,7 @@
 
 #include "hal/failure/failure.h"
 #include "node/simd/instruction_set.h"
+#include "node/shading/colored_surface.h"
 #include "node/tessellator.h"
 #include "tests/bench/floors/bare.h"
 #include "tests/bench/floors/workload.h"
@@ -32,6 +35,19 @@ double seconds(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+// Models and interpolations other than Phong's, in the order of Bare::models.
+struct Model {
+  const char* name;
+  wire::Reflection reflection;
+  wire::Interpolation interpolation;
+};
+constexpr Model kModels[] = {
+    {"blinn-phong", wire::Reflection::blinn_phong, wire::Interpolation::phong},
+    {"cook-torrance", wire::Reflection::cook_torrance, wire::Interpolation::phong},
+    {"metallic-roughness", wire::Reflection::metallic_roughness, wire::Interpolation::phong},
+    {"gouraud, flat", wire::Reflection::phong, wire::Interpolation::gouraud},
+};
+
 // One scene with the kernels of one instruction set; every step says how many seconds it took.
 class Bench {
  public:
@@ -46,11 +62,12 @@ class Bench {
         runs_(workload.pixels() + 1) {}
 
   // The bare loop over as many pixels as are seen, so many at a time.
-  double bare_shading(int at_a_time) {
+  double bare_shading(int at_a_time) { return bare_shading(bare_.shade, at_a_time); }
+  double bare_shading(Bare::Shade shade, int at_a_time) {
     const Stretch stretch{{0.3f, 0.2f, 0.9f}, {1e-4f, 2e-4f, -1e-4f}, {-0.2f, 0.1f, 1}, {4e-4f, 0, 0}};
     return seconds([&] {
       for (std::uint64_t at = 0; at < work_.pixels(); at += static_cast<std::uint64_t>(at_a_time))
-        bare_.shade(stretch, work_.shading().materials[0], work_.shading().lights[0], at_a_time, pixels_.data() + at);
+        shade(stretch, work_.shading().materials[0], work_.shading().lights[0], at_a_time, pixels_.data() + at);
     });
   }
   double bare_planes() {
@@ -68,7 +85,8 @@ class Bench {
     double draw = 0;
     double shade = 0;
   };
-  Scanlines scanlines() {
+  Scanlines scanlines() { return scanlines(work_.shading()); }
+  Scanlines scanlines(const shading::Shading& shading_now) {
     const raster::RasterKernels& raster = raster::raster_kernels(instruction_set_);
     const shading::ShadingKernels& shading = shading::shading_kernels(instruction_set_);
     Scanlines spent;
@@ -80,11 +98,11 @@ class Bench {
       shading::Extent extent{};
       spent.draw += seconds([&] {
         extent = raster.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
-                             depth_.data(), ids_.data());
+                             work_.shading().pattern, {depth_.data(), ids_.data(), 0});
       });
       shading::Shaded done{};
       spent.shade += seconds([&] {
-        done = shading.shade(work_.shading(), ids_.data(), line, extent, runs_.data() + runs, pixels_.data() + pixels);
+        done = shading.shade(shading_now, ids_.data(), line, extent, runs_.data() + runs, pixels_.data() + pixels);
       });
       pixels += done.pixels;
       runs += done.runs;
@@ -93,6 +111,30 @@ class Bench {
     return spent;
   }
 
+  double bare_model(std::size_t model) { return bare_shading(bare_.models[model], kRow); }
+  double shade_model(std::size_t model) {
+    std::vector<wire::Material> materials(work_.materials().begin(), work_.materials().end());
+    for (wire::Material& material : materials) {
+      material.reflection = kModels[model].reflection;
+      material.interpolation = kModels[model].interpolation;
+    }
+    shading::Shading shading = work_.shading();
+    shading.materials = materials.data();
+    return scanlines(shading).shade;
+  }
+  // Dicing, and colours of all vertices or triangles as seen from outside.
+  double dice_and_color(bool flat) {
+    shape::Dicer dicer(instruction_set_);
+    shading::ColoredSurface colored(instruction_set_);
+    const shading::Coloring coloring{work_.shading(), 0, true, false};
+    return seconds([&] {
+      work_.dice(dicer, [&](const shape::Surface& surface) {
+        if (!flat) colored.by_vertices(surface, coloring);
+        for (std::uint32_t first = 0; flat && first < surface.triangles().count; first += colored.kFlatTriangles)
+          colored.by_triangles(surface, first, coloring);
+      });
+    });
+  }
   double dice() {
     shape::Dicer dicer(instruction_set_);
     return seconds([&] { work_.dice(dicer); });
@@ -143,8 +185,10 @@ struct Case {
   const Workload* work;
 };
 
-void add_step(const Case& one, const char* step, double (*run)(Bench&)) {
-  benchmark::RegisterBenchmark((one.name + '/' + step).c_str(),
+std::string bare_name(std::size_t model) { return std::string("bare ") + kModels[model].name; }
+
+void add_step(const Case& one, const std::string& step, const std::function<double(Bench&)>& run) {
+  benchmark::RegisterBenchmark((one.name + "/" + step).c_str(),
                                [&bench = *one.bench, run](benchmark::State& state) {
                                  for (auto _ : state) state.SetIterationTime(run(bench));
                                })
@@ -163,6 +207,12 @@ void add_steps(const Case& one) {
   add_step(one, "dice", [](Bench& b) { return b.dice(); });
   add_step(one, "make", [](Bench& b) { return b.dice_and_set_up(); });
   add_step(one, "fill", [](Bench& b) { return b.fill(); });
+  add_step(one, "gouraud", [](Bench& b) { return b.dice_and_color(false); });
+  add_step(one, "flat", [](Bench& b) { return b.dice_and_color(true); });
+  for (std::size_t model = 0; model < std::size(kModels); ++model) {
+    add_step(one, bare_name(model), [model](Bench& b) { return b.bare_model(model); });
+    add_step(one, kModels[model].name, [model](Bench& b) { return b.shade_model(model); });
+  }
 }
 
 // "-" for what was not measured.
@@ -177,12 +227,27 @@ void print_row(const std::string& name, std::initializer_list<double> numbers) {
 }
 
 void print(const std::vector<Case>& cases, const Best& best) {
-  const auto ns = [&](const Case& one, const char* step) { return 1e9 * best.of(one.name + '/' + step); };
+  const auto ns = [&](const Case& one, const std::string& step) { return 1e9 * best.of(one.name + '/' + step); };
   std::puts("Shading, ns a pixel    rows       spans       shade     of rows    of spans");
   for (const Case& one : cases) {
     const auto pixels = static_cast<double>(one.work->pixels());
     const double rows = ns(one, "rows"), spans = ns(one, "spans"), shade = ns(one, "shade");
     print_row(one.name, {rows / pixels, spans / pixels, shade / pixels, shade / rows, shade / spans});
+  }
+  for (std::size_t model = 0; model < std::size(kModels); ++model) {
+    std::printf("\n%-21s   rows       shade     of rows\n", kModels[model].name);
+    for (const Case& one : cases) {
+      const auto pixels = static_cast<double>(one.work->pixels());
+      const double rows = ns(one, bare_name(model)), shade = ns(one, kModels[model].name);
+      print_row(one.name, {rows / pixels, shade / pixels, shade / rows});
+    }
+  }
+  std::puts("\nColours, ns a        sample   a vertex  a triangle");
+  for (const Case& one : cases) {
+    const double rows = ns(one, "rows") / static_cast<double>(one.work->pixels()), dice = ns(one, "dice");
+    const auto vertices = static_cast<double>(one.work->counts().vertices);
+    const auto triangles = static_cast<double>(one.work->classified());
+    print_row(one.name, {rows, (ns(one, "gouraud") - dice) / vertices, (ns(one, "flat") - dice) / triangles});
   }
   std::puts("\nVisibility, ms       copies      planes        draw   of copies   of planes    ns a box");
   for (const Case& one : cases) {

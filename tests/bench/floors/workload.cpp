@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "node/shading/shading_of.h"
 #include "node/tessellator.h"
 
 namespace mars::bench {
@@ -34,7 +35,7 @@ Workload::Workload(const std::filesystem::path& film, const film::CompileOptions
   find_pieces();
 }
 
-void Workload::dice(shape::Dicer& dicer) {
+void Workload::dice(shape::Dicer& dicer, const std::function<void(const shape::Surface&)>& visit) {
   classified_ = 0;
   const int rate = static_cast<int>(view_.settings().dice);
   for (std::size_t s = 0; s < view_.segments().size(); ++s) {
@@ -46,6 +47,7 @@ void Workload::dice(shape::Dicer& dicer) {
         continue;
       dicer.dice(patch, scene_.projection(), rate);
       classified_ += dicer.triangles().count;
+      if (visit) visit(dicer);
     }
   }
 }
@@ -55,13 +57,13 @@ void Workload::make(simd::InstructionSet set) {
   made_.clear();
   counts_ = {};
   auto* const first = reinterpret_cast<geometry::Triangle*>(made_memory_.bytes().data());
-  const node::Tessellation own = node::Tessellator(set).tessellate(scene_, wire::FrameKind::keyframe, {},
-                                                                   {wanted_, line_loads_}, {made_, first}, counts_);
+  const node::Tessellation own =
+      node::Tessellator(set).tessellate(scene_, {}, {wanted_, wanted_, line_loads_}, {made_, first}, counts_);
   const auto [triangles, stationary, moving] = own.polygons;
   counts_.triangles = own.made.triangles;
   polygons_ = {triangles, {moving.data(), moving.size() + stationary.size()}, {}};
-  shading_ = {triangles, view_.materials().data(), scene_.lights().data(),
-              static_cast<std::uint32_t>(scene_.lights().size()), scene_.projection()};
+  shading_ = shading::shading_of(scene_);
+  shading_.triangles = triangles;
 }
 
 void Workload::fill() {
@@ -79,8 +81,8 @@ void Workload::find_pieces() {
     std::fill(depth.begin(), depth.end(), 0.0f);
     std::fill(ids.begin(), ids.end(), shading::kNoTriangle);
     const auto boxes = boxes_.stationary(line);
-    kernels.draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, depth.data(),
-                 ids.data());
+    kernels.draw(shading_.triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, scene_.pattern(),
+                 {depth.data(), ids.data(), 0});
     for (std::uint32_t first = 0, last; first < width(); first = last) {
       for (last = first + 1; last < width() && ids[last] == ids[first];) ++last;
       if (ids[first] == shading::kNoTriangle) continue;

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "hal/messages/private_memory.h"
@@ -21,14 +23,16 @@ class Workload {
   // Throws Failure where the film cannot be read.
   explicit Workload(const std::filesystem::path& film, const film::CompileOptions& options = {});
 
-  // The steps again: patches to vertices; these to triangles and edge boxes; those into their lines.
-  void dice(shape::Dicer& dicer);
+  // The steps again: patches to vertices; these to triangles and edge boxes; those into their lines. `visit` sees each
+  // diced patch.
+  void dice(shape::Dicer& dicer, const std::function<void(const shape::Surface&)>& visit = nullptr);
   void make(simd::InstructionSet set);
   void fill();
 
   const wire::WorkCounts& counts() const { return counts_; }  // vertices; triangles that touch a sample
   std::uint64_t classified() const { return classified_; }    // triangles of all diced patches
   const shading::Shading& shading() const { return shading_; }
+  std::span<const wire::Material> materials() const { return view_.materials(); }
   const raster::LineBoxes& boxes() const { return boxes_; }
   const std::vector<raster::LineLoad>& line_loads() const { return line_loads_; }
   std::uint32_t width() const { return static_cast<std::uint32_t>(scene_.width()); }

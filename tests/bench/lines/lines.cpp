@@ -64,7 +64,7 @@ class Film {
     std::fill_n(depth_.begin(), work_.width(), 0.0f);
     const shading::Extent extent =
         raster_.draw(work_.shading().triangles, boxes.data(), static_cast<std::uint32_t>(boxes.size()), line,
-                     depth_.data(), ids_.data());
+                     work_.shading().pattern, {depth_.data(), ids_.data(), 0});
     const shading::Shaded shaded = shading_.shade(work_.shading(), ids_.data(), line, extent, runs, pixels);
     std::fill(ids_.begin() + extent.first, ids_.begin() + extent.last, shading::kNoTriangle);
     return shaded;

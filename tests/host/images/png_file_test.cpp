@@ -5,6 +5,7 @@
 #include <random>
 
 #include "host/content/document/whole_file.h"
+#include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/temporary_folder.h"
 
@@ -18,15 +19,38 @@ std::vector<std::uint32_t> random_pixels(std::size_t count) {
   return pixels;
 }
 
+std::vector<std::uint32_t> random_wide_pixels(std::size_t count) {
+  std::mt19937 random(8);
+  std::vector<std::uint32_t> pixels(2 * count);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = random() & (i % 2 == 0 ? 0xffffffff : 0xffff);
+  return pixels;
+}
+
 TEST(PngFile, GivesBackWhatWasWritten) {
   const sinks::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}}) {
     const std::vector<std::uint32_t> pixels = random_pixels(std::size_t{width} * height);
     document::write_whole_file(folder / "x.png", encode_png(width, height, pixels));
-    const Image image = read_png(folder / "x.png");
+    const Image image = read_picture(PictureFormat::png, folder / "x.png");
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
     EXPECT_EQ(image.pixels, pixels);
+  }
+}
+
+// Words of two pixels' channels are odd ones, so that no byte is taken for another.
+TEST(PngFile, GivesBackSixteenBits) {
+  const sinks::TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {16384u, 1u}}) {
+    const std::vector<std::uint32_t> pixels = random_wide_pixels(std::size_t{width} * height);
+    document::write_whole_file(folder / "x.png", encode_picture(PictureFormat::png16, width, height, pixels));
+    const Image image = read_picture(PictureFormat::png16, folder / "x.png");
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+    EXPECT_EQ(image.pixels, pixels);
+    const Image narrow = read_picture(PictureFormat::png, folder / "x.png");
+    ASSERT_EQ(narrow.pixels.size(), pixels.size() / 2);
+    EXPECT_NEAR(narrow.pixels[0] & 255, (pixels[0] & 65535) / 257.0, 0.51);
   }
 }
 
@@ -61,7 +85,8 @@ TEST(PngFile, NoDamageDoesHarm) {
 TEST(PngFile, OtherFilesAreTold) {
   const sinks::TemporaryFolder folder;
   document::write_whole_file(folder / "x.png", std::string_view("no picture at all"));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { read_png(folder / "x.png"); }), "not a whole PNG picture"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { read_picture(PictureFormat::png, folder / "x.png"); }),
+                              "not a whole PNG picture"));
 }
 
 }  // namespace

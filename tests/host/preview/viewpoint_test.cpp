@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/read_film.h"
+#include "host/content/modeler/read_model.h"
 #include "host/preview/film_pictures.h"
 
 namespace mars::preview {
@@ -66,6 +67,32 @@ constexpr const char* kFilm = R"({
   "models": {"box": {"joints": [{"name": "side", "segment": {"shape": "box"}}]}},
   "actors": [{"name": "box", "model": "box", "keys": [{"frame": 0}, {"frame": 2, "turn": [0, 0, 90]}]}]
 })";
+
+TEST(Turntable, LightsStandAsTheCameraSeesThem) {
+  const std::string text = R"({"joints": [{"name": "ball", "segment": {"shape": "sphere"}}]})";
+  const document::Document document(text, "ball");
+  const animator::Film film = turntable(modeler::read_model(document.root()), "ball");
+  ASSERT_EQ(film.lights.size(), 3u);
+  const film::CompiledFilm compiled = film::compile(film);
+  const wire::FilmView view = compiled.view();
+  for (const std::uint32_t frame : {0u, 31u, 95u}) {
+    const auto before = [&](std::size_t light) {  // the camera, that is
+      const wire::Light& each = view.lights()[view.value_at(view.light_tracks()[light], frame)];
+      const auto& out = view.camera_at(frame).world_to_eye.m[2];
+      return out[0] * each.vector[0] + out[1] * each.vector[1] + out[2] * each.vector[2] > 0;
+    };
+    EXPECT_TRUE(before(0)) << "the key light";
+    EXPECT_TRUE(before(1)) << "the fill light";
+    EXPECT_FALSE(before(2)) << "the rim light";
+  }
+}
+
+TEST(AsSeen, AnotherCameraKeepsTheExposure) {
+  const std::string text = std::string(kFilm).replace(std::string(kFilm).find("\"at\""), 4, "\"exposure\": 1, \"at\"");
+  const film::CompiledFilm film = film::compile(animator::read_film(document::Document(text, "film").root(), {}));
+  const wire::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
+  EXPECT_EQ(as_seen(film, {64, 36}, &camera).view().camera_at(1).exposure, 2);
+}
 
 TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
   const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});

@@ -21,7 +21,7 @@ using shape::Projection;
 ClipVertex vertex(shape::Random& random, double size) {
   ClipVertex out{};
   for (float& p : out.place) p = static_cast<float>(random.real(-size, size));
-  for (float& n : out.normal) n = static_cast<float>(random.real(-1, 1));
+  for (float& n : out.varying) n = static_cast<float>(random.real(-1, 1));
   return out;
 }
 
@@ -161,13 +161,13 @@ TEST(Clip, CutsNormalsWithPlaces) {
     ClipVertex v[3];
     for (ClipVertex& one : v) {
       one = vertex(random, 5);
-      for (int axis = 0; axis < 3; ++axis) one.normal[axis] = one.place[axis] / 5 + 1;
+      for (int axis = 0; axis < 3; ++axis) one.varying[axis] = one.place[axis] / 5 + 1;
     }
     ClipPolygon polygon = triangle(v[0], v[1], v[2]);
     clip(view, polygon);
     for (int k = 0; k < polygon.count; ++k) {
       const ClipVertex& one = polygon.vertex[static_cast<std::size_t>(k)];
-      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(one.normal[axis], one.place[axis] / 5 + 1, 1e-5);
+      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(one.varying[axis], one.place[axis] / 5 + 1, 1e-5);
     }
   }
 }
@@ -176,7 +176,7 @@ TEST(Clip, CutsNormalsWithPlaces) {
 ClipVertex marked(shape::Random& random, float deep, std::size_t number) {
   ClipVertex out = vertex(random, 8);
   out.place[2] *= deep;
-  for (std::size_t axis = 0; axis < 3; ++axis) out.normal[axis] = axis == number ? 1 : 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) out.varying[axis] = axis == number ? 1 : 0;
   return out;
 }
 

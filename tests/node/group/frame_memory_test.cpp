@@ -30,7 +30,7 @@ raster::LineBoxes make(FrameMemory& memory, std::uint32_t frame) {
     triangles[k].patch = frame * 100 + static_cast<std::uint32_t>(mynode());
     const auto number = static_cast<std::uint32_t>(&triangles[k] - memory.first_triangle());
     for (std::uint32_t i = 0; i < k; ++i)
-      boxes.push_back({{number, static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(frame)},
+      boxes.push_back({{number, static_cast<std::uint32_t>(i), frame, 0},
                        static_cast<std::uint16_t>(k),
                        0});
     totals.push_back(boxes.size());
@@ -46,7 +46,7 @@ void expect_made(const FrameMemory& memory, const raster::LineBoxes& part, int n
   for (std::uint32_t line = 0; line < kLines; ++line) {
     ASSERT_EQ(part.stationary(line).size(), line);
     for (const raster::EdgeBox& box : part.stationary(line)) {
-      ASSERT_EQ(box.last, frame);
+      ASSERT_EQ(box.after, frame);
       ASSERT_EQ(memory.first_triangle()[box.triangle].patch, frame * 100 + static_cast<std::uint32_t>(node));
     }
   }

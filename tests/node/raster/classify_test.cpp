@@ -92,11 +92,12 @@ bool right_state(State state, const Corners& t, const ClassifyTask& task, bool c
 bool right_columns(const Classified& c, std::uint32_t lane, const Corners& t,
                    const std::vector<UnsortedEdgeBox>& boxes) {
   auto next = boxes.begin();
-  for (std::int32_t row = c.first_row[lane]; row < c.last_row[lane]; ++row) {
-    const std::uint32_t columns = c.columns[row - c.first_row[lane]][lane];
+  for (std::int32_t r = c.first_row[lane]; r < c.last_row[lane]; ++r) {
+    const std::int32_t row = c.first_line[lane] + r;
+    const std::uint32_t columns = c.columns[r][lane];
     if (columns == 0) continue;
     if (next == boxes.end() || next->line != row ||
-        (next->box.first | static_cast<std::uint32_t>(next->box.last) << 16) != columns)
+        (next->box.first | static_cast<std::uint32_t>(next->box.last()) << 16) != columns)
       return false;
     ++next;
   }
@@ -173,7 +174,7 @@ TEST(Classify, AMillionTrianglesAsIn64Bits) {
   constexpr std::int32_t kPictures[][2] = {{100, 80}, {100, 80}, {3, 2}, {7, 300}, {16384, 16384}};
   for (int trial = 0; trial < 100000; ++trial) {
     const auto& [width, height] = kPictures[trial % 5];
-    const ClassifyTask task{width, height, random.whole(0, 2) == 0, random.whole(0, 1) == 1};
+    const ClassifyTask task{width, height, shape::sample_pattern(1), random.whole(0, 2) == 0, random.whole(0, 1) == 1};
     std::vector<Corners> triangles(kBatchTriangles);
     for (Corners& t : triangles) t = random_triangle(random, task);
     const std::uint32_t count = random.whole(0, 2) ? kBatchTriangles : static_cast<std::uint32_t>(random.whole(1, 15));
@@ -192,7 +193,7 @@ TEST(Classify, TheBordersOfWhatIsDecided) {
   Tally tally;
   int just_small = 0, just_large = 0, just_thin = 0, just_sure = 0;
   for (int trial = 0; trial < 4000; ++trial) {
-    const ClassifyTask task{100, 80, false, false};
+    const ClassifyTask task{100, 80, shape::sample_pattern(1), false, false};
     std::vector<Corners> triangles(kBatchTriangles);
     for (Corners& t : triangles) {
       const std::int32_t x = random.whole(-9000, 17000), y = random.whole(-9000, 12000);

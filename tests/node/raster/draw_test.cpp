@@ -29,8 +29,9 @@ Boxes random_boxes(shape::Random& random, std::int32_t width, int count) {
   for (int b = 0; b < count; ++b) {
     const std::int32_t first = random.whole(0, width - 1);
     const std::int32_t widest = random.whole(0, 2) ? std::min(width, first + random.whole(1, 20)) : width;
-    out.boxes.push_back({static_cast<std::uint32_t>(b), static_cast<std::uint16_t>(first),
-                         static_cast<std::uint16_t>(random.whole(first + 1, widest))});
+    const std::int32_t last = random.whole(first + 1, widest);
+    out.boxes.push_back({static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(first),
+                         static_cast<std::uint32_t>(last - first - 1), 0});
     Triangle t{};
     t.first_x = 128;
     if (random.whole(0, 2)) {
@@ -69,7 +70,7 @@ struct Line {
 // Sample by sample, box by box; of equals what was there before stays, else the lower patch's is seen, then the first.
 void draw_plainly(const Boxes& boxes, Line& line) {
   for (const EdgeBox& box : boxes.boxes)
-    for (std::int32_t column = box.first; column < box.last; ++column) {
+    for (std::int32_t column = box.first; column < static_cast<std::int32_t>(box.last()); ++column) {
       const auto at = static_cast<std::size_t>(column);
       const Triangle& t = boxes.triangles[box.triangle];
       const float row =
@@ -98,13 +99,13 @@ TEST(Draw, IsAPlainZBuffer) {
     std::uint32_t first = 0xffffffff, last = 0;
     for (const EdgeBox& box : boxes.boxes) {
       first = std::min<std::uint32_t>(first, box.first);
-      last = std::max<std::uint32_t>(last, box.last);
+      last = std::max<std::uint32_t>(last, box.last());
     }
     for (const simd::InstructionSet set : simd::all_sets()) {
       Line line = before;
       const auto count = static_cast<std::uint32_t>(boxes.boxes.size());
       const Extent extent = raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine,
-                                                     line.depth.data(), line.ids.data());
+                                                     shape::sample_pattern(1), {line.depth.data(), line.ids.data(), 0});
       EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids) << simd::name_of(set) << ' ' << trial;
       EXPECT_EQ(extent.last, last);
       EXPECT_EQ(extent.first, first);

@@ -24,7 +24,7 @@ class Coverage {
   Coverage(std::int32_t width, std::int32_t height) : width(width), height(height), count(size()) {}
 
   void add(const Corners& t) {
-    const Outline outline(t, width, height);
+    const Outline outline(t, width, height, shape::sample_pattern(1));
     EXPECT_GE(outline.first_row, 0);
     EXPECT_LE(outline.last_row, std::max(height, outline.first_row));
     for (std::int32_t row = outline.first_row; row < outline.last_row; ++row) {

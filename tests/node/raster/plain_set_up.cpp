@@ -28,7 +28,7 @@ PlainVertex project(const Projection& p, const geometry::ClipVertex& eye) {
   out.x = static_cast<std::int32_t>(std::floor((p.center[0] + dx) * 256.0f + 0.5f));
   out.y = static_cast<std::int32_t>(std::floor((p.center[1] + dy) * 256.0f + 0.5f));
   out.values[shape::kDepth] = inverse;
-  for (int axis = 0; axis < 3; ++axis) out.values[shape::kNormalX + axis] = eye.normal[axis] * inverse;
+  for (int axis = 0; axis < 3; ++axis) out.values[shape::kNormalX + axis] = eye.varying[axis] * inverse;
   return out;
 }
 
@@ -37,7 +37,7 @@ PlainVertex vertex(const shape::Surface& surface, const Projection& projection, 
   geometry::ClipVertex eye;
   for (int axis = 0; axis < 3; ++axis) {
     eye.place[axis] = v.place[axis][number];
-    eye.normal[axis] = v.normal[axis][number];
+    eye.varying[axis] = v.normal[axis][number];
   }
   return project(projection, eye);
 }
@@ -58,7 +58,7 @@ bool faces_eye(const PlainVertex (&t)[3]) {
   if (std::abs(volume) > 1e-6f * away * away * (sum_of_sizes(b) + sum_of_sizes(c))) return volume < 0;
   float toward = 0;
   for (const PlainVertex& corner : t)
-    for (int axis = 0; axis < 3; ++axis) toward -= corner.eye.normal[axis] * corner.eye.place[axis];
+    for (int axis = 0; axis < 3; ++axis) toward -= corner.eye.varying[axis] * corner.eye.place[axis];
   return toward > 0;
 }
 
@@ -139,10 +139,9 @@ std::int64_t area(const Corners& t) {
 }
 
 // With positive area and y downwards left sides go up, top ones to the right.
-bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
+bool covers_place(const Corners& t, std::int64_t x, std::int64_t y) {
   const std::int64_t twice = area(t);
   if (twice == 0) return false;
-  const std::int64_t x = 256 * std::int64_t{column} + 128, y = 256 * std::int64_t{row} + 128;
   const int order[] = {0, twice > 0 ? 1 : 2, twice > 0 ? 2 : 1, 0};
   for (int k = 0; k < 3; ++k) {
     const std::int64_t ax = t.x[order[k]], ay = t.y[order[k]], bx = t.x[order[k + 1]], by = t.y[order[k + 1]];
@@ -151,6 +150,10 @@ bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
     if (side < 0 || (side == 0 && !owned)) return false;
   }
   return true;
+}
+
+bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
+  return covers_place(t, 256 * std::int64_t{column} + 128, 256 * std::int64_t{row} + 128);
 }
 
 std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t width, std::int32_t height) {
@@ -164,8 +167,9 @@ std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t wid
     if (begin >= last) continue;
     std::int32_t end = begin;
     while (end < last && covers(t, end, row)) ++end;
-    out.push_back(
-        {{0, static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end)}, static_cast<std::uint16_t>(row), 0});
+    out.push_back({{0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin - 1), 0},
+                   static_cast<std::uint16_t>(row),
+                   0});
   }
   return out;
 }

@@ -26,7 +26,10 @@ std::vector<PlainTriangle> plain_set_up(const shape::Surface& surface, const sha
 // Twice the area in 1/65536 square pixel; y grows downwards, so negative where counter-clockwise to the eye.
 std::int64_t area(const Corners& corners);
 
-// Whether the sample is inside, or on a left or top side: by the three sides' functions in 64-bit integers.
+// Whether the place (1/256 pixel) is inside, or on a left or top side: by the three sides' functions in 64-bit
+// integers.
+bool covers_place(const Corners& corners, std::int64_t x, std::int64_t y);
+// Likewise a pixel's middle.
 bool covers(const Corners& corners, std::int32_t column, std::int32_t row);
 
 // The boxes of the samples of a picture that the triangle covers, from the top.

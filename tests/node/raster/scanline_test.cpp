@@ -44,8 +44,9 @@ Sent random_frame(shape::Random& random, std::uint32_t senders, std::uint32_t pa
       for (int triangle = random.whole(0, 6); triangle > 0; --triangle, ++number) {
         const auto line = static_cast<std::uint32_t>(random.whole(0, kLines - 1));
         for (std::uint32_t l = line; l < std::min(line + static_cast<std::uint32_t>(random.whole(1, 5)), kLines); ++l) {
-          const auto column = static_cast<std::uint16_t>(random.whole(0, 999));
-          boxes.push_back({{number - first, column, static_cast<std::uint16_t>(column + random.whole(1, 9))},
+          const auto column = static_cast<std::uint32_t>(random.whole(0, 999));
+          boxes.push_back({{number - first, column, static_cast<std::uint32_t>(random.whole(0, 8)),
+                            static_cast<std::uint32_t>(random.whole(0, 15))},
                            static_cast<std::uint16_t>(l),
                            patch >= moving_from});
           ++sent.ebc[l + 1];
@@ -62,7 +63,7 @@ Sent random_frame(shape::Random& random, std::uint32_t senders, std::uint32_t pa
   return sent;
 }
 
-using Box = std::tuple<std::uint32_t, std::uint16_t, std::uint16_t>;
+using Box = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
 std::multiset<Box> expected_on(const Sent& sent, std::uint32_t line, bool moving) {
   std::multiset<Box> boxes;
@@ -71,13 +72,13 @@ std::multiset<Box> expected_on(const Sent& sent, std::uint32_t line, bool moving
       for (const UnsortedEdgeBox& unsorted : part)
         if (unsorted.line == line && (unsorted.moving != 0) == moving)
           boxes.emplace(static_cast<std::uint32_t>(sender.triangles - sent.triangles.data()) + unsorted.box.triangle,
-                        unsorted.box.first, unsorted.box.last);
+                        unsorted.box.first, unsorted.box.last(), unsorted.box.sample);
   return boxes;
 }
 
 std::multiset<Box> boxes_of(std::span<const EdgeBox> boxes) {
   std::multiset<Box> out;
-  for (const EdgeBox& box : boxes) out.emplace(box.triangle, box.first, box.last);
+  for (const EdgeBox& box : boxes) out.emplace(box.triangle, box.first, box.last(), box.sample);
   return out;
 }
 

@@ -47,8 +47,10 @@ Made set_up(simd::InstructionSet set, const Picture& picture, const shape::Surfa
   made.line_loads.resize(static_cast<std::size_t>(picture.height));
   const std::vector<std::uint8_t> all(made.line_loads.size(), 1);
   auto* const first = reinterpret_cast<geometry::Triangle*>(memory.inside().data());
-  SetUps out(memory.inside(), first, made.line_loads, wanted_lines.empty() ? all : wanted_lines);
-  SetUp set_up(set, picture.projection, picture.width, picture.height);
+  const shape::SamplePattern& pattern = shape::sample_pattern(picture.samples);
+  SetUps out(memory.inside(), first, pattern, made.line_loads);
+  out.want(wanted_lines.empty() ? all : wanted_lines);
+  SetUp set_up(set, picture.projection, picture.width, picture.height, pattern);
   if (way == Way::at_a_time)
     set_up.add(surface, identity, out);
   else

@@ -18,9 +18,7 @@ struct Made {
 };
 
 // Of one edge box.
-inline LineLoad load_of(const UnsortedEdgeBox& unsorted) {
-  return {1, std::uint64_t{unsorted.box.last} - unsorted.box.first};
-}
+inline LineLoad load_of(const UnsortedEdgeBox& unsorted) { return {1, unsorted.box.width()}; }
 
 enum class Way { at_a_time, plainly };  // SetUp::add, SetUp::add_plainly
 
@@ -28,6 +26,7 @@ struct Picture {
   shape::Projection projection;
   std::int32_t width;
   std::int32_t height;
+  std::uint32_t samples = 1;
 };
 
 // `bytes` of memory. Fails the test where anything outside it is written.

@@ -77,7 +77,7 @@ double covered(const Emitted& emitted) {
 int samples_on(const Made& made, std::int32_t line) {
   int samples = 0;
   for (const UnsortedEdgeBox& unsorted : made.boxes)
-    if (unsorted.line == line) samples += unsorted.box.last - unsorted.box.first;
+    if (unsorted.line == line) samples += static_cast<int>(unsorted.box.width());
   return samples;
 }
 
@@ -224,7 +224,8 @@ std::vector<Whole> by_triangle(const Made& made) {
 }
 
 bool same_but_for_number(const UnsortedEdgeBox& a, const UnsortedEdgeBox& b) {
-  return a.box.first == b.box.first && a.box.last == b.box.last && a.line == b.line && a.moving == b.moving;
+  return a.box.first == b.box.first && a.box.last() == b.box.last() && a.box.sample == b.box.sample &&
+         a.line == b.line && a.moving == b.moving;
 }
 
 // How often memory was short, and how often something was stored nevertheless.

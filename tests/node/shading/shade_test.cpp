@@ -1,12 +1,14 @@
-// The shading kernel: Phong's formula in double precision sample by sample, runs and pixels in order, and the
-// same bits from every instruction set.
+// The shading kernels: the plain twin's light sample by sample, runs and pixels in order, and the same bits from every
+// instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "node/shading/kernels.h"
+#include "tests/node/shading/plain_light.h"
 #include "tests/node/shape/patches.h"
 #include "tests/node/simd/instruction_sets.h"
 
@@ -28,9 +30,21 @@ struct Scenery {
   std::vector<std::uint32_t> ids;  // one a column
   std::uint32_t line = 100;
   shape::Projection view = shape::projection(640, 480, 2);
+  wire::AmbientLight ambient;
+  wire::Fog fog;
 
   Shading shading() const {
-    return {triangles.data(), materials.data(), lights.data(), static_cast<std::uint32_t>(lights.size()), view};
+    Shading shading{};
+    shading.triangles = triangles.data();
+    shading.materials = materials.data();
+    shading.lights = lights.data();
+    shading.light_count = static_cast<std::uint32_t>(lights.size());
+    shading.projection = view;
+    shading.pattern = shape::sample_pattern(16);
+    shading.ambient = ambient;
+    shading.up[1] = 0.8f, shading.up[2] = 0.6f;
+    shading.fog = fog;
+    return shading;
   }
 };
 
@@ -87,26 +101,54 @@ Triangle random_triangle(shape::Random& random, std::size_t materials) {
 
 geometry::EyeLight random_light(shape::Random& random) {
   geometry::EyeLight light{};
-  light.kind = random.whole(0, 1) == 1 ? wire::LightKind::point : wire::LightKind::directional;
-  shape::Vec3 to{random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 1)};
+  light.kind = static_cast<wire::LightKind>(random.whole(0, 2));
+  const shape::Vec3 to{random.real(-1, 1), random.real(-1, 1), random.real(-0.3, 1)};
   const double scale = light.kind != wire::LightKind::directional ? 5 : 1 / shape::length(to);
+  const shape::Vec3 axis{random.real(-1, 1), random.real(-1, 1), random.real(-1, -0.1)};
   for (std::size_t k = 0; k < 3; ++k) {
     light.vector[k] = static_cast<float>(to[k] * scale);
     light.color[k] = static_cast<float>(random.real(0, 0.8));
+    light.axis[k] = static_cast<float>(axis[k] / shape::length(axis));
   }
+  light.cos_outer = static_cast<float>(random.real(-0.5, 0.9));
+  light.cos_inner = static_cast<float>(random.real(light.cos_outer + 0.05, 1));
+  light.reach = random.whole(0, 1) == 1 ? static_cast<float>(random.real(1, 20)) : 0;
   return light;
+}
+
+wire::AmbientLight random_ambient(shape::Random& random) {
+  wire::AmbientLight ambient;
+  for (std::size_t c = 0; c < 3; ++c) {
+    ambient.sky[c] = static_cast<float>(random.real(0, 2));
+    ambient.ground[c] = static_cast<float>(random.real(0, 1));
+  }
+  return ambient;
+}
+
+// Of any model, but of highlights that are not so small that a float's error shows.
+wire::Material random_material(shape::Random& random, float exponent) {
+  const auto part = [&] { return static_cast<float>(random.real(0, 1)); };
+  wire::Material material{{part(), part(), part()}, 0.2f * part(), part(), part(), exponent, 2};
+  material.reflection = static_cast<wire::Reflection>(random.whole(0, 3));
+  if (random.whole(0, 7) == 0) material.interpolation = wire::Interpolation::gouraud;
+  material.roughness = 0.15f + 0.85f * part();
+  material.metallic = part();
+  material.refraction = 1.01f + part();
+  return material;
 }
 
 // Pieces of a triangle or of a gap have up to 400 samples, in some sceneries only one or two; materials change within
 // vectors, and with them exponents or not.
 Scenery random_scenery(shape::Random& random, int width) {
   Scenery scenery;
-  for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 0.0f}) {
-    const auto part = [&] { return static_cast<float>(random.real(0, 1)); };
-    scenery.materials.push_back({{part(), part(), part()}, 0.2f * part(), part(), part(), exponent, 2});
-  }
+  for (const float exponent : {1.0f, 2.5f, 32.0f, 1000.0f, 0.5f, 0.0f})
+    scenery.materials.push_back(random_material(random, exponent));
+  if (random.whole(0, 2) == 0)
+    for (wire::Material& material : scenery.materials) material.reflection = wire::Reflection::phong;
   if (random.whole(0, 2) == 0)
     for (wire::Material& material : scenery.materials) material.exponent = 32;
+  if (random.whole(0, 1) == 0) scenery.ambient = random_ambient(random);
+  if (random.whole(0, 1) == 0) scenery.fog = {{0.3f, 0.6f, 0.2f}, 1, 12};
   constexpr int kLongest[] = {2, 20, 400};
   const int longest = kLongest[random.whole(0, 2)];
   for (int k = 0; k < 20; ++k) scenery.triangles.push_back(random_triangle(random, scenery.materials.size()));
@@ -129,34 +171,48 @@ shape::Vec3 unit(const shape::Vec3& a) {
   return size > 0 ? shape::Vec3{a[0] / size, a[1] / size, a[2] / size} : shape::Vec3{};
 }
 
-// Phong's sum over the lights, 0..255.
-shape::Vec3 phong(const Scenery& scenery, std::uint32_t column) {
-  const Triangle& t = scenery.triangles[scenery.ids[column]];
+// What the twin says of the triangle at (x, y), 1/256 pixel; 0..1.
+shape::Vec3 plain(const Scenery& scenery, const Triangle& t, double x, double y) {
   const wire::Material& m = scenery.materials[t.material];
-  const double dx = 256.0 * column + 128 - t.first_x, dy = 256.0 * scenery.line + 128 - t.first_y;
-  const shape::Vec3 normal =
-      unit({at(t, shape::kNormalX, dx, dy), at(t, shape::kNormalY, dx, dy), at(t, shape::kNormalZ, dx, dy)});
+  const double dx = x - t.first_x, dy = y - t.first_y;
+  const shape::Vec3 carried{at(t, shape::kNormalX, dx, dy), at(t, shape::kNormalY, dx, dy),
+                            at(t, shape::kNormalZ, dx, dy)};
   const double w = 1 / at(t, shape::kDepth, dx, dy);
-  const shape::Vec3 place{(column + 0.5 - scenery.view.center[0]) / scenery.view.scale * w,
-                          -(scenery.line + 0.5 - scenery.view.center[1]) / scenery.view.scale * w, -w};
-  const shape::Vec3 eye = unit(shape::Vec3{} - place);
-  shape::Vec3 color;
-  for (std::size_t c = 0; c < 3; ++c) color[c] = m.ambient * m.color[c];
-  for (const geometry::EyeLight& light : scenery.lights) {
-    const shape::Vec3 vector{light.vector[0], light.vector[1], light.vector[2]};
-    const shape::Vec3 to = light.kind != wire::LightKind::directional ? unit(vector - place) : vector;
-    const double facing = shape::dot(normal, to);
-    if (facing <= 0) continue;
-    const double mirrored = 2 * facing * shape::dot(normal, eye) - shape::dot(to, eye);
-    const double highlight = mirrored > 0 ? std::pow(std::min(mirrored, 1.0), m.exponent) : 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      color[c] += (m.diffuse * m.color[c] * facing + m.specular * highlight) * light.color[c];
-  }
-  for (double& c : color) c = 255 * std::clamp(c, 0.0, 1.0);
+  const shape::Vec3 place{(x / 256 - scenery.view.center[0]) / scenery.view.scale * w,
+                          -(y / 256 - scenery.view.center[1]) / scenery.view.scale * w, -w};
+  const bool colored = m.interpolation != wire::Interpolation::phong;
+  shape::Vec3 color = colored ? shape::Vec3{carried[0] * w, carried[1] * w, carried[2] * w}
+                              : plain_light(scenery.shading(), m, {place, unit(carried)});
+  color = plain_fog(scenery.fog, color, w);
+  for (double& c : color) c = std::clamp(c, 0.0, 1.0);
   return color;
 }
 
-TEST(Shade, IsPhongsFormula) {
+// Fragments of one line that jump between columns, triangles and samples.
+std::vector<Fragment> random_fragments(shape::Random& random, int count) {
+  std::vector<Fragment> fragments(static_cast<std::size_t>(count));
+  for (Fragment& fragment : fragments)
+    fragment = {static_cast<std::uint32_t>(random.whole(0, 19)), static_cast<std::uint16_t>(random.whole(0, 639)),
+                static_cast<std::uint16_t>(random.whole(0, 15))};
+  return fragments;
+}
+
+using Light = std::array<std::vector<float>, 3>;
+
+Light shade_fragments(const Scenery& scenery, const std::vector<Fragment>& fragments, simd::InstructionSet set) {
+  Light light;
+  float* planes[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    light[c].resize(fragments.size() + simd::kVectorSlack);
+    planes[c] = light[c].data();
+  }
+  shading_kernels(set).shade_fragments(scenery.shading(), fragments.data(),
+                                       static_cast<std::uint32_t>(fragments.size()), scenery.line, planes);
+  for (auto& plane : light) plane.resize(fragments.size());
+  return light;
+}
+
+TEST(Shade, IsThePlainTwins) {
   shape::Random random(60);
   double worst = 0;
   for (int trial = 0; trial < 150; ++trial) {
@@ -167,13 +223,44 @@ TEST(Shade, IsPhongsFormula) {
       if (scenery.ids[column] == kGap) continue;
       const std::uint32_t value = result.pixels.at(pixel++);
       EXPECT_EQ(value >> 24, 0u);
-      const shape::Vec3 right = phong(scenery, column);
+      const shape::Vec3 right =
+          plain(scenery, scenery.triangles[scenery.ids[column]], 256.0 * column + 128, 256.0 * scenery.line + 128);
       for (std::size_t c = 0; c < 3; ++c)
-        worst = std::max(worst, std::abs(right[c] - static_cast<double>(value >> (8 * c) & 255)));
+        worst = std::max(worst, std::abs(255 * right[c] - static_cast<double>(value >> (8 * c) & 255)));
     }
     EXPECT_EQ(pixel, result.pixels.size());
   }
   EXPECT_LE(worst, 1.0);
+}
+
+TEST(Shade, FragmentsAreLitAtTheirOwnSamples) {
+  shape::Random random(65);
+  double worst = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Scenery scenery = random_scenery(random, 1);
+    const auto fragments = random_fragments(random, random.whole(1, 700));
+    const Light light = shade_fragments(scenery, fragments, simd::best_instruction_set(""));
+    const shape::SamplePattern& pattern = shape::sample_pattern(16);
+    for (std::size_t k = 0; k < fragments.size(); ++k) {
+      const Fragment& f = fragments[k];
+      const shape::Vec3 right = plain(scenery, scenery.triangles[f.triangle], 256.0 * f.column + pattern.x[f.sample],
+                                      256.0 * scenery.line + pattern.y[f.sample]);
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(right[c] - static_cast<double>(light[c][k])));
+    }
+  }
+  EXPECT_LE(worst, 0.5 / 255);
+}
+
+TEST(Shade, FragmentsHaveTheSameBitsEverywhere) {
+  shape::Random random(66);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Scenery scenery = random_scenery(random, 1);
+    const auto fragments = random_fragments(random, random.whole(1, 700));
+    const Light narrow = shade_fragments(scenery, fragments, simd::best_instruction_set("sse2"));
+    for (const simd::InstructionSet set : simd::all_sets())
+      EXPECT_EQ(shade_fragments(scenery, fragments, set), narrow) << simd::name_of(set) << ", trial " << trial;
+  }
 }
 
 TEST(Shade, GivesTheSameBitsEverywhere) {

@@ -151,6 +151,29 @@ TEST(Pose, TheCameraIsSetToo) {
             R"({"keys":[{"frame":0,"eye":[0,-9,2],"fov":40},{"frame":10,"eye":[4,-9,2],"fov":30}]})");
 }
 
+TEST(Pose, ExposureBelongsToCamerasOfLinearFilms) {
+  Scene scene("");
+  const std::vector<std::string> settings = {"exposure=-1.5"};
+  const auto brighten = [&](document::Json& j, const Film& f) {
+    return pose(j, f, "camera", settings, 10, {}, Beyond::refused);
+  };
+  scene(brighten);
+  EXPECT_EQ(scene.film.camera.exposure.back().value, -1.5);
+  Scene coded("", "], \"color\": \"coded\", \"lights\": [");
+  EXPECT_TRUE(document::holds(document::failure_of([&] { coded(brighten); }), "its parts are: eye, at, up, fov"));
+}
+
+TEST(MakeKeys, LightsAndMaterialsHaveTheKeysThatTheyUse) {
+  Scene scene("", R"(], "materials": {"tin": {"reflection": "metallic-roughness",
+      "keys": [{"frame": 0, "roughness": 0.2}, {"frame": 20, "roughness": 0.4}]}},
+      "lights": [{"place": [0, 0, 3], "at": [0, 0, 0], "keys": [{"frame": 0, "cone": 30}]}, {"direction": [0, 0, 1]})");
+  const Choice all{true, "", {}};
+  scene([&](document::Json& j, const Film& f) { return make_keys(j, f, all, 10, {}, Beyond::refused); });
+  EXPECT_EQ(scene.json["lights"][0]["keys"][1].dump(), R"({"frame":10,"cone":[24,30]})");
+  EXPECT_FALSE(scene.json["lights"][1].contains("keys"));
+  EXPECT_EQ(scene.json["materials"]["tin"]["keys"][1]["roughness"].get<double>(), 0.3);
+}
+
 TEST(MakeKeys, TheFilmMovesAsBefore) {
   const Scene before(kMoving);
   Scene scene(kMoving);

@@ -56,7 +56,8 @@ TEST(Compile, StoresEqualMeshesOnce) {
 
 TEST(Compile, FindsMaterialsOfModelFilmAndActor) {
   const CompiledFilm film = compiled(arm_film(R"({"name": "x", "model": "arm"},
-      {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})"));
+      {"name": "y", "model": "arm", "material": "glow"}, {"name": "z", "model": "arm", "materials": {"red": "glow"}})",
+                                              R"("frames": 20, "color": "coded")"));
   const wire::FilmView view = film.view();
   const auto color = [&](std::size_t segment) { return view.material_at(view.segments()[segment], 0).color[1]; };
   EXPECT_EQ(color(0), 0.8f) << "the default material";

@@ -41,6 +41,9 @@ class FilmFileTest : public testing::Test {
 TEST_F(FilmFileTest, ComesBackBitForBit) {
   const CompiledFilm back = load_film(path_);
   EXPECT_EQ(std::memcmp(back.block().data(), film_.block().data(), film_.block().size()), 0);
+  CompileOptions other;
+  other.samples = 16;
+  EXPECT_EQ(load_film(path_, other).view().settings().samples, 16u);
   EXPECT_EQ(back.actors, 1u);
   EXPECT_EQ(back.joints, 2u);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back.block().data()) % 64, 0u);

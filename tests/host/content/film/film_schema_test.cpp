@@ -85,15 +85,17 @@ class Schemas {
     return type == "object" && value.is_object() && takes_object(schema, value);
   }
 
-  // Of a key wherever it may stand; of "above.key" or "above.*" where it stands in that one.
+  // Of a key wherever it may stand; of "above.key" or "above.*" where it stands in that one; of "/key" in the
+  // film itself.
   std::vector<document::Json> of(const std::string& name) const {
     std::vector<document::Json> found;
+    if (name[0] == '/') return {film_["properties"][name.substr(1)]};
     const std::size_t dot = name.find('.');
     for (const document::Json& object : objects()) {
       if (!object.contains("properties")) continue;
       const auto property = object["properties"].find(name.substr(0, dot));
       if (property == object["properties"].end()) continue;
-      const document::Json schema = resolved(*property);
+      const document::Json schema = dot == std::string::npos ? resolved(*property) : object_of(resolved(*property));
       if (dot == std::string::npos) found.push_back(schema);
       if (dot == std::string::npos || schema.value("type", "") != "object") continue;
       const std::string key = name.substr(dot + 1);
@@ -123,6 +125,13 @@ class Schemas {
     if (name == "model.schema.json") return model_;
     const std::string definition = name.substr(name.rfind('/') + 1);
     return resolved((film_["$defs"].contains(definition) ? film_ : model_)["$defs"][definition]);
+  }
+
+  // Of several forms the one of an object, if there is one.
+  document::Json object_of(const document::Json& schema) const {
+    for (const document::Json& each : schema.value("anyOf", document::Json::array()))
+      if (resolved(each).value("type", "") == "object") return resolved(each);
+    return schema;
   }
 
   bool takes_object(const document::Json& schema, const document::Json& value) const {

@@ -36,7 +36,7 @@ TEST(ReadFilm, TakesEveryKey) {
   EXPECT_EQ(film.camera.eye[1].ease, animator::kBoth);
   EXPECT_EQ(film.camera.up[0].value, glm::dvec3(0, 0, 1));
   EXPECT_EQ(film.lights[0].vector[0].value, glm::dvec3(0, 0, 1)) << "made a unit vector";
-  EXPECT_FALSE(film.lights[1].directional);
+  EXPECT_EQ(film.lights[1].kind, wire::LightKind::point);
   const animator::Actor& actor = film.actors[0];
   EXPECT_EQ(actor.motion.place.size(), 1u);
   EXPECT_EQ(actor.motion.turn[0].frame, 9u) << "a key sets only what it names";

@@ -33,6 +33,19 @@ fur       1 0.5 0  0.1      0.65     0.45      32        2
 )");
 }
 
+TEST(Describe, MaterialsHaveTheNumbersThatTheyUse) {
+  const document::Document document(R"({"joints": [{"name": "hip"}], "materials": {"fur": {"interpolation": "flat"},
+      "tin": {"reflection": "metallic-roughness", "metallic": 1}}})",
+                                    "m.json");
+  const std::string text = describe_model(read_model(document.root()));
+  EXPECT_EQ(
+      text.substr(text.find("material  ")),
+      R"(material  color        reflection          ambient  diffuse  specular  exponent  roughness  metallic  interpolation  sides
+fur       0.8 0.8 0.8  phong               0.1      0.65     0.45      32                             flat           2
+tin       0.8 0.8 0.8  metallic-roughness  0.1                                   0.5        1         phong          2
+)");
+}
+
 TEST(Describe, TellsLimbsWhereAModelHasThem) {
   const document::Document document(R"({"joints": [{"name": "hip"}, {"name": "calf", "parent": "hip"}],
                               "limbs": {"left": {"knee": "calf"}}})",

@@ -145,16 +145,23 @@ TEST(Edit, NamesThatAreNotThereAreGuessed) {
 TEST(Edit, Materials) {
   document::Json model = dog();
   MaterialChange change;
-  change.exponent = 16;
+  change.numbers[3] = 16;
   change.color = {0.5, 0.25, 1};
   add_material(model, "nose", change);
   EXPECT_EQ(model["materials"]["nose"].dump(), R"({"color":[0.5,0.25,1],"exponent":16})");
   change = {};
-  change.ambient = 0.2;
+  change.numbers[0] = 0.2;
   set_material(model, "fur", change, "coat");
   EXPECT_EQ(model["materials"].begin().key(), "coat");
   EXPECT_EQ(model["materials"]["coat"].dump(), R"({"color":[1,0,0],"ambient":0.2})");
   EXPECT_EQ(model["joints"][0]["segment"]["material"], "coat");
+  change = {};
+  change.reflection = "cook-torrance";
+  change.numbers[4] = 0.25;
+  set_material(model, "nose", change, {});
+  EXPECT_EQ(model["materials"]["nose"].dump(),
+            R"({"color":[0.5,0.25,1],"reflection":"cook-torrance","roughness":0.25})")
+      << "it does not use an exponent";
   remove_material(model, "nose");
   EXPECT_FALSE(model["materials"].contains("nose"));
   EXPECT_TRUE(document::holds(failure([](document::Json& other) { remove_material(other, "fur"); }),

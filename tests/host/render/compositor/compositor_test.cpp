@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "host/render/compositor/plain_pixels.h"
 #include "tests/host/content/document/failure_of.h"
 
 namespace mars::compositor {
@@ -21,7 +22,14 @@ struct Runs {
 
 struct Size {
   std::uint32_t width, height, block;
+  wire::PixelFormat format;
 };
+
+std::uint32_t words_of(const Size& size) { return static_cast<std::uint32_t>(wire::pixel_words(size.format)); }
+
+void add_pixels(std::mt19937& random, const Size& size, std::uint32_t count, Pixels& pixels) {
+  for (std::uint32_t i = 0; i < count * words_of(size); ++i) pixels.push_back(random() & 0xffffff);
+}
 
 // Lines of two runs each, one after the other, as nodes send them: they fill blocks.
 Runs filling_runs(std::mt19937& random, const Size& size, std::uint32_t top, std::uint32_t lines) {
@@ -34,8 +42,7 @@ Runs filling_runs(std::mt19937& random, const Size& size, std::uint32_t top, std
       if (first < last)
         out.runs.push_back({line, static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(last - first)});
   }
-  for (const wire::Run& run : out.runs)
-    for (std::uint32_t i = 0; i < run.count; ++i) out.pixels.push_back(random() & 0xffffff);
+  for (const wire::Run& run : out.runs) add_pixels(random, size, run.count, out.pixels);
   return out;
 }
 
@@ -51,34 +58,39 @@ Runs random_runs(std::mt19937& random, const Size& size, std::uint32_t part, std
     const std::uint32_t count = 1 + random() % (random() % 2 == 0 ? most : std::min(most, 20u));
     out.runs.push_back({static_cast<std::uint32_t>(top + random() % lines), static_cast<std::uint16_t>(first),
                         static_cast<std::uint16_t>(count)});
-    for (std::uint32_t i = 0; i < count; ++i) out.pixels.push_back(random() & 0xffffff);
+    add_pixels(random, size, count, out.pixels);
   }
   return out;
 }
 
-void paste(const Runs& runs, std::uint32_t width, Pixels& picture) {
+void paste(const Runs& runs, const Size& size, Pixels& picture) {
   const std::uint32_t* source = runs.pixels.data();
+  const std::uint32_t words = words_of(size);
   for (const wire::Run& run : runs.runs)
-    for (std::uint32_t x = 0; x < run.count; ++x) picture[run.line * width + run.first + x] = *source++;
+    for (std::uint32_t x = 0; x < run.count * words; ++x)
+      picture[(run.line * size.width + run.first) * words + x] = *source++;
 }
 
 // Blocks in which two pictures differ must be flagged.
 void expect_told(const Frame& frame, const Pixels& before) {
   const std::uint32_t block = frame.changed.block();
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
-    const auto x = static_cast<std::uint32_t>(i % frame.width);
-    const auto y = static_cast<std::uint32_t>(i / frame.width);
+    const std::size_t pixel = i / wire::pixel_words(frame.format);
+    const auto x = static_cast<std::uint32_t>(pixel % frame.width);
+    const auto y = static_cast<std::uint32_t>(pixel / frame.width);
     const bool marked = frame.changed.at(x / block, y / block);
     ASSERT_TRUE(marked || frame.pixels[i] == before[i]) << "changed at " << x << ", " << y;
   }
 }
 
+constexpr std::uint64_t kPlain = 0x0011223300302010, kOther = 0x0011223300102030;
+
 // A compositor and its twin, a strip a step: tasks of one frame, and tasks of several with two inbetweens in the
-// making at a time.
+// making at a time. Most intervals have the plain background kPlain.
 class Twins {
  public:
-  Twins(const Size& size, std::uint32_t plain, std::vector<Frame*>& buffers)
-      : size_(size), plain_(plain), buffers_(buffers), compositor_(size.width, size.height, size.block, plain) {}
+  Twins(const Size& size, std::vector<Frame*>& buffers)
+      : size_(size), buffers_(buffers), compositor_(size.width, size.height, size.block, size.format) {}
 
   void step(std::mt19937& random) {
     if (open_.empty() && left_ == 0) begin_unit(random);
@@ -97,8 +109,10 @@ class Twins {
   };
 
   void begin_unit(std::mt19937& random) {
-    compositor_.begin_interval();
-    background_.assign(std::size_t{size_.width} * size_.height, plain_);
+    const std::uint64_t plain = random() % 4 == 0 ? kOther : kPlain;
+    compositor_.begin_interval(plain);
+    background_.resize(std::size_t{size_.width} * size_.height * words_of(size_));
+    fill_pixels(background_, plain, words_of(size_));
     before_.reset();
     left_ = random() % 3 == 0 ? 1 : 2 + random() % 4;
     alone_ = left_ == 1;
@@ -126,9 +140,9 @@ class Twins {
       compositor_.paste_moving(*keyframe->frame, constant.runs, constant.pixels);
     } else {
       compositor_.paste_constant(constant.runs, constant.pixels, keyframe ? keyframe->frame : nullptr);
-      paste(constant, size_.width, background_);
+      paste(constant, size_, background_);
     }
-    if (keyframe) paste(constant, size_.width, keyframe->twin);
+    if (keyframe) paste(constant, size_, keyframe->twin);
     if (keyframe) paste_moving(random, *keyframe, part);
     if (keyframe_parts_ == 0) finish(open_.begin());
   }
@@ -141,7 +155,7 @@ class Twins {
   void paste_moving(std::mt19937& random, Open& open, std::uint32_t part) {
     const Runs moving = random_runs(random, size_, part, kParts);
     compositor_.paste_moving(*open.frame, moving.runs, moving.pixels);
-    paste(moving, size_.width, open.twin);
+    paste(moving, size_, open.twin);
   }
 
   void finish(std::vector<Open>::iterator at) {
@@ -164,7 +178,6 @@ class Twins {
   static constexpr std::uint32_t kParts = 3;
 
   Size size_;
-  std::uint32_t plain_;
   std::vector<Frame*>& buffers_;
   Compositor compositor_;
   Pixels background_;
@@ -176,16 +189,16 @@ class Twins {
   std::optional<Open> before_;
 };
 
-// Intervals of two compositors interleaved, with the same plain background or another, in shared buffers.
+// Intervals of two compositors interleaved, in shared buffers.
 void expect_twins(const Size& size, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::unique_ptr<Frame>> frames;
   std::vector<Frame*> buffers;
   for (int i = 0; i < 4; ++i) {
-    frames.push_back(std::make_unique<Frame>(size.width, size.height, size.block, i % 2 * 0x00302010));
+    frames.push_back(std::make_unique<Frame>(size.width, size.height, size.block, i % 2 * kPlain, size.format));
     buffers.push_back(frames.back().get());
   }
-  Twins twins[2] = {{size, 0x00302010, buffers}, {size, seed % 3 == 0 ? 0x00102030u : 0x00302010u, buffers}};
+  Twins twins[2] = {{size, buffers}, {size, buffers}};
   for (int i = 0; i < 120 && !testing::Test::HasFatalFailure(); ++i) twins[random() % 2].step(random);
 }
 
@@ -193,13 +206,16 @@ TEST(Compositor, AsTheTwinThatDrawsFromScratch) {
   unsigned seed = 0;
   for (const std::uint32_t block : {1u, 2u, 3u, 5u, 8u, 16u, 31u, 64u, 16384u})
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 3u}, {64u, 64u}, {65u, 17u}, {131u, 97u}})
-      for (int round = 0; round < 4; ++round) expect_twins({width, height, block}, ++seed);
+      for (const wire::PixelFormat format : {wire::PixelFormat::rgb8, wire::PixelFormat::half})
+        for (int round = 0; round < 3; ++round) expect_twins({width, height, block, format}, ++seed);
 }
 
 TEST(Compositor, FramesPassFromOneToAnother) {
   Frame frame(20, 10, 4);
-  Compositor first(20, 10, 4, 1);
-  Compositor second(20, 10, 4, 2);
+  Compositor first(20, 10, 4);
+  Compositor second(20, 10, 4);
+  first.begin_interval(1);
+  second.begin_interval(2);
   const std::vector<wire::Run> runs{{3, 2, 5}};
   const Pixels pixels(5, 9);
   for (const auto& [compositor, background] : {std::pair{&first, 1u}, {&second, 2u}, {&first, 1u}}) {
@@ -213,7 +229,7 @@ TEST(Compositor, FramesPassFromOneToAnother) {
 
 // What was not flagged is not written again: a pixel spoilt behind the compositor's back stays spoilt.
 TEST(Compositor, RestoresFlaggedBlocksOnly) {
-  Compositor compositor(64, 64, 16, 0);
+  Compositor compositor(64, 64, 16);
   Frame frame(64, 64, 16);
   compositor.begin_frame(frame);
   compositor.paste_moving(frame, std::vector<wire::Run>{{20, 20, 3}}, Pixels(3, 7));
@@ -234,11 +250,11 @@ TEST(Compositor, RestoresFlaggedBlocksOnly) {
 // From one interval to the next only blocks with CFB of either are written, in the frame and in the saved
 // background.
 TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
-  Compositor compositor(64, 64, 16, 0);
+  Compositor compositor(64, 64, 16);
   Frame keyframe(64, 64, 16);
   Frame other(64, 64, 16);
   const auto begin = [&](std::uint16_t column) {
-    compositor.begin_interval();
+    compositor.begin_interval(0);
     compositor.begin_frame(keyframe);
     compositor.paste_constant(std::vector<wire::Run>{{0, column, 3}}, Pixels(3, 7), &keyframe);
     compositor.finish_frame(keyframe, 0);
@@ -258,8 +274,25 @@ TEST(Compositor, RestoresWhereEitherBackgroundHasPixels) {
   EXPECT_EQ(other.constant.count(), 1u);
 }
 
+// The next interval's background is another; a buffer of the interval before shows it everywhere.
+TEST(Compositor, EachIntervalHasItsPlainBackground) {
+  Compositor compositor(20, 10, 4, wire::PixelFormat::rgb16);
+  Frame frame(20, 10, 4, 0, wire::PixelFormat::rgb16);
+  for (const std::uint64_t plain : {kPlain, kOther}) {
+    compositor.begin_interval(plain);
+    compositor.begin_frame(frame);
+    compositor.paste_constant(std::vector<wire::Run>{{3, 2, 1}}, Pixels{7, 8}, &frame);
+    compositor.finish_frame(frame, 0);
+    Pixels expected(400);
+    fill_pixels(expected, plain, 2);
+    expected[2 * 62] = 7;
+    expected[2 * 62 + 1] = 8;
+    EXPECT_EQ(frame.pixels, expected);
+  }
+}
+
 TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
-  Compositor compositor(64, 64, 16, 0);
+  Compositor compositor(64, 64, 16);
   Frame frame(64, 64, 16);
   const std::vector<wire::Run> runs{{0, 0, 1}};
   compositor.paste_constant(runs, Pixels{7}, nullptr);
@@ -269,7 +302,7 @@ TEST(Compositor, AKeyframeThatMissedPixelsIsABug) {
 }
 
 TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
-  Compositor compositor(64, 64, 16, 0);
+  Compositor compositor(64, 64, 16);
   Frame frame(64, 64, 16);
   for (std::uint32_t number = 0; number < 2; ++number) {
     compositor.begin_frame(frame);
@@ -284,7 +317,7 @@ TEST(Compositor, TellsWhatChangedSinceTheFrameBefore) {
 }
 
 TEST(Compositor, WrongStripsAreFailuresAndLeaveThePictureAlone) {
-  Compositor compositor(10, 5, 4, 0);
+  Compositor compositor(10, 5, 4);
   Frame frame(10, 5, 4);
   compositor.begin_frame(frame);
   const Pixels pixels(3, 7);

@@ -98,7 +98,7 @@ void expect_put_together(unsigned seed) {
   std::mt19937 random(seed);
   MemorySink sink;
   sinks::SinkPool pool(sink, {kWidth, kHeight, kBlock, 1 + static_cast<std::uint32_t>(random() % 4), 1, kPlain});
-  compositor::Compositor compositor(kWidth, kHeight, kBlock, kPlain);
+  compositor::Compositor compositor(kWidth, kHeight, kBlock);
   StripStore store;
   std::map<std::uint32_t, Pixels> expected;
   const int nodes = 1 + static_cast<int>(random() % 4);
@@ -110,13 +110,14 @@ void expect_put_together(unsigned seed) {
     Drawn drawn = draw(random, task, nodes, store);
     expected.merge(drawn.pictures);
     Assembly assembly(task, {0, nodes});
+    compositor.begin_interval(kPlain);
     EXPECT_EQ(assembly.interval(), number);
     std::size_t not_pasted = 0;  // strips that are not a node's last of their frame
     while (!assembly.done()) {
       auto& strips = drawn.by_node[random() % drawn.by_node.size()];
       if (random() % 2 == 0) assembly.prepare(compositor, pool);
       if (!strips.empty()) {
-        std::optional<StripMessage> strip = StripMessage::read(std::move(strips.front()));
+        std::optional<StripMessage> strip = StripMessage::read(std::move(strips.front()), wire::PixelFormat::rgb8);
         strips.pop_front();
         ASSERT_TRUE(strip && assembly.wants(strip->header()));
         not_pasted += strip->header().last == 0;
@@ -131,7 +132,6 @@ void expect_put_together(unsigned seed) {
       }
     }
     EXPECT_EQ(not_pasted, 0u) << "each was reported when it was pasted";
-    compositor.begin_interval();
   }
   pool.finish();
   EXPECT_EQ(sink.frames, expected) << "seed " << seed;
@@ -143,7 +143,9 @@ TEST(Assembly, PutsFramesTogetherFromStripsInAnyOrder) {
 
 struct OneTask {
   OneTask(std::vector<std::uint32_t> frames, std::uint32_t buffers, int nodes)
-      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}) {}
+      : pool(sink, {kWidth, kHeight, kBlock, buffers, 1, kPlain}), assembly({0, std::move(frames), 0}, {0, nodes}) {
+    compositor.begin_interval(kPlain);
+  }
 
   void receive(std::uint32_t frame, int node, bool last = true) {
     wire::Strip header{};
@@ -152,13 +154,14 @@ struct OneTask {
     header.last = last;
     header.slot = 2;
     header.by_message = 1;
-    assembly.receive(*StripMessage::read(strip_bytes(header, {}, {{{0, 0, 1}}, {frame}}, store)));
+    assembly.receive(
+        *StripMessage::read(strip_bytes(header, {}, {{{0, 0, 1}}, {frame}}, store), wire::PixelFormat::rgb8));
   }
   std::optional<Assembly::Pasted> paste() { return assembly.paste(compositor, pool, store); }
 
   MemorySink sink;
   sinks::SinkPool pool;
-  compositor::Compositor compositor{kWidth, kHeight, kBlock, kPlain};
+  compositor::Compositor compositor{kWidth, kHeight, kBlock};
   StripStore store;
   Assembly assembly;
 };

@@ -131,8 +131,10 @@ wire::Hello sound_hello() {
 
 // The host's, with one node that has one slot.
 struct Inbox {
+  explicit Inbox(wire::PixelFormat format = wire::PixelFormat::rgb8) : inbox(kWidth, kHeight, format, slots, nullptr) {}
+
   NodeSlots slots{1, 1};
-  NodeInbox inbox{kWidth, kHeight, slots, nullptr};
+  NodeInbox inbox;
 };
 
 TEST(DamagedMessages, Hello) {
@@ -143,48 +145,52 @@ TEST(DamagedMessages, Loaded) {
   refused_of(wire::kLoaded, bytes_of(wire::Loaded{}), [] { Inbox().inbox.wait_until_loaded(); });
 }
 
-Bytes sound_strip(std::uint32_t by_message) {
+constexpr wire::PixelFormat kFormats[] = {wire::PixelFormat::rgb8, wire::PixelFormat::half};
+
+Bytes sound_strip(std::uint32_t by_message, wire::PixelFormat format) {
   wire::Strip header{};
   header.last = 1;
   header.last_line = kHeight;
   header.by_message = by_message;
   StripStore store;
-  const StripBytes strip = strip_bytes(header, {{{0, 1, 2}, {1, 0, 16}}, std::vector<std::uint32_t>(18, 5)},
-                                       {{{3, 0, 3}}, {1, 2, 3}}, store);
+  const std::size_t words = wire::pixel_words(format);
+  const StripBytes strip = strip_bytes(header, {{{0, 1, 2}, {1, 0, 16}}, std::vector<std::uint32_t>(18 * words, 5)},
+                                       {{{3, 0, 3}}, std::vector<std::uint32_t>(3 * words, 6)}, store, format);
   return {strip.data.get(), strip.data.get() + strip.size};
 }
 
-void paste(const StripMessage& message) {
-  compositor::Compositor compositor(kWidth, kHeight, 8, 0);
-  compositor::Frame frame(kWidth, kHeight, 8);
-  compositor.begin_interval();
+void paste(const StripMessage& message, wire::PixelFormat format) {
+  compositor::Compositor compositor(kWidth, kHeight, 8, format);
+  compositor::Frame frame(kWidth, kHeight, 8, 0, format);
   compositor.begin_frame(frame);
   compositor.paste_constant(message.constant_runs(), message.constant_pixels(), &frame);
   compositor.paste_moving(frame, message.moving_runs(), message.moving_pixels());
 }
 
 TEST(DamagedMessages, Strip) {
-  StripStore store;
-  std::optional<Inbox> host;
-  Exchange exchange{wire::kStrip, sound_strip(1), [&] { paste(host->inbox.receive_strip(store)); }};
-  exchange.ask = [&] {
-    host.emplace();
-    host->slots.give({0, 0});
-  };
-  EXPECT_GT(refused_of(exchange), kMessages / 10);
+  for (const wire::PixelFormat format : kFormats) {
+    StripStore store;
+    std::optional<Inbox> host;
+    Exchange exchange{wire::kStrip, sound_strip(1, format), [&] { paste(host->inbox.receive_strip(store), format); }};
+    exchange.ask = [&] {
+      host.emplace(format);
+      host->slots.give({0, 0});
+    };
+    EXPECT_GT(refused_of(exchange), kMessages / 10);
+  }
 }
 
 // The node damages its slot once more when the host has checked the strip.
-TEST(DamagedMessages, StripInASlot) {
+void expect_refusals_of_slots(wire::PixelFormat format) {
   StripStore store;
   std::optional<Inbox> host;
   std::optional<messages::OfferedMemory> slot;  // the node's
   Damage later;
-  Exchange exchange{wire::kStrip, sound_strip(0), [&] {
+  Exchange exchange{wire::kStrip, sound_strip(0, format), [&] {
                       const StripMessage strip = host->inbox.receive_strip(store);
                       const auto bytes = slot->bytes().first(1000);
                       std::ranges::copy(later.damaged({bytes.begin(), bytes.end()}, false), bytes.begin());
-                      paste(strip);
+                      paste(strip, format);
                     }};
   exchange.ask = [&] {
     host->slots.take({0, 0});  // where the last was refused before that
@@ -199,10 +205,14 @@ TEST(DamagedMessages, StripInASlot) {
     ScriptedNode::send(wire::kLoaded, wire::Loaded{slot->name(), {}});
   };
   exchange.boot_host = [&] {
-    host.emplace();
+    host.emplace(format);
     host->inbox.wait_until_loaded();
   };
   EXPECT_GT(refused_of(exchange), kMessages / 10);
+}
+
+TEST(DamagedMessages, StripInASlot) {
+  for (const wire::PixelFormat format : kFormats) expect_refusals_of_slots(format);
 }
 
 TEST(DamagedMessages, Fault) {

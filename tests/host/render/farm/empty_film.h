@@ -14,6 +14,16 @@ class EmptyFilm {
   // Intervals of so many frames; the block has more than `bytes`.
   explicit EmptyFilm(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16, std::uint32_t height = 8,
                      std::size_t bytes = 0) {
+    pack(data(intervals, width, height, bytes));
+  }
+  static EmptyFilm of(const wire::FilmData& data) {
+    EmptyFilm film({1});
+    film.pack(data);
+    return film;
+  }
+
+  static wire::FilmData data(const std::vector<std::uint32_t>& intervals, std::uint32_t width = 16,
+                             std::uint32_t height = 8, std::size_t bytes = 0) {
     wire::FilmData film;
     for (const std::uint32_t frames : intervals) {
       film.intervals.push_back({film.settings.frames, frames, 0, 0});
@@ -26,16 +36,20 @@ class EmptyFilm {
     film.cameras = {{{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}}, 2, 0.1, 100}};
     film.changes = {{0, 0}};
     film.names.resize(bytes);
-    const std::vector<std::byte> block = wire::pack(film);
-    words_.resize((block.size() + 7) / 8);
-    size_ = block.size();
-    std::memcpy(words_.data(), block.data(), size_);
+    return film;
   }
 
   std::span<const std::byte> block() const { return {reinterpret_cast<const std::byte*>(words_.data()), size_}; }
   wire::FilmView view() const { return {block(), "empty film"}; }
 
  private:
+  void pack(const wire::FilmData& data) {
+    const std::vector<std::byte> block = wire::pack(data);
+    words_.resize((block.size() + 7) / 8);
+    size_ = block.size();
+    std::memcpy(words_.data(), block.data(), size_);
+  }
+
   std::vector<std::uint64_t> words_;  // aligned as FilmView wants it
   std::size_t size_;
 };

@@ -45,6 +45,31 @@ TEST(Farm, EveryFrameComes) {
   expect_all_frames(film, 3, 3, {0, 4, 11});
 }
 
+// Intervals by turns of two exposures, frames of them in few buffers.
+TEST(Farm, TheBackgroundIsThatOfItsInterval) {
+  wire::FilmData data = EmptyFilm::data({2, 1, 3, 1});
+  data.settings.color_space = wire::ColorSpace::linear;
+  data.settings.background = {0.1f, 0.2f, 0.25f};
+  data.cameras.push_back(data.cameras.front());
+  data.cameras.back().exposure = 2;
+  data.settings.camera = {0, 4};
+  data.changes = {{0, 0}, {2, 1}, {3, 0}, {6, 1}};
+  for (const wire::PixelFormat format : {wire::PixelFormat::rgb8, wire::PixelFormat::rgb16}) {
+    ScriptedRun run;
+    run.nodes = 2;
+    run.work = {frames_to(7), true, 1};
+    run.buffers = 2;
+    run.format = format;
+    run.render(EmptyFilm::of(data), sound_node);
+    EXPECT_EQ(run.sink.pixels, pixels_of(frames_to(7)));
+    // sRGB of 0.25 is 136.96 of 255, and of 0.5 187.52.
+    const int shift = format == wire::PixelFormat::rgb8 ? 16 : 0;
+    const double most = format == wire::PixelFormat::rgb8 ? 255 : 65535;
+    for (const auto& [frame, word] : run.sink.last)
+      EXPECT_NEAR((word >> shift) / most, (frame == 2 || frame == 6 ? 187.52 : 136.96) / 255, 0.6 / 255) << frame;
+  }
+}
+
 TEST(Farm, WarnsOnceOfEachMachineWhoseNodesDoNotShareMemory) {
   ScriptedRun run;
   run.nodes = 4;

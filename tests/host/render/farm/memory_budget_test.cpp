@@ -17,7 +17,7 @@ wire::FilmSettings picture(std::uint32_t width, std::uint32_t height) {
 }
 
 TEST(SharedHostMemory, OrdinaryFilmsHaveAllTheyCanUse) {
-  const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), 64, 8, 16);
+  const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), wire::PixelFormat::rgb8, 64, 8, 16);
   EXPECT_EQ(memory.frames, 18u) << "two more than threads";
   EXPECT_EQ(memory.credits, wire::kMaxCredits);
   EXPECT_EQ(memory.backgrounds, 8u);
@@ -26,14 +26,22 @@ TEST(SharedHostMemory, OrdinaryFilmsHaveAllTheyCanUse) {
 }
 
 TEST(SharedHostMemory, BuffersTakeOneGiBAtMost) {
-  EXPECT_EQ(share_host_memory(64 * kGiB, picture(16384, 8192), 1, 1, 16).frames, 2u);
-  EXPECT_EQ(share_host_memory(64 * kGiB, picture(8192, 8192), 1, 1, 16).frames, 4u);
+  EXPECT_EQ(share_host_memory(64 * kGiB, picture(16384, 8192), wire::PixelFormat::rgb8, 1, 1, 16).frames, 2u);
+  EXPECT_EQ(share_host_memory(64 * kGiB, picture(8192, 8192), wire::PixelFormat::rgb8, 1, 1, 16).frames, 4u);
+}
+
+TEST(SharedHostMemory, PixelsOfEightBytesTakeTwice) {
+  const HostMemory narrow = share_host_memory(64 * kGiB, picture(8192, 8192), wire::PixelFormat::rgb8, 1, 1, 16);
+  const HostMemory wide = share_host_memory(64 * kGiB, picture(8192, 8192), wire::PixelFormat::half, 1, 1, 16);
+  EXPECT_EQ(wide.frame_bytes, 2 * narrow.frame_bytes);
+  EXPECT_EQ(wide.frames, narrow.frames / 2);
+  EXPECT_EQ(wide.strip_bytes(), narrow.strip_bytes());
 }
 
 TEST(SharedHostMemory, ManyNodesHaveFewerCredits) {
   std::int32_t before = wire::kMaxCredits;
   for (const std::uint32_t nodes : {256u, 1024u, 2048u, 4096u}) {
-    const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), nodes, 1, 16);
+    const HostMemory memory = share_host_memory(4 * kGiB, picture(1920, 1080), wire::PixelFormat::rgb8, nodes, 1, 16);
     EXPECT_LE(memory.credits, before);
     EXPECT_GE(memory.credits, 1);
     EXPECT_LE(memory.most_bytes(), memory.budget);
@@ -43,7 +51,7 @@ TEST(SharedHostMemory, ManyNodesHaveFewerCredits) {
 }
 
 TEST(SharedHostMemory, HoweverSmallTheBudgetWorkGoesOn) {
-  const HostMemory memory = share_host_memory(0, picture(1920, 1080), 8, 2, 16);
+  const HostMemory memory = share_host_memory(0, picture(1920, 1080), wire::PixelFormat::rgb8, 8, 2, 16);
   EXPECT_EQ(memory.frames, 2u);
   EXPECT_EQ(memory.credits, 1);
   EXPECT_GT(memory.most_bytes(), memory.budget);

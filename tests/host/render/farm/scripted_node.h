@@ -138,7 +138,9 @@ class ScriptedNode {
     header.slot = credit.slot;
     header.by_message = credit.by_message;
     StripStore store;
-    const StripBytes bytes = strip_bytes(header, {}, {{{0, 0, 1}}, {pixel}}, store);
+    std::vector<std::uint32_t> words(wire::pixel_words(load.pixel_format));
+    words.front() = pixel;
+    const StripBytes bytes = strip_bytes(header, {}, {{{0, 0, 1}}, words}, store, load.pixel_format);
     if (seen_) std::memcpy(slot(credit.slot).data(), bytes.data.get(), bytes.size);
     csend(wire::kStrip, bytes.data.get(), static_cast<long>(seen_ ? sizeof header : bytes.size), myhost(), 0);
   }
@@ -182,15 +184,17 @@ class ScriptedNode {
   std::optional<messages::OfferedMemory> slots_;
 };
 
-// Keeps the first pixel of each frame.
+// Keeps the first and the last word of each frame.
 class FirstPixels : public sinks::Sink {
  public:
   void take(const compositor::Frame& frame) override {
     if (taken) taken(frame.number);
     const std::lock_guard lock(mutex_);
     pixels[frame.number] = frame.pixels.front();
+    last[frame.number] = frame.pixels.back();
   }
   std::map<std::uint32_t, std::uint32_t> pixels;
+  std::map<std::uint32_t, std::uint32_t> last;
   std::function<void(std::uint32_t frame)> taken;
 
  private:
@@ -204,12 +208,14 @@ struct ScriptedRun {
   std::uint32_t buffers = 3;
   FarmListener listener;
   FirstPixels sink;
+  wire::PixelFormat format = wire::PixelFormat::rgb8;
 
   FarmReport render(const EmptyFilm& film, const std::function<void()>& node) {
     const Plan plan = make_plan(film.view(), work, nodes);
     FarmReport report;
     const auto host = [&] {
-      sinks::SinkPool pool(sink, {film.view().settings().width, film.view().settings().height, 8, buffers, 1});
+      sinks::SinkPool pool(sink,
+                           {film.view().settings().width, film.view().settings().height, 8, buffers, 1, 0, format});
       report = render_film(film.block(), plan, farm, pool, listener);
     };
     threads::run_threads(nodes, host, node);

@@ -10,6 +10,8 @@
 namespace mars::farm {
 namespace {
 
+using wire::PixelFormat;
+
 wire::Strip keyframe_strip() {
   wire::Strip strip{};
   strip.kind = wire::FrameKind::keyframe;
@@ -34,7 +36,19 @@ void expect_parts(const StripMessage& strip) {
 
 TEST(StripMessage, HasItsPartsInPlace) {
   StripStore store;
-  expect_parts(*StripMessage::read(strip_bytes(keyframe_strip(), kConstant, kMoving, store)));
+  expect_parts(*StripMessage::read(strip_bytes(keyframe_strip(), kConstant, kMoving, store), PixelFormat::rgb8));
+}
+
+TEST(StripMessage, PixelsMayHaveTwoWords) {
+  StripStore store;
+  const Runs constant{{{0, 1, 2}}, {10, 11, 12, 13}}, moving{{{1, 1, 1}}, {20, 21}};
+  const auto bytes = [&] { return strip_bytes(keyframe_strip(), constant, moving, store, PixelFormat::half); };
+  const StripMessage strip = *StripMessage::read(bytes(), PixelFormat::half);
+  EXPECT_EQ(strip.header().pixels, 3u);
+  EXPECT_TRUE(std::ranges::equal(strip.constant_pixels(), constant.pixels));
+  EXPECT_TRUE(std::ranges::equal(strip.moving_pixels(), moving.pixels));
+  EXPECT_EQ(strip.moving_runs()[0].line, 1u);
+  EXPECT_FALSE(StripMessage::read(bytes(), PixelFormat::rgb8)) << "of another size";
 }
 
 TEST(StripMessage, OtherThanItsHeaderSaysIsNone) {
@@ -42,7 +56,7 @@ TEST(StripMessage, OtherThanItsHeaderSaysIsNone) {
   const auto is_none = [&](const auto& spoil) {
     StripBytes bytes = strip_bytes(keyframe_strip(), kConstant, kMoving, store);
     spoil(bytes, *reinterpret_cast<wire::Strip*>(bytes.data.get()));
-    return !StripMessage::read(std::move(bytes));
+    return !StripMessage::read(std::move(bytes), PixelFormat::rgb8);
   };
   EXPECT_FALSE(is_none([](StripBytes&, wire::Strip&) {}));
   EXPECT_TRUE(is_none([](StripBytes& bytes, wire::Strip&) { bytes.size = sizeof(wire::Strip) - 1; }));
@@ -65,7 +79,7 @@ struct InSlot {
     std::copy_n(whole.data.get(), whole.size, bytes.begin());
     std::memcpy(&header, bytes.data(), sizeof header);
   }
-  std::optional<StripMessage> read() { return StripMessage::read(header, bytes, store); }
+  std::optional<StripMessage> read() { return StripMessage::read(header, bytes, PixelFormat::rgb8, store); }
 
   StripStore store;
   std::vector<std::byte> bytes;

@@ -49,7 +49,7 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
                         {"film.json", "-o", "x"},
                         96,
                         54,
-                        farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, 2, 1, 4)};
+                        farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, wire::PixelFormat::rgb8, 2, 1, 4)};
   const json report = json::parse(report_text(head, two_nodes_two_frames()));
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);

@@ -14,7 +14,7 @@ namespace mars::sinks {
 namespace {
 
 Manifest film(const char* name, char checksum, std::vector<std::uint32_t> frames) {
-  return {name, std::string(32, checksum), 6, 4, 24, 400, std::move(frames), {}};
+  return {name, std::string(32, checksum), 6, 4, images::PictureFormat::png, 24, 400, std::move(frames), {}};
 }
 
 // A run that claims `manifest`, by its files.
@@ -59,7 +59,8 @@ TEST(Claim, OnlyOtherFramesOfTheSameFilmAreLetIn) {
   const std::string other = claim.refuses(film("b.json", 'b', {3}));
   EXPECT_TRUE(document::holds(other, "renders frames 0-2,9 of a.json into this folder")) << other;
   EXPECT_TRUE(document::holds(other, "(give another folder with -o, or wait)")) << other;
-  EXPECT_TRUE(document::holds(claim.refuses(film("a.json", 'b', {3})), "of another version or size of a.json into"));
+  EXPECT_TRUE(
+      document::holds(claim.refuses(film("a.json", 'b', {3})), "of another version, size or format of a.json into"));
 }
 
 TEST(Claim, LongListsAndOtherDaysAreToldShortAndWhole) {

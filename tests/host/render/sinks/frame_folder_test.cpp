@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "host/content/document/file.h"
@@ -28,8 +29,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using images::PictureFormat;
 
-Manifest small_manifest() { return {"a film.json", std::string(32, 'a'), 6, 4, 24, 12, {0, 1, 2, 5, 11}, {}}; }
+Manifest small_manifest() {
+  return {"a film.json", std::string(32, 'a'), 6, 4, PictureFormat::png, 24, 12, {0, 1, 2, 5, 11}, {}};
+}
+
+Manifest in_format(PictureFormat format) {
+  Manifest manifest = small_manifest();
+  manifest.format = format;
+  return manifest;
+}
 
 Manifest of_frames(std::vector<std::uint32_t> frames) {
   Manifest manifest = small_manifest();
@@ -39,8 +49,8 @@ Manifest of_frames(std::vector<std::uint32_t> frames) {
 
 // Each frame of one colour.
 void put_frames(FrameFolder& folder, const Manifest& manifest, std::uint32_t color) {
-  PngSink sink(folder);
-  compositor::Frame frame(manifest.width, manifest.height, 16);
+  FileSink sink(folder);
+  compositor::Frame frame(manifest.width, manifest.height, 16, 0, images::facts_of(manifest.format).pixels);
   for (const std::uint32_t number : manifest.frames) {
     frame.number = number;
     std::fill(frame.pixels.begin(), frame.pixels.end(), color + number);
@@ -77,10 +87,17 @@ std::string failure_to_claim(const fs::path& path, const Manifest& manifest) {
 }
 
 TEST(FrameFolder, NamesSortAsFramesDo) {
-  EXPECT_EQ(frame_file_name(0, 1), "frame-0000.png");
-  EXPECT_EQ(frame_file_name(9999, 10000), "frame-9999.png");
-  EXPECT_EQ(frame_file_name(7, 10001), "frame-00007.png");
-  EXPECT_EQ(frame_file_name(4294967294, 4294967295), "frame-4294967294.png");
+  const auto name = [](std::uint32_t frame, std::uint32_t film_frames, PictureFormat format = PictureFormat::png) {
+    Manifest manifest = in_format(format);
+    manifest.film_frames = film_frames;
+    return frame_file_name(manifest, frame);
+  };
+  EXPECT_EQ(name(0, 1), "frame-0000.png");
+  EXPECT_EQ(name(9999, 10000), "frame-9999.png");
+  EXPECT_EQ(name(7, 10001), "frame-00007.png");
+  EXPECT_EQ(name(4294967294, 4294967295), "frame-4294967294.png");
+  EXPECT_EQ(name(3, 10, PictureFormat::png16), "frame-0003.png");
+  EXPECT_EQ(name(3, 10, PictureFormat::exr), "frame-0003.exr");
 }
 
 TEST(FrameFolder, IsMadeWithItsManifest) {
@@ -488,6 +505,38 @@ TEST(Verify, OneHashForEqualFrames) {
   EXPECT_EQ(hashes[0].size(), 32u);
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_NE(hashes[0], hashes[2]);
+}
+
+TEST(Verify, ReadsEveryFormatAndNamesItsPixels) {
+  const TemporaryFolder folder;
+  std::set<std::string> hashes;
+  for (const auto& [format, pixels] : {std::pair{PictureFormat::png, "8-bit sRGB"},
+                                       {PictureFormat::png16, "16-bit sRGB"},
+                                       {PictureFormat::exr, "half-float linear RGB"}}) {
+    const fs::path path = folder / images::facts_of(format).name;
+    fill(path, in_format(format), 0x2030);
+    const Verdict verdict = verify_folder(path);
+    EXPECT_TRUE(verdict.troubles.empty()) << path;
+    EXPECT_EQ(verdict.pixels, pixels);
+    hashes.insert(verdict.hash);
+    const fs::path frame = path / frame_file_name(in_format(format), 2);
+    fs::resize_file(frame, fs::file_size(frame) / 2);
+    EXPECT_EQ(verify_folder(path).troubles.size(), 1u) << path;
+  }
+  EXPECT_EQ(hashes.size(), 2u) << "the words of 16-bit and of half-float pixels are the same";
+}
+
+TEST(FrameFolder, FramesOfAnotherFormatDoNotPassAsThisOnes) {
+  const TemporaryFolder folder;
+  fill(folder.path(), in_format(PictureFormat::png16), 7);
+  {
+    const FrameFolder running(folder.path(), in_format(PictureFormat::png));
+    EXPECT_FALSE(fs::exists(folder / "frame-0001.png"));
+    const std::string failure = failure_to_claim(folder.path(), in_format(PictureFormat::exr));
+    EXPECT_TRUE(document::holds(failure, "another version, size or format of a film.json")) << failure;
+  }
+  EXPECT_EQ(read_manifest(folder.path()).format, PictureFormat::png);
+  EXPECT_EQ(read_manifest(folder.path()).pixel_hashes, std::vector<std::string>(5));
 }
 
 TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {

@@ -43,12 +43,14 @@ RenderOptions unusual() {
   options.backend = Backend::threads;
   options.frames = film::FrameSet("0-9,24,30-");
   options.size = images::PictureSize{33, 44};
+  options.samples = 8;
   options.mapping = wire::Mapping::optimal;
   options.intervals = Intervals::keyframes;
   options.no_coherence = true;
   options.block = 5;
   options.groups = 3;
   options.sink = SinkKind::none;
+  options.format = images::PictureFormat::exr;
   options.report = "report.json";
   options.trace = "trace.json";
   options.quiet = true;
@@ -117,7 +119,11 @@ TEST(RenderOptions, WrongValuesAreUsageErrorsThatNameTheOption) {
       {{"--backend", "pvm"}, "auto or mpi or threads"},
       {{"--mapping", ""}, "greedy or optimal or cost"},
       {{"--intervals", "x"}, "auto or keyframes"},
-      {{"--sink", "gif"}, "png or none"},
+      {{"--sink", "gif"}, "files or none"},
+      {{"--format", "gif"}, "png or png16 or exr"},
+      {{"--samples", "3"}, "is not 1, 2, 4, 8 or 16"},
+      {{"--samples", "32"}, "is not 1, 2, 4, 8 or 16"},
+      {{"--samples", "many"}, "is not 1, 2, 4, 8 or 16"},
       {{"--size", "960"}, "is not a size"},
       {{"--size", "960x"}, "is not a size"},
       {{"--size", "0x5"}, "between 1x1 and 16384"},

@@ -1,0 +1,124 @@
+#include "host/content/film/light_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "hal/failure/failure.h"
+#include "host/content/animator/direction.h"
+#include "host/content/animator/read_lights.h"
+#include "host/content/film/track_writer.h"
+
+namespace mars::film {
+namespace {
+
+// Of one channel, by sRGB (IEC 61966-2-1).
+double decoded(double shown) { return shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4); }
+
+double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
+std::array<float, 3> floats(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+glm::dvec3 light_from(const glm::dvec3& color, wire::ColorSpace space) {
+  const glm::dvec3 shown = glm::clamp(color, 0.0, 1.0);
+  if (space == wire::ColorSpace::coded) return shown;
+  return {decoded(shown.x), decoded(shown.y), decoded(shown.z)};
+}
+
+// Of half the angle that a cone opens.
+float cosine_of(double angle) {
+  return static_cast<float>(
+      std::cos(std::clamp(angle, animator::kCones.lowest, animator::kCones.highest) * (std::numbers::pi / 360)));
+}
+
+class LightWriter {
+ public:
+  LightWriter(const animator::Film& film, wire::FilmData& data) : film_(film), data_(data) {}
+
+  void write(const animator::LightMotion& light) {
+    TrackWriter<wire::Light> track(data_.lights);
+    const std::uint32_t frames =
+        frames_to_see(film_.frames, light.vector, light.color, light.intensity, light.reach, light.at, light.cone);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) track.add(frame, light_at(light, frame));
+    data_.light_tracks.push_back(track.write(data_.changes));
+  }
+
+ private:
+  wire::Light light_at(const animator::LightMotion& motion, std::uint32_t frame) const {
+    wire::Light light{motion.kind, {}, color_at(motion, frame)};
+    const bool far = motion.kind == wire::LightKind::directional;
+    const glm::dvec3 vector =
+        far ? animator::direction_at(motion.vector, frame) : animator::value_at(motion.vector, frame);
+    light.vector = floats(vector);
+    if (motion.kind == wire::LightKind::spot) aim(motion, vector, frame, light);
+    if (!motion.reach.empty()) light.reach = reach_at(motion, frame);
+    return light;
+  }
+
+  std::array<float, 3> color_at(const animator::LightMotion& motion, std::uint32_t frame) const {
+    const double intensity = std::max(0.0, animator::value_at(motion.intensity, frame));
+    const glm::dvec3 light = intensity * light_from(animator::value_at(motion.color, frame), film_.color);
+    return floats(glm::min(light, double{wire::kMostLight}));
+  }
+
+  static float reach_at(const animator::LightMotion& motion, std::uint32_t frame) {
+    const double reach = animator::value_at(motion.reach, frame);
+    return static_cast<float>(std::clamp(reach, animator::kReaches.lowest, animator::kReaches.highest));
+  }
+
+  void aim(const animator::LightMotion& motion, const glm::dvec3& place, std::uint32_t frame,
+           wire::Light& light) const {
+    const glm::dvec3 way = animator::value_at(motion.at, frame) - place;
+    const double length = glm::length(way);
+    if (length < 1e-9) refuse_aim(frame);
+    light.axis = floats(way / length);
+    const glm::dvec2 cone = animator::value_at(motion.cone, frame);
+    light.cos_outer = cosine_of(cone.y);
+    light.cos_inner = std::max(cosine_of(cone.x), light.cos_outer);
+  }
+
+  [[noreturn]] void refuse_aim(std::uint32_t frame) const {
+    const std::string light = "lights[" + std::to_string(data_.light_tracks.size()) + "], frame ";
+    throw Failure("has its place where it shines at",
+                  (film_.source.empty() ? "" : film_.source + ": ") + light + std::to_string(frame),
+                  "move place or at");
+  }
+
+  const animator::Film& film_;
+  wire::FilmData& data_;
+};
+
+}  // namespace
+
+std::array<float, 3> light_of(const glm::dvec3& color, wire::ColorSpace space) {
+  return floats(light_from(color, space));
+}
+
+std::array<float, 3> shown_of(const std::array<float, 3>& light, wire::ColorSpace space) {
+  std::array<float, 3> shown = light;
+  if (space == wire::ColorSpace::linear)
+    for (float& channel : shown) channel = static_cast<float>(encoded(channel));
+  return shown;
+}
+
+void write_light_settings(const animator::Film& film, wire::FilmSettings& settings) {
+  settings.samples = film.samples;
+  settings.color_space = film.color;
+  settings.curve = film.color == wire::ColorSpace::linear ? film.curve : wire::Curve::none;
+  settings.background = light_of(film.background, film.color);
+  settings.ambient = {light_of(film.ambient.sky, film.color), light_of(film.ambient.ground, film.color)};
+  if (film.fog)
+    settings.fog = {light_of(film.fog->color, film.color), static_cast<float>(film.fog->start),
+                    static_cast<float>(film.fog->end)};
+}
+
+void write_lights(const animator::Film& film, wire::FilmData& data) {
+  LightWriter writer(film, data);
+  for (const animator::LightMotion& light : film.lights) writer.write(light);
+}
+
+}  // namespace mars::film

@@ -1,0 +1,46 @@
+#include "host/content/modeler/material.h"
+
+#include <string>
+
+namespace mars::modeler {
+namespace {
+
+// "phong, blinn-phong": the models that use it.
+std::string users_of(const MaterialNumber& number) {
+  std::string names;
+  for (unsigned i = 0; i < std::size(kReflections); ++i)
+    if (uses(static_cast<wire::Reflection>(i), number))
+      names += (names.empty() ? "" : ", ") + std::string(kReflections[i]);
+  return names;
+}
+
+}  // namespace
+
+void refuse_unused(const document::Fields& fields, wire::Reflection reflection) {
+  for (const MaterialNumber& number : kMaterialNumbers) {
+    const auto element = fields.find(number.key);
+    if (element && !uses(reflection, number))
+      element->refuse("is not used by the reflection " + document::in_quotes(word_of(reflection)),
+                      "leave it out, or choose a reflection that uses it: " + users_of(number));
+  }
+}
+
+wire::Material read_shading(const document::Fields& fields) {
+  wire::Material material = kDefaultMaterial;
+  material.reflection = static_cast<wire::Reflection>(fields.choice("reflection", 0, kReflections));
+  material.interpolation = static_cast<wire::Interpolation>(fields.choice("interpolation", 0, kInterpolations));
+  material.sides = fields.count("sides", 2, 1, 2);
+  refuse_unused(fields, material.reflection);
+  return material;
+}
+
+wire::Material read_material(const document::Fields& fields) {
+  wire::Material material = read_shading(fields);
+  const glm::dvec3 color = fields.color("color", {0.8, 0.8, 0.8});
+  for (int i = 0; i < 3; ++i) material.color[i] = static_cast<float>(color[i]);
+  for (const MaterialNumber& number : kMaterialNumbers)
+    material.*number.member = static_cast<float>(fields.number(number.key, number.otherwise, number.range));
+  return material;
+}
+
+}  // namespace mars::modeler

@@ -1,0 +1,137 @@
+#include "host/images/exr_file.h"
+
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "hal/failure/failure.h"
+#include "node/wire/film_parts.h"
+
+namespace mars::images {
+namespace {
+
+constexpr std::size_t kPixelBytes = 8, kChannelBytes = 2;
+constexpr std::array kChannels{"R", "G", "B"};
+
+class BytesOut : public Imf::OStream {
+ public:
+  explicit BytesOut(std::vector<std::byte>& bytes) : OStream("a picture"), bytes_(bytes) {}
+
+  void write(const char* from, int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    bytes_.resize(std::max(bytes_.size(), at_ + size));
+    std::memcpy(bytes_.data() + at_, from, size);
+    at_ += size;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t at) override { at_ = at; }
+
+ private:
+  std::vector<std::byte>& bytes_;
+  std::size_t at_ = 0;
+};
+
+class BytesIn : public Imf::IStream {
+ public:
+  explicit BytesIn(std::span<const std::byte> bytes) : IStream("a picture"), bytes_(bytes) {}
+
+  bool read(char* to, int count) override {
+    const auto size = static_cast<std::size_t>(std::max(count, 0));
+    if (at_ > bytes_.size() || size > bytes_.size() - at_) throw Iex::InputExc("the file ends too early");
+    std::memcpy(to, bytes_.data() + at_, size);
+    at_ += size;
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t at) override { at_ = at; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+};
+
+// Where the channels of a picture's pixels are.
+Imf::FrameBuffer channels_in(const std::uint32_t* pixels, std::size_t width) {
+  char* base = const_cast<char*>(reinterpret_cast<const char*>(pixels));
+  Imf::FrameBuffer buffer;
+  for (std::size_t c = 0; c < kChannels.size(); ++c)
+    buffer.insert(kChannels[c], Imf::Slice(Imf::HALF, base + c * kChannelBytes, kPixelBytes, width * kPixelBytes));
+  return buffer;
+}
+
+Imf::Header header_of(std::uint32_t width, std::uint32_t height) {
+  Imf::Header header(static_cast<int>(width), static_cast<int>(height));
+  // Measured on a frame of 1920x1080 where a PNG takes 75 ms: 180 ms, at OpenEXR's own level 4 290 ms for a file that
+  // is a tenth smaller; PIZ 150 ms for one more than twice as large.
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = 2;
+  Imf::addChromaticities(header, Imf::Chromaticities());  // its default is BT.709's, which are sRGB's
+  for (const char* channel : kChannels) header.channels().insert(channel, Imf::Channel(Imf::HALF));
+  return header;
+}
+
+// Before anything is made of the size that a header names.
+void limit_sizes() {
+  static const bool kLimited = [] {
+    Imf::Header::setMaxImageSize(wire::kMaxSide, wire::kMaxSide);
+    return true;
+  }();
+  check(kLimited, "sizes of pictures are limited");
+}
+
+bool has_channels(const Imf::Header& header) {
+  return std::ranges::all_of(kChannels, [&](const char* name) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    return channel != nullptr && channel->type == Imf::HALF && channel->xSampling == 1 && channel->ySampling == 1;
+  });
+}
+
+Image read(std::span<const std::byte> bytes) {
+  limit_sizes();
+  BytesIn in(bytes);
+  Imf::InputFile file(in);
+  const Imath::Box2i window = file.header().dataWindow();
+  if (window.min != Imath::V2i(0, 0)) throw Iex::InputExc("its pixels do not begin at 0, 0");
+  if (!has_channels(file.header())) throw Iex::InputExc("it has no half floats R, G and B");
+  Image image{static_cast<std::uint32_t>(window.max.x) + 1, static_cast<std::uint32_t>(window.max.y) + 1, {}};
+  image.pixels.resize(std::size_t{2} * image.width * image.height);
+  file.setFrameBuffer(channels_in(image.pixels.data(), image.width));
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_exr(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> pixels) {
+  check(pixels.size() == std::size_t{2} * width * height, "a picture has width * height pixels");
+  std::vector<std::byte> bytes;
+  bytes.reserve(pixels.size_bytes());
+  try {
+    BytesOut out(bytes);
+    Imf::OutputFile file(out, header_of(width, height));
+    file.setFrameBuffer(channels_in(pixels.data(), width));
+    file.writePixels(static_cast<int>(height));
+  } catch (const Iex::BaseExc& failure) {
+    throw Failure(std::string("OpenEXR cannot encode a picture: ") + failure.what(), "", "");
+  }
+  return bytes;
+}
+
+Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
+  try {
+    return read(bytes);
+  } catch (const std::exception& failure) {
+    throw Failure(std::string("not a whole EXR picture: ") + failure.what(), name, "render it again");
+  }
+}
+
+}  // namespace mars::images

@@ -1,0 +1,139 @@
+// The inner loops of encoding, inline for the kernels that make light. Step by step what pixel_of does (encoding.cpp).
+#pragma once
+
+#include <cstdint>
+
+#include "node/color/kernels/functions.h"
+
+namespace mars::color::MARS_SET {
+
+namespace vectors = simd::MARS_SET;
+namespace hn = vectors::hn;
+using vectors::Floats;
+using vectors::Ints;
+using vectors::kFloats;
+using vectors::kInts;
+using vectors::kLanes;
+
+inline Floats constant(float number) { return hn::Set(kFloats, number); }
+inline Ints whole(std::uint32_t number) { return hn::Set(kInts, static_cast<std::int32_t>(number)); }
+
+inline void apply_filmic_curve(Floats* color) {
+  const Floats brightest = hn::Max(color[0], hn::Max(color[1], color[2]));
+  const Floats one = constant(1.0f), rest = constant(1.0f - kShoulder), shoulder = constant(kShoulder);
+  const auto bright = hn::Gt(brightest, shoulder);
+  const Floats beyond = hn::Sub(hn::Add(hn::Max(brightest, shoulder), rest), shoulder);
+  const Floats shown = hn::Sub(one, hn::Div(hn::Mul(rest, rest), beyond));
+  const Floats scale = hn::Div(shown, hn::Max(brightest, shoulder));
+  const Floats kept = hn::Div(one, hn::Add(hn::Mul(constant(kBleach), hn::Sub(brightest, shown)), one));
+  for (int c = 0; c < 3; ++c) {
+    const Floats curved = hn::Add(hn::Mul(hn::Sub(hn::Mul(color[c], scale), shown), kept), shown);
+    color[c] = hn::IfThenElse(bright, curved, color[c]);
+  }
+}
+
+inline void load(const float* const* light, std::uint32_t at, Floats* color) {
+  for (int c = 0; c < 3; ++c) color[c] = hn::LoadU(kFloats, light[c] + at);
+}
+
+// Light that the film is to show, 0..1.
+template <wire::ColorSpace kSpace>
+void show(const Encoding& encoding, Floats* color) {
+  if constexpr (kSpace == wire::ColorSpace::linear) {
+    for (int c = 0; c < 3; ++c)
+      color[c] = hn::Min(hn::Mul(color[c], constant(encoding.exposure)), constant(kMostExposed));
+    if (encoding.curve == wire::Curve::filmic) apply_filmic_curve(color);
+  }
+  for (int c = 0; c < 3; ++c) color[c] = hn::Min(hn::Max(color[c], hn::Zero(kFloats)), constant(1.0f));
+}
+
+inline Ints nearest(Floats value) { return hn::ConvertTo(kInts, hn::Add(value, constant(0.5f))); }
+
+// Its level of 0..most, or where in the table of so many steps it stands.
+template <wire::ColorSpace kSpace>
+Ints place(Floats shown, float most, float steps) {
+  if constexpr (kSpace == wire::ColorSpace::coded) return nearest(hn::Mul(shown, constant(most)));
+  return nearest(hn::Mul(hn::Sqrt(shown), constant(steps)));
+}
+
+// Each of a vector's places becomes the level that stands there.
+template <typename Level>
+void look_up(const Level* table, Ints* places) {
+  alignas(64) std::int32_t items[kLanes];
+  for (int c = 0; c < 3; ++c) {
+    hn::Store(places[c], kInts, items);
+    for (int k = 0; k < kLanes; ++k) items[k] = table[items[k]];
+    places[c] = hn::Load(kInts, items);
+  }
+}
+
+inline void store8(const Ints* level, std::uint32_t at, void* pixels) {
+  const Ints pixel = hn::Or(hn::Or(level[0], hn::ShiftLeft<8>(level[1])), hn::ShiftLeft<16>(level[2]));
+  hn::StoreU(pixel, kInts, static_cast<std::int32_t*>(pixels) + at);
+}
+
+inline void store16(const Ints* level, std::uint32_t at, void* pixels) {
+  const Ints red_and_green = hn::Or(level[0], hn::ShiftLeft<16>(level[1]));
+  hn::StoreInterleaved2(red_and_green, level[2], kInts, static_cast<std::int32_t*>(pixels) + 2 * at);
+}
+
+template <wire::ColorSpace kSpace>
+void encode8(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
+  for (std::uint32_t k = 0; k < count; k += kLanes) {
+    Floats color[3];
+    load(light, k, color);
+    show<kSpace>(encoding, color);
+    Ints level[3];
+    for (int c = 0; c < 3; ++c) level[c] = place<kSpace>(color[c], 255.0f, kSteps8);
+    if constexpr (kSpace == wire::ColorSpace::linear) look_up(encoding.srgb8, level);
+    store8(level, k, pixels);
+  }
+}
+
+template <wire::ColorSpace kSpace>
+void encode16(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
+  for (std::uint32_t k = 0; k < count; k += kLanes) {
+    Floats color[3];
+    load(light, k, color);
+    show<kSpace>(encoding, color);
+    Ints level[3];
+    for (int c = 0; c < 3; ++c) level[c] = place<kSpace>(color[c], 65535.0f, kSteps16);
+    if constexpr (kSpace == wire::ColorSpace::linear) look_up(encoding.srgb16, level);
+    store16(level, k, pixels);
+  }
+}
+
+// By whole numbers, for not all instruction sets have such conversions, or the same. Below 2^-14 halves are 2^-24
+// apart, as floats between 0.5 and 1 are.
+inline Ints half_of(Floats value) {
+  const Floats cut = hn::Min(value, constant(kMostHalf));
+  const Ints small = hn::Sub(hn::BitCast(kInts, hn::Add(cut, constant(0.5f))), hn::BitCast(kInts, constant(0.5f)));
+  const Ints bits = hn::Sub(hn::BitCast(kInts, cut), whole(112u << 23));
+  const Ints odd = hn::And(hn::ShiftRight<13>(bits), whole(1));
+  const Ints normal = hn::ShiftRight<13>(hn::Add(hn::Add(bits, whole(0xfff)), odd));
+  return hn::IfThenElse(hn::RebindMask(kInts, hn::Lt(cut, constant(0x1p-14f))), small, normal);
+}
+
+inline void encode_halves(const float* const* light, std::uint32_t count, void* pixels) {
+  for (std::uint32_t k = 0; k < count; k += kLanes) {
+    Floats color[3];
+    load(light, k, color);
+    const Ints level[3] = {half_of(color[0]), half_of(color[1]), half_of(color[2])};
+    store16(level, k, pixels);
+  }
+}
+
+// ColorKernels::encode.
+inline void encode_planes(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
+  using wire::ColorSpace, wire::PixelFormat;
+  const bool linear = encoding.space == ColorSpace::linear;
+  switch (encoding.format) {
+    case PixelFormat::rgb8:
+      return (linear ? encode8<ColorSpace::linear> : encode8<ColorSpace::coded>)(encoding, light, count, pixels);
+    case PixelFormat::rgb16:
+      return (linear ? encode16<ColorSpace::linear> : encode16<ColorSpace::coded>)(encoding, light, count, pixels);
+    case PixelFormat::half: return encode_halves(light, count, pixels);
+  }
+}
+
+}  // namespace mars::color::MARS_SET

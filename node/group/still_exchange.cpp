@@ -1,0 +1,113 @@
+#include "node/group/still_exchange.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "hal/failure/failure.h"
+#include "hal/nx/nx_messages.h"
+#include "node/wire/protocol.h"
+
+namespace mars::group {
+
+// The lines that each node sends, and their receivers.
+class StillExchange::Plan {
+ public:
+  Plan(const StillNeeds& needs, const geometry::LineRange& lines, const raster::Neighbours& neighbours)
+      : needs_(needs), lines_(lines), neighbours_(neighbours) {}
+
+  int self() const { return static_cast<int>(mynode()); }
+  int first() const { return needs_.group.first; }
+  int last() const { return needs_.group.first + needs_.group.count; }
+
+  bool contributes(int node) const { return needs_.contributes[index(node)] == 1; }
+  bool share_a_machine(int a, int b) const { return neighbours_.are(a, b); }
+  // Whether it is the head of a machine with contributors.
+  bool collects(int node) const {
+    if (neighbours_.head_of(node) != node) return false;
+    for (int other = first(); other < last(); ++other)
+      if (contributes(other) && share_a_machine(node, other)) return true;
+    return false;
+  }
+
+  // Needed lines that `node` is home of.
+  geometry::LineRange lines_of(int node) const { return geometry::overlap(needs_.homes[index(node)], lines_); }
+
+ private:
+  std::size_t index(int node) const { return static_cast<std::size_t>(node - needs_.group.first); }
+
+  const StillNeeds& needs_;
+  const geometry::LineRange lines_;  // that inbetweens may touch
+  const raster::Neighbours& neighbours_;
+};
+
+StillExchange::StillExchange(const raster::Neighbours& neighbours, std::uint32_t samples, std::size_t height)
+    : neighbours_(neighbours), one_each_(samples > 1), pending_(height) {}
+
+void StillExchange::complete(const StillNeeds& needs, raster::StillLines& still) {
+  const Plan plan(needs, still.lines(), neighbours_);
+  const int self = plan.self();
+  send_home_lines(plan, still);
+  if (plan.collects(self)) {
+    collect_lines(plan, still);
+    notify_contributors(plan);
+  } else if (plan.contributes(self)) {
+    crecv(wire::kStillLines, nullptr, 0);
+  }
+  pending_.wait();
+}
+
+void StillExchange::send_home_lines(const Plan& plan, raster::StillLines& still) {
+  const int self = plan.self();
+  const geometry::LineRange lines = plan.lines_of(self);
+  if (lines.count() == 0) return;
+  for (int to = plan.first(); to < plan.last(); ++to) {
+    if (to == self || !plan.collects(to)) continue;
+    if (plan.share_a_machine(self, to))
+      pending_.add(isend(wire::kStillLines, nullptr, 0, to, 0));
+    else
+      send_lines(lines, to, still);
+  }
+}
+
+void StillExchange::send_lines(const geometry::LineRange& lines, int to, raster::StillLines& still) {
+  const auto send = [&](std::span<const std::byte> message) {
+    pending_.add(isend(wire::kStillLines, message.data(), static_cast<long>(message.size()), to, 0));
+  };
+  if (!one_each_) return send(std::as_bytes(still.depths(lines)));
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) send(still.packed(line));
+}
+
+void StillExchange::collect_lines(const Plan& plan, raster::StillLines& still) {
+  const int self = plan.self();
+  std::size_t left = 0;
+  for (int from = plan.first(); from < plan.last(); ++from) {
+    const geometry::LineRange lines = plan.lines_of(from);
+    if (from == self || lines.count() == 0) continue;
+    left += plan.share_a_machine(from, self) ? 1 : messages_of(lines);
+  }
+  for (; left > 0; --left) receive_message(plan, still);
+}
+
+void StillExchange::receive_message(const Plan& plan, raster::StillLines& still) {
+  cprobe(wire::kStillLines);
+  const auto bytes = static_cast<std::size_t>(infocount());
+  const int from = static_cast<int>(infonode());
+  if (!one_each_ && !plan.share_a_machine(from, plan.self())) {
+    const auto depths = std::as_writable_bytes(still.depths(plan.lines_of(from)));
+    check(bytes == depths.size(), "CZB comes for the lines that are needed");
+    crecv(wire::kStillLines, depths.data(), infocount());
+    return;
+  }
+  line_.resize(std::max(line_.size(), bytes));
+  crecv(wire::kStillLines, line_.data(), infocount());
+  if (bytes > 0) still.unpack(std::span(line_).first(bytes));
+}
+
+void StillExchange::notify_contributors(const Plan& plan) const {
+  const int self = plan.self();
+  for (int node = plan.first(); node < plan.last(); ++node)
+    if (node != self && plan.contributes(node) && plan.share_a_machine(self, node))
+      csend(wire::kStillLines, nullptr, 0, node, 0);
+}
+
+}  // namespace mars::group

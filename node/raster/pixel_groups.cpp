@@ -1,0 +1,79 @@
+#include "node/raster/pixel_groups.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "node/simd/vector_slack.h"
+
+namespace mars::raster {
+
+PixelGroups::PixelGroups(simd::InstructionSet set, std::size_t width, std::uint32_t samples)
+    : kernels_(raster_kernels(set)),
+      shading_kernels_(shading::shading_kernels(set)),
+      color_kernels_(color::color_kernels(set)),
+      width_(width),
+      samples_(samples),
+      fragments_(width * samples + 2 * simd::kVectorSlack),
+      masks_(fragments_.size()),
+      pixels_(fragments_.size()) {
+  for (auto& channel : light_) channel.resize(fragments_.size());
+}
+
+void PixelGroups::shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
+                        const shading::Extent& extent) {
+  counts_ = {0, 0};
+  if (extent.first >= extent.last) return;
+  counts_ = kernels_.group(shading.pattern, seen, extent, groups());
+  shading_kernels_.shade_fragments(shading, fragments_.data(), count(), line, light().channel);
+}
+
+void PixelGroups::copy_to(const StillGroups& still) const {
+  std::uint32_t column = 0, next = 0, other = counts_.pixels;
+  const auto copy = [&](std::uint32_t group) {
+    still.groups[next++] = {{light_[0][group], light_[1][group], light_[2][group]}, masks_[group]};
+  };
+  for (std::uint32_t pixel = 0; pixel < counts_.pixels; ++pixel) {
+    while (column < fragments_[pixel].column) still.end[column++] = next;
+    copy(pixel);
+    for (; other < count() && pixels_[other] == pixel; ++other) copy(other);
+  }
+  while (column < width_) still.end[column++] = next;
+}
+
+void PixelGroups::resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {
+  kernels_.add_groups(groups(), counts_, samples_, light());
+  put(shading, line, out);
+}
+
+void PixelGroups::resolve_over(const StillGroups& still, const shading::Shading& shading, std::uint32_t line,
+                               StripBuffer::Layer& out) {
+  const std::uint32_t all = (1u << samples_) - 1;
+  kernels_.add_groups(groups(), counts_, samples_, light());
+  for (std::uint32_t pixel = 0; pixel < counts_.pixels; ++pixel)
+    if (masks_[pixel] != all) add_uncovered(still, pixel);
+  put(shading, line, out);
+}
+
+void PixelGroups::add_uncovered(const StillGroups& still, std::uint32_t pixel) {
+  const std::uint32_t covered = masks_[pixel];
+  for (const StillGroup& group : still.of(fragments_[pixel].column)) {
+    const float weight = static_cast<float>(std::popcount(group.samples & ~covered)) / static_cast<float>(samples_);
+    for (std::size_t c = 0; c < 3; ++c) light_[c][pixel] += weight * group.light[c];
+    masks_[pixel] |= group.samples;
+  }
+}
+
+void PixelGroups::put(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out) {
+  kernels_.add_background(masks_.data(), counts_.pixels, samples_, shading.background, light());
+  color_kernels_.encode(shading.encoding, light().channel, counts_.pixels, out.next_pixel());
+  wire::Run* run = out.next_run();
+  std::uint32_t runs = 0;
+  for (std::uint32_t pixel = 0, end; pixel < counts_.pixels; pixel = end) {
+    const std::uint16_t first = fragments_[pixel].column;
+    for (end = pixel + 1; end < counts_.pixels && fragments_[end].column == first + (end - pixel);) ++end;
+    run[runs++] = {line, first, static_cast<std::uint16_t>(end - pixel)};
+  }
+  out.added({runs, counts_.pixels});
+}
+
+}  // namespace mars::raster

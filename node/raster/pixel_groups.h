@@ -1,0 +1,59 @@
+// Shading once for several samples: the samples of a pixel that show the same triangle are a group, which is shaded
+// once, at its sample with the lowest number. Still samples are grouped among still samples alone, the moving ones that
+// are seen among themselves. A pixel is the sum of its groups' light by their numbers of samples: moving groups in the
+// order of their lowest samples, then still ones for the samples that no moving one covers, then the background.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "node/color/kernels.h"
+#include "node/raster/kernels.h"
+#include "node/raster/still_lines.h"
+#include "node/raster/strip_buffer.h"
+#include "node/shading/kernels.h"
+
+namespace mars::raster {
+
+// The groups of one line and one kind.
+class PixelGroups {
+ public:
+  PixelGroups(simd::InstructionSet set, std::size_t width, std::uint32_t samples);
+
+  // Groups and shades what is seen on columns `extent` of line `line`.
+  void shade(const shading::Shading& shading, const LineSamples& seen, std::uint32_t line,
+             const shading::Extent& extent);
+  std::uint32_t count() const { return counts_.pixels + counts_.others; }
+
+  // Copies the groups, of a whole line.
+  void copy_to(const StillGroups& still) const;
+
+  // Each of these uses the groups up.
+
+  // Makes pixels of them and of the background.
+  void resolve(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
+  // And of the line's still groups.
+  void resolve_over(const StillGroups& still, const shading::Shading& shading, std::uint32_t line,
+                    StripBuffer::Layer& out);
+
+ private:
+  Groups groups() { return {fragments_.data(), masks_.data(), pixels_.data()}; }
+  Light light() { return {light_[0].data(), light_[1].data(), light_[2].data()}; }
+  void add_uncovered(const StillGroups& still, std::uint32_t pixel);
+  void put(const shading::Shading& shading, std::uint32_t line, StripBuffer::Layer& out);
+
+  const RasterKernels& kernels_;
+  const shading::ShadingKernels& shading_kernels_;
+  const color::ColorKernels& color_kernels_;
+  std::size_t width_;
+  std::uint32_t samples_;
+  // As in Groups; once groups are added up, masks and light of pixels.
+  std::vector<shading::Fragment> fragments_;
+  std::vector<std::uint32_t> masks_;
+  std::vector<std::uint32_t> pixels_;
+  std::array<std::vector<float>, 3> light_;
+  GroupCounts counts_{};
+};
+
+}  // namespace mars::raster

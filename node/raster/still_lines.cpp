@@ -1,0 +1,82 @@
+#include "node/raster/still_lines.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "hal/failure/failure.h"
+
+namespace mars::raster {
+namespace {
+
+std::size_t depth_bytes(std::size_t width, std::size_t samples) { return width * samples * sizeof(float); }
+
+}  // namespace
+
+StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
+                       const shape::SamplePattern& pattern, std::uint64_t bytes_a_node)
+    : width_(width),
+      samples_(static_cast<std::size_t>(pattern.count)),
+      plan_(wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
+                                   bytes_a_node * neighbours.nodes().size())),
+      memory_(neighbours,
+              wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
+                                     bytes_a_node * neighbours.most())
+                  .bytes(),
+              plan_.bytes()) {
+  static_assert(sizeof(Head) == wire::kStillHeadBytes);
+}
+
+std::byte* StillLines::slot(std::uint32_t line) const {
+  return memory_.bytes().data() + (line - lines_.first) * plan_.line_bytes;
+}
+
+bool StillLines::begin_line(std::uint32_t line, std::uint32_t groups) {
+  if (!has_slot(line)) return false;
+  if (samples_ == 1) return true;
+  const bool kept = groups <= width_ * plan_.groups_per_column;
+  head(line) = {kept ? 1u : 0u, interval_, line, groups};
+  return kept;
+}
+
+std::span<float> StillLines::depth(std::uint32_t line, std::uint32_t sample) {
+  const std::size_t begin = samples_ == 1 ? 0 : wire::kStillHeadBytes + depth_bytes(width_, sample);
+  return {reinterpret_cast<float*>(slot(line) + begin), width_};
+}
+
+StillGroups StillLines::groups(std::uint32_t line) {
+  std::byte* const end = slot(line) + wire::kStillHeadBytes + depth_bytes(width_, samples_);
+  return {reinterpret_cast<std::uint32_t*>(end), reinterpret_cast<StillGroup*>(end + width_ * sizeof(std::uint32_t))};
+}
+
+bool StillLines::keeps(std::uint32_t line) const {
+  if (!lines_.has(line) || !has_slot(line)) return false;
+  const auto is_of = [&](const Head& head) {
+    return head.kept == 1 && head.interval == interval_ && head.line == line;
+  };
+  return samples_ == 1 || is_of(head(line));
+}
+
+std::span<float> StillLines::depths(const geometry::LineRange& lines) {
+  check(samples_ == 1, "lines lie one after the other");
+  return {depth(lines.first, 0).data(), lines.count() * width_};
+}
+
+std::size_t StillLines::packed_bytes(const Head& head) const {
+  return wire::kStillHeadBytes + depth_bytes(width_, samples_) + width_ * sizeof(std::uint32_t) +
+         head.groups * sizeof(StillGroup);
+}
+
+std::span<const std::byte> StillLines::packed(std::uint32_t line) const {
+  if (!keeps(line)) return {};
+  return {slot(line), packed_bytes(head(line))};
+}
+
+void StillLines::unpack(std::span<const std::byte> line) {
+  Head head;
+  std::memcpy(&head, line.data(), sizeof head);
+  check(lines_.has(head.line) && line.size() == packed_bytes(head), "a kept line travels whole");
+  if (!begin_line(head.line, head.groups)) return;
+  std::memcpy(slot(head.line), line.data(), line.size());
+}
+
+}  // namespace mars::raster

@@ -1,0 +1,86 @@
+// What an interval's inbetweens need of its stationary parts, on the lines that its moving parts may touch: CZB, the
+// depth of each sample; and, where a pixel has several samples, each shaded group of CFB (pixel_groups.h), for the part
+// of a pixel that a moving part leaves uncovered. Each machine has it once for each group of nodes: the group's nodes
+// there write their home lines, and all of them read it.
+//
+// Home lines are written in a keyframe, after the group's sum of EBC: no node leaves that before all have come to it
+// and so have finished the inbetweens of the interval before. Inbetweens read, after StillExchange::complete. A line
+// that does not fit is not kept: inbetweens draw its stationary parts again.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "node/geometry/line_range.h"
+#include "node/raster/neighbours.h"
+#include "node/shape/sample_pattern.h"
+#include "node/wire/still_plan.h"
+
+namespace mars::raster {
+
+using wire::StillGroup;
+
+// The still groups of a line of pixels: those of column x are groups[x == 0 ? 0 : end[x - 1], end[x]), by their lowest
+// samples.
+struct StillGroups {
+  std::uint32_t* end;
+  StillGroup* groups;
+
+  std::span<const StillGroup> of(std::uint32_t column) const {
+    const std::uint32_t begin = column == 0 ? 0 : end[column - 1];
+    return {groups + begin, end[column] - begin};
+  }
+};
+
+class StillLines {
+ public:
+  // Of the caller's group: each of its nodes on this machine adds `bytes_a_node`. Pages are used as lines are written.
+  // Collective over a machine's nodes. Throws Failure where memory is short.
+  StillLines(const Neighbours& neighbours, std::uint32_t width, std::uint32_t height,
+             const shape::SamplePattern& pattern, std::uint64_t bytes_a_node);
+
+  // Lines that will be written in interval `number`; those of others are kept no longer.
+  void begin_interval(std::uint32_t number, const geometry::LineRange& lines) { interval_ = number, lines_ = lines; }
+  const geometry::LineRange& lines() const { return lines_; }
+
+  // Writing a line: its depths, row by row of the pattern; then its groups, of which there are `count`, unless they
+  // are more than fit. Whether the line is kept.
+  bool begin_line(std::uint32_t line, std::uint32_t groups);
+  std::span<float> depth(std::uint32_t line, std::uint32_t sample);
+  StillGroups groups(std::uint32_t line);
+
+  bool keeps(std::uint32_t line) const;
+
+  // Of lines with one sample a pixel, which lie one after the other.
+  std::span<float> depths(const geometry::LineRange& lines);
+  // A line with several as it travels to another machine; nothing where it is not kept.
+  std::span<const std::byte> packed(std::uint32_t line) const;
+  std::size_t most_packed() const { return plan_.line_bytes; }
+  // A line that came from there; not kept where it does not fit here.
+  void unpack(std::span<const std::byte> line);
+
+ private:
+  // The beginning of a line with several samples a pixel.
+  struct alignas(64) Head {
+    std::uint32_t kept;  // 1: all of it is there
+    std::uint32_t interval;
+    std::uint32_t line;
+    std::uint32_t groups;
+  };
+
+  bool has_slot(std::uint32_t line) const { return line - lines_.first < plan_.lines; }
+  std::byte* slot(std::uint32_t line) const;
+  Head& head(std::uint32_t line) const { return *reinterpret_cast<Head*>(slot(line)); }
+  std::size_t packed_bytes(const Head& head) const;
+
+  std::size_t width_;
+  std::size_t samples_;
+  wire::StillPlan plan_;
+  NeighboursMemory memory_;
+  std::uint32_t interval_ = 0;
+  geometry::LineRange lines_{0, 0};
+};
+
+}  // namespace mars::raster

@@ -1,0 +1,72 @@
+#include "host/images/exr_file.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "host/content/document/whole_file.h"
+#include "host/images/picture_file.h"
+#include "tests/host/content/document/failure_of.h"
+#include "tests/host/render/sinks/temporary_folder.h"
+
+namespace mars::images {
+namespace {
+
+// Finite half floats, not negative.
+std::vector<std::uint32_t> random_halves(std::size_t count) {
+  std::mt19937 random(7);
+  const auto half = [&] { return random() % 0x7c00; };
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t i = 0; i < count; ++i) {
+    pixels.push_back(half() | half() << 16);
+    pixels.push_back(half());
+  }
+  return pixels;
+}
+
+TEST(ExrFile, GivesBackWhatWasWritten) {
+  const sinks::TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}, {1u, 16384u}}) {
+    const std::vector<std::uint32_t> pixels = random_halves(std::size_t{width} * height);
+    document::write_whole_file(folder / "x.exr", encode_picture(PictureFormat::exr, width, height, pixels));
+    const Image image = read_picture(PictureFormat::exr, folder / "x.exr");
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+    EXPECT_EQ(image.pixels, pixels);
+  }
+}
+
+TEST(ExrFile, NamesItsColours) {
+  const std::vector<std::byte> bytes = encode_exr(2, 1, random_halves(2));
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_EQ(text.substr(0, 4), "v/1\x01");
+  EXPECT_TRUE(document::holds(text, "chromaticities"));
+}
+
+TEST(ExrFile, EveryCutOfAFileIsTold) {
+  const std::vector<std::byte> bytes = encode_exr(20, 40, random_halves(800));
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    const std::string failure = document::failure_of([&] { decode_exr(std::span(bytes).first(size), "cut.exr"); });
+    EXPECT_TRUE(document::holds(failure, "cut.exr: not a whole EXR picture")) << size << " bytes of " << bytes.size();
+  }
+}
+
+TEST(ExrFile, NoDamageDoesHarm) {
+  const std::vector<std::byte> bytes = encode_exr(20, 20, random_halves(400));
+  std::mt19937 random(3);
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::byte> damaged = bytes;
+    for (int j = 0; j < 3; ++j) damaged[random() % damaged.size()] = static_cast<std::byte>(random());
+    document::failure_of([&] { decode_exr(damaged, "damaged.exr"); });
+  }
+}
+
+TEST(ExrFile, OtherFilesAreTold) {
+  const sinks::TemporaryFolder folder;
+  document::write_whole_file(folder / "x.exr", std::string_view("no picture at all"));
+  const std::string failure = document::failure_of([&] { read_picture(PictureFormat::exr, folder / "x.exr"); });
+  EXPECT_TRUE(document::holds(failure, "not a whole EXR picture")) << failure;
+}
+
+}  // namespace
+}  // namespace mars::images

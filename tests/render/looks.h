@@ -1,0 +1,20 @@
+// Other looks for the films of films.h: samples, light and colours for tests.
+#pragma once
+
+#include <cstdint>
+
+#include "node/wire/film.h"
+
+namespace mars::test {
+
+wire::FilmData with_samples(wire::FilmData film, std::uint32_t samples);
+
+// Without lights, each segment in one of the seven pure colours that its background, magenta, is not; nothing is
+// shaded: a pixel tells how many of its samples show which segment.
+wire::FilmData in_pure_colors(wire::FilmData film);
+
+// In linear light, exposed, with the filmic curve, in fog, lit from above and below and by a spot besides; the segments
+// take turns with all reflection models and interpolations.
+wire::FilmData richly_lit(wire::FilmData film);
+
+}  // namespace mars::test
