@@ -23,7 +23,7 @@ def plain(color):
 
 def film(frames, shape, joints, keys):
     fov = degrees(2 * math.atan(HALF_HEIGHT / DISTANCE))
-    return {"frames": frames, "rate": 24, "size": [960, 540], "background": INK,
+    return {"frames": frames, "rate": 24, "size": [960, 540], "curve": "none", "background": INK,
             "camera": {"eye": [0, -DISTANCE, 0], "at": [0, 0, 0], "fov": fov},
             "lights": [{"direction": [0, -1, 0]}], "materials": {"paper": plain(PAPER), "ink": plain(INK)},
             "models": {"pattern": {"shapes": shape, "joints": joints}},

@@ -18,22 +18,37 @@ namespace {
   throw Failure("a mesh cannot hold " + what, where, "use a scene like those in examples/make_scenes.py");
 }
 
-void check_plain(const wire::FilmView& film, const std::string& where) {
-  if (film.settings().dice == 0) refuse("adaptive dicing", where);
-  if (film.settings().camera.count != 1) refuse("a camera that moves", where);
+void check_light(const wire::FilmView& film, const std::string& where) {
+  const wire::FilmSettings& settings = film.settings();
+  if (settings.color_space != wire::ColorSpace::coded) refuse("linear colours", where);
+  if (settings.fog.end > settings.fog.start) refuse("fog", where);
+  if (settings.ambient != wire::AmbientLight{}) refuse("coloured ambient light", where);
   const auto& lights = film.light_tracks();
   if (lights.size() != 1 || lights[0].count != 1 ||
       film.lights()[film.value_at(lights[0], 0)].kind != wire::LightKind::directional)
     refuse("other light than one direction", where);
-  if (film.intervals().size() > 1) refuse("several render intervals", where);
-  if (film.moving(film.intervals()[0]).size() > 1) refuse("several moving segments", where);
+}
+
+void check_materials(const wire::FilmView& film, const std::string& where) {
   const wire::Material& all = film.materials()[0];
-  for (const wire::Material& m : film.materials())
+  for (const wire::Material& m : film.materials()) {
     if (m.ambient != all.ambient || m.diffuse != all.diffuse || m.specular != all.specular ||
         m.exponent != all.exponent)
       refuse("materials that differ in more than colour", where);
+    if (m.interpolation != wire::Interpolation::phong || m.reflection != wire::Reflection::phong)
+      refuse("other surfaces than Phong's", where);
+  }
   if (!(all.exponent >= 1) || !std::has_single_bit(static_cast<unsigned>(all.exponent)))
     refuse("an exponent that is no power of two", where);
+}
+
+void check_plain(const wire::FilmView& film, const std::string& where) {
+  check_light(film, where);
+  check_materials(film, where);
+  if (film.settings().dice == 0) refuse("adaptive dicing", where);
+  if (film.settings().camera.count != 1) refuse("a camera that moves", where);
+  if (film.intervals().size() > 1) refuse("several render intervals", where);
+  if (film.moving(film.intervals()[0]).size() > 1) refuse("several moving segments", where);
 }
 
 MeshHead head_of(const geometry::Scene& scene) {

@@ -15,8 +15,7 @@ def load(name, size=None, dice=None, samples=1):
         film = json.load(file)
     for material in film["materials"].values():
         material["sides"] = 1
-    if samples > 1:
-        film["samples"] = samples
+    film["samples"] = samples
     if size:
         film["size"] = size
     if dice:

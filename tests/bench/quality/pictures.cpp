@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "hal/failure/explain.h"
-#include "host/images/png_file.h"
+#include "host/images/picture_file.h"
 
 namespace mars::bench {
 namespace {
@@ -38,7 +38,8 @@ Image read_ppm(const std::string& path) {
 }
 
 Image read_picture(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".ppm" ? read_ppm(path) : images::read_png(path);
+  if (std::filesystem::path(path).extension() == ".ppm") return read_ppm(path);
+  return images::read_picture(images::PictureFormat::png, path);
 }
 
 int level(std::uint32_t pixel, int channel) { return static_cast<int>(pixel >> (8 * channel) & 255); }
@@ -95,7 +96,8 @@ double mean_light(const Image& image) {
 }
 
 void write_png(const Image& image, const std::string& path) {
-  const std::vector<std::byte> bytes = images::encode_png(image.width, image.height, image.pixels);
+  const std::vector<std::byte> bytes =
+      images::encode_picture(images::PictureFormat::png, image.width, image.height, image.pixels);
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.close();
