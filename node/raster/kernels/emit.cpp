@@ -30,6 +30,37 @@ void put(std::uint32_t number, std::uint32_t part, std::uint32_t line_and_moving
   std::memcpy(reinterpret_cast<std::byte*>(out) + sizeof box, &line_and_moving, sizeof line_and_moving);
 }
 
+// Rows [first, last) of a line.
+struct Rows {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+// What edge boxes have in common.
+struct BoxesOfLine {
+  std::uint32_t triangle;
+  std::uint32_t line;
+  std::uint32_t last_sample;
+  bool moving;
+};
+
+// The edge boxes of one line. Without a branch: which rows are covered is not foreseen.
+[[gnu::always_inline]] inline void emit_line(const Classified& c, std::uint32_t lane, Rows rows,
+                                             const BoxesOfLine& common, SetUpSpace& space) {
+  const std::uint32_t wanted = -std::uint32_t{space.wanted_lines[common.line]};
+  const std::uint32_t line_and_moving = common.line | std::uint32_t{common.moving} << 16;
+  LineLoad load;
+  for (std::uint32_t row = rows.first; row < rows.last; ++row) {
+    const std::uint32_t columns = c.columns[row][lane] & wanted;
+    const bool covers = columns != 0;
+    UnsortedEdgeBox* const box = space.last_box - 1;
+    put(common.triangle, EdgeBox::packed(columns, row & common.last_sample), line_and_moving, box);
+    space.last_box = covers ? box : space.last_box;
+    load += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
+  }
+  space.line_loads[common.line] += load;
+}
+
 }  // namespace
 
 void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, const ScreenShape& shape,
@@ -53,25 +84,19 @@ void set_up_planes(const shape::Vertices& v, const shape::Corner3& corners, cons
 void emit(const shape::Vertices& v, const shape::Triangles& triangles, const shape::Batch& batch, const Classified& c,
           std::uint32_t lanes, const PatchIdentity& identity, SetUpSpace& out) {
   SetUpSpace space = out;
-  const std::uint32_t log2_samples = space.log2_samples, last_sample = (1u << log2_samples) - 1;
+  const std::uint32_t last_sample = (1u << space.log2_samples) - 1;
   for (std::uint32_t left = lanes & c.decided; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const UnsortedEdgeBox* const before = space.last_box;
     __builtin_prefetch(space.next + kTrianglesAhead, 1);
     __builtin_prefetch(space.last_box - kBoxesAhead, 1);
     const auto number = static_cast<std::uint32_t>(space.next - space.first);
-    const auto first_line = static_cast<std::uint32_t>(c.first_line[lane]);
     const auto last_row = static_cast<std::uint32_t>(c.last_row[lane]);
-    const std::uint32_t moving = std::uint32_t{identity.moving} << 16;
-    // Without a branch: which rows are covered is not foreseen.
-    for (auto row = static_cast<std::uint32_t>(c.first_row[lane]); row < last_row; ++row) {
-      const std::uint32_t line = first_line + (row >> log2_samples);
-      const std::uint32_t columns = c.columns[row][lane] & -std::uint32_t{space.wanted_lines[line]};
-      const bool covers = columns != 0;
-      UnsortedEdgeBox* const box = space.last_box - 1;
-      put(number, EdgeBox::packed(columns, row & last_sample), line | moving, box);
-      space.last_box = covers ? box : space.last_box;
-      space.line_loads[line] += LineLoad(covers, (columns >> 16) - (columns & 0xffff));
+    auto line = static_cast<std::uint32_t>(c.first_line[lane]);
+    for (auto row = static_cast<std::uint32_t>(c.first_row[lane]); row < last_row; ++line) {
+      const std::uint32_t end = (row | last_sample) + 1;
+      emit_line(c, lane, {row, end < last_row ? end : last_row}, {number, line, last_sample, identity.moving}, space);
+      row = end;
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;

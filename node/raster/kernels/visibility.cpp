@@ -10,7 +10,7 @@ using namespace simd::MARS_SET;
 
 namespace {
 
-// Boxes ahead whose triangles are fetched: they come from all over memory.
+// Boxes ahead, for each sample of a pixel, whose triangles are fetched: they come from all over memory.
 constexpr std::uint32_t kAhead = 32;
 
 // Boxes of one sample, the most frequent, are drawn alone, others by vectors, but not by the widest: a vector waits
@@ -74,8 +74,9 @@ shading::Extent draw(const geometry::Triangle* triangles, const EdgeBox* boxes, 
                      const shape::SamplePattern& pattern, const LineSamples& samples) {
   shading::Extent extent{0xffffffffu, 0};
   const std::int32_t top = static_cast<std::int32_t>(line) * shape::kSubpixels;
+  const std::uint32_t ahead = kAhead * static_cast<std::uint32_t>(pattern.count);
   for (std::uint32_t b = 0; b < count; ++b) {
-    __builtin_prefetch(triangles + boxes[b + kAhead < count ? b + kAhead : b].triangle);
+    __builtin_prefetch(triangles + boxes[b + ahead < count ? b + ahead : b].triangle);
     const EdgeBox box = boxes[b];
     const geometry::Triangle& t = triangles[box.triangle];
     extent.first = box.first < extent.first ? box.first : extent.first;

@@ -94,12 +94,22 @@ class Line {
   float per_pixel_;
 };
 
+// Fills the directions to the eye from places on the screen, 1/256 pixel.
+void face_places(const shape::Projection& p, const std::int32_t (*place)[kCapacity], Block& block) {
+  const Floats per_pixel = constant(1.0f / p.scale), pixel = constant(1.0f / shape::kSubpixels);
+  for (std::uint32_t k = 0; k < block.count; k += kLanes) {
+    const Floats x = hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, place[0] + k)), pixel);
+    const Floats y = hn::Mul(hn::ConvertTo(kFloats, hn::Load(kInts, place[1] + k)), pixel);
+    hn::Store(hn::Mul(hn::Sub(constant(p.center[0]), x), per_pixel), kFloats, block.eye[0] + k);
+    hn::Store(hn::Mul(hn::Sub(y, constant(p.center[1])), per_pixel), kFloats, block.eye[1] + k);
+    hn::Store(constant(1.0f), kFloats, block.eye[2] + k);
+  }
+}
+
 // Puts up to `count` fragments of line `line` into the block, as many as fit and share its model.
 void add_fragments(const Shading& shading, const Fragment* fragments, std::uint32_t count, std::uint32_t line,
                    Block& block) {
-  const shape::Projection& p = shading.projection;
-  const float per_pixel = 1.0f / p.scale;
-  constexpr float kPixel = 1.0f / shape::kSubpixels;
+  alignas(64) std::int32_t place[2][kCapacity];
   std::uint32_t k = 0;
   for (; k < count && k < kBlock; ++k) {
     const Fragment& fragment = fragments[k];
@@ -111,11 +121,11 @@ void add_fragments(const Shading& shading, const Fragment* fragments, std::uint3
       block.begin_stretch(k, t.material);
     }
     evaluate(t, Places{x, y, 0, 0}, block.values[k]);
-    block.eye[0][k] = (p.center[0] - static_cast<float>(x) * kPixel) * per_pixel;
-    block.eye[1][k] = (static_cast<float>(y) * kPixel - p.center[1]) * per_pixel;
-    block.eye[2][k] = 1;
+    place[0][k] = x;
+    place[1][k] = y;
   }
   block.count = k;
+  face_places(shading.projection, place, block);
 }
 
 // Puts vertices from `first` on into the block, up to `last`, as many as fit. Some lie behind the eye or at it: 1 / w

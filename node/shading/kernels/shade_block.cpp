@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "node/color/kernels/encode.h"
 #include "node/shading/kernels/ambient.h"
 #include "node/shading/kernels/blinn_phong.h"
 #include "node/shading/kernels/block.h"
@@ -176,15 +177,6 @@ void limit(float most, Block& block) {
       hn::Store(hn::Min(hn::Max(hn::Load(kFloats, color + k), zero()), constant(most)), kFloats, color + k);
 }
 
-void encode(const color::Encoding& encoding, const Block& block, std::byte* pixels) {
-  const std::size_t bytes = wire::pixel_bytes(encoding.format);
-  for (std::uint32_t k = 0; k < block.count; ++k) {
-    const float light[3] = {block.color[0][k], block.color[1][k], block.color[2][k]};
-    const std::uint64_t pixel = color::pixel_of(encoding, light);
-    std::memcpy(pixels + k * bytes, &pixel, bytes);
-  }
-}
-
 // Levels, where nothing comes between them and light.
 void shade_to_levels(const Shading& shading, Block& block, std::uint32_t* pixels) {
   const wire::Material& model = block.model(shading.materials);
@@ -217,7 +209,8 @@ void shade_to_pixels(const Shading& shading, Block& block, std::byte* pixels) {
   if (encoding.space == wire::ColorSpace::coded && encoding.format == wire::PixelFormat::rgb8)
     return shade_to_levels(shading, block, reinterpret_cast<std::uint32_t*>(pixels));
   shade_to_light(shading, block);
-  encode(encoding, block, pixels);
+  const float* const light[3] = {block.color[0], block.color[1], block.color[2]};
+  color::MARS_SET::encode_planes(encoding, light, block.count, pixels);
 }
 
 }  // namespace mars::shading::MARS_SET
