@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the pictures of docs/gallery.md: gallery.py BUILD_FOLDER PICTURE_FOLDER. Needs ./bootstrap bench, and ffmpeg."""
+"""Makes the pictures of docs/gallery.md: gallery.py BUILD_FOLDER PICTURE_FOLDER.
+
+Needs ./bootstrap bench, and ffmpeg."""
 import json
 import os
 import sys
@@ -16,16 +18,17 @@ LABEL = 24  # pixels, above each picture
 
 # Name, film, frame, the part shown (x, y, side), and how often it is enlarged.
 DETAILS = [
-    ("face", "demo", 36, (424, 54, 58), 4), ("hand", "demo", 36, (362, 246, 58), 4), ("soles", "demo", 36, (470, 386, 58), 4),
-    ("horizon", "demo", 36, (322, 188, 58), 4), ("rim", "demo", 36, (640, 150, 58), 4),
+    ("face", "demo", 36, (424, 54, 58), 4), ("hand", "demo", 36, (362, 246, 58), 4),
+    ("soles", "demo", 36, (470, 386, 58), 4), ("horizon", "demo", 36, (322, 188, 58), 4),
+    ("rim", "demo", 36, (640, 150, 58), 4),
     ("zone-plate", "zone-plate", 3, (500, 18, 232), 1), ("fan", "fan", 3, (610, 150, 116), 2)]
 
 REFLECTIONS = {
     "phong": {"reflection": "phong", "specular": 0.5, "exponent": 40},
     "blinn-phong": {"reflection": "blinn-phong", "specular": 0.5, "exponent": 160},
     "cook-torrance": {"reflection": "cook-torrance", "specular": 0.5, "roughness": 0.25},
-    "metallic-roughness": {"reflection": "metallic-roughness", "metallic": 0, "roughness": 0.35},
-    "the same, of metal": {"reflection": "metallic-roughness", "metallic": 1, "roughness": 0.35}}
+    "metallic 0": {"reflection": "metallic-roughness", "metallic": 0, "roughness": 0.35},
+    "metallic 1": {"reflection": "metallic-roughness", "metallic": 1, "roughness": 0.35}}
 INTERPOLATIONS = ["flat", "gouraud", "phong"]
 
 
@@ -61,8 +64,8 @@ class Gallery:
         for name, film, frame, (x, y, side), scale in DETAILS:
             if (film, frame) not in rendered:
                 rendered[film, frame] = self.compared(film, frame)
-            sheet(self.file(name), 4, [(label, picture, (x, y, side, side)) for label, picture in rendered[film, frame]],
-                  scale)
+            tiles = [(label, picture, (x, y, side, side)) for label, picture in rendered[film, frame]]
+            sheet(self.file(name), 4, tiles, scale)
 
     def compared(self, name, frame):
         film = quality.Film(self.build, name, SIZE, self.folder)
@@ -78,10 +81,12 @@ class Gallery:
 
     def models(self):
         side = 184
-        tiles = [(f"{interpolation}, {reflection}" if interpolation != "phong" else reflection,
-                  self.render(f"{interpolation}-{k}", still_life(side, {**REFLECTIONS[reflection], "interpolation": interpolation})),
-                  (0, 0, side, side))
-                 for interpolation in INTERPOLATIONS for k, reflection in enumerate(REFLECTIONS)]
+        tiles = []
+        for interpolation in INTERPOLATIONS:
+            for k, (reflection, keys) in enumerate(REFLECTIONS.items()):
+                film = still_life(side, {**keys, "interpolation": interpolation})
+                picture = self.render(f"{interpolation}-{k}", film)
+                tiles.append((f"{interpolation}, {reflection}", picture, (0, 0, side, side)))
         sheet(self.file("models"), len(REFLECTIONS), tiles)
 
     def colors(self):
@@ -90,8 +95,8 @@ class Gallery:
         film["models"] = {name: os.path.join(films.EXAMPLES, model) if isinstance(model, str) else model
                           for name, model in film["models"].items()}
         film["size"] = [480, 270]
-        sheet(self.file("colors"), 2, [(color, self.render(f"demo-{color}", {**film, "color": color}, 36), (0, 0, 480, 270))
-                                       for color in ("coded", "linear")])
+        pictures = {color: self.render(f"demo-{color}", {**film, "color": color}, 36) for color in ("coded", "linear")}
+        sheet(self.file("colors"), 2, [(color, picture, (0, 0, 480, 270)) for color, picture in pictures.items()])
 
 
 def still_life(side, material):
@@ -99,11 +104,12 @@ def still_life(side, material):
     def model(shape, box):
         return {"joints": [{"name": shape, "segment": {"shape": shape, "sbb": box, "material": "glaze"}}]}
     return {"frames": 1, "size": [side, side], "background": [0.32, 0.34, 0.38], "dice": 5,
-            "camera": {"eye": [0.3, -13, 5], "at": [0.3, 0, 0.9], "fov": 32},
+            "camera": {"eye": [0.3, -13, 5], "at": [0.3, 0, 1], "fov": 30},
             "materials": {"glaze": {"color": [0.75, 0.33, 0.18], **material}},
-            "models": {"pot": model("teapot", [[-3, -2, 0], [3.525, 2, 3.15]]), "ball": model("sphere", [[-1, -1, -1], [1, 1, 1]])},
-            "actors": [{"name": "pot", "model": "pot", "place": [0.2, 1, 0.4]},
-                       {"name": "ball", "model": "ball", "place": [-1.6, -3, -0.6]}]}
+            "models": {"pot": model("teapot", [[-3, -2, 0], [3.525, 2, 3.15]]),
+                       "ball": model("sphere", [[-1, -1, -1], [1, 1, 1]])},
+            "actors": [{"name": "pot", "model": "pot", "place": [0.2, 1, 0.2]},
+                       {"name": "ball", "model": "ball", "place": [-1.4, -2.5, 0]}]}
 
 
 def main():
