@@ -21,8 +21,8 @@ struct LineSamples {
   std::uint32_t stride;
 };
 
-// Groups of samples that share one shading (pixel_groups.h): first that of each pixel with its lowest sample, by
-// column, then the others, of each pixel by their lowest samples.
+// Groups of samples that share one shading (pixel_groups.h): first that of each pixel with the sample nearest to
+// its centre, by column, then the others, of each pixel by their nearest samples.
 struct Groups {
   shading::Fragment* fragments;  // to be shaded
   std::uint32_t* masks;          // samples of a group, one bit each

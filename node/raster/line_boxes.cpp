@@ -46,21 +46,32 @@ LineFiller::LineFiller(const geometry::LineRange& lines, std::span<const std::ui
 
 void LineFiller::add(const Polygons& polygons) {
   const auto first_triangle = static_cast<std::uint32_t>(polygons.triangles - first_);
-  // put(line, box) for each edge box of these lines, `line` its line's number among them.
-  const auto for_each = [this, first_triangle](std::span<const UnsortedEdgeBox> all, const auto& put) {
+  // put(place, box) for each edge box of these lines, at its line's place. A triangle's boxes on one line follow each
+  // other, so that the place stays at hand.
+  const auto for_each = [this, first_triangle](std::span<const UnsortedEdgeBox> all, std::uint64_t* places,
+                                               const auto& put) {
     const std::uint32_t first = lines_.first, count = lines_.count();
-    for (const UnsortedEdgeBox unsorted : all) {
-      const std::uint32_t line = unsorted.line - first;
-      EdgeBox box = unsorted.box;
-      box.triangle += first_triangle;
-      if (line < count) put(line, box);
+    for (const UnsortedEdgeBox *next = all.data(), *const end = next + all.size(); next != end;) {
+      const std::uint16_t of_line = next->line;
+      const std::uint32_t line = of_line - first;
+      if (line >= count) {
+        ++next;
+        continue;
+      }
+      std::uint64_t place = places[line];
+      for (; next != end && next->line == of_line; ++next) {
+        EdgeBox box = next->box;
+        box.triangle += first_triangle;
+        put(place, box);
+      }
+      places[line] = place;
     }
   };
   EdgeBox* const boxes = boxes_.data();
-  for_each(polygons.stationary,
-           [boxes, next = stationary_.data()](std::uint32_t line, const EdgeBox& box) { boxes[next[line]++] = box; });
-  for_each(polygons.moving,
-           [boxes, last = moving_.data()](std::uint32_t line, const EdgeBox& box) { boxes[--last[line]] = box; });
+  for_each(polygons.stationary, stationary_.data(),
+           [boxes](std::uint64_t& place, const EdgeBox& box) { boxes[place++] = box; });
+  for_each(polygons.moving, moving_.data(),
+           [boxes](std::uint64_t& place, const EdgeBox& box) { boxes[--place] = box; });
 }
 
 LineBoxes LineFiller::finish() const {

@@ -1,7 +1,8 @@
 // Shading once for several samples: the samples of a pixel that show the same triangle are a group, which is shaded
-// once, at its sample with the lowest number. Still samples are grouped among still samples alone, the moving ones that
-// are seen among themselves. A pixel is the sum of its groups' light by their numbers of samples: moving groups in the
-// order of their lowest samples, then still ones for the samples that no moving one covers, then the background.
+// once, at its sample nearest to the pixel's centre (SamplePattern). Still samples are grouped among still samples
+// alone, the moving ones that are seen among themselves. A pixel is the sum of its groups' light by their numbers of
+// samples: moving groups in the order of these samples, then still ones for the samples that no moving one covers, then
+// the background.
 #pragma once
 
 #include <array>

@@ -22,8 +22,8 @@ namespace mars::raster {
 
 using wire::StillGroup;
 
-// The still groups of a line of pixels: those of column x are groups[x == 0 ? 0 : end[x - 1], end[x]), by their lowest
-// samples.
+// The still groups of a line of pixels: those of column x are groups[x == 0 ? 0 : end[x - 1], end[x]), by their
+// shaded samples.
 struct StillGroups {
   std::uint32_t* end;
   StillGroup* groups;

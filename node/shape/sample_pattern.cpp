@@ -1,5 +1,6 @@
 #include "node/shape/sample_pattern.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "hal/failure/failure.h"
@@ -10,11 +11,19 @@ namespace {
 // `columns`: of each sample, of as many columns as there are samples; any two of a permutation differ.
 template <int kCount>
 constexpr SamplePattern pattern_of(const int (&columns)[kCount]) {
-  SamplePattern pattern{kCount, std::countr_zero(static_cast<unsigned>(kCount)), {}, {}};
+  SamplePattern pattern{kCount, std::countr_zero(static_cast<unsigned>(kCount)), {}, {}, {}};
   for (int s = 0; s < kCount; ++s) {
     pattern.x[s] = (2 * columns[s] + 1) * 128 / kCount;
     pattern.y[s] = (2 * s + 1) * 128 / kCount;
+    pattern.by_distance[s] = static_cast<std::uint8_t>(s);
   }
+  const auto distance = [&](std::uint8_t s) {
+    const int x = pattern.x[s] - 128, y = pattern.y[s] - 128;
+    return x * x + y * y;
+  };
+  std::sort(pattern.by_distance, pattern.by_distance + kCount, [&](std::uint8_t a, std::uint8_t b) {
+    return distance(a) != distance(b) ? distance(a) < distance(b) : a < b;
+  });
   return pattern;
 }
 

@@ -1,6 +1,7 @@
 #include "tests/render/reference.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "node/color/encoding.h"
@@ -106,7 +107,7 @@ std::vector<ReferenceGroup> Reference::groups(std::uint32_t column, std::uint32_
   const std::size_t first = first_sample(column, row);
   const auto add_layer = [&](const std::vector<ReferenceSample>& layer, bool covered_by_movers) {
     const auto begin = static_cast<std::ptrdiff_t>(out.size());
-    for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(pattern.count); ++s) {
+    for (const std::uint32_t s : std::span(pattern.by_distance).first(static_cast<std::size_t>(pattern.count))) {
       if (!layer[first + s].triangle) continue;
       const std::size_t triangle = *layer[first + s].triangle;
       auto group =

@@ -20,10 +20,10 @@ struct ReferenceSample {
   float depth = 0;
 };
 
-// The samples of a pixel that show the same triangle, which is shaded once, at the lowest-numbered of them.
+// The samples of a pixel that show the same triangle, which is shaded once, at the one nearest to its centre.
 struct ReferenceGroup {
   std::size_t triangle;
-  std::uint32_t sample;  // the lowest
+  std::uint32_t sample;  // the nearest
   std::uint32_t seen;    // samples, without those that a mover covers
 };
 
@@ -39,7 +39,7 @@ struct Reference {
   std::size_t first_sample(std::uint32_t column, std::uint32_t row) const {
     return (std::size_t{row} * width + column) * static_cast<std::size_t>(pattern.count);
   }
-  // Still groups, then moving ones, each in order of their lowest samples.
+  // Still groups, then moving ones, each in order of these samples.
   std::vector<ReferenceGroup> groups(std::uint32_t column, std::uint32_t row) const;
 };
 

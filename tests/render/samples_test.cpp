@@ -152,7 +152,7 @@ TEST(Samples, AllShowWhatTheTwinShows) {
 }
 
 // A wall and a ground in fog so thick that a tenth of a pixel shows, still or moving: what is shaded is the group's
-// lowest sample, on every edge of their triangles.
+// sample nearest to the pixel's centre, on every edge of their triangles.
 wire::FilmData steep(bool moving) {
   FilmMaker maker(120, 90, 2);
   const std::uint32_t box = maker.add_shape(modeler::make_box());
@@ -171,7 +171,7 @@ wire::FilmData steep(bool moving) {
   return film;
 }
 
-TEST(Samples, TheLowestOfAGroupIsShaded) {
+TEST(Samples, TheNearestOfAGroupIsShaded) {
   for (const std::uint32_t samples : kAllSamples)
     for (const bool moving : {false, true}) {
       const wire::FilmData film = with_samples(steep(moving), samples);

@@ -50,8 +50,11 @@ struct GroupLanes {
 class Grouping {
  public:
   // Others are collected from `others_at` on, behind all first groups.
-  Grouping(std::uint32_t samples, std::uint32_t others_at, const Groups& out)
-      : samples_(samples), others_at_(others_at), out_(out) {}
+  Grouping(const shape::SamplePattern& pattern, std::uint32_t others_at, const Groups& out)
+      : samples_(static_cast<std::uint32_t>(pattern.count)),
+        by_distance_(pattern.by_distance),
+        others_at_(others_at),
+        out_(out) {}
 
   // Of pixels from `column` on, which show triangles[sample].
   void add(std::uint32_t column, const Numbers* triangles) {
@@ -62,10 +65,11 @@ class Grouping {
     const Lanes shown(hn::Ne(grouped, all()));
     GroupLanes first{none, columns, hn::Zero(kNumbers)};
     auto has_first = hn::Ne(columns, columns);
-    for (std::uint32_t s = 0; s < samples_; ++s) {
+    for (std::uint32_t k = 0; k < samples_; ++k) {
+      const std::uint32_t s = by_distance_[k];
       const auto begins = hn::Eq(hn::And(grouped, bit(s)), hn::Zero(kNumbers));
       if (hn::AllFalse(kNumbers, begins)) continue;
-      const GroupLanes here{triangles[s], hn::Or(columns, hn::Set(kNumbers, s << 16)), samples_like(s, triangles)};
+      const GroupLanes here{triangles[s], hn::Or(columns, hn::Set(kNumbers, s << 16)), samples_like(k, triangles)};
       grouped = hn::IfThenElse(begins, hn::Or(grouped, here.masks), grouped);
       const auto is_first = hn::AndNot(has_first, begins);
       first = {hn::IfThenElse(is_first, here.triangles, first.triangles),
@@ -79,8 +83,8 @@ class Grouping {
 
   // The same where each pixel has one group, of all its samples.
   void add_whole(std::uint32_t column, Numbers triangles) {
-    GroupLanes{triangles, hn::Iota(kNumbers, column), all()}.store(Lanes(hn::Eq(triangles, triangles)), counts_.pixels,
-                                                                   out_);
+    const Numbers places = hn::Or(hn::Iota(kNumbers, column), hn::Set(kNumbers, by_distance_[0] << 16));
+    GroupLanes{triangles, places, all()}.store(Lanes(hn::Eq(triangles, triangles)), counts_.pixels, out_);
     counts_.pixels += kLanes;
   }
 
@@ -98,11 +102,14 @@ class Grouping {
   static Numbers bit(std::uint32_t sample) { return hn::Set(kNumbers, 1u << sample); }
   Numbers all() const { return hn::Set(kNumbers, (1u << samples_) - 1); }
 
-  // Those from `sample` on that show its triangle.
-  Numbers samples_like(std::uint32_t sample, const Numbers* triangles) const {
-    Numbers samples = bit(sample);
-    for (std::uint32_t s = sample + 1; s < samples_; ++s)
-      samples = hn::Or(samples, hn::IfThenElseZero(hn::Eq(triangles[s], triangles[sample]), bit(s)));
+  // Of the k-th sample by distance and those farther from the centre, the ones that show its triangle.
+  Numbers samples_like(std::uint32_t k, const Numbers* triangles) const {
+    const Numbers triangle = triangles[by_distance_[k]];
+    Numbers samples = bit(by_distance_[k]);
+    while (++k < samples_) {
+      const std::uint32_t s = by_distance_[k];
+      samples = hn::Or(samples, hn::IfThenElseZero(hn::Eq(triangles[s], triangle), bit(s)));
+    }
     return samples;
   }
 
@@ -119,6 +126,7 @@ class Grouping {
   }
 
   const std::uint32_t samples_;
+  const std::uint8_t* const by_distance_;
   const std::uint32_t others_at_;
   const Groups out_;
   GroupCounts counts_{0, 0};
@@ -134,7 +142,7 @@ Floats share(Numbers masks, Floats a_sample) {
 GroupCounts group(const shape::SamplePattern& pattern, const LineSamples& seen, shading::Extent extent,
                   const Groups& out) {
   const auto samples = static_cast<std::uint32_t>(pattern.count);
-  Grouping grouping(samples, extent.last - extent.first + simd::kVectorSlack, out);
+  Grouping grouping(pattern, extent.last - extent.first + simd::kVectorSlack, out);
   const Numbers none = hn::Set(kNumbers, shading::kNoTriangle);
   for (std::uint32_t column = extent.first; column < extent.last; column += kLanes) {
     Numbers triangles[shape::kMostSamples];

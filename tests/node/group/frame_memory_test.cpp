@@ -30,9 +30,7 @@ raster::LineBoxes make(FrameMemory& memory, std::uint32_t frame) {
     triangles[k].patch = frame * 100 + static_cast<std::uint32_t>(mynode());
     const auto number = static_cast<std::uint32_t>(&triangles[k] - memory.first_triangle());
     for (std::uint32_t i = 0; i < k; ++i)
-      boxes.push_back({{number, static_cast<std::uint32_t>(i), frame, 0},
-                       static_cast<std::uint16_t>(k),
-                       0});
+      boxes.push_back({{number, static_cast<std::uint32_t>(i), frame, 0}, static_cast<std::uint16_t>(k), 0});
     totals.push_back(boxes.size());
   }
   raster::LineFiller filler({0, kLines}, totals, memory.first_triangle(), arena);
