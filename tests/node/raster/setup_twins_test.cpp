@@ -204,22 +204,22 @@ EyePatch lattice(shape::Random& random) {
 struct Kind {
   const char* name;
   MakePatch make;
-  int least_decided, least_undecided, least_clipped;  // in 100 trials
+  int least_decided, least_undecided, least_clipped;  // in 120 trials
 };
 
 TEST_F(SetUpTwins, MakeTheSameOfAllKindsOfPatches) {
-  shape::Random random(80);
+  shape::Random random(83);
   const Kind kinds[] = {{"crumpled", crumpled, 5000, 300, 0},
                         {"needle", needle, 1500, 150, 0},
                         {"edge-on", edge_on, 1500, 150, 0},
-                        {"beyond the picture", beyond_the_picture, 600, 300, 0},
+                        {"beyond the picture", beyond_the_picture, 300, 300, 0},
                         {"over the border", over_the_border, 1500, 150, 0},
                         {"through the eye", through_the_eye, 3000, 60, 150000},
                         {"ball", ball, 1500, 100, 0},
                         {"lattice", lattice, 13000, 30, 0}};
   for (const Kind& kind : kinds) {
     paths = {};
-    for (int trial = 0; trial < 100; ++trial) {
+    for (int trial = 0; trial < 120; ++trial) {
       SCOPED_TRACE(std::string(kind.name) + ", trial " + std::to_string(trial));
       const int rates[] = {0, 1, 2, 3, 5, 10, 15, 20, 30};
       expect_same(kind.make(random), rates[trial % 9], random_identity(random));
