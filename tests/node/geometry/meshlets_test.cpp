@@ -178,7 +178,7 @@ TEST(Meshlets, OnlyTheUnseenAreDropped) {
     placer.place(eye_map(matrix), film, film.meshlets()[0], kView);
     std::size_t boxes = 0;
     for (const raster::PlainTriangle& t : raster::plain_set_up(placer, kView, identity))
-      boxes += raster::plain_edge_boxes(t.corners, 320, 180).size();
+      boxes += raster::plain_edge_boxes(t.corners, 320, 180, shape::sample_pattern(1)).size();
     const bool unseen = geometry::unseen(matrix, film.meshlets()[0], kView, 320, 180);
     EXPECT_TRUE(!unseen || boxes == 0) << "trial " << trial;
     dropped += unseen;

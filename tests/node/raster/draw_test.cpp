@@ -8,6 +8,7 @@
 
 #include "node/raster/kernels.h"
 #include "tests/node/shape/patches.h"
+#include "tests/node/shape/sample_counts.h"
 #include "tests/node/simd/instruction_sets.h"
 
 namespace mars::raster {
@@ -18,20 +19,22 @@ using shading::Extent;
 
 constexpr std::uint32_t kLine = 7;
 
-// Boxes of one line in any order, most of them narrow, some of them with the same plane, so that depths tie.
+// Boxes of one line, on any of its rows, in any order, most of them narrow, some of them with the same plane, so that
+// depths tie.
 struct Boxes {
   std::vector<Triangle> triangles;
   std::vector<EdgeBox> boxes;
 };
 
-Boxes random_boxes(shape::Random& random, std::int32_t width, int count) {
+Boxes random_boxes(shape::Random& random, std::int32_t width, std::int32_t samples, int count) {
   Boxes out;
   for (int b = 0; b < count; ++b) {
     const std::int32_t first = random.whole(0, width - 1);
     const std::int32_t widest = random.whole(0, 2) ? std::min(width, first + random.whole(1, 20)) : width;
     const std::int32_t last = random.whole(first + 1, widest);
     out.boxes.push_back({static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(first),
-                         static_cast<std::uint32_t>(last - first - 1), 0});
+                         static_cast<std::uint32_t>(last - first - 1),
+                         static_cast<std::uint32_t>(random.whole(0, samples - 1))});
     Triangle t{};
     t.first_x = 128;
     if (random.whole(0, 2)) {
@@ -56,27 +59,34 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-// A line with the slack behind it that kernels may use and leave as it was.
+// A line's rows, each with the slack behind it that kernels may use and leave as it was.
 struct Line {
-  explicit Line(std::int32_t width)
-      : depth(static_cast<std::size_t>(width + simd::kVectorSlack), -9), ids(depth.size(), 99) {
-    std::fill_n(depth.begin(), width, 0.0f);
-    std::fill_n(ids.begin(), width, shading::kNoTriangle);
+  Line(std::int32_t width, std::int32_t rows)
+      : stride(static_cast<std::size_t>(width + simd::kVectorSlack)),
+        depth(stride * static_cast<std::size_t>(rows), -9),
+        ids(depth.size(), 99) {
+    for (std::size_t row = 0; row < depth.size(); row += stride) {
+      std::fill_n(depth.begin() + static_cast<std::ptrdiff_t>(row), width, 0.0f);
+      std::fill_n(ids.begin() + static_cast<std::ptrdiff_t>(row), width, shading::kNoTriangle);
+    }
   }
+  LineSamples samples() { return {depth.data(), ids.data(), static_cast<std::uint32_t>(stride)}; }
+
+  std::size_t stride;
   std::vector<float> depth;
   std::vector<std::uint32_t> ids;
 };
 
 // Sample by sample, box by box; of equals what was there before stays, else the lower patch's is seen, then the first.
-void draw_plainly(const Boxes& boxes, Line& line) {
+void draw_plainly(const Boxes& boxes, const shape::SamplePattern& pattern, Line& line) {
   for (const EdgeBox& box : boxes.boxes)
-    for (std::int32_t column = box.first; column < static_cast<std::int32_t>(box.last()); ++column) {
-      const auto at = static_cast<std::size_t>(column);
+    for (std::uint32_t column = box.first; column < box.last(); ++column) {
+      const std::size_t at = box.sample * line.stride + column;
       const Triangle& t = boxes.triangles[box.triangle];
-      const float row =
-          t.at_first[shape::kDepth] +
-          static_cast<float>(static_cast<std::int32_t>(256 * kLine + 128) - t.first_y) * t.per_y[shape::kDepth];
-      const float depth = row + static_cast<float>(256 * column + 128 - t.first_x) * t.per_x[shape::kDepth];
+      const std::int32_t x = 256 * static_cast<std::int32_t>(column) + pattern.x[box.sample];
+      const std::int32_t y = static_cast<std::int32_t>(256 * kLine) + pattern.y[box.sample];
+      const float row = t.at_first[shape::kDepth] + static_cast<float>(y - t.first_y) * t.per_y[shape::kDepth];
+      const float depth = row + static_cast<float>(x - t.first_x) * t.per_x[shape::kDepth];
       const std::uint32_t shown = line.ids[at];
       const bool first = shown != shading::kNoTriangle &&
                          std::pair(t.patch, box.triangle) < std::pair(boxes.triangles[shown].patch, shown);
@@ -88,14 +98,16 @@ void draw_plainly(const Boxes& boxes, Line& line) {
 
 TEST(Draw, IsAPlainZBuffer) {
   shape::Random random(54);
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (std::size_t trial = 0; trial < 2000; ++trial) {
     const std::int32_t width = random.whole(1, 150);
-    const auto boxes = random_boxes(random, width, random.whole(0, 100));
-    Line plain(width);
+    const shape::SamplePattern& pattern = shape::sample_pattern(shape::kSampleCounts[trial % 5]);
+    const auto boxes = random_boxes(random, width, pattern.count, random.whole(0, 100));
+    Line plain(width, pattern.count);
     if (trial % 2)  // drawn before
-      std::generate_n(plain.depth.begin(), width, [&] { return static_cast<float>(random.whole(0, 2)); });
+      for (float& depth : plain.depth)
+        if (depth == 0) depth = static_cast<float>(random.whole(0, 2));
     const Line before = plain;
-    draw_plainly(boxes, plain);
+    draw_plainly(boxes, pattern, plain);
     std::uint32_t first = 0xffffffff, last = 0;
     for (const EdgeBox& box : boxes.boxes) {
       first = std::min<std::uint32_t>(first, box.first);
@@ -104,8 +116,8 @@ TEST(Draw, IsAPlainZBuffer) {
     for (const simd::InstructionSet set : simd::all_sets()) {
       Line line = before;
       const auto count = static_cast<std::uint32_t>(boxes.boxes.size());
-      const Extent extent = raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine,
-                                                     shape::sample_pattern(1), {line.depth.data(), line.ids.data(), 0});
+      const Extent extent =
+          raster_kernels(set).draw(boxes.triangles.data(), boxes.boxes.data(), count, kLine, pattern, line.samples());
       EXPECT_TRUE(same_bits(line.depth, plain.depth) && line.ids == plain.ids) << simd::name_of(set) << ' ' << trial;
       EXPECT_EQ(extent.last, last);
       EXPECT_EQ(extent.first, first);

@@ -156,23 +156,27 @@ bool covers_place(const Corners& t, std::int64_t x, std::int64_t y) {
   return true;
 }
 
-bool covers(const Corners& t, std::int32_t column, std::int32_t row) {
-  return covers_place(t, 256 * std::int64_t{column} + 128, 256 * std::int64_t{row} + 128);
+bool covers(const Corners& t, std::int32_t column, std::int32_t row, const shape::SamplePattern& pattern) {
+  const std::int32_t line = row / pattern.count, sample = row % pattern.count;
+  return covers_place(t, 256 * std::int64_t{column} + pattern.x[sample], 256 * std::int64_t{line} + pattern.y[sample]);
 }
 
-std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t width, std::int32_t height) {
+std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& t, std::int32_t width, std::int32_t height,
+                                              const shape::SamplePattern& pattern) {
   const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const std::int32_t first = std::max(left / 256 - 1, 0), last = std::min(right / 256 + 1, width);
+  const std::int32_t first_line = std::max(top / 256 - 1, 0), last_line = std::min(bottom / 256 + 1, height);
   std::vector<UnsortedEdgeBox> out;
-  for (std::int32_t row = std::max(top / 256 - 1, 0); row < std::min(bottom / 256 + 1, height); ++row) {
+  for (std::int32_t row = first_line * pattern.count; row < last_line * pattern.count; ++row) {
     std::int32_t begin = first;
-    while (begin < last && !covers(t, begin, row)) ++begin;
+    while (begin < last && !covers(t, begin, row, pattern)) ++begin;
     if (begin >= last) continue;
     std::int32_t end = begin;
-    while (end < last && covers(t, end, row)) ++end;
-    out.push_back({{0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin - 1), 0},
-                   static_cast<std::uint16_t>(row),
+    while (end < last && covers(t, end, row, pattern)) ++end;
+    out.push_back({{0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin - 1),
+                    static_cast<std::uint32_t>(row % pattern.count)},
+                   static_cast<std::uint16_t>(row / pattern.count),
                    0});
   }
   return out;

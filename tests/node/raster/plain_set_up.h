@@ -32,10 +32,11 @@ std::int64_t area(const Corners& corners);
 // Whether the place (1/256 pixel) is inside, or on a left or top side: by the three sides' functions in 64-bit
 // integers.
 bool covers_place(const Corners& corners, std::int64_t x, std::int64_t y);
-// Likewise a pixel's middle.
-bool covers(const Corners& corners, std::int32_t column, std::int32_t row);
+// Likewise the sample of a column on a row of the pattern.
+bool covers(const Corners& corners, std::int32_t column, std::int32_t row, const shape::SamplePattern& pattern);
 
 // The boxes of the samples of a picture that the triangle covers, from the top.
-std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& corners, std::int32_t width, std::int32_t height);
+std::vector<UnsortedEdgeBox> plain_edge_boxes(const Corners& corners, std::int32_t width, std::int32_t height,
+                                              const shape::SamplePattern& pattern);
 
 }  // namespace mars::raster

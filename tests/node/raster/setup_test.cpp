@@ -14,6 +14,7 @@
 #include "tests/node/raster/plain_set_up.h"
 #include "tests/node/raster/set_ups.h"
 #include "tests/node/shape/patches.h"
+#include "tests/node/shape/sample_counts.h"
 
 namespace mars::raster {
 namespace {
@@ -33,24 +34,36 @@ struct Emitted : Made {
   std::vector<std::uint32_t> indices;  // in the patch's dicing
 };
 
+// How often memory was short, and how often something was stored nevertheless.
+struct Shortage {
+  int short_of_memory = 0;
+  int partly_stored = 0;
+};
+
 class SetUpTest : public testing::Test {
  protected:
+  Picture picture(const shape::Projection& view = kView) const { return {view, kWidth, kHeight, samples}; }
   Emitted set_up(const EyePatch& patch, int rate, const PatchIdentity& identity = {5, 3, false, false, false},
                  const shape::Projection& view = kView) {
     dicer.dice(patch, view, rate);
-    Emitted emitted{raster::set_up(set, {view, kWidth, kHeight}, dicer, identity), {}, {}};
+    Emitted emitted{raster::set_up(set, picture(view), dicer, identity), {}, {}};
     EXPECT_TRUE(emitted.all_stored);
     for (const PlainTriangle& plain : plain_set_up(dicer, view, identity)) {
-      if (plain_edge_boxes(plain.corners, kWidth, kHeight).empty()) continue;
+      if (plain_edge_boxes(plain.corners, kWidth, kHeight, shape::sample_pattern(samples)).empty()) continue;
       emitted.corners.push_back(plain.corners);
       emitted.indices.push_back(plain.index);
     }
     EXPECT_EQ(emitted.corners.size(), emitted.triangles.size());
     return emitted;
   }
+  // With so much memory counts go on, what is stored of `all` is stored whole, and nothing is written elsewhere.
+  void expect_counted(const Made& all, std::size_t bytes, Way way, Shortage& out);
+  // Batches in which decided triangles follow undecided ones.
+  int mixed_batches() const;
 
   const simd::InstructionSet set = simd::best_instruction_set("");
   Dicer dicer{set};
+  std::uint32_t samples = 1;
 };
 
 // A square before the eye, outside turned to it.
@@ -196,15 +209,18 @@ TEST_F(SetUpTest, GroundReachesPastTheEye) {
     }
 }
 
-// On a lattice of samples: a square of 2 pixels round a corner of four holds those four.
+// A square of 2 pixels round a corner of four holds the samples of those four.
 TEST_F(SetUpTest, CountsEdgeBoxes) {
-  const Emitted emitted = set_up(square(1.0 / 120, 4), 1);  // 1 pixel is 1/120 unit: [319, 321) x [239, 241)
-  EXPECT_EQ(emitted.touching, 2u);
-  EXPECT_EQ(emitted.edge_boxes, emitted.line_loads[239].boxes() + emitted.line_loads[240].boxes());
-  EXPECT_EQ(samples_on(emitted, 239), 2);
-  EXPECT_EQ(samples_on(emitted, 240), 2);
-  for (std::uint32_t line = 0; line < kHeight; ++line)
-    EXPECT_EQ(emitted.line_loads[line].boxes() > 0, line == 239 || line == 240) << line;
+  for (const std::uint32_t count : shape::kSampleCounts) {
+    samples = count;
+    const Emitted emitted = set_up(square(1.0 / 120, 4), 1);  // 1 pixel is 1/120 unit: [319, 321) x [239, 241)
+    EXPECT_EQ(emitted.touching, 2u);
+    EXPECT_EQ(emitted.edge_boxes, emitted.line_loads[239].boxes() + emitted.line_loads[240].boxes());
+    EXPECT_EQ(samples_on(emitted, 239), static_cast<int>(2 * samples));
+    EXPECT_EQ(samples_on(emitted, 240), static_cast<int>(2 * samples));
+    for (std::uint32_t line = 0; line < kHeight; ++line)
+      EXPECT_EQ(emitted.line_loads[line].boxes() > 0, line == 239 || line == 240) << line;
+  }
 }
 
 std::size_t bytes_of(const Made& made) {
@@ -228,24 +244,17 @@ bool same_but_for_number(const UnsortedEdgeBox& a, const UnsortedEdgeBox& b) {
          a.line == b.line && a.moving == b.moving;
 }
 
-// How often memory was short, and how often something was stored nevertheless.
-struct Shortage {
-  int short_of_memory = 0;
-  int partly_stored = 0;
-};
-
-// Counts go on, what is stored is stored whole, and nothing is written elsewhere.
-void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& all, std::size_t bytes, Way way,
-                    Shortage& out) {
+void SetUpTest::expect_counted(const Made& all, std::size_t bytes, Way way, Shortage& out) {
   SCOPED_TRACE(std::to_string(bytes) + (way == Way::plainly ? " bytes, plainly" : " bytes, at a time"));
-  const Made some = raster::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, {}, bytes);
+  const Made some = raster::set_up(set, picture(), dicer, {5, 3, false, false, false}, way, {}, bytes);
   ASSERT_EQ(some.touching, all.touching);
   ASSERT_EQ(some.edge_boxes, all.edge_boxes);
   ASSERT_EQ(some.line_loads, all.line_loads);
   ASSERT_EQ(some.all_stored, some.boxes.size() == all.boxes.size());
   ASSERT_LE(bytes_of(some), bytes);
   ASSERT_TRUE(bytes >= bytes_of(all) || !some.all_stored);
-  ASSERT_TRUE(bytes < bytes_of(all) + kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle) || some.all_stored);
+  ASSERT_TRUE(bytes < bytes_of(all) + samples * kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle) ||
+              some.all_stored);
   const auto whole = by_triangle(all);
   auto next = whole.begin();  // what is stored is some of all triangles, in order
   for (const Whole& one : by_triangle(some)) {
@@ -259,13 +268,12 @@ void expect_counted(simd::InstructionSet set, const Dicer& dicer, const Made& al
   out.partly_stored += !some.all_stored && !some.triangles.empty();
 }
 
-// Batches in which decided triangles follow undecided ones.
-int mixed_batches(simd::InstructionSet set, const Dicer& dicer) {
+int SetUpTest::mixed_batches() const {
   int mixed = 0;
   Classified e;
   for (std::uint32_t b = 0; b < dicer.triangles().batch_count; ++b) {
-    raster_kernels(set).classify({kWidth, kHeight, false, false}, dicer.vertices(), dicer.triangles(),
-                                 dicer.triangles().batches[b], e);
+    raster_kernels(set).classify({kWidth, kHeight, shape::sample_pattern(samples), false, false}, dicer.vertices(),
+                                 dicer.triangles(), dicer.triangles().batches[b], e);
     mixed += e.undecided != 0 && e.decided > (e.undecided & -e.undecided);
   }
   return mixed;
@@ -281,16 +289,17 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
     return shape::Vec3{0.3 * (i - 1.5), (j / 1.5 - 1) * (1.7 - 0.56 * i), -3.5 - 0.2 * (i == 1 || i == 2)};
   });
   dicer.dice(wedge, kView, 0);
-  EXPECT_GT(mixed_batches(set, dicer), 0);
+  EXPECT_GT(mixed_batches(), 0);
   for (const EyePatch& patch :
        {shape::sphere_octant({0, 0, -4}, 1), ground, shape::swapped(ground), wedge, shape::turned(wedge)})
     for (const int rate : {0, 2, 9}) {
+      samples = rate == 2 ? 4 : 1;
       const Emitted all = set_up(patch, rate);
       Shortage shortage;
-      const std::size_t most = bytes_of(all) + kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle);
-      for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 1600))
+      const std::size_t most = bytes_of(all) + samples * kHeight * sizeof(UnsortedEdgeBox) + sizeof(Triangle);
+      for (std::size_t bytes = 0; bytes < most + 500; bytes += bytes < 600 ? 4 : 4 * (1 + most / 1200))
         for (const Way way : {Way::at_a_time, Way::plainly}) {
-          expect_counted(set, dicer, all, bytes, way, shortage);
+          expect_counted(all, bytes, way, shortage);
           if (HasFailure()) return;
         }
       EXPECT_GT(shortage.partly_stored, 100);
@@ -298,6 +307,7 @@ TEST_F(SetUpTest, CountsOnWhenMemoryIsShort) {
 }
 
 TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
+  samples = 2;
   const Emitted all = set_up(square(1, 4), 9);
   std::vector<std::uint8_t> wanted(kHeight);
   std::fill(wanted.begin() + 200, wanted.begin() + 230, std::uint8_t{1});
@@ -314,7 +324,7 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
   EXPECT_LT(expected.size(), all.triangles.size());
   EXPECT_GT(expected.size(), 0u);
   for (const Way way : {Way::at_a_time, Way::plainly}) {
-    const Made some = raster::set_up(set, {kView, kWidth, kHeight}, dicer, {5, 3, false, false, false}, way, wanted);
+    const Made some = raster::set_up(set, picture(), dicer, {5, 3, false, false, false}, way, wanted);
     EXPECT_TRUE(some.all_stored);
     EXPECT_EQ(some.touching, expected.size());
     EXPECT_EQ(some.edge_boxes, some.boxes.size());
@@ -329,8 +339,10 @@ TEST_F(SetUpTest, KeepsWhatIsOnWantedLines) {
   }
 }
 
-// Edge boxes say whose they are, line after line, and whether it moves.
+// Edge boxes say whose they are, row after row, and whether it moves.
 TEST_F(SetUpTest, EdgeBoxesFollowTheirTriangles) {
+  samples = 8;
+  const auto row = [&](const UnsortedEdgeBox& box) { return samples * box.line + box.box.sample; };
   for (const bool moving : {false, true}) {
     const Emitted emitted = set_up(square(1, 4), 5, {5, 3, false, false, moving});
     ASSERT_EQ(emitted.boxes.size(), emitted.edge_boxes);
@@ -341,7 +353,7 @@ TEST_F(SetUpTest, EdgeBoxesFollowTheirTriangles) {
       if (k == 0) continue;
       const UnsortedEdgeBox& before = emitted.boxes[k - 1];
       if (here.box.triangle == before.box.triangle)
-        EXPECT_GT(here.line, before.line);
+        EXPECT_GT(row(here), row(before));
       else
         EXPECT_EQ(here.box.triangle, before.box.triangle + 1);
     }

@@ -1,0 +1,48 @@
+// A node's memory is for its frames, but for what inbetweens need of still parts where pixels have several samples.
+#include "host/render/farm/node_memory.h"
+
+#include <gtest/gtest.h>
+
+namespace mars::farm {
+namespace {
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+
+wire::FilmSettings film(std::uint32_t samples) {
+  wire::FilmSettings settings{};
+  settings.width = 1920;
+  settings.height = 1080;
+  settings.samples = samples;
+  return settings;
+}
+
+TEST(NodeMemory, WithOneSampleAllIsForFrames) {
+  for (const std::optional<std::uint64_t> still : {std::optional<std::uint64_t>(), std::optional(100 * kMiB)}) {
+    const NodeMemory memory = share_node_memory(1024 * kMiB, still, film(1));
+    EXPECT_EQ(memory.frames, 1024 * kMiB);
+    EXPECT_EQ(memory.still, 0u);
+    EXPECT_EQ(memory.still_plan.lines, 1080u) << "CZB comes on top";
+  }
+}
+
+TEST(NodeMemory, WithSeveralSamplesAQuarterIsForStillParts) {
+  for (const std::uint32_t samples : {2u, 4u, 8u, 16u}) {
+    const NodeMemory memory = share_node_memory(1024 * kMiB, {}, film(samples));
+    EXPECT_EQ(memory.still, 256 * kMiB);
+    EXPECT_EQ(memory.frames, 768 * kMiB);
+    const wire::StillPlan plan = wire::plan_still_lines(1920, 1080, samples, 256 * kMiB);
+    EXPECT_EQ(memory.still_plan.lines, plan.lines);
+    EXPECT_EQ(memory.still_plan.line_bytes, plan.line_bytes);
+  }
+  EXPECT_EQ(share_node_memory(1024 * kMiB, {}, film(4)).still_plan.lines, 1080u);
+  EXPECT_LT(share_node_memory(64 * kMiB, {}, film(16)).still_plan.lines, 1080u);
+}
+
+TEST(NodeMemory, AGivenPartIsTakenButNoMoreThanThereIs) {
+  EXPECT_EQ(share_node_memory(1024 * kMiB, 0, film(4)).frames, 1024 * kMiB);
+  EXPECT_EQ(share_node_memory(1024 * kMiB, 24 * kMiB, film(4)).frames, 1000 * kMiB);
+  EXPECT_EQ(share_node_memory(1024 * kMiB, 2000 * kMiB, film(4)).frames, 0u);
+}
+
+}  // namespace
+}  // namespace mars::farm

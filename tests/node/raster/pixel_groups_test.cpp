@@ -1,0 +1,172 @@
+// Pixels of groups, where what they come to is known: pure colours, shares of four samples, a background.
+#include "node/raster/pixel_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <initializer_list>
+#include <vector>
+
+#include "tests/node/simd/instruction_sets.h"
+
+namespace mars::raster {
+namespace {
+
+constexpr std::uint32_t kWidth = 40, kLine = 3, kSamples = 4;
+
+enum Shown : std::uint32_t { kRed, kGreen, kBlue, kColors, kNothing = shading::kNoTriangle };
+using Pixel = std::array<Shown, kSamples>;
+
+// A scene of three triangles, each evenly of one colour in light from all around, before a dark background.
+struct Scene {
+  Scene() {
+    for (std::uint32_t k = 0; k < kColors; ++k) {
+      materials[k].ambient = 1;
+      materials[k].color[k] = 1;
+      triangles[k].at_first[shape::kDepth] = 0.5f;
+      triangles[k].material = k;
+    }
+  }
+  shading::Shading shading() const {
+    shading::Shading shading{};
+    shading.triangles = triangles.data();
+    shading.materials = materials.data();
+    shading.projection.scale = 100;
+    shading.pattern = shape::sample_pattern(kSamples);
+    std::fill_n(shading.background, 3, 0.2f);
+    return shading;
+  }
+  std::array<geometry::Triangle, kColors> triangles{};
+  std::array<wire::Material, kColors> materials{};
+};
+
+// What a line shows from column 0 on, and nothing behind it.
+class Line {
+ public:
+  Line(std::initializer_list<Pixel> pixels) : ids_(kSamples * kStride, kNothing) {
+    for (const Pixel& pixel : pixels) {
+      for (std::uint32_t s = 0; s < kSamples; ++s) ids_[s * kStride + extent.last] = pixel[s];
+      ++extent.last;
+    }
+  }
+  LineSamples samples() { return {nullptr, ids_.data(), kStride}; }
+
+  shading::Extent extent{0, 0};
+
+ private:
+  static constexpr std::uint32_t kStride = kWidth + simd::kVectorSlack;
+  std::vector<std::uint32_t> ids_;
+};
+
+constexpr Pixel all(Shown shown) { return {shown, shown, shown, shown}; }
+
+// Still groups of a line, of as many as fit.
+struct Still {
+  StillGroups groups() { return {end.data(), all.data()}; }
+  std::vector<std::uint32_t> end = std::vector<std::uint32_t>(kWidth);
+  std::vector<StillGroup> all = std::vector<StillGroup>(kWidth * kSamples);
+};
+
+// Where a strip's pixels and runs go.
+struct Out {
+  std::vector<std::uint32_t> pixels = std::vector<std::uint32_t>(kWidth + simd::kVectorSlack);
+  std::vector<wire::Run> runs = std::vector<wire::Run>(kWidth);
+  StripBuffer::Layer layer{reinterpret_cast<std::byte*>(pixels.data()), sizeof(std::uint32_t), runs.data()};
+};
+
+// As coded films show it: 255 for 1, rounded.
+std::uint32_t shown(double red, double green, double blue) {
+  const auto level = [](double light) { return static_cast<std::uint32_t>(255 * light + 0.5); };
+  return level(red) | level(green) << 8 | level(blue) << 16;
+}
+
+void expect_run(const wire::Run& run, std::uint32_t first, std::uint32_t count) {
+  EXPECT_EQ(run.line, kLine);
+  EXPECT_EQ(run.first, first);
+  EXPECT_EQ(run.count, count);
+}
+
+class PixelGroupsTest : public testing::TestWithParam<simd::InstructionSet> {
+ protected:
+  PixelGroupsTest() : groups(GetParam(), kWidth, kSamples) {}
+  PixelGroups& shade(Line line) {
+    groups.shade(shading, line.samples(), kLine, line.extent);
+    return groups;
+  }
+
+  const Scene scene;
+  const shading::Shading shading = scene.shading();
+  PixelGroups groups;
+  Out out;
+};
+
+TEST_P(PixelGroupsTest, ResolveToTheirSharesAndTheBackground) {
+  shade({all(kNothing), all(kRed), {kRed, kGreen, kNothing, kRed}, all(kNothing), {kNothing, kNothing, kBlue, kGreen}});
+  EXPECT_EQ(groups.count(), 5u);
+  groups.resolve(shading, kLine, out.layer);
+  ASSERT_EQ(out.layer.pixel_count(), 3u);
+  EXPECT_EQ(out.pixels[0], shown(1, 0, 0));
+  EXPECT_EQ(out.pixels[1], shown(0.5 + 0.05, 0.25 + 0.05, 0.05));
+  EXPECT_EQ(out.pixels[2], shown(0.1, 0.25 + 0.1, 0.25 + 0.1));
+  ASSERT_EQ(out.layer.runs().size(), 2u);
+  expect_run(out.runs[0], 1, 2);
+  expect_run(out.runs[1], 4, 1);
+}
+
+TEST_P(PixelGroupsTest, AreCopiedColumnByColumnInTheOrderOfTheirLowestSamples) {
+  Still still;
+  std::fill(still.end.begin(), still.end.end(), 99u);
+  shade({all(kNothing), {kNothing, kGreen, kRed, kGreen}, all(kNothing), all(kBlue)}).copy_to(still.groups());
+  for (std::uint32_t column = 0; column < kWidth; ++column)
+    EXPECT_EQ(still.groups().of(column).size(), column == 1 ? 2u : column == 3 ? 1u : 0u) << column;
+  const auto is = [](const StillGroup& group, Shown color, std::uint32_t samples) {
+    for (std::uint32_t c = 0; c < 3; ++c) EXPECT_EQ(group.light[c], c == color ? 1.0f : 0.0f);
+    EXPECT_EQ(group.samples, samples);
+  };
+  is(still.groups().of(1)[0], kGreen, 0b1010);
+  is(still.groups().of(1)[1], kRed, 0b0100);
+  is(still.groups().of(3)[0], kBlue, 0b1111);
+}
+
+TEST_P(PixelGroupsTest, OfAnEmptyLineAreNone) {
+  Still still;
+  std::fill(still.end.begin(), still.end.end(), 99u);
+  shade({}).copy_to(still.groups());
+  EXPECT_EQ(still.end, std::vector<std::uint32_t>(kWidth, 0));
+  groups.resolve(shading, kLine, out.layer);
+  EXPECT_EQ(out.layer.pixel_count(), 0u);
+  EXPECT_TRUE(out.layer.runs().empty());
+}
+
+// What a moving part leaves of a pixel is shared by what stands still there and the background; pixels that it does not
+// touch are not its own.
+TEST_P(PixelGroupsTest, ResolveOverWhatStandsStill) {
+  Still still;
+  shade({all(kRed),
+         all(kRed),
+         {kRed, kRed, kGreen, kNothing},
+         {kGreen, kGreen, kNothing, kNothing},
+         all(kNothing),
+         all(kGreen)})
+      .copy_to(still.groups());
+  shade({all(kBlue),
+         {kBlue, kBlue, kNothing, kNothing},
+         {kNothing, kBlue, kNothing, kNothing},
+         {kBlue, kNothing, kNothing, kNothing},
+         {kBlue, kNothing, kRed, kNothing}})
+      .resolve_over(still.groups(), shading, kLine, out.layer);
+  ASSERT_EQ(out.layer.pixel_count(), 5u);
+  EXPECT_EQ(out.pixels[0], shown(0, 0, 1));
+  EXPECT_EQ(out.pixels[1], shown(0.5, 0, 0.5));
+  EXPECT_EQ(out.pixels[2], shown(0.25 + 0.05, 0.25 + 0.05, 0.25 + 0.05));
+  EXPECT_EQ(out.pixels[3], shown(0.1, 0.25 + 0.1, 0.25 + 0.1));
+  EXPECT_EQ(out.pixels[4], shown(0.25 + 0.1, 0.1, 0.25 + 0.1));
+  ASSERT_EQ(out.layer.runs().size(), 1u);
+  expect_run(out.runs[0], 0, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, PixelGroupsTest, testing::ValuesIn(simd::sets_here()),
+                         [](const auto& info) { return std::string(simd::name_of(info.param)); });
+
+}  // namespace
+}  // namespace mars::raster

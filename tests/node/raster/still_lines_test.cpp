@@ -1,0 +1,177 @@
+// Which lines are kept for inbetweens, and that those which are come back as they were written, on their machine and
+// on others.
+#include "node/raster/still_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "hal/threads/run_threads.h"
+
+namespace mars::raster {
+namespace {
+
+constexpr std::uint32_t kWidth = 10, kHeight = 12, kSamples = 4, kInterval = 7;
+constexpr geometry::LineRange kAll{0, kHeight};
+
+// Bytes for so many lines of `groups` a column.
+std::uint64_t bytes_for(std::uint32_t lines, std::uint32_t groups) {
+  const std::uint64_t line =
+      wire::kStillHeadBytes + kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
+  return lines * ((line + 63) / 64 * 64);
+}
+const std::uint64_t kAmple = bytes_for(kHeight, kSamples);
+
+// On a node that is alone.
+void as_node(const std::function<void(const Neighbours&)>& node) {
+  threads::run_threads(
+      1, [] {},
+      [&] {
+        const std::int32_t machine = 0;
+        node(Neighbours({&machine, 1}, 1));
+      });
+}
+
+StillLines lines_of(const Neighbours& neighbours, std::uint64_t bytes, std::uint32_t samples = kSamples) {
+  return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes};
+}
+
+// Depths and groups that tell their line and place; `groups` of them, evenly over the columns.
+bool write(StillLines& still, std::uint32_t line, std::uint32_t groups) {
+  if (!still.begin_line(line, groups)) return false;
+  for (std::uint32_t s = 0; s < kSamples; ++s)
+    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = static_cast<float>(1000 * line + 100 * s + x);
+  const StillGroups out = still.groups(line);
+  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = groups * (x + 1) / kWidth;
+  for (std::uint32_t k = 0; k < groups; ++k)
+    out.groups[k] = {{static_cast<float>(line), 0.5f, static_cast<float>(k)}, k};
+  return true;
+}
+
+void expect_kept(StillLines& still, std::uint32_t line, std::uint32_t groups) {
+  ASSERT_TRUE(still.keeps(line)) << line;
+  for (std::uint32_t s = 0; s < kSamples; ++s)
+    for (std::uint32_t x = 0; x < kWidth; ++x)
+      ASSERT_EQ(still.depth(line, s)[x], static_cast<float>(1000 * line + 100 * s + x));
+  std::uint32_t k = 0;
+  for (std::uint32_t x = 0; x < kWidth; ++x)
+    for (const StillGroup& group : still.groups(line).of(x)) {
+      ASSERT_EQ(group.light[0], static_cast<float>(line));
+      ASSERT_EQ(group.light[2], static_cast<float>(k));
+      ASSERT_EQ(group.samples, k++);
+    }
+  ASSERT_EQ(k, groups);
+}
+
+TEST(StillLines, LinesComeBackAsTheyWereWritten) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, kAmple);
+    still.begin_interval(kInterval, {2, 9});
+    for (std::uint32_t line = 2; line < 9; ++line) ASSERT_TRUE(write(still, line, 6 * line % 41));
+    for (std::uint32_t line = 2; line < 9; ++line) expect_kept(still, line, 6 * line % 41);
+    for (const std::uint32_t line : {0u, 1u, 9u, 11u}) EXPECT_FALSE(still.keeps(line)) << line;
+  });
+}
+
+TEST(StillLines, ALineWithMoreGroupsThanFitIsNotKept) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, bytes_for(kHeight, 2));
+    still.begin_interval(kInterval, kAll);
+    EXPECT_TRUE(write(still, 0, 2 * kWidth));
+    EXPECT_FALSE(write(still, 1, 2 * kWidth + 1));
+    EXPECT_TRUE(write(still, 2, 0));
+    expect_kept(still, 0, 2 * kWidth);
+    EXPECT_FALSE(still.keeps(1));
+    expect_kept(still, 2, 0);
+    EXPECT_FALSE(still.keeps(3)) << "not written";
+  });
+}
+
+// The first lines of those that inbetweens may touch, wherever these are.
+TEST(StillLines, WhereFewLinesFitTheOthersAreNotKept) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, bytes_for(3, 1));
+    for (const std::uint32_t first : {0u, 5u}) {
+      still.begin_interval(kInterval + first, {first, first + 6});
+      for (std::uint32_t k = 0; k < 6; ++k) EXPECT_EQ(write(still, first + k, kWidth), k < 3);
+      for (std::uint32_t k = 0; k < 6; ++k) EXPECT_EQ(still.keeps(first + k), k < 3);
+      for (std::uint32_t k = 0; k < 3; ++k) expect_kept(still, first + k, kWidth);
+    }
+    StillLines none = lines_of(alone, 0);
+    none.begin_interval(kInterval, kAll);
+    EXPECT_FALSE(write(none, 0, 0));
+    EXPECT_FALSE(none.keeps(0));
+    EXPECT_TRUE(none.packed(0).empty());
+  });
+}
+
+TEST(StillLines, LinesOfAnEarlierIntervalAreNotKept) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, kAmple);
+    still.begin_interval(kInterval, kAll);
+    for (std::uint32_t line = 0; line < kHeight; ++line) write(still, line, 5);
+    still.begin_interval(kInterval + 1, kAll);
+    write(still, 4, 5);
+    for (std::uint32_t line = 0; line < kHeight; ++line) EXPECT_EQ(still.keeps(line), line == 4) << line;
+  });
+}
+
+// Of one interval, whose frames came in two tasks: lines then lie elsewhere.
+TEST(StillLines, LinesOfAnotherFirstLineAreNotKept) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, kAmple);
+    still.begin_interval(kInterval, kAll);
+    for (std::uint32_t line = 0; line < kHeight; ++line) write(still, line, 5);
+    still.begin_interval(kInterval, {3, kHeight});
+    for (std::uint32_t line = 0; line < kHeight; ++line) EXPECT_FALSE(still.keeps(line)) << line;
+    write(still, 3, 5);
+    expect_kept(still, 3, 5);
+  });
+}
+
+// From a machine with ample memory to one with little, and back.
+TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
+  as_node([](const Neighbours& alone) {
+    StillLines ample = lines_of(alone, kAmple), small = lines_of(alone, bytes_for(4, 1));
+    ample.begin_interval(kInterval, {1, 8});
+    small.begin_interval(kInterval, {1, 8});
+    for (std::uint32_t line = 1; line < 8; ++line) write(ample, line, line == 2 ? 3 * kWidth : kWidth);
+    for (std::uint32_t line = 7; line >= 1; --line) small.unpack(ample.packed(line));
+    for (std::uint32_t line = 1; line < 8; ++line) {
+      if (line == 2 || line > 4)
+        EXPECT_FALSE(small.keeps(line)) << line;
+      else
+        expect_kept(small, line, kWidth);
+    }
+    ample.begin_interval(kInterval + 1, {1, 8});
+    small.begin_interval(kInterval + 1, {1, 8});
+    write(small, 3, 4);
+    EXPECT_TRUE(small.packed(4).empty()) << "of the interval before";
+    ample.unpack(small.packed(3));
+    expect_kept(ample, 3, 4);
+    EXPECT_FALSE(ample.keeps(2));
+  });
+}
+
+// CZB alone, line after line, and all of it whatever the memory.
+TEST(StillLines, WithOneSampleAllLinesAreKept) {
+  as_node([](const Neighbours& alone) {
+    StillLines still = lines_of(alone, 0, 1);
+    still.begin_interval(kInterval, {2, kHeight});
+    for (std::uint32_t line = 2; line < kHeight; ++line) {
+      ASSERT_TRUE(still.begin_line(line, 0));
+      std::ranges::fill(still.depth(line, 0), static_cast<float>(line));
+    }
+    EXPECT_FALSE(still.keeps(1));
+    const auto depths = still.depths({3, 6});
+    ASSERT_EQ(depths.size(), 3 * kWidth);
+    for (std::uint32_t k = 0; k < depths.size(); ++k) EXPECT_EQ(depths[k], static_cast<float>(3 + k / kWidth));
+    still.begin_interval(kInterval + 1, kAll);
+    EXPECT_TRUE(still.keeps(11)) << "whoever reads lines waits until they are written";
+  });
+}
+
+}  // namespace
+}  // namespace mars::raster
