@@ -113,7 +113,7 @@ void expect_within_colors(Ball& ball, const shape::Surface& surface, bool one_co
   shading.triangles = made.triangles.data();
   for (const raster::UnsortedEdgeBox& box : made.boxes) {
     std::vector<Fragment> fragments;
-    for (std::uint32_t column = box.box.first; column < box.box.last; ++column)
+    for (std::uint32_t column = box.box.first; column < box.box.last(); ++column)
       fragments.push_back({box.box.triangle, static_cast<std::uint16_t>(column), 0});
     std::vector<float> light[3];
     for (auto& plane : light) plane.resize(fragments.size() + simd::kVectorSlack);
