@@ -54,11 +54,12 @@ Shine shine(const EyeLight& light, const Vec& place) {
   return {unit(toward), brightness * vec(light.color)};
 }
 
-// Cosines between the normal n, the light l, the eye v and the half vector h.
+// Cosines between the normal n, the light l, the eye v and the half vector h. An interpolated normal that is turned
+// away from the eye counts as seen from the side.
 struct Angles {
   double nl, nv, nh, vh;
 
-  Angles(const Vec& n, const Vec& l, const Vec& v) : nl(dot(n, l)), nv(dot(n, v)) {
+  Angles(const Vec& n, const Vec& l, const Vec& v) : nl(dot(n, l)), nv(std::max(dot(n, v), 1e-4)) {
     const Vec h = unit(l + v);
     nh = std::clamp(dot(n, h), 0.0, 1.0);
     vh = std::clamp(dot(v, h), 0.0, 1.0);
@@ -80,21 +81,25 @@ double fresnel(double index, double c) {
 
 // pi F D G / (4 (N.V)) with Beckmann's D.
 double cook_torrance(const Material& m, const Angles& a) {
-  if (a.nv <= 0 || a.nh <= 0) return 0;
+  if (a.nh <= 0) return 0;
   const double cos2 = square(a.nh), m2 = square(std::max(m.roughness, 0.03f));
   const double d = std::exp(-(1 - cos2) / (cos2 * m2)) / (m2 * square(cos2));
   const double g = std::min({1.0, 2 * a.nh * a.nv / a.vh, 2 * a.nh * a.nl / a.vh});
   return fresnel(m.refraction, a.vh) * d * g / (4 * a.nv);
 }
 
-// glTF 2.0, appendix B, times pi and N.L.
+// Smith's: the share of facets at cosine c to the normal that others hide, over the share of those seen.
+double hidden(double alpha2, double c) { return (std::sqrt(1 + alpha2 * (1 / square(c) - 1)) - 1) / 2; }
+
+// glTF 2.0, appendix B, times pi and N.L; hidden to the eye and to the light as one random height of a facet decides
+// both (E. Heitz, "Understanding the masking-shadowing function in microfacet-based BRDFs", JCGT 3, 2014).
 Vec metallic_roughness(const Material& m, const Angles& a) {
   const Vec color = vec(m.color), f0 = mix(gray(0.04), color, m.metallic);
   const double a2 = square(square(std::max(m.roughness, 0.08f)));
   const Vec f = mix(f0, gray(1), std::pow(1 - a.vh, 5));
   const double d = a2 / square(square(a.nh) * (a2 - 1) + 1);
-  const auto visible = [&](double c) { return 1 / (c + std::sqrt(a2 + (1 - a2) * c * c)); };
-  const double specular = a.nv > 0 ? d * visible(a.nl) * visible(a.nv) : 0;
+  const double g = 1 / (1 + hidden(a2, a.nl) + hidden(a2, a.nv));
+  const double specular = d * g / (4 * a.nl * a.nv);
   return a.nl * (product(gray(1) - f, (1 - m.metallic) * color) + specular * f);
 }
 

@@ -1,7 +1,8 @@
 // glTF 2.0's metallic-roughness material (its specification's appendix B): a matt surface under a clear one that
-// reflects 4% straight on, or metal, which reflects its colour; facets with the distribution GGX, Smith's shadowing of
-// facets that depend on height, Schlick's approximation of Fresnel's formula. Lights are scaled by pi, as for all
-// models here.
+// reflects 4% straight on, or metal, which reflects its colour; facets with the distribution GGX, Smith's shadowing,
+// Schlick's approximation of Fresnel's formula. The appendix takes a facet's being hidden from the eye and from the
+// light as independent; here both depend on its height, as is true (E. Heitz, "Understanding the masking-shadowing
+// function in microfacet-based BRDFs", JCGT 3, 2014). Lights are scaled by pi, as for all models here.
 #pragma once
 
 #include "node/shading/environment.h"
