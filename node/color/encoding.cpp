@@ -37,12 +37,12 @@ Color shown(const Encoding& encoding, const float* light) {
 
 std::uint32_t level8(const Encoding& encoding, float y) {
   if (encoding.space == wire::ColorSpace::coded) return nearest(y * 255.0f);
-  return encoding.srgb8[nearest(std::sqrt(y) * float{kSteps8})];
+  return static_cast<std::uint32_t>(encoding.srgb8[nearest(std::sqrt(y) * float{kSteps8})]);
 }
 
 std::uint32_t level16(const Encoding& encoding, float y) {
   if (encoding.space == wire::ColorSpace::coded) return nearest(y * 65535.0f);
-  return encoding.srgb16[nearest(std::sqrt(y) * float{kSteps16})];
+  return static_cast<std::uint32_t>(encoding.srgb16[nearest(std::sqrt(y) * float{kSteps16})]);
 }
 
 // To the nearest half float, ties to even.

@@ -17,8 +17,8 @@ struct Encoding {
   wire::PixelFormat format = wire::PixelFormat::rgb8;
   // Of linear films: sRGB's levels of shown light y at round(sqrt(y) * kSteps8) and at round(sqrt(y) * kSteps16), so
   // that steps are as fine in the dark as the eye is.
-  const std::uint8_t* srgb8 = nullptr;
-  const std::uint16_t* srgb16 = nullptr;
+  const std::int32_t* srgb8 = nullptr;
+  const std::int32_t* srgb16 = nullptr;
 };
 
 inline constexpr std::uint32_t kSteps8 = 4095;

@@ -22,25 +22,24 @@ double srgb(double y) {
   return 1.055 * (std::sqrt(root) * cube_root(root)) - 0.055;
 }
 
-template <typename Level>
-std::vector<Level> levels(std::uint32_t steps, double most) {
-  std::vector<Level> out(steps + 1);
+std::vector<std::int32_t> levels(std::uint32_t steps, double most) {
+  std::vector<std::int32_t> out(steps + 1);
   for (std::uint32_t i = 0; i <= steps; ++i) {
     const double root = static_cast<double>(i) / steps;
-    out[i] = static_cast<Level>(srgb(root * root) * most + 0.5);
+    out[i] = static_cast<std::int32_t>(srgb(root * root) * most + 0.5);
   }
   return out;
 }
 
 }  // namespace
 
-std::span<const std::uint8_t> srgb_levels8() {
-  static const auto kLevels = levels<std::uint8_t>(kSteps8, 255);
+std::span<const std::int32_t> srgb_levels8() {
+  static const auto kLevels = levels(kSteps8, 255);
   return kLevels;
 }
 
-std::span<const std::uint16_t> srgb_levels16() {
-  static const auto kLevels = levels<std::uint16_t>(kSteps16, 65535);
+std::span<const std::int32_t> srgb_levels16() {
+  static const auto kLevels = levels(kSteps16, 65535);
   return kLevels;
 }
 

@@ -22,6 +22,7 @@ inline void apply_filmic_curve(Floats* color) {
   const Floats brightest = hn::Max(color[0], hn::Max(color[1], color[2]));
   const Floats one = constant(1.0f), rest = constant(1.0f - kShoulder), shoulder = constant(kShoulder);
   const auto bright = hn::Gt(brightest, shoulder);
+  if (hn::AllFalse(kFloats, bright)) return;
   const Floats beyond = hn::Sub(hn::Add(hn::Max(brightest, shoulder), rest), shoulder);
   const Floats shown = hn::Sub(one, hn::Div(hn::Mul(rest, rest), beyond));
   const Floats scale = hn::Div(shown, hn::Max(brightest, shoulder));
@@ -57,14 +58,8 @@ Ints place(Floats shown, float most, float steps) {
 }
 
 // Each of a vector's places becomes the level that stands there.
-template <typename Level>
-void look_up(const Level* table, Ints* places) {
-  alignas(64) std::int32_t items[kLanes];
-  for (int c = 0; c < 3; ++c) {
-    hn::Store(places[c], kInts, items);
-    for (int k = 0; k < kLanes; ++k) items[k] = table[items[k]];
-    places[c] = hn::Load(kInts, items);
-  }
+inline void look_up(const std::int32_t* table, Ints* places) {
+  for (int c = 0; c < 3; ++c) places[c] = hn::GatherIndex(kInts, table, places[c]);
 }
 
 inline void store8(const Ints* level, std::uint32_t at, void* pixels) {
