@@ -5,8 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "node/color/srgb_tables.h"
-
 namespace mars::color {
 namespace {
 
@@ -60,8 +58,8 @@ std::uint64_t packed(std::uint64_t red, std::uint64_t green, std::uint64_t blue,
 }  // namespace
 
 Encoding encoding_of(const wire::FilmSettings& settings, const wire::Camera& camera, wire::PixelFormat format) {
-  return {settings.color_space,  settings.curve,        static_cast<float>(camera.exposure), format,
-          srgb_levels8().data(), srgb_levels16().data()};
+  return {settings.color_space, settings.curve, static_cast<float>(camera.exposure), format,
+          srgb_levels8(),       srgb_levels16()};
 }
 
 std::uint64_t pixel_of(const Encoding& encoding, const float* light) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "node/color/srgb_tables.h"
 #include "node/wire/film_parts.h"
 #include "node/wire/pixel_format.h"
 
@@ -15,14 +16,10 @@ struct Encoding {
   wire::Curve curve = wire::Curve::none;
   float exposure = 1;
   wire::PixelFormat format = wire::PixelFormat::rgb8;
-  // Of linear films: sRGB's levels of shown light y at round(sqrt(y) * kSteps8) and at round(sqrt(y) * kSteps16), so
-  // that steps are as fine in the dark as the eye is.
+  // Of linear films: sRGB's levels (srgb_tables.h).
   const std::int32_t* srgb8 = nullptr;
   const std::int32_t* srgb16 = nullptr;
 };
-
-inline constexpr std::uint32_t kSteps8 = 4095;
-inline constexpr std::uint32_t kSteps16 = 65535;
 
 // The filmic curve: light is shown as it is up to the shoulder; where the brightest of red, green and blue, m, exceeds
 // it, all are scaled so that this becomes 1 - d^2 / (m + d - shoulder), d = 1 - shoulder, and then go towards white by

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "node/color/encoding.h"
-
 namespace mars::color {
 namespace {
 
@@ -33,14 +31,14 @@ std::vector<std::int32_t> levels(std::uint32_t steps, double most) {
 
 }  // namespace
 
-std::span<const std::int32_t> srgb_levels8() {
+const std::int32_t* srgb_levels8() {
   static const auto kLevels = levels(kSteps8, 255);
-  return kLevels;
+  return kLevels.data();
 }
 
-std::span<const std::int32_t> srgb_levels16() {
+const std::int32_t* srgb_levels16() {
   static const auto kLevels = levels(kSteps16, 65535);
-  return kLevels;
+  return kLevels.data();
 }
 
 }  // namespace mars::color
