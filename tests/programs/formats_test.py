@@ -56,6 +56,25 @@ def unzipped(block):
     return bytes(data)
 
 
+def pixels_of(rows):
+    return [row[i:i + 3] for row in rows for i in range(0, 3 * WIDTH, 3)]
+
+
+def filmic(light):
+    """The curve of a pixel (node/color/encoding.h)."""
+    brightest, shoulder, bleach = max(light), 0.76, 0.15
+    if brightest <= shoulder:
+        return light
+    shown = 1 - (1 - shoulder) ** 2 / (brightest + 1 - 2 * shoulder)
+    kept = 1 / (bleach * (brightest - shown) + 1)
+    return [(value * shown / brightest - shown) * kept + shown for value in light]
+
+
+def srgb(light):
+    light = min(light, 1)
+    return 12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
+
+
 class Formats(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -65,21 +84,45 @@ class Formats(ProgramTest):
         self.succeed("mars", "render", self.film, "-o", name, "--format", shape, "--quiet", *more)
         return self.folder / name
 
-    def test_files_hold_the_same_picture(self):
-        png, png16, exr = (self.render(shape, shape, "--backend", "threads", "--nodes", 2) for shape in PIXELS)
+    def pictures(self, shown, backend="threads"):
+        """Frame 2 in each format. `shown`: of a pixel's light as EXR has it, what is shown, before sRGB."""
+        png, png16, exr = (self.render(f"{shape}-{backend}", shape, "--backend", backend, "--nodes", 2)
+                           for shape in PIXELS)
         self.assertEqual(sorted(path.name for path in exr.iterdir()), [f"frame-000{i}.exr" for i in range(4)] +
                          ["frames.json"])
-        narrow, wide = png_rows(png / "frame-0002.png", 8), png_rows(png16 / "frame-0002.png", 16)
-        light = exr_rows(exr / "frame-0002.exr")
-        levels = set()
-        for a, b, c in zip(narrow, wide, light):
-            levels.update(a)
-            for level, level16, value in zip(a, b, c):
+        narrow, wide = (pixels_of(rows) for rows in (png_rows(png / "frame-0002.png", 8),
+                                                     png_rows(png16 / "frame-0002.png", 16)))
+        light = pixels_of(exr_rows(exr / "frame-0002.exr"))
+        for levels, levels16, values in zip(narrow, wide, light):
+            for level, level16, value in zip(levels, levels16, shown(values)):
                 self.assertLessEqual(abs(level16 / 257 - level), 0.65)
-                self.assertTrue(0 <= value < 100)
-                if level == 0:
-                    self.assertLess(value, 0.01)
-        self.assertGreater(len(levels), 20)
+                # A half float is right to 1/2048 of itself.
+                self.assertLessEqual(abs(level16 - 65535 * value), 2 + level16 / 2000)
+        self.assertGreater(len({level for levels in narrow for level in levels}), 20)
+        return wide, light
+
+    def test_files_hold_the_same_picture(self):
+        film = spinning_teapot(4, [WIDTH, HEIGHT])
+        film["camera"]["exposure"] = 1.5
+        self.film = self.write("film.json", film)
+        shown = lambda light: [srgb(value) for value in filmic([value * 2 ** 1.5 for value in light])]
+        for backend in self.backends():
+            with self.subTest(backend=backend):
+                wide, light = self.pictures(shown, backend)
+                self.assertGreater(max(max(values) for values in light), 1)
+                self.assertLess(max(max(levels) for levels in wide), 65535)
+        self.assertEqual(len({self.verified_hash(self.folder / f"exr-{backend}") for backend in self.backends()}), 1)
+
+    def test_light_without_a_curve_is_cut(self):
+        self.film = self.write("film.json", {**spinning_teapot(4, [WIDTH, HEIGHT]), "curve": "none", "samples": 1})
+        wide, light = self.pictures(lambda light: [srgb(value) for value in light])
+        self.assertGreater(max(max(values) for values in light), 1)
+        self.assertEqual(max(max(levels) for levels in wide), 65535)
+
+    def test_numbers_of_coded_films_are_stored_as_they_are(self):
+        self.film = self.write("film.json", {**spinning_teapot(4, [WIDTH, HEIGHT]), "color": "coded"})
+        light = self.pictures(lambda light: light)[1]
+        self.assertLessEqual(max(max(values) for values in light), 1)
 
     def test_every_format_is_verified_and_the_same_for_all_nodes(self):
         for shape, pixels in PIXELS.items():

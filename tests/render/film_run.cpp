@@ -30,7 +30,9 @@ class MemorySink : public sinks::Sink {
 };
 
 void write_png(const std::string& path, const wire::FilmSettings& settings, const Pixels& pixels) {
-  const auto bytes = images::encode_png(settings.width, settings.height, pixels);
+  const bool two_words = pixels.size() > std::size_t{settings.width} * settings.height;
+  const auto encode = two_words ? images::encode_png16 : images::encode_png;
+  const auto bytes = encode(settings.width, settings.height, pixels);
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
@@ -64,7 +66,7 @@ FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& option
   MemorySink sink;
   FilmRun run;
   {
-    sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1});
+    sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1, 0, options.format});
     run.report = farm::render_film(film, plan, farm, pool, {});
   }
   run.frames = sink.release();

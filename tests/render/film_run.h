@@ -11,16 +11,18 @@
 #include "hal/threads/run_threads.h"
 #include "host/render/farm/farm.h"
 #include "node/wire/film.h"
+#include "node/wire/pixel_format.h"
 
 namespace mars::test {
 
-using Pixels = std::vector<std::uint32_t>;
+using Pixels = std::vector<std::uint32_t>;  // words: one or two a pixel, by RunOptions::format
 
 struct RunOptions {
   int nodes = 1;
   farm::PlanRequest work;  // no frames: all of the film
   farm::FarmOptions farm;
   std::uint32_t block = 16;
+  wire::PixelFormat format = wire::PixelFormat::rgb8;
   std::string simd;                  // "" for the widest
   std::uint64_t memory = 256 << 20;  // bytes a node offers
   threads::WrapBackend wrap;

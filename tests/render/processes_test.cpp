@@ -20,9 +20,12 @@ bool only_sums(const wire::Strip& strip, const wire::FilmSettings& settings) {
 struct Case {
   std::uint64_t memory;
   std::uint32_t samples;
+  wire::PixelFormat format = wire::PixelFormat::rgb8;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.memory << " bytes, " << c.samples << " samples"; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.memory << " bytes, " << c.samples << " samples, format " << static_cast<int>(c.format);
+}
 
 class OnProcesses : public testing::TestWithParam<Case> {};
 
@@ -31,6 +34,7 @@ TEST_P(OnProcesses, PicturesAreTheSame) {
   const FilmBlock film(data);
   RunOptions options;
   options.memory = GetParam().memory;
+  options.format = GetParam().format;
   const FilmRun expected = run_film(film.bytes(), options);
   ASSERT_EQ(expected.frames.size(), 12u);
   for (const int nodes : {1, 2, 5}) {
@@ -51,7 +55,10 @@ TEST_P(OnProcesses, PicturesAreTheSame) {
 }
 
 // The second is so little that keyframes take several passes.
-INSTANTIATE_TEST_SUITE_P(Memory, OnProcesses, testing::Values(Case{64 << 20, 1}, Case{200'000, 1}, Case{64 << 20, 4}));
+INSTANTIATE_TEST_SUITE_P(Memory, OnProcesses,
+                         testing::Values(Case{64 << 20, 1}, Case{200'000, 1}, Case{64 << 20, 4},
+                                         Case{64 << 20, 4, wire::PixelFormat::rgb16},
+                                         Case{64 << 20, 4, wire::PixelFormat::half}));
 
 }  // namespace
 }  // namespace mars::test

@@ -475,6 +475,17 @@ TEST_F(ImportTest, PackedShapesAreRefused) {
                               "has its shapes packed as KHR_draco_mesh_compression (export it without"));
 }
 
+// glTF's colours are amounts of light, a model's are sRGB as people pick them: light of 0.214 is shown as 0.5.
+TEST_F(ImportTest, ColorsOfGltfAreEncoded) {
+  write("figure.bin", gltf_numbers());
+  std::string text = gltf_figure();
+  const std::string texture = R"("baseColorTexture": {"index": 0})";
+  text.replace(text.find(texture), texture.size(), R"("baseColorFactor": [0.214041, 0.002, 1, 1])");
+  const modeler::Model model = import(write("figure.gltf", text));
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].material.color, (std::array<float, 3>{0.5f, 0.026f, 1}));
+}
+
 // A file of half a kilobyte that promises 200 million vertices, all but one of them at the origin.
 TEST_F(ImportTest, AFileThatTakesAllMemoryIsOneClearFailure) {
 #ifdef __SANITIZE_ADDRESS__
