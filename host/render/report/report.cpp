@@ -53,6 +53,7 @@ ordered_json work_json(const wire::WorkCounts& work) {
           {"edge_boxes", work.edge_boxes},
           {"samples", work.samples},
           {"pixels", work.pixels},
+          {"lines_drawn_again", work.lines_drawn_again},
           {"bytes_to_nodes", work.bytes_to_nodes},
           {"bytes_to_host", work.bytes_to_host},
           {"memory", work.memory},
