@@ -28,6 +28,7 @@ ordered_json memory_json(const farm::NodeMemory& memory) {
   return {{"frames", memory.frames},
           {"still", memory.still},
           {"still_line_bytes", memory.still_plan.line_bytes},
+          {"still_groups", memory.still_plan.groups_per_column},
           {"still_lines", memory.still_plan.lines}};
 }
 
