@@ -223,7 +223,7 @@ std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shadi
     if (report_.is_keyframe())
       z_buffer_.draw_keyframe(parts_, some, shading, still_, out);
     else
-      z_buffer_.draw_inbetween(parts_, some, shading, still_, out);
+      report_.strip().work.lines_drawn_again += z_buffer_.draw_inbetween(parts_, some, shading, still_, out);
     line = some.last;
   }
   return line;

@@ -79,6 +79,7 @@ void StillExchange::send_lines(const geometry::LineRange& lines, int to, raster:
 
 void StillExchange::collect_lines(const Plan& plan, raster::StillLines& still) {
   const int self = plan.self();
+  if (one_each_) line_.reserve(still.most_packed());
   std::size_t left = 0;
   for (int from = plan.first(); from < plan.last(); ++from) {
     const geometry::LineRange lines = plan.lines_of(from);

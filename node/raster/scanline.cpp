@@ -77,13 +77,15 @@ void ZBuffer::draw_line(LineParts parts, const shading::Shading& shading, std::u
   forget_depths(moves ? both(extent, draw_moving(parts, shading, line, groups, out)) : extent);
 }
 
-void ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                             StillLines& still, StripBuffer& out) {
+std::uint32_t ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines,
+                                      const shading::Shading& shading, StillLines& still, StripBuffer& out) {
+  std::uint32_t drawn_again = 0;
   for (std::uint32_t line = lines.first; line < lines.last; ++line) {
     shading::Extent extent = moving_extent(parts, line);
     if (is_empty(extent)) continue;
     check(still.lines().has(line), "moving parts stay on the lines that were foreseen");
     const bool kept = still.keeps(line);
+    drawn_again += kept ? 0 : 1;
     if (kept)
       take_depths(line, extent, still);
     else
@@ -91,6 +93,7 @@ void ZBuffer::draw_inbetween(LineParts parts, const geometry::LineRange& lines, 
     draw_moving(parts, shading, line, kept && several() ? still.groups(line) : own_still(), out);
     forget_depths(extent);
   }
+  return drawn_again;
 }
 
 shading::Extent ZBuffer::draw_still_again(LineParts parts, const shading::Shading& shading, std::uint32_t line) {

@@ -25,9 +25,9 @@ class ZBuffer {
   void draw_keyframe(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
                      StillLines& still, StripBuffer& out);
   // Draws what moves on these lines against `still` and each other. On lines that it does not keep the parts have what
-  // stands still too.
-  void draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
-                      StillLines& still, StripBuffer& out);
+  // stands still too; says on how many this was drawn again.
+  std::uint32_t draw_inbetween(LineParts parts, const geometry::LineRange& lines, const shading::Shading& shading,
+                               StillLines& still, StripBuffer& out);
 
  private:
   // Samples, as many as kernels take at a time.

@@ -61,20 +61,22 @@ std::span<float> StillLines::depths(const geometry::LineRange& lines) {
   return {depth(lines.first, 0).data(), lines.count() * width_};
 }
 
-std::size_t StillLines::packed_bytes(const Head& head) const {
+std::size_t StillLines::packed_bytes(std::size_t groups) const {
   return wire::kStillHeadBytes + depth_bytes(width_, samples_) + width_ * sizeof(std::uint32_t) +
-         head.groups * sizeof(StillGroup);
+         groups * sizeof(StillGroup);
 }
+
+std::size_t StillLines::most_packed() const { return packed_bytes(width_ * samples_); }
 
 std::span<const std::byte> StillLines::packed(std::uint32_t line) const {
   if (!keeps(line)) return {};
-  return {slot(line), packed_bytes(head(line))};
+  return {slot(line), packed_bytes(head(line).groups)};
 }
 
 void StillLines::unpack(std::span<const std::byte> line) {
   Head head;
   std::memcpy(&head, line.data(), sizeof head);
-  check(lines_.has(head.line) && line.size() == packed_bytes(head), "a kept line travels whole");
+  check(lines_.has(head.line) && line.size() == packed_bytes(head.groups), "a kept line travels whole");
   if (!begin_line(head.line, head.groups)) return;
   std::memcpy(slot(head.line), line.data(), line.size());
 }

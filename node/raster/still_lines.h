@@ -57,7 +57,8 @@ class StillLines {
   std::span<float> depths(const geometry::LineRange& lines);
   // A line with several as it travels to another machine; nothing where it is not kept.
   std::span<const std::byte> packed(std::uint32_t line) const;
-  std::size_t most_packed() const { return plan_.line_bytes; }
+  // Bytes of a line that any machine may send.
+  std::size_t most_packed() const;
   // A line that came from there; not kept where it does not fit here.
   void unpack(std::span<const std::byte> line);
 
@@ -73,7 +74,7 @@ class StillLines {
   bool has_slot(std::uint32_t line) const { return line - lines_.first < plan_.lines; }
   std::byte* slot(std::uint32_t line) const;
   Head& head(std::uint32_t line) const { return *reinterpret_cast<Head*>(slot(line)); }
-  std::size_t packed_bytes(const Head& head) const;
+  std::size_t packed_bytes(std::size_t groups) const;
 
   std::size_t width_;
   std::size_t samples_;

@@ -142,11 +142,12 @@ enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, dept
 struct WorkCounts {
   std::uint64_t patches;  // diced, and meshlets
   std::uint64_t vertices;
-  std::uint64_t triangles;         // made from its own patches, touching a sample
-  std::uint64_t edge_boxes_diced;  // of those triangles
-  std::uint64_t edge_boxes;        // drawn on its own lines
-  std::uint64_t samples;           // that these cover
-  std::uint64_t pixels;            // shaded
+  std::uint64_t triangles;          // made from its own patches, touching a sample
+  std::uint64_t edge_boxes_diced;   // of those triangles
+  std::uint64_t edge_boxes;         // drawn on its own lines
+  std::uint64_t samples;            // that these cover
+  std::uint64_t pixels;             // shaded
+  std::uint64_t lines_drawn_again;  // stationary parts of these in an inbetween, as they were not kept
   std::uint64_t bytes_to_nodes;
   std::uint64_t bytes_to_host;   // in strips, whether by slot or by message
   std::uint64_t memory;          // bytes of the frame's arena in use at the peak

@@ -2,6 +2,7 @@
 // whichever of them is slow, and lines go once to every other machine.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -200,6 +201,81 @@ TEST(Sharing, LinesTravelOnceToEachMachine) {
   EXPECT_GT(bytes, 0u);
   EXPECT_LE(bytes, std::uint64_t{kWidth} * kHeight * sizeof(float) * kFrames / 6);
   EXPECT_EQ(depth_bytes(six_nodes), bytes);
+}
+
+// Of all frames.
+std::uint64_t lines_drawn_again(const SharedRun& run) {
+  std::uint64_t lines = 0;
+  for (const wire::Strip& strip : run.film.report.strips) {
+    if (strip.last == 1) lines += strip.work.lines_drawn_again;
+    EXPECT_TRUE(strip.kind == wire::FrameKind::inbetween || strip.work.lines_drawn_again == 0);
+  }
+  return lines;
+}
+
+// Nodes that each have `still` bytes for what inbetweens need.
+void run_with(std::uint64_t still, const wire::FilmData& data, const Nodes& nodes, SharedRun& out,
+              std::uint64_t memory = 256 << 20) {
+  messages::Machines machines(nodes.each);
+  RunOptions options;
+  options.nodes = nodes.count;
+  options.work.groups = nodes.groups;
+  options.memory = memory;
+  options.farm.still_memory = still;
+  options.wrap = [&](messages::Backend& inner) {
+    return std::make_unique<messages::MachinesBackend>(inner, out.counts, machines);
+  };
+  out.film = run_film(FilmBlock(data).bytes(), options);
+}
+
+// Machines with memory for no line, for some and for all; not all have as many nodes.
+TEST(Sharing, LinesThatAreNotKeptAreDrawnAgain) {
+  const wire::FilmData data = film(4, 4);
+  const FilmRun expected = from_scratch(data);
+  constexpr std::uint64_t kLine = 64 + kWidth * (4 * 4 + 4 + 16);  // with one group a column
+  for (const Nodes& nodes : {Nodes{1, 1}, {5, 3}, {4, 1}, {4, 2, 2}, {3, 3}}) {
+    std::uint64_t before = ~std::uint64_t{0};
+    for (const std::uint64_t still : {std::uint64_t{0}, 10 * kLine, 10 * kHeight * kLine}) {
+      SCOPED_TRACE(testing::PrintToString(nodes) + ", " + std::to_string(still) + " bytes");
+      SharedRun rendered;
+      run_with(still, data, nodes, rendered);
+      expect_pictures(rendered, data, expected);
+      const std::uint64_t lines = lines_drawn_again(rendered);
+      EXPECT_TRUE(lines < before || lines == 0) << lines;
+      EXPECT_EQ(lines == 0, still == 10 * kHeight * kLine);
+      before = lines;
+    }
+  }
+}
+
+// A line that is not kept is a message as well, without content: whoever waits for it knows how many come.
+TEST(Sharing, EachLineTravelsOnceKeptOrNot) {
+  const wire::FilmData data = film(6, 4);
+  const auto sent = [&](std::uint64_t still) {
+    SharedRun rendered;
+    run_with(still, data, {3, 1}, rendered);
+    return rendered.counts.sent({.type = wire::kStillLines});
+  };
+  const auto none = sent(0), few = sent(50'000), all = sent(10'000'000);
+  EXPECT_GT(all.messages, 2u * 2 * 40) << "two intervals, to two machines each";
+  EXPECT_LE(all.messages, 2u * 2 * kHeight);
+  EXPECT_EQ(all.empty, 0u);
+  EXPECT_EQ(few.messages, all.messages);
+  EXPECT_GT(few.empty, 0u);
+  EXPECT_LT(few.empty, few.messages);
+  EXPECT_EQ(none.messages, all.messages);
+  EXPECT_EQ(none.bytes, 0u);
+}
+
+// Its triangles too may not fit: an inbetween then draws both in several passes.
+TEST(Sharing, LinesAreDrawnAgainInSeveralPasses) {
+  const wire::FilmData data = film(4, 4);
+  SharedRun rendered;
+  run_with(0, data, {2, 1}, rendered, 600'000);
+  expect_pictures(rendered, data, from_scratch(data));
+  EXPECT_TRUE(std::ranges::any_of(rendered.film.report.strips, [](const wire::Strip& strip) {
+    return strip.kind == wire::FrameKind::inbetween && strip.work.passes > 1 && strip.work.lines_drawn_again > 0;
+  }));
 }
 
 TEST(Sharing, OneCzbForEachGroupWithSeveralNodesOnAMachine) {

@@ -28,6 +28,7 @@ ordered_json memory_json(const farm::NodeMemory& memory) {
   return {{"frames", memory.frames},
           {"still", memory.still},
           {"still_line_bytes", memory.still_plan.line_bytes},
+          {"still_groups", memory.still_plan.groups_per_column},
           {"still_lines", memory.still_plan.lines}};
 }
 
@@ -53,6 +54,7 @@ ordered_json work_json(const wire::WorkCounts& work) {
           {"edge_boxes", work.edge_boxes},
           {"samples", work.samples},
           {"pixels", work.pixels},
+          {"lines_drawn_again", work.lines_drawn_again},
           {"bytes_to_nodes", work.bytes_to_nodes},
           {"bytes_to_host", work.bytes_to_host},
           {"memory", work.memory},

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "host/content/document/text.h"
+#include "host/render/farm/node_memory.h"
 #include "host/shell/launch/text_reader.h"
 
 namespace mars::doctor {
@@ -130,6 +131,21 @@ Finding check_nodes(const Facts& facts) {
           ""};
 }
 
+// The largest picture of 16 x 9 of which a node that is alone keeps all still parts, whatever they show: "1920x1080".
+std::string kept_picture(std::uint64_t share, std::uint32_t samples) {
+  wire::FilmSettings film{};
+  film.samples = samples;
+  const auto is_kept = [&](std::uint32_t times) {
+    film.width = 16 * times;
+    film.height = 9 * times;
+    const wire::StillPlan plan = farm::share_node_memory(share, {}, film).still_plan;
+    return plan.lines == film.height && plan.groups_per_column == samples;
+  };
+  std::uint32_t times = 0;
+  while (16 * (times + 1) <= wire::kMaxSide && is_kept(times + 1)) ++times;
+  return std::to_string(16 * times) + "x" + std::to_string(9 * times);
+}
+
 Finding check_memory(const Facts& facts) {
   const char* about = "memory";
   std::string found = facts.memory != 0 ? bytes_text(facts.memory) : "of unknown size";
@@ -141,6 +157,8 @@ Finding check_memory(const Facts& facts) {
   const std::uint64_t share =
       facts.memory_setting.value_or(topology::memory_share(facts.memory, facts.limit, static_cast<int>(facts.nodes)));
   found += "; for a node's frames " + bytes_text(share) + (facts.memory_setting ? " (MARS_MEMORY)" : "");
+  found += "; stationary parts are kept up to " + kept_picture(share, 4) + " at 4 samples, " + kept_picture(share, 16) +
+           " at 16";
   if (share >= kLittleMemory) return {State::good, about, found, ""};
   return {State::note, about, found,
           "if frames take several passes (--report): fewer --nodes, or more memory (sbatch --mem, "

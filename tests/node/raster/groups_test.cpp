@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
+#include <numeric>
+#include <string>
 #include <vector>
 
 #include "node/raster/kernels.h"
@@ -20,12 +21,12 @@ using shading::kNoTriangle;
 
 constexpr std::size_t kSlack = simd::kVectorSlack;
 
-// What a line's samples show. Behind each row lies what kernels may read.
+// What a line's samples show; nothing behind its columns.
 struct Line {
   Line(std::int32_t width, const shape::SamplePattern& pattern)
       : pattern(pattern),
         stride(static_cast<std::size_t>(width) + kSlack),
-        ids(stride * static_cast<std::size_t>(pattern.count), 77) {}
+        ids(stride * static_cast<std::size_t>(pattern.count), kNoTriangle) {}
   std::uint32_t& at(std::size_t column, std::int32_t sample) {
     return ids[static_cast<std::size_t>(sample) * stride + column];
   }
@@ -38,11 +39,11 @@ struct Line {
   std::vector<std::uint32_t> ids;
 };
 
-// Stretches of pixels within one triangle or none, and of pixels whose samples show few or many.
-Line random_line(shape::Random& random, std::int32_t width, const shape::SamplePattern& pattern) {
+// Within `extent` stretches of pixels within one triangle or none, and of pixels whose samples show few or many.
+Line random_line(shape::Random& random, std::int32_t width, Extent extent, const shape::SamplePattern& pattern) {
   Line line(width, pattern);
-  for (std::int32_t column = 0; column < width;) {
-    const std::int32_t end = std::min(width, column + random.whole(1, 40));
+  for (std::uint32_t column = extent.first; column < extent.last;) {
+    const std::uint32_t end = std::min(extent.last, column + static_cast<std::uint32_t>(random.whole(1, 40)));
     const int kind = random.whole(0, 4);
     const std::int32_t triangles = kind == 3 ? 3 : 1000;
     const auto any = [&] {
@@ -50,8 +51,7 @@ Line random_line(shape::Random& random, std::int32_t width, const shape::SampleP
     };
     const std::uint32_t one = kind == 0 ? kNoTriangle : static_cast<std::uint32_t>(random.bits() >> 1);
     for (; column < end; ++column)
-      for (std::int32_t s = 0; s < pattern.count; ++s)
-        line.at(static_cast<std::size_t>(column), s) = kind < 3 ? one : any();
+      for (std::int32_t s = 0; s < pattern.count; ++s) line.at(column, s) = kind < 3 ? one : any();
   }
   return line;
 }
@@ -72,11 +72,18 @@ struct PlainGroups {
   std::vector<Group> firsts, others;
 };
 
+// The samples of a pixel in the order in which groups begin at them: each group has its first.
+std::vector<std::int32_t> order_of(const shape::SamplePattern& pattern) {
+  std::vector<std::int32_t> order(static_cast<std::size_t>(pattern.count));
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 PlainGroups group_plainly(const Line& line, Extent extent) {
   PlainGroups out;
   for (std::uint32_t column = extent.first; column < extent.last; ++column) {
     std::vector<Group> groups;
-    for (std::int32_t s = 0; s < line.pattern.count; ++s) {
+    for (const std::int32_t s : order_of(line.pattern)) {
       const std::uint32_t id = line.at(column, s);
       if (id == kNoTriangle) continue;
       const auto known = std::ranges::find_if(groups, [&](const Group& g) { return g.fragment.triangle == id; });
@@ -94,10 +101,13 @@ PlainGroups group_plainly(const Line& line, Extent extent) {
   return out;
 }
 
-// Arrays as long as a line's samples and the slack, and what lies behind them.
+// Arrays as long as a line's samples and twice the slack, and what lies behind them.
 struct GroupSpace {
   explicit GroupSpace(const Line& line)
-      : size(line.ids.size() + kSlack), fragments(size + 1), masks(size + 1, kUntouched), pixels(size + 1, kUntouched) {
+      : size(line.ids.size() + 2 * kSlack),
+        fragments(size + 1),
+        masks(size + 1, kUntouched),
+        pixels(size + 1, kUntouched) {
     for (auto& channel : light) channel.assign(size + 1, -1.0f);
   }
   Groups groups() { return {fragments.data(), masks.data(), pixels.data()}; }
@@ -187,13 +197,13 @@ TEST(Groups, AreAPlainTwins) {
   for (std::size_t trial = 0; trial < 3000; ++trial) {
     const shape::SamplePattern& pattern = shape::sample_pattern(shape::kSampleCounts[trial % 5]);
     const std::int32_t width = random.whole(1, trial % 7 ? 100 : 400);
-    const Line line = random_line(random, width, pattern);
-    const auto first = static_cast<std::uint32_t>(random.whole(0, width - 1));
-    const auto last = static_cast<std::uint32_t>(random.whole(static_cast<std::int32_t>(first), width));
+    const std::int32_t first = trial % 3 ? 0 : random.whole(0, width - 1);
+    const std::int32_t last = trial % 3 ? width : random.whole(first, width);
+    const Extent extent{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
+    const Line line = random_line(random, width, extent, pattern);
     for (const simd::InstructionSet set : simd::all_sets()) {
       SCOPED_TRACE(std::string(simd::name_of(set)) + ", trial " + std::to_string(trial));
-      expect_as_plainly(set, line, trial % 3 ? Extent{0, static_cast<std::uint32_t>(width)} : Extent{first, last},
-                        random);
+      expect_as_plainly(set, line, extent, random);
       if (HasFatalFailure()) return;
     }
   }
@@ -205,7 +215,9 @@ TEST(Groups, ALineOfSamplesThatAllDiffer) {
   for (const std::uint32_t samples : shape::kSampleCounts)
     for (const std::int32_t width : {1, 15, 16, 17, 130}) {
       Line line(width, shape::sample_pattern(samples));
-      for (std::size_t k = 0; k < line.ids.size(); ++k) line.ids[k] = static_cast<std::uint32_t>(k);
+      for (std::size_t column = 0; column < static_cast<std::size_t>(width); ++column)
+        for (std::int32_t s = 0; s < line.pattern.count; ++s)
+          line.at(column, s) = static_cast<std::uint32_t>(16 * column) + static_cast<std::uint32_t>(s);
       for (const simd::InstructionSet set : simd::all_sets())
         expect_as_plainly(set, line, {0, static_cast<std::uint32_t>(width)}, random);
     }

@@ -20,6 +20,7 @@ wire::Strip strip_of(std::uint32_t frame, std::int32_t node, std::uint32_t last)
   strip.times.dice = 0.5;
   strip.work.triangles = 10 + static_cast<std::uint64_t>(node);
   strip.work.samples = 500;
+  strip.work.lines_drawn_again = 30;
   strip.work.credits_waited = 2;
   return strip;
 }
@@ -38,6 +39,9 @@ farm::FarmReport two_nodes_two_frames() {
   report.strips = {strip_of(1, 1, 1), strip_of(0, 1, 0), strip_of(0, 1, 1), strip_of(0, 0, 1)};
   report.frames = {{1, 0, wire::FrameKind::inbetween, 0.5, 0}, {0, 0, wire::FrameKind::keyframe, 0.25, 0}};
   report.film_bytes = 4096;
+  wire::FilmSettings film{};
+  film.width = 96, film.height = 54, film.samples = 4;
+  report.node_memory = farm::share_node_memory(1 << 20, {}, film);
   report.total_seconds = 3;
   return report;
 }
@@ -58,6 +62,11 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
   EXPECT_EQ(report["host_memory"]["budget"], 1 << 30);
   EXPECT_EQ(report["host_memory"]["frames"], 6);
   EXPECT_EQ(report["host_memory"]["credits"], 4);
+  EXPECT_EQ(report["node_memory"], json({{"frames", 3 << 18},
+                                         {"still", 1 << 18},
+                                         {"still_line_bytes", 3520},
+                                         {"still_groups", 1},
+                                         {"still_lines", 54}}));
   ASSERT_EQ(report["frames"].size(), 2u);
   const json& keyframe = report["frames"][0];
   EXPECT_EQ(keyframe["frame"], 0);
@@ -68,6 +77,7 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
   EXPECT_EQ(keyframe["nodes"][0]["node"], 0);
   EXPECT_EQ(keyframe["nodes"][1]["work"]["triangles"], 11);
   EXPECT_EQ(keyframe["nodes"][1]["work"]["samples"], 500);
+  EXPECT_EQ(keyframe["nodes"][1]["work"]["lines_drawn_again"], 30);
   EXPECT_EQ(keyframe["nodes"][1]["seconds"]["dice"], 0.5);
   EXPECT_EQ(report["frames"][1]["kind"], "inbetween");
   EXPECT_EQ(report["frames"][1]["nodes"].size(), 1u);

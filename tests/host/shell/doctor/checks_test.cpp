@@ -135,6 +135,10 @@ TEST(Checks, Memory) {
   expect(State::note, "memory", "for a node's frames 64 MiB", "fewer --nodes",
          [](Facts& f) { f.limit.together = kGiB; });
   expect(State::note, "memory", "100 MiB (MARS_MEMORY)", "", [](Facts& f) { f.memory_setting = 100 * kMiB; });
+  expect(State::good, "memory", "stationary parts are kept up to 3360x1890 at 4 samples, 1712x963 at 16", "",
+         [](Facts&) {});
+  expect(State::good, "memory", "kept up to 16384x9216 at 4 samples", "",
+         [](Facts& f) { f.memory_setting = 1024 * kGiB; });
 }
 
 TEST(Checks, SharedMemory) {
