@@ -37,7 +37,7 @@ Begin with:
   mars render --help                           every option, with an example
 
 Commands:
-  mars render FILM -o DIR          render a film to PNG files
+  mars render FILM -o DIR          render a film to PNG or EXR files
   mars compile FILM -o FILM.mars   compute all its motion once
   mars info FILM                   print what a film holds
   mars preview FILM                play a film or a model in the terminal, before it is rendered

@@ -1,7 +1,6 @@
 #include "host/content/animator/read_film.h"
 
 #include <algorithm>
-#include <bit>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -258,9 +257,10 @@ modeler::Model read_film_model(const document::Element& element, const Film& fil
 }
 
 std::uint32_t read_samples(const document::Element& element) {
-  const std::uint32_t samples = document::read_count(element, 1, wire::kMostSamples);
-  if (!std::has_single_bit(samples)) element.refuse("is " + std::to_string(samples), "write 1, 2, 4, 8 or 16");
-  return samples;
+  const double number = document::read_number(element);
+  for (std::uint32_t samples = 1; samples <= wire::kMostSamples; samples *= 2)
+    if (number == samples) return samples;
+  element.refuse("is " + document::shown(number), "write 1, 2, 4, 8 or 16");
 }
 
 // How its numbers become what is shown.

@@ -14,7 +14,7 @@ namespace mars::commands {
 
 void add_render(CLI::App& app) {
   const auto options = std::make_shared<options::RenderOptions>();
-  CLI::App* command = app.add_subcommand("render", "Render a film to PNG files");
+  CLI::App* command = app.add_subcommand("render", "Render a film to PNG or EXR files");
   options::add_render_options(*command, *options, options::Program::mars);
   command->footer("Environment variables:\n" + messages::settings_text() + "\n" + options::kExitCodes);
   command->callback(
