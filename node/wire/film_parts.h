@@ -88,12 +88,10 @@ inline constexpr Reflection kLastReflection = Reflection::metallic_roughness;
 // What a reflection model does not name, it does not use.
 struct Material {
   std::array<float, 3> color;  // 0..1
-  // Ambient and diffuse light are coloured, specular light is white, each scaled by one of these. Phong's highlight is
-  // (R.V)^exponent, Blinn's (N.H)^exponent. metallic_roughness uses `ambient` of them.
-  float ambient;
-  float diffuse;
-  float specular;
-  float exponent;
+  float ambient;        // share of AmbientLight that is reflected, in the colour; by metallic_roughness mirrored too
+  float diffuse;        // share of lights, in the colour; all but metallic_roughness
+  float specular;       // strength of white highlights; likewise
+  float exponent;       // phong's highlight is (R.V)^exponent, blinn_phong's (N.H)^exponent
   std::uint32_t sides;  // 1: seen from outside only; 2: the normal turns to the eye
   Interpolation interpolation = Interpolation::phong;
   Reflection reflection = Reflection::phong;
