@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/text.h"
 #include "node/wire/film_parts.h"
 
 namespace mars::images {
@@ -130,7 +131,8 @@ Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
   try {
     return read(bytes);
   } catch (const std::exception& failure) {
-    throw Failure(std::string("not a whole EXR picture: ") + failure.what(), name, "render it again");
+    constexpr std::size_t kLongest = 200;  // it may repeat what stands in the file
+    throw Failure("not a whole EXR picture: " + document::printable(failure.what(), kLongest), name, "render it again");
   }
 }
 

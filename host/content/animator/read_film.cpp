@@ -43,7 +43,7 @@ constexpr document::Range kDegrees{-1e6, 1e6};
 // Readers of one value, as settle() and add_key() want them.
 glm::dvec3 place_of(const document::Element& element) { return document::read_vector(element); }
 glm::dvec3 angles_of(const document::Element& element) { return document::read_vector(element, kDegrees); }
-double fov_of(const document::Element& element) { return document::read_number(element, {0.01, 179}); }
+double fov_of(const document::Element& element) { return document::read_number(element, kFieldsOfView); }
 double exposure_of(const document::Element& element) { return document::read_number(element, kExposures); }
 
 void read_size(const document::Element& element, Film& film) {

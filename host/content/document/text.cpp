@@ -8,8 +8,7 @@
 namespace mars::document {
 namespace {
 
-constexpr std::size_t kLongestShown = 80;      // bytes of a name in a message
-constexpr std::size_t kLongestPrintable = 60;  // bytes of a foreign file
+constexpr std::size_t kLongestShown = 80;  // bytes of a name in a message
 
 }  // namespace
 
@@ -22,8 +21,8 @@ std::string shortened(std::string_view name) {
 
 std::string in_quotes(std::string_view name) { return "'" + shortened(name) + "'"; }
 
-std::string printable(std::string_view bytes) {
-  std::string text(bytes.substr(0, kLongestPrintable));
+std::string printable(std::string_view bytes, std::size_t longest) {
+  std::string text(bytes.substr(0, longest));
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
   return text;

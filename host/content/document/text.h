@@ -18,7 +18,7 @@ std::string shortened(std::string_view name);
 std::string in_quotes(std::string_view name);
 
 // The beginning of a foreign file's bytes; '?' stands for those that are not printable ASCII.
-std::string printable(std::string_view bytes);
+std::string printable(std::string_view bytes, std::size_t longest = 60);
 
 // "hip, knee, ankle".
 template <typename Texts>

@@ -36,6 +36,9 @@ std::uint32_t checked_samples(std::uint32_t samples, const std::string& source) 
   return samples;
 }
 
+// Between keys a number may swing beyond what keys may give.
+double within(const document::Range& range, double number) { return std::clamp(number, range.lowest, range.highest); }
+
 class Compiler {
  public:
   Compiler(const animator::Film& film, const CompileOptions& options) : film_(film), options_(options) {}
@@ -87,12 +90,12 @@ class Compiler {
     wire::Camera camera;
     for (int row = 0; row < 3; ++row)
       camera.world_to_eye.m[row] = {axes[row].x, axes[row].y, axes[row].z, -glm::dot(axes[row], eye)};
-    const double half = animator::value_at(motion.fov, frame) * (std::numbers::pi / 360);
+    const double half =
+        within(animator::kFieldsOfView, animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
     camera.focal = std::cos(half) / std::sin(half);
     camera.near = motion.near;
     camera.far = motion.far;
-    camera.exposure = std::exp2(std::clamp(animator::value_at(motion.exposure, frame), animator::kExposures.lowest,
-                                           animator::kExposures.highest));
+    camera.exposure = std::exp2(within(animator::kExposures, animator::value_at(motion.exposure, frame)));
     return camera;
   }
 

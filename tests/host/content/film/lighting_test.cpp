@@ -199,6 +199,12 @@ TEST(Lighting, OvershootStaysWithinWhatNodesTake) {
           R"(}, {"frame": 11, "roughness": 1, "refraction": 100}])"));
   EXPECT_NO_THROW(wire::FilmView(film.block(), "f"));
   EXPECT_GT(film.view().lights().size(), 5u) << "it swings";
+  const CompiledFilm zoom =
+      compiled(R"({"frames": 12, "models": {}, "actors": [], "camera": {"eye": [0, -9, 0], "keys": [
+      {"frame": 0, "fov": 1, )" +
+               swing + R"(}, {"frame": 11, "fov": 170}]}})");
+  EXPECT_NO_THROW(wire::FilmView(zoom.block(), "f"));
+  EXPECT_GT(zoom.view().cameras().size(), 3u) << "it swings";
 }
 
 std::string exposed_film(const std::string& cutting) {
