@@ -93,10 +93,15 @@ void emit(const shape::Vertices& v, const shape::Triangles& triangles, const sha
     const auto number = static_cast<std::uint32_t>(space.next - space.first);
     const auto last_row = static_cast<std::uint32_t>(c.last_row[lane]);
     auto line = static_cast<std::uint32_t>(c.first_line[lane]);
-    for (auto row = static_cast<std::uint32_t>(c.first_row[lane]); row < last_row; ++line) {
-      const std::uint32_t end = (row | last_sample) + 1;
-      emit_line(c, lane, {row, end < last_row ? end : last_row}, {number, line, last_sample, identity.moving}, space);
-      row = end;
+    if (last_sample == 0) {
+      for (auto row = static_cast<std::uint32_t>(c.first_row[lane]); row < last_row; ++row, ++line)
+        emit_line(c, lane, {row, row + 1}, {number, line, 0, identity.moving}, space);
+    } else {
+      for (auto row = static_cast<std::uint32_t>(c.first_row[lane]); row < last_row; ++line) {
+        const std::uint32_t end = (row | last_sample) + 1;
+        emit_line(c, lane, {row, end < last_row ? end : last_row}, {number, line, last_sample, identity.moving}, space);
+        row = end;
+      }
     }
     if (space.last_box == before) continue;
     const std::uint32_t k = batch.first + lane;

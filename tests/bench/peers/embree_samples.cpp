@@ -102,7 +102,7 @@ SamplePainter::SamplePainter(Canvas& canvas, bool keeps, const shape::SamplePatt
   block_width_ = pixels >= 8 ? 4 : pixels >= 2 ? 2 : 1;
   block_height_ = pixels / block_width_;
   for (int k = 0; k < kPacket; ++k) {
-    const int pixel = k / samples_, sample = k % samples_;
+    const int pixel = k / samples_, sample = pattern.by_distance[k % samples_];
     column_[k] = pixel % block_width_, line_[k] = pixel / block_width_;
     x_[k] = static_cast<float>(column_[k]) + static_cast<float>(pattern.x[sample]) / 256;
     y_[k] = static_cast<float>(line_[k]) + static_cast<float>(pattern.y[sample]) / 256;
