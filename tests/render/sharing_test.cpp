@@ -88,13 +88,18 @@ void PrintTo(const Nodes& n, std::ostream* out) {
   *out << n.count << " nodes, " << n.each << " a machine, " << n.groups << " groups";
 }
 
-void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = wire::kStrip,
-         std::uint64_t memory = 256 << 20) {
-  messages::Machines machines(nodes.each);
+RunOptions options_of(const Nodes& nodes, std::uint64_t memory) {
   RunOptions options;
   options.nodes = nodes.count;
   options.work.groups = nodes.groups;
   options.memory = memory;
+  return options;
+}
+
+void run(const wire::FilmData& data, const Nodes& nodes, SharedRun& out, int slow = -1, long slow_type = wire::kStrip,
+         std::uint64_t memory = 256 << 20) {
+  messages::Machines machines(nodes.each);
+  RunOptions options = options_of(nodes, memory);
   options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<SlowNode>(inner, out.counts, machines, slow, slow_type);
   };
@@ -217,10 +222,7 @@ std::uint64_t lines_drawn_again(const SharedRun& run) {
 void run_with(std::uint64_t still, const wire::FilmData& data, const Nodes& nodes, SharedRun& out,
               std::uint64_t memory = 256 << 20) {
   messages::Machines machines(nodes.each);
-  RunOptions options;
-  options.nodes = nodes.count;
-  options.work.groups = nodes.groups;
-  options.memory = memory;
+  RunOptions options = options_of(nodes, memory);
   options.farm.still_memory = still;
   options.wrap = [&](messages::Backend& inner) {
     return std::make_unique<messages::MachinesBackend>(inner, out.counts, machines);

@@ -72,29 +72,18 @@ inline void store16(const Ints* level, std::uint32_t at, void* pixels) {
   hn::StoreInterleaved2(red_and_green, level[2], kInts, static_cast<std::int32_t*>(pixels) + 2 * at);
 }
 
-template <wire::ColorSpace kSpace>
-void encode8(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
+// `kWide`: levels of 16 bits, else of 8.
+template <wire::ColorSpace kSpace, bool kWide>
+void encode_levels(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
+  constexpr float kMost = kWide ? 65535.0f : 255.0f, kSteps = kWide ? kSteps16 : kSteps8;
   for (std::uint32_t k = 0; k < count; k += kLanes) {
     Floats color[3];
     load(light, k, color);
     show<kSpace>(encoding, color);
     Ints level[3];
-    for (int c = 0; c < 3; ++c) level[c] = place<kSpace>(color[c], 255.0f, kSteps8);
-    if constexpr (kSpace == wire::ColorSpace::linear) look_up(encoding.srgb8, level);
-    store8(level, k, pixels);
-  }
-}
-
-template <wire::ColorSpace kSpace>
-void encode16(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
-  for (std::uint32_t k = 0; k < count; k += kLanes) {
-    Floats color[3];
-    load(light, k, color);
-    show<kSpace>(encoding, color);
-    Ints level[3];
-    for (int c = 0; c < 3; ++c) level[c] = place<kSpace>(color[c], 65535.0f, kSteps16);
-    if constexpr (kSpace == wire::ColorSpace::linear) look_up(encoding.srgb16, level);
-    store16(level, k, pixels);
+    for (int c = 0; c < 3; ++c) level[c] = place<kSpace>(color[c], kMost, kSteps);
+    if constexpr (kSpace == wire::ColorSpace::linear) look_up(kWide ? encoding.srgb16 : encoding.srgb8, level);
+    (kWide ? store16 : store8)(level, k, pixels);
   }
 }
 
@@ -122,11 +111,11 @@ inline void encode_halves(const float* const* light, std::uint32_t count, void* 
 inline void encode_planes(const Encoding& encoding, const float* const* light, std::uint32_t count, void* pixels) {
   using wire::ColorSpace, wire::PixelFormat;
   const bool linear = encoding.space == ColorSpace::linear;
+  const auto encode8 = linear ? encode_levels<ColorSpace::linear, false> : encode_levels<ColorSpace::coded, false>;
+  const auto encode16 = linear ? encode_levels<ColorSpace::linear, true> : encode_levels<ColorSpace::coded, true>;
   switch (encoding.format) {
-    case PixelFormat::rgb8:
-      return (linear ? encode8<ColorSpace::linear> : encode8<ColorSpace::coded>)(encoding, light, count, pixels);
-    case PixelFormat::rgb16:
-      return (linear ? encode16<ColorSpace::linear> : encode16<ColorSpace::coded>)(encoding, light, count, pixels);
+    case PixelFormat::rgb8: return encode8(encoding, light, count, pixels);
+    case PixelFormat::rgb16: return encode16(encoding, light, count, pixels);
     case PixelFormat::half: return encode_halves(light, count, pixels);
   }
 }
