@@ -1,0 +1,49 @@
+// Folders of frames for tests: small films, each frame of one colour.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/render/sinks/frame_folder.h"
+
+namespace mars::sinks {
+
+inline Manifest small_manifest() {
+  return {"a film.json", std::string(32, 'a'), 6, 4, images::PictureFormat::png, 24, 12, {0, 1, 2, 5, 11}, {}};
+}
+
+inline Manifest in_format(images::PictureFormat format) {
+  Manifest manifest = small_manifest();
+  manifest.format = format;
+  return manifest;
+}
+
+inline Manifest of_frames(std::vector<std::uint32_t> frames) {
+  Manifest manifest = small_manifest();
+  manifest.frames = std::move(frames);
+  return manifest;
+}
+
+// Each frame of one colour.
+inline void put_frames(FrameFolder& folder, const Manifest& manifest, std::uint32_t color) {
+  FileSink sink(folder);
+  compositor::Frame frame(manifest.width, manifest.height, 16, 0, images::facts_of(manifest.format).pixels);
+  for (const std::uint32_t number : manifest.frames) {
+    frame.number = number;
+    std::fill(frame.pixels.begin(), frame.pixels.end(), color + number);
+    sink.take(frame);
+  }
+}
+
+// A folder with all its frames.
+inline void fill(const std::filesystem::path& path, const Manifest& manifest, std::uint32_t color) {
+  FrameFolder folder(path, manifest);
+  put_frames(folder, manifest, color);
+  folder.finish();
+}
+
+}  // namespace mars::sinks
