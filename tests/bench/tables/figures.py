@@ -1,6 +1,8 @@
 """Figures of 1992's size: models whose segments have a wanted number of polygons each.
 
 A `limb` is what makes a shape of a segment: limbs.mesh or limbs.patches."""
+import math
+
 import limbs
 
 PHONG = {"ambient": 0.10, "diffuse": 0.65, "specular": 0.45, "exponent": 32}
@@ -78,3 +80,33 @@ def of_meshes(parts, polygons):
 def of_patches(parts):
     """A model of `parts`, each of limbs.PATCHES patches."""
     return {"shapes": {"limb": limbs.patches()}, "joints": [joint(*part, "limb") for part in parts]}
+
+
+def turned(point, angle):
+    """About the y axis, by degrees."""
+    sine, cosine = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+    x, y, z = point
+    return [cosine * x + sine * z, y, cosine * z - sine * x]
+
+
+def standing_patches(parts, pose):
+    """All patches of a figure of patches in `pose`, in the world, in its segments' order."""
+    by_name = {part[0]: part for part in parts}
+
+    def to_world(name, point):
+        _, parent, place, _, _ = by_name[name]
+        moved = [a + b for a, b in zip(place, turned(point, pose.get(name, [0, 0, 0])[1]))]
+        return to_world(parent, moved) if parent else moved
+
+    def in_box(box, point):
+        return [low + x * size for low, x, size in zip(box[0], point, segment_size(box))]
+    unit = limbs.patches()
+    return [[to_world(name, in_box(box, point)) for point in patch] for name, _, _, box, _ in parts for patch in unit]
+
+
+def as_one_segment(patches):
+    """A model of one segment with these patches."""
+    points = [point for patch in patches for point in patch]
+    low, high = ([pick(p[axis] for p in points) for axis in range(3)] for pick in (min, max))
+    unit = [[[round((x - a) / (b - a), 7) for x, a, b in zip(point, low, high)] for point in patch] for patch in patches]
+    return {"shapes": {"all": unit}, "joints": [joint("all", None, [0, 0, 0], [low, high], "cloth", "all")]}

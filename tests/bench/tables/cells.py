@@ -1,0 +1,79 @@
+"""Cells of 1992's tables from any source: the thesis, this machine, simulations.
+
+A file of results has objects
+  {"table": "4.1", "source": "thesis", "cells": [{"row": 1300, "kind": "keyframe", "nodes": 2, "ms": 2449}, ...]},
+alone or in a list. row: polygons that move (4.1, 4.2), all polygons (4.3) or the film's number (4.4); kind: keyframe, or
+inbetween: milliseconds a frame at the nodes' throughput."""
+import json
+import os
+import statistics
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+THESIS = os.path.join(HERE, "thesis.json")
+TITLES = {"4.1": "3900 polygons in 3 segments", "4.2": "10,400 polygons in 8 segments",
+          "4.3": "keyframes of different sizes", "4.4": "27,664 polygons, 2 segments moving, differently aligned"}
+ROWS = {"4.1": "moving polygons", "4.2": "moving polygons", "4.3": "polygons", "4.4": "film"}
+KINDS = {"4.1": ["keyframe", "inbetween"], "4.2": ["keyframe", "inbetween"], "4.3": ["keyframe"], "4.4": ["keyframe"]}
+
+
+class Trouble(Exception):
+    """Something that ends the benchmark; its text is for a person."""
+
+
+def load(path):
+    """The objects of a file, in a list."""
+    try:
+        with open(path) as file:
+            found = json.load(file)
+    except (OSError, json.JSONDecodeError) as error:
+        raise Trouble(f"{path}: cannot be read: {error}") from error
+    found = found if isinstance(found, list) else [found]
+    for number, part in enumerate(found):
+        if part.get("table") not in TITLES or not {"source", "cells"} <= part.keys():
+            raise Trouble(f"{path}: object {number} needs a table of {', '.join(TITLES)}, a source and cells")
+    return found
+
+
+def text_of(parts):
+    """As a file, a cell on each line."""
+    def part_text(part):
+        rest = {key: value for key, value in part.items() if key != "cells"}
+        rows = ",\n".join("   " + json.dumps(cell) for cell in part["cells"])
+        return f'{json.dumps(rest)[:-1]}, "cells": [\n{rows}\n ]}}'
+    return "[\n " + ",\n ".join(map(part_text, parts)) + "\n]\n"
+
+
+class Cells:
+    """All sources of one table; the thesis first, the others in their files' order."""
+
+    def __init__(self, table, parts):
+        self.table = table
+        self.sources = {"thesis": {}}
+        for part in parts:
+            if part["table"] == table:
+                of = self.sources.setdefault(part["source"], {})
+                of |= {(cell["row"], cell["kind"], cell["nodes"]): cell["ms"] for cell in part["cells"]}
+
+    def ms(self, source, row, kind, nodes):
+        return self.sources[source].get((row, kind, nodes))
+
+    def rows(self, kind):
+        return sorted({row for of in self.sources.values() for row, k, _ in of if k == kind})
+
+    def nodes(self, kind):
+        return sorted({nodes for of in self.sources.values() for _, k, nodes in of if k == kind})
+
+    def best_nodes(self, source, row, kind):
+        """The number of nodes that takes least; None if it has no cell there."""
+        of = {nodes: ms for (r, k, nodes), ms in self.sources[source].items() if (r, k) == (row, kind)}
+        return min(of, key=of.get) if of else None
+
+    def deviations(self, source, kind):
+        """(source - thesis) / thesis of each cell that both have, by row and nodes."""
+        thesis = self.sources["thesis"]
+        return {(row, nodes): ms / thesis[row, kind, nodes] - 1
+                for (row, k, nodes), ms in self.sources[source].items() if k == kind and (row, k, nodes) in thesis}
+
+    def median_error(self, source, kind):
+        errors = [abs(deviation) for deviation in self.deviations(source, kind).values()]
+        return statistics.median(errors) if errors else None

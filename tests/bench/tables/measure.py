@@ -1,0 +1,56 @@
+"""The cells of 1992's tables on this machine."""
+import os
+import statistics
+
+import cells
+import runs
+import scenes
+
+BEST, MEDIAN, BUSY = "here, best", "here, median", "here, own work"
+
+
+def film_name(table, row):
+    return f"{table}-{row}"
+
+
+def rows_of(table):
+    thesis = next(part for part in cells.load(cells.THESIS) if part["table"] == table)
+    return sorted({cell["row"] for cell in thesis["cells"]})
+
+
+class Table:
+    """Measures one table, a round at a time, so that rounds of all cells interleave."""
+
+    def __init__(self, table, machine, films, nodes, rows=None):
+        self.table, self.machine, self.films, self.nodes = table, machine, films, nodes
+        self.rows = rows or rows_of(table)
+        self.found = {}  # by row, kind and nodes: lists of milliseconds on the wall, and of own work
+
+    def measure_round(self):
+        for row in self.rows:
+            for nodes in self.nodes:
+                self.measure(row, nodes)
+
+    def measure(self, row, nodes):
+        frames = self.machine.render(os.path.join(self.films, film_name(self.table, row) + ".json"), nodes)
+        self.add((row, "keyframe", nodes), runs.wall_of_keyframes(frames), runs.busy_of_keyframe(frames))
+        if "inbetween" in cells.KINDS[self.table]:
+            self.add((row, "inbetween", nodes), runs.wall_of_inbetweens(frames), runs.busy_of_inbetweens(frames, nodes))
+
+    def add(self, key, walls, busy):
+        all_walls, all_busy = self.found.setdefault(key, ([], []))
+        all_walls += walls
+        all_busy.append(busy)
+
+    def sources(self):
+        """As a file of results has them."""
+        def part(source, value):
+            found = [{"row": row, "kind": kind, "nodes": nodes, "ms": round(value(*lists), 4)}
+                     for (row, kind, nodes), lists in sorted(self.found.items())]
+            return {"table": self.table, "source": source, "cells": found}
+        return [part(BEST, lambda walls, busy: min(walls)), part(MEDIAN, lambda walls, busy: statistics.median(walls)),
+                part(BUSY, lambda walls, busy: min(busy))]
+
+
+def write_films(folder, intervals, inbetweens=32):
+    scenes.write(scenes.all_films(scenes.Cut(intervals, inbetweens)), folder)

@@ -1,0 +1,94 @@
+"""The tables as Markdown and as one HTML page, from the cells of any number of sources."""
+import html
+
+import cells
+
+PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
+STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
+table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem;text-align:right;border-bottom:1px solid #ddd}
+td:first-child,th:first-child,.name{text-align:left}tr.first td{border-top:2px solid #999}small{color:#777}
+figure{margin:1rem 0}svg{max-width:100%;height:auto}"""
+
+
+def number(value):
+    """Three digits or all before the point; words as they are."""
+    if value is None:
+        return ""
+    if isinstance(value, (str, int)):
+        return str(value)
+    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.1f}" if abs(value) >= 10 else \
+        f"{value:.2f}" if abs(value) >= 0.1 else f"{value:.3f}"
+
+
+def cell_text(table, source, row, kind, nodes):
+    ms = table.ms(source, row, kind, nodes)
+    missed = table.deviations(source, kind).get((row, nodes)) if source.startswith(PREDICTS) else None
+    return number(ms) + (f" ({100 * missed:+.0f} %)" if missed is not None else "")
+
+
+def sheet_of(table, kind):
+    """A table of the thesis with a line for each row and source."""
+    nodes = table.nodes(kind)
+    rows = []
+    for row in table.rows(kind):
+        sources = [source for source in table.sources if table.best_nodes(source, row, kind)]
+        for place, source in enumerate(sources):
+            rows.append([row if place == 0 else "", source] + [cell_text(table, source, row, kind, n) for n in nodes] +
+                        [table.best_nodes(source, row, kind)])
+    return {"title": f"Table {table.table}: {cells.TITLES[table.table]}; {kind}s, ms a frame", "note": summary(table, kind),
+            "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows}
+
+
+def summary(table, kind):
+    """One sentence for each source beside the thesis."""
+    said = []
+    for source in table.sources:
+        deviations = table.deviations(source, kind)
+        if source == "thesis" or not deviations:
+            continue
+        if source.startswith(PREDICTS):
+            (row, nodes), worst = max(deviations.items(), key=lambda item: abs(item[1]))
+            said.append(f"{source}: median error {100 * table.median_error(source, kind):.0f} %, at most "
+                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}).")
+        else:
+            factors = sorted(1 / (1 + deviation) for deviation in deviations.values())
+            said.append(f"{source}: {number(factors[0])} to {number(factors[-1])} times as fast as the thesis.")
+    return " ".join(said)
+
+
+def sheets_of(parts):
+    """All tables that any source but the thesis has."""
+    wanted = [table for table in cells.TITLES if any(part["table"] == table and part["source"] != "thesis"
+                                                     for part in parts)]
+    return [sheet_of(cells.Cells(table, parts), kind) for table in wanted for kind in cells.KINDS[table]]
+
+
+def parameters_of(parts):
+    """What simulations were fitted with, once for each source."""
+    rows = {(part["source"], name): value for part in parts for name, value in part.get("parameters", {}).items()}
+    return [{"title": "Parameters", "note": "", "header": ["source", "parameter", "value"],
+             "rows": [[source, name, value if isinstance(value, (int, float)) else str(value)]
+                      for (source, name), value in rows.items()]}] if rows else []
+
+
+def markdown(intro, sheets, pictures):
+    """`pictures`: title and file name of each."""
+    text = intro + "\n\n" + "".join(f"![{title}]({file})\n\n" for title, file in pictures)
+    for sheet in sheets:
+        lines = ["| " + " | ".join(number(value) for value in row) + " |" for row in [sheet["header"], *sheet["rows"]]]
+        lines.insert(1, "|" + "--:|" * len(sheet["header"]))
+        text += f"### {sheet['title']}\n\n" + (sheet["note"] + "\n\n" if sheet["note"] else "") + "\n".join(lines) + "\n\n"
+    return text
+
+
+def page(intro, sheets, pictures):
+    """`pictures`: title and SVG of each."""
+    def row_text(row, tag):
+        first = ' class="first"' if tag == "td" and row[0] != "" else ""
+        return f"<tr{first}>" + "".join(f"<{tag}>{html.escape(number(value))}</{tag}>" for value in row) + "</tr>\n"
+    text = "".join(f"<figure>{svg}<figcaption>{html.escape(title)}</figcaption></figure>\n" for title, svg in pictures)
+    for sheet in sheets:
+        text += f"<h2>{html.escape(sheet['title'])}</h2>\n<p>{html.escape(sheet['note'])}</p>\n<table>\n"
+        text += row_text(sheet["header"], "th") + "".join(row_text(row, "td") for row in sheet["rows"]) + "</table>\n"
+    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>1992\'s tables</title>\n<style>{STYLE}</style>'
+            f"</head>\n<body>\n<h1>1992's tables</h1>\n<p>{html.escape(intro)}</p>\n{text}</body></html>\n")

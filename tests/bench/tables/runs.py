@@ -1,0 +1,84 @@
+"""Films rendered here, and what the reports say of their frames."""
+import json
+import os
+import statistics
+import subprocess
+
+from cells import Trouble
+
+ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+WORK = ["dice", "map", "fill", "scanline"]           # phases in which a node waits for nobody
+WARM_UP = 1                                          # intervals at a run's beginning that do not count
+
+
+class Machine:
+    """Renders films with this build. `folder`: for its reports."""
+
+    def __init__(self, build, backend, folder):
+        self.mars = os.path.join(build, "bin", "mars")
+        self.backend, self.folder = backend, folder
+
+    def render(self, film, nodes, *options):
+        """The report's frames."""
+        report = os.path.join(self.folder, "report.json")
+        words = [self.mars, "render", film, "--backend", self.backend, "--nodes", str(nodes), "--groups", "1",
+                 "--sink", "none", "--quiet", "--report", report, *options]
+        done = subprocess.run(words, env={**os.environ, **ROOT}, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise Trouble(done.stderr.strip())
+        with open(report) as file:
+            return json.load(file)["frames"]
+
+
+def keyframes(frames):
+    return [frame for frame in frames if frame["kind"] == "keyframe" and frame["interval"] >= WARM_UP]
+
+
+def inbetweens(frames):
+    return [frame for frame in frames if frame["kind"] == "inbetween" and frame["interval"] >= WARM_UP]
+
+
+def wall_of_keyframes(frames):
+    """Milliseconds of each: from when the last node began it until all were through. All phases of that node count: the
+    others waited for it longer."""
+    return [1000 * min(sum(node["seconds"].values()) for node in frame["nodes"]) for frame in keyframes(frames)]
+
+
+def wall_of_inbetweens(frames):
+    """Milliseconds a frame, of each interval: from the keyframe's arrival at the host to the last inbetween's."""
+    begins = {frame["interval"]: frame["seconds"] for frame in keyframes(frames)}
+    arrivals = {}
+    for frame in inbetweens(frames):
+        arrivals.setdefault(frame["interval"], []).append(frame["seconds"])
+    return [1000 * (max(of) - begins[interval]) / len(of) for interval, of in arrivals.items()]
+
+
+def working(node, phases):
+    return sum(node["seconds"][phase] for phase in phases)
+
+
+def least_by_node(frames, phases):
+    """Milliseconds of each node in these phases, the least over the keyframes: the system may have stopped it in others."""
+    least = {}
+    for frame in frames:
+        for node in frame["nodes"]:
+            least[node["node"]] = min(least.get(node["node"], 1e9), 1000 * working(node, phases))
+    return list(least.values())
+
+
+def busy_of_keyframe(frames):
+    """Milliseconds if each node had a core to itself and messages took no time: the slowest node's making of triangles,
+    then the slowest one's scanlines."""
+    own = keyframes(frames)
+    return max(least_by_node(own, ["dice"])) + max(least_by_node(own, ["map", "fill", "scanline"]))
+
+
+def busy_of_inbetweens(frames, nodes):
+    """Milliseconds a frame if each node had a core to itself."""
+    return statistics.median(1000 * working(frame["nodes"][0], WORK) for frame in inbetweens(frames)) / nodes
+
+
+def load_ratio(frame, count):
+    """Greatest over average of `count`(node) over the nodes."""
+    loads = [count(node) for node in frame["nodes"]]
+    return max(loads) * len(loads) / sum(loads)
