@@ -1,0 +1,84 @@
+// The 1992 program draws what the product draws, and sends what the thesis says.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "hal/threads/run_threads.h"
+#include "tests/bench/tables/machine1992/job.h"
+#include "tests/render/film_run.h"
+#include "tests/render/films.h"
+
+namespace mars::machine1992 {
+namespace {
+
+constexpr std::uint32_t kInbetweens = 6;
+
+struct Drawn {
+  test::FilmRun run;
+  Records records;
+};
+
+Drawn draw(const test::FilmBlock& film, int nodes) {
+  Drawn drawn;
+  drawn.records = run_job(
+      {film.view(), 0, film.view().settings().frames - 1}, nodes,
+      [](int count, const auto& host, const auto& node) { threads::run_threads(count, host, node); },
+      [&](std::uint32_t frame, const auto& screen) { drawn.run.frames[frame] = screen; });
+  return drawn;
+}
+
+wire::FilmData film() { return test::crowd(193, 127, kInbetweens + 1, kInbetweens + 1); }
+
+class Machine1992 : public testing::TestWithParam<int> {};
+
+TEST_P(Machine1992, DrawsTheProductsFrames) {
+  const test::FilmBlock block(film());
+  test::expect_same(draw(block, GetParam()).run, test::run_film(block.bytes()), block.view().settings(), "machine1992");
+}
+
+TEST_P(Machine1992, DrawsTies) {
+  const test::FilmBlock block(test::ties(160, 120));
+  test::expect_same(draw(block, GetParam()).run, test::run_film(block.bytes()), block.view().settings(), "ties1992");
+}
+
+// Each node its edge boxes on others' lines, all pixels of its lines of both buffers, and its part of the CZB; of an
+// inbetween, which one node draws, one message.
+TEST_P(Machine1992, SendsWhatTheThesisSays) {
+  const test::FilmBlock block(film());
+  const Records records = draw(block, GetParam()).records;
+  const std::uint64_t pixels = 193 * 127;
+  std::uint64_t strip_bytes = 0, depth_bytes = 0, inbetweens = 0, made = 0, drawn_pixels = 0;
+  for (std::size_t node = 0; node < records.nodes.size(); ++node) {
+    const auto& frames = records.nodes[node];
+    ASSERT_FALSE(frames.empty());
+    EXPECT_TRUE(frames[0].keyframe);
+    EXPECT_EQ(frames[0].strips.size(), 2u);
+    for (const std::uint64_t bytes : frames[0].strips) strip_bytes += bytes - sizeof(StripHead);
+    depth_bytes += frames[0].depths;
+    EXPECT_EQ(frames[0].sent.size(), records.nodes.size());
+    EXPECT_EQ(frames[0].sent[node], 0u);
+    made += frames[0].lists[Work::edge_box];
+    drawn_pixels += frames[0].lines[Work::pixel];
+    for (std::size_t k = 1; k < frames.size(); ++k, ++inbetweens) {
+      EXPECT_EQ((frames[k].frame - 1) % records.nodes.size(), node);
+      EXPECT_EQ(frames[k].strips.size(), 1u);
+      EXPECT_TRUE(frames[k].sent.empty());
+    }
+  }
+  EXPECT_EQ(strip_bytes, 2 * 4 * pixels);
+  EXPECT_EQ(depth_bytes, 4 * pixels);
+  EXPECT_EQ(inbetweens, kInbetweens);
+  const Records alone = draw(block, 1).records;
+  EXPECT_EQ(made, alone.nodes[0][0].lists[Work::edge_box]);
+  EXPECT_EQ(drawn_pixels, alone.nodes[0][0].lines[Work::pixel]);
+}
+
+TEST_P(Machine1992, CountsTheSameAgain) {
+  const test::FilmBlock block(film());
+  EXPECT_EQ(draw(block, GetParam()).records, draw(block, GetParam()).records);
+}
+
+INSTANTIATE_TEST_SUITE_P(Nodes, Machine1992, testing::Values(1, 2, 3, 8));
+
+}  // namespace
+}  // namespace mars::machine1992

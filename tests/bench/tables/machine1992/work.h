@@ -1,0 +1,40 @@
+// What the 1992 program's steps are counted in, and the processor's operations that one of each takes: those of the
+// plain algorithms in single precision, written down in operations.cpp. `mars bench tables` weighs them by published
+// cycles of the 80386 and 80387.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mars::machine1992 {
+
+enum class Work : int {
+  vertex,    // to eye space with its normal, projected
+  polygon,   // its side towards the eye found
+  set_up,    // of a triangle that is drawn: its planes
+  edge_box,  // made: crossings with a scanline, put into its list
+  pass_on,   // an edge box packed, or unpacked and put into its list
+  line,      // summed and mapped
+  pixel,     // of an edge box: its depth, compared
+  shading,   // of a pixel: its normal, Phong's formula
+  clear,     // of a pixel: colour and depth
+  look,      // at a pixel: whether something was drawn there
+  copy,      // of a pixel
+};
+inline constexpr std::size_t kWorks = 11;
+
+inline constexpr std::array<const char*, kWorks> kWorkNames = {
+    "vertex", "polygon", "set_up", "edge_box", "pass_on", "line", "pixel", "shading", "clear", "look", "copy"};
+
+class WorkCounts {
+ public:
+  std::uint64_t& operator[](Work work) { return units_[static_cast<std::size_t>(work)]; }
+  std::uint64_t operator[](Work work) const { return units_[static_cast<std::size_t>(work)]; }
+  bool operator==(const WorkCounts&) const = default;
+
+ private:
+  std::array<std::uint64_t, kWorks> units_{};
+};
+
+}  // namespace mars::machine1992
