@@ -57,6 +57,7 @@ void Scanlines::draw_box(const geometry::Triangle* triangles, std::uint32_t numb
   };
   const float on_line =
       t.at_first[shape::kDepth] + static_cast<float>(place(line) - t.first_y) * t.per_y[shape::kDepth];
+  ++work[Work::span];
   work[Work::pixel] += box.last - box.first;
   for (std::uint32_t column = box.first; column < box.last; ++column) {
     const float depth = on_line + static_cast<float>(place(column) - t.first_x) * t.per_x[shape::kDepth];

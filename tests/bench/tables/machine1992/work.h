@@ -16,16 +16,17 @@ enum class Work : int {
   edge_box,  // made: crossings with a scanline, put into its list
   pass_on,   // an edge box packed, or unpacked and put into its list
   line,      // summed and mapped
+  span,      // an edge box drawn: the steps from pixel to pixel
   pixel,     // of an edge box: its depth, compared
   shading,   // of a pixel: its normal, Phong's formula
   clear,     // of a pixel: colour and depth
   look,      // at a pixel: whether something was drawn there
   copy,      // of a pixel
 };
-inline constexpr std::size_t kWorks = 11;
+inline constexpr std::size_t kWorks = 12;
 
 inline constexpr std::array<const char*, kWorks> kWorkNames = {
-    "vertex", "polygon", "set_up", "edge_box", "pass_on", "line", "pixel", "shading", "clear", "look", "copy"};
+    "vertex", "polygon", "set_up", "edge_box", "pass_on", "line", "span", "pixel", "shading", "clear", "look", "copy"};
 
 class WorkCounts {
  public:
