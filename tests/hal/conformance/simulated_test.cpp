@@ -16,7 +16,7 @@ simulated::Machine hypercube() {
 }
 
 simulated::Machine cluster() {
-  simulated::Machine machine{.nodes = 2, .processors = 2};
+  simulated::Machine machine{.nodes = 32, .processors = 2};
   machine.network = {.latency = 2e-6, .byte = 1e-10, .local_latency = 2e-7, .local_byte = 1e-10};
   return machine;
 }
@@ -24,11 +24,13 @@ simulated::Machine cluster() {
 class Simulated : public testing::TestWithParam<int> {};
 
 TEST_P(Simulated, HoldOnAHypercube) {
-  simulated::run_simulated(hypercube(), GetParam(), [](simulated::World&) { run_rules(); }, run_rules);
+  simulated::run_simulated(
+      hypercube(), GetParam(), [](simulated::World&) { run_rules(); }, run_rules);
 }
 
 TEST_P(Simulated, HoldOnACluster) {
-  simulated::run_simulated(cluster(), GetParam(), [](simulated::World&) { run_rules(); }, run_rules);
+  simulated::run_simulated(
+      cluster(), GetParam(), [](simulated::World&) { run_rules(); }, run_rules);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, Simulated, testing::Values(1, 2, 3, 4, 7, 8, 16, 32));
