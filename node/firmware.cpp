@@ -22,6 +22,8 @@
 namespace mars::node {
 namespace {
 
+constexpr std::uint64_t kFilmReplica = 0;
+
 template <std::size_t N>
 void copy_text(const std::string& text, std::array<char, N>& out) {
   out = {};
@@ -99,7 +101,7 @@ std::span<const std::byte> Firmware::receive(long type) {
 // The machine's first node receives the film into memory that all nodes of the machine share.
 void Firmware::load() {
   const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
-  film_block_.emplace(load.film_bytes);
+  film_block_.emplace(kFilmReplica, load.film_bytes);
   const auto block = film_block_->bytes();
   if (messages::neighbourhood().index == 0) receive_film(block);
   gsync();

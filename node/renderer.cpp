@@ -6,6 +6,7 @@
 
 #include "hal/failure/failure.h"
 #include "hal/nx/nx_messages.h"
+#include "node/charge.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
 
@@ -71,6 +72,8 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
   group_ = group;
   report_.begin(kind, frame, interval);
   scene_.set_frame(frame);
+  charge(wire::Work::frame, 1);
+  charge(wire::Work::segment, scene_.film().segments().size());
   Tessellation own = tessellate_all();
   group::Pass pass{0, map_to_homes(own.made)};
   for (; pass.number < pass.count; ++pass.number) {
@@ -114,8 +117,17 @@ Tessellation Renderer::tessellate() {
                                                    report_.strip().work);
   std::transform_inclusive_scan(line_loads_.begin(), line_loads_.end(), line_totals_.begin() + 1, std::plus<>(),
                                 [](const raster::LineLoad& load) { return load.boxes(); });
+  charge_tessellation(own);
   report_.clock(wire::Phase::dice);
   return own;
+}
+
+void Renderer::charge_tessellation(const Tessellation& own) const {
+  charge(wire::Work::patch, report_.strip().work.patches);
+  charge(wire::Work::vertex, report_.strip().work.vertices);
+  charge(wire::Work::triangle_tested, report_.strip().work.triangles_tested);
+  charge(wire::Work::triangle, own.made.triangles);
+  charge(wire::Work::edge_box_made, own.made.edge_boxes);
 }
 
 // Those of the pass on which an inbetween needs stationary parts; none where all are kept.
@@ -142,6 +154,7 @@ void Renderer::fill_own_lines(const raster::Polygons& own) {
   filler.add(own);
   parts_.assign(1, filler.finish());
   memory_.publish(parts_.front());
+  charge(wire::Work::edge_box_filled, line_totals_.back());
   report_.clock(wire::Phase::fill);
 }
 
@@ -158,6 +171,7 @@ std::uint32_t Renderer::map_to_homes(const group::MadeCounts& made) {
       {group_, sums_.ebc(), homes(), sums_.large(), line_loads_, made.triangles, triangles_travel()},
       memory_.frame_bytes());
   report_.strip().work.passes = passes;
+  charge(wire::Work::line_mapped, line_loads_.size());
   report_.clock(wire::Phase::map);
   return passes;
 }
@@ -195,6 +209,7 @@ void Renderer::receive_triangles(const geometry::LineRange& lines) {
     check(came > 0 && came <= left, "as many edge boxes come as EBC counts");
     left -= came;
     filler.add(others);
+    charge(wire::Work::edge_box_filled, came);
     report_.clock(wire::Phase::fill);
   }
   parts_.push_back(filler.finish());
@@ -208,11 +223,22 @@ void Renderer::draw_lines(const geometry::LineRange& lines, const group::Pass& p
     raster::StripBuffer& buffer = outbox_.begin(constant, report_.strip().work);
     report_.clock(wire::Phase::credit);
     strip = {strip.last, draw_strip({strip.last, lines.last}, shading, buffer)};
+    charge_strip(strip, buffer);
     report_.clock(wire::Phase::scanline);
     const bool drawn = strip.last == lines.last;
     if (drawn) finish_exchange(pass);
     send_strip(strip, drawn && pass.is_last());
   } while (strip.last < lines.last);
+}
+
+void Renderer::charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip) const {
+  const std::uint64_t pixels = strip.pixel_count();
+  std::uint64_t boxes = 0;
+  for (const raster::LineBoxes& part : parts_) boxes += part.count(lines);
+  charge(wire::Work::edge_box, boxes);
+  charge(wire::Work::sample, sums_.samples_on(lines));
+  charge(wire::Work::pixel, pixels);
+  charge(wire::Work::light, pixels * scene_.lights().size());
 }
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,

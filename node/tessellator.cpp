@@ -18,6 +18,7 @@ struct Tessellator::Output {
   void add(const shape::Surface& surface, const raster::PatchIdentity& identity) {
     ++work.patches;
     work.vertices += static_cast<std::uint64_t>(surface.vertex_count());
+    work.triangles_tested += surface.triangles().count;
     const shading::Coloring coloring{shading, identity.material, !(identity.one_sided && identity.mirrored),
                                      !identity.one_sided || identity.mirrored};
     switch (shading.materials[identity.material].interpolation) {
@@ -35,7 +36,7 @@ Tessellator::Tessellator(simd::InstructionSet set) : instruction_set_(set), dice
 Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter& scatter, const LineTable& lines,
                                      const TriangleSpace& space, wire::WorkCounts& work) {
   std::ranges::fill(lines.loads, raster::LineLoad());
-  work.patches = work.vertices = 0;
+  work.patches = work.vertices = work.triangles_tested = 0;
   raster::SetUps out(space.arena.rest(), space.first, scene.pattern(), lines.loads);
   out.want(lines.wanted_still);
   if (!lines.wanted_still.empty()) add(scene, false, scatter, out, work);

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -85,11 +86,17 @@ class Backend {
 
   // Since some fixed point: by the machine's clock, unless ranks live by another.
   virtual double seconds() const { return machine_seconds(); }
+  // The rank has just done so many units of work of a kind, by the program's own numbers: where ranks live by another
+  // clock, it goes on by what they cost.
+  virtual void charge(int /*kind*/, std::uint64_t /*units*/) {}
 
   // All nodes of this node's machine.
   virtual Neighbourhood neighbourhood() = 0;
   // Collective over the nodes of one machine: see SharedMemory. Of the caller alone where they cannot share memory.
   virtual std::shared_ptr<std::byte> share(std::size_t bytes) = 0;
+  // Not collective. Memory into which all ranks write the same, whatever machine they are on, named by `key`: where
+  // machines are simulated, there is one for all of them. nullptr: each machine has its own.
+  virtual std::shared_ptr<std::byte> replica(std::uint64_t /*key*/, std::size_t /*bytes*/) { return nullptr; }
   // Not collective, and of the host too: see OfferedMemory. Zeroed bytes, aligned to a page; a null block where the
   // machine does not give them.
   virtual Offer offer(std::size_t bytes) = 0;

@@ -29,6 +29,8 @@ Process& process() {
 
 double seconds() { return bound_process == nullptr ? machine_seconds() : bound_process->backend().seconds(); }
 
+void charge(int kind, std::uint64_t units) { process().backend().charge(kind, units); }
+
 const Traffic& traffic() { return process().traffic(); }
 
 Process::Process(Backend& backend) : Progress(backend) {

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -116,6 +117,9 @@ void find_process_by(FindProcess find);
 
 // By the clock of the calling thread's process; the machine's where it has none.
 double seconds();
+
+// The calling process has done so many units of work of a kind (Backend::charge).
+void charge(int kind, std::uint64_t units);
 
 // The messages that the calling process has sent so far.
 const Traffic& traffic();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -24,6 +25,8 @@ Neighbourhood machine_neighbourhood();
 class SharedMemory {
  public:
   explicit SharedMemory(std::size_t bytes);
+  // A replica where there are such.
+  SharedMemory(std::uint64_t key, std::size_t bytes);
 
   std::span<std::byte> bytes() const { return {block_.get(), size_}; }
 
@@ -34,5 +37,9 @@ class SharedMemory {
   std::shared_ptr<std::byte> block_;
   std::size_t size_;
 };
+
+// Memory into which all ranks write the same, whatever machine they are on: one for all of them where machines are
+// simulated, else nullptr. Not collective.
+std::shared_ptr<std::byte> replica(std::uint64_t key, std::size_t bytes);
 
 }  // namespace mars::messages

@@ -25,7 +25,8 @@ std::size_t bytes_of_part(std::size_t neighbours, std::uint64_t bytes) {
 FrameMemory::FrameMemory(const raster::Neighbours& neighbours, std::uint64_t bytes)
     : nodes_(neighbours.nodes()), frame_bytes_(bytes_of_part(neighbours.most(), bytes)) {
   try {
-    shared_.emplace(neighbours, neighbours.most() * kParts * frame_bytes_, frame_bytes_);
+    shared_.emplace(neighbours, neighbours.most() * kParts * frame_bytes_, frame_bytes_,
+                    raster::NeighboursMemory::Contents::own);
     shared_->prefer_large_pages();
     block_ = shared_->bytes();
   } catch (const Failure& failure) {

@@ -13,6 +13,7 @@ Neighbours::Neighbours(std::span<const std::int32_t> machines, int groups) {
   std::vector<std::size_t> counts(machines.size());  // of a head's neighbours
   for (int number = 0; number < groups; ++number) {
     const collectives::Group group = collectives::group_of(nodes, groups, number);
+    if (self >= group.first) group_ = static_cast<std::uint64_t>(group.first);
     for (int node = group.first; node < group.first + group.count; ++node) {
       int head = group.first;
       while (machine(head) != machine(node)) ++head;
@@ -28,7 +29,14 @@ Neighbours::Neighbours(std::span<const std::int32_t> machines, int groups) {
     if (are(node, self)) nodes_.push_back(node);
 }
 
-NeighboursMemory::NeighboursMemory(const Neighbours& neighbours, std::size_t bytes, std::size_t alone) {
+NeighboursMemory::NeighboursMemory(const Neighbours& neighbours, std::size_t bytes, std::size_t alone,
+                                   Contents contents) {
+  if (contents == Contents::same)
+    replica_ = messages::replica(Neighbours::kFirstReplica + neighbours.group_, std::max(bytes, alone));
+  if (replica_ != nullptr) {
+    block_ = {replica_.get(), neighbours.nodes().size() > 1 ? bytes : alone};
+    return;
+  }
   if (neighbours.shared_blocks_ > 0) shared_.emplace(neighbours.shared_blocks_ * bytes);
   if (neighbours.nodes().size() > 1) {
     block_ = shared_->bytes().subspan(neighbours.own_block_ * bytes, bytes);
@@ -39,6 +47,7 @@ NeighboursMemory::NeighboursMemory(const Neighbours& neighbours, std::size_t byt
 }
 
 void NeighboursMemory::prefer_large_pages() {
+  if (replica_ != nullptr) return;
   if (own_.bytes().empty())
     shared_->prefer_large_pages();
   else

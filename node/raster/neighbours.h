@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,26 +29,33 @@ class Neighbours {
  private:
   friend class NeighboursMemory;
 
+  static constexpr std::uint64_t kFirstReplica = 1;
+
   std::vector<int> heads_;  // by node
   std::vector<int> nodes_;
   std::size_t most_ = 0;
   std::size_t shared_blocks_ = 0;  // of the caller's machine: groups with several nodes there
   std::size_t own_block_ = 0;      // the caller's group's number among them
+  std::uint64_t group_ = 0;        // the caller's group's first node
 };
 
 // Memory that a group's nodes on a machine share; of a node that is alone there, its own.
 class NeighboursMemory {
  public:
+  // What all machines of a group have the same, or each its own.
+  enum class Contents { own, same };
+
   // `bytes` for each group with several nodes here, `alone` for a node that is alone. The machine gives pages as they
   // are first touched. Collective over a machine's nodes, all of which it throws Failure on where the machine does not
   // let them share that much.
-  NeighboursMemory(const Neighbours& neighbours, std::size_t bytes, std::size_t alone);
+  NeighboursMemory(const Neighbours& neighbours, std::size_t bytes, std::size_t alone, Contents contents);
 
   std::span<std::byte> bytes() const { return block_; }
   // As PrivateMemory's.
   void prefer_large_pages();
 
  private:
+  std::shared_ptr<std::byte> replica_;            // of simulated machines that have the same
   std::optional<messages::SharedMemory> shared_;  // all that nodes of this machine share
   messages::PrivateMemory own_;
   std::span<std::byte> block_;

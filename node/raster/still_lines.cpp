@@ -22,7 +22,7 @@ StillLines::StillLines(const Neighbours& neighbours, std::uint32_t width, std::u
               wire::plan_still_lines(width, height, static_cast<std::uint32_t>(pattern.count),
                                      bytes_a_node * neighbours.most())
                   .bytes(),
-              plan_.bytes()) {
+              plan_.bytes(), NeighboursMemory::Contents::same) {
   static_assert(sizeof(Head) == wire::kStillHeadBytes);
 }
 

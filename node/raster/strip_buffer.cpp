@@ -68,7 +68,7 @@ std::uint32_t StripBuffer::lines_that_fit() const {
 std::span<const std::byte> StripBuffer::finish(wire::Strip& header) {
   header.constant_runs = static_cast<std::uint32_t>(constant_.runs().size());
   header.moving_runs = static_cast<std::uint32_t>(moving_.runs().size());
-  header.pixels = constant_.pixel_count() + moving_.pixel_count();
+  header.pixels = pixel_count();
   std::byte* end = slot_ + sizeof header;
   end = put(moving_.pixels(), put(constant_.pixels(), end));
   end = put(moving_.runs(), put(constant_.runs(), end));

@@ -48,6 +48,7 @@ class StripBuffer {
   // How many more lines surely fit, whatever they show, a few at most; 0: the strip is full.
   std::uint32_t lines_that_fit() const;
 
+  std::size_t pixel_count() const { return constant_.pixel_count() + moving_.pixel_count(); }
   Layer& constant() { return constant_; }
   Layer& moving() { return moving_; }
 

@@ -142,7 +142,8 @@ enum class Phase : std::int32_t { dice, sum, map, exchange, fill, scanline, dept
 struct WorkCounts {
   std::uint64_t patches;  // diced, and meshlets
   std::uint64_t vertices;
-  std::uint64_t triangles;          // made from its own patches, touching a sample
+  std::uint64_t triangles_tested;   // of these surfaces
+  std::uint64_t triangles;          // of these, touching a sample
   std::uint64_t edge_boxes_diced;   // of those triangles
   std::uint64_t edge_boxes;         // drawn on its own lines
   std::uint64_t samples;            // that these cover

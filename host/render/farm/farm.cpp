@@ -5,15 +5,19 @@
 #include <optional>
 #include <unordered_map>
 
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "host/render/farm/film_loading.h"
 #include "host/render/farm/group_work.h"
 #include "host/render/farm/node_inbox.h"
 #include "host/render/farm/tracing.h"
 #include "node/color/encoding.h"
+#include "node/wire/work.h"
 
 namespace mars::farm {
 namespace {
+
+void charge(wire::Work kind, std::uint64_t units) { messages::charge(static_cast<int>(kind), units); }
 
 constexpr std::size_t kTasksAhead = 2;  // given to a group at a time, so that it never waits for the host
 
@@ -189,6 +193,8 @@ void Farm::receive_strip() {
   ScopedSpan span(trace::HostSpan::strip);
   StripMessage strip = inbox_.receive_strip(store_);
   const wire::Strip& header = strip.header();
+  charge(wire::Work::host_strip, 1);
+  charge(wire::Work::host_byte, header.pixels * wire::pixel_bytes(sinks_.shape().format));
   span.set_value(header.frame);
   const auto wanting =
       std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.wants(header); });
@@ -226,6 +232,7 @@ void Farm::submit(const GroupWork::Composed& composed) {
   const FinishedFrame finished{frame.number, composed.interval, frame.kind, dclock() - start_, composed.given};
   if (options_.each_frame) report_.frames.push_back(finished);
   with_sinks_[frame.number] = {finished, frame.held};
+  charge(wire::Work::host_frame, 1);
   sinks_.submit(frame.whole);
   --frames_left_;
 }

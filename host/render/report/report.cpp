@@ -49,6 +49,7 @@ ordered_json seconds_json(const wire::PhaseTimes& times) {
 ordered_json work_json(const wire::WorkCounts& work) {
   return {{"patches", work.patches},
           {"vertices", work.vertices},
+          {"triangles_tested", work.triangles_tested},
           {"triangles", work.triangles},
           {"edge_boxes_diced", work.edge_boxes_diced},
           {"edge_boxes", work.edge_boxes},

@@ -76,6 +76,11 @@ sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
 }
 
+std::unique_ptr<sinks::SinkPool> make_sinks(const RenderJob& job, sinks::Sink& sink,
+                                            const sinks::SinkPool::Shape& shape) {
+  return job.make_sinks ? job.make_sinks(sink, shape) : std::make_unique<sinks::SinkPool>(sink, shape);
+}
+
 farm::FarmOptions farm_options(const RenderJob& job, const farm::HostMemory& memory, trace::Trace* trace) {
   farm::FarmOptions farm;
   farm.mapping = job.mapping;
@@ -114,8 +119,8 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   Destination destination(job, film, request.frames);
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  sinks::SinkPool pool(destination.sink(), pool_shape(machine, view, job, memory.frames));
-  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), pool,
+  const auto pool = make_sinks(job, destination.sink(), pool_shape(machine, view, job, memory.frames));
+  const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
                                                     reporter.listener(view.intervals().size()));
   destination.finish();
   if (!job.report.empty()) {

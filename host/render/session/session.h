@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "host/content/film/compile.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
+#include "host/render/sinks/sink_pool.h"
 #include "node/wire/protocol.h"
 
 namespace mars::session {
@@ -28,8 +30,10 @@ struct RenderJob {
   std::uint32_t groups = 0;            // as in PlanRequest
   std::string report;                  // file for the measurements; "": none
   std::string trace;                   // file for a picture of the run; "": none
-  std::string backend;                 // its name: mpi or threads
+  std::string backend;                 // its name: mpi, threads or simulated
   std::vector<std::string> arguments;  // all this, as it was given to the host
+  // Makes the pool of sinks; none: threads take frames.
+  std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
   // The command that renders again, all frames or one, with this number of nodes.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };

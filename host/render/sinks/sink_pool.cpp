@@ -8,10 +8,11 @@
 
 namespace mars::sinks {
 
-SinkPool::SinkPool(Sink& sink, const Shape& shape) : sink_(sink), shape_(shape) {
+SinkPool::SinkPool(Sink& sink, const Shape& shape) : SinkPool(sink, shape, NoThreads()) { start_threads(); }
+
+SinkPool::SinkPool(Sink& sink, const Shape& shape, NoThreads) : sink_(sink), shape_(shape) {
   check(shape.frames >= 1 && shape.threads >= 1, "a sink pool has a frame and a thread");
   make_frame();  // the first does not wait for fresh memory
-  start_threads();
 }
 
 // Where the machine gives fewer, these do the work.
@@ -65,6 +66,11 @@ compositor::Frame* SinkPool::take_free(std::uint64_t background, std::size_t lef
   compositor::Frame* frame = free_.back();
   free_.pop_back();
   return frame;
+}
+
+void SinkPool::give_back(compositor::Frame* frame) {
+  const std::lock_guard lock(mutex_);
+  free_.push_back(frame);
 }
 
 void SinkPool::submit(compositor::Frame* frame) {

@@ -32,7 +32,7 @@ class SinkPool {
   // `sink` must outlive the pool.
   SinkPool(Sink& sink, const Shape& shape);
   // Waits for frames that a thread has begun; those still queued are dropped.
-  ~SinkPool();
+  virtual ~SinkPool();
   SinkPool(const SinkPool&) = delete;
   SinkPool& operator=(const SinkPool&) = delete;
 
@@ -44,7 +44,7 @@ class SinkPool {
   // Likewise for a frame that is long in the making: nullptr also where that left less than half of all, or
   // none, to frames that are soon submitted.
   compositor::Frame* early_frame(std::uint64_t background = 0);
-  void submit(compositor::Frame* frame);
+  virtual void submit(compositor::Frame* frame);
   // A frame the sink has taken, and when, in seconds of dclock().
   struct Taken {
     std::uint32_t number;
@@ -54,9 +54,16 @@ class SinkPool {
     double ended;
   };
   // The frames taken since the last call.
-  std::vector<Taken> taken();
+  virtual std::vector<Taken> taken();
   // Waits until every submitted frame was taken.
-  void finish();
+  virtual void finish();
+
+ protected:
+  // Without threads: a pool that takes frames in its own way.
+  struct NoThreads {};
+  SinkPool(Sink& sink, const Shape& shape, NoThreads);
+  Sink& sink() { return sink_; }
+  void give_back(compositor::Frame* frame);
 
  private:
   void make_frame();

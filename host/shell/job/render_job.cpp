@@ -9,7 +9,9 @@ std::string replay_of(options::RenderOptions options, const std::string& backend
                       std::optional<std::uint32_t> frame) {
   if (frame) options.frames = film::FrameSet(std::to_string(*frame));
   options.nodes = nodes;
-  options.backend = backend == "mpi" ? options::Backend::mpi : options::Backend::threads;
+  options.backend = backend == "mpi"       ? options::Backend::mpi
+                    : backend == "threads" ? options::Backend::threads
+                                           : options::Backend::simulated;
   std::string command = "mars render";
   for (const std::string& argument : options::arguments_for(options::Program::mars, options)) command += " " + argument;
   return command;

@@ -129,6 +129,7 @@ Programs find_programs(const fs::path& self, const std::string& path) {
           find_ours("mars-host", self, path),
           find_ours("mars-node", self, path),
           find_ours("mars-threads", self, path),
+          find_ours("mars-simulated", self, path),
           our_mpi(),
           find_loopback(self)};
 }
@@ -208,7 +209,8 @@ std::uint32_t default_nodes(const options::RenderOptions& options, const Surroun
   if (!options.hostfile.empty()) {
     for (const Slots& slots : read_hostfile(options.hostfile)) tasks += slots.count;
   }
-  if (tasks == 0 || options.backend == options::Backend::threads) return surroundings.processors;
+  if (tasks == 0 || options.backend == options::Backend::threads || options.backend == options::Backend::simulated)
+    return surroundings.processors;
   return std::max(tasks, 2u) - 1;
 }
 
@@ -228,6 +230,9 @@ options::Backend choose_backend(options::Backend asked, const Programs& programs
   }
   if (backend == options::Backend::threads && !programs.threads) {
     throw Failure("mars-threads was not found beside mars or in the PATH", "", "build or install MARS whole");
+  }
+  if (backend == options::Backend::simulated && !programs.simulated) {
+    throw Failure("mars-simulated was not found beside mars or in the PATH", "", "build or install MARS whole");
   }
   return backend;
 }
@@ -310,6 +315,12 @@ child::Command mpi_command(const options::RenderOptions& options, const Programs
 child::Command threads_command(const options::RenderOptions& options, const Programs& programs) {
   child::Command command{{}, {programs.threads->string()}};
   add_arguments(command, options::Program::threads, options);
+  return command;
+}
+
+child::Command simulated_command(const options::RenderOptions& options, const Programs& programs) {
+  child::Command command{{}, {programs.simulated->string()}};
+  add_arguments(command, options::Program::simulated, options);
   return command;
 }
 

@@ -31,6 +31,7 @@ struct Programs {
   std::optional<std::filesystem::path> host;
   std::optional<std::filesystem::path> node;
   std::optional<std::filesystem::path> threads;
+  std::optional<std::filesystem::path> simulated;
   Mpi mpi = our_mpi();
   std::optional<std::filesystem::path> loopback;  // loopback.cpp, for mpirun to load
 };
@@ -89,6 +90,7 @@ child::Command mpi_start(const options::RenderOptions& options, const Programs& 
 // mpirun with one host and options.nodes nodes; one process of as many threads. `options.nodes` is settled.
 child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,
                            const Surroundings& surroundings);
+child::Command simulated_command(const options::RenderOptions& options, const Programs& programs);
 child::Command threads_command(const options::RenderOptions& options, const Programs& programs);
 
 }  // namespace mars::launch

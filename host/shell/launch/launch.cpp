@@ -31,6 +31,7 @@ child::Command command_for(options::RenderOptions& options, const std::filesyste
   const Surroundings surroundings = look_around(path);
   if (options.nodes == 0) options.nodes = default_nodes(options, surroundings);
   if (options.backend == options::Backend::threads) return threads_command(options, programs);
+  if (options.backend == options::Backend::simulated) return simulated_command(options, programs);
   return mpi_command(options, programs, surroundings);
 }
 

@@ -29,7 +29,7 @@ struct Entry {
 template <typename Enumeration>
 constexpr std::array<const char*, 0> kWords{};
 template <>
-constexpr std::array kWords<Backend>{"auto", "mpi", "threads"};
+constexpr std::array kWords<Backend>{"auto", "mpi", "threads", "simulated"};
 template <>
 constexpr std::array kWords<Intervals>{"auto", "keyframes"};
 template <>
@@ -170,9 +170,11 @@ Entry film(unsigned programs) {
 // The table: every option once, in the order of the help.
 std::vector<Entry> table() {
   constexpr auto bit = [](Program program) { return static_cast<unsigned>(program); };
-  constexpr unsigned all = bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads);
+  constexpr unsigned all =
+      bit(Program::mars) | bit(Program::host) | bit(Program::ranks) | bit(Program::threads) | bit(Program::simulated);
   constexpr unsigned compiles = all | bit(Program::compile);
-  constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads);
+  constexpr unsigned counts_nodes = bit(Program::mars) | bit(Program::threads) | bit(Program::simulated);
+  constexpr unsigned simulates = bit(Program::mars) | bit(Program::simulated);
   constexpr unsigned person = bit(Program::mars);
   constexpr std::uint32_t many = 1 << 20;
   return {
@@ -182,9 +184,12 @@ std::vector<Entry> table() {
       number(counts_nodes, "--nodes", {&RenderOptions::nodes, false, many},
              "Nodes that render; default: one per processor, or the slots of the batch job or hostfile less one "
              "for the host. Example: --nodes 4"),
-      option(person, "--backend", "auto|mpi|threads", &RenderOptions::backend,
-             "MPI processes, or threads of one process; auto uses MPI where it is "
-             "installed. Example: --backend threads"),
+      option(person, "--backend", "auto|mpi|threads|simulated", &RenderOptions::backend,
+             "MPI processes, or threads of one process; auto uses MPI where it is installed; simulated: nodes of "
+             "--platform, whose times are counted, not measured. Example: --backend threads"),
+      option(simulates, "--platform", "NAME|FILE", &RenderOptions::platform,
+             "Machines that --backend simulated simulates: ipsc2, fat-tree, dragonfly, ethernet, or a file. Example: "
+             "--platform fat-tree"),
       option(person, "--hostfile", "FILE", &RenderOptions::hostfile,
              "Machines to use, one per line as for mpirun: n1 slots=4. Example: --hostfile hosts"),
       option(all, "--frames", "SET", &RenderOptions::frames,
@@ -242,6 +247,13 @@ void check_together(const RenderOptions& options) {
   }
   if (!options.hostfile.empty() && options.backend == Backend::threads) {
     throw Failure("threads are all on this machine", "", "leave out --hostfile, or --backend threads");
+  }
+  if (!options.hostfile.empty() && options.backend == Backend::simulated) {
+    throw Failure("simulated nodes are on the machines of --platform", "",
+                  "leave out --hostfile, or --backend simulated");
+  }
+  if (!options.platform.empty() && options.backend != Backend::simulated) {
+    throw Failure("a platform is for simulated nodes", "", "add --backend simulated, or leave out --platform");
   }
 }
 

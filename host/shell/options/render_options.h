@@ -22,7 +22,7 @@ namespace mars::options {
 // In place of a film's file: a tiny film that every program has in it, to see whether a start works.
 inline constexpr const char* kTrialFilm = ":trial";
 
-enum class Backend { automatic, mpi, threads };
+enum class Backend { automatic, mpi, threads, simulated };
 enum class Intervals { automatic, keyframes };
 enum class SinkKind { files, none };
 
@@ -31,6 +31,7 @@ struct RenderOptions {
   std::string folder;       // for the frames; "" only without a sink
   std::uint32_t nodes = 0;  // 0: as many as the machine has processors for
   Backend backend = Backend::automatic;
+  std::string platform;  // name or file of the simulated machines
   std::string hostfile;  // Open MPI's, of the machines to use; "": this one, or the batch system's
   film::FrameSet frames;
   std::optional<images::PictureSize> size;  // none: the film's own
@@ -50,7 +51,7 @@ struct RenderOptions {
 };
 
 // The programs that read the options: each takes those that concern it.
-enum class Program : unsigned { mars = 1, host = 2, ranks = 4, threads = 8, compile = 16 };
+enum class Program : unsigned { mars = 1, host = 2, ranks = 4, threads = 8, simulated = 16, compile = 32 };
 
 // Adds the options `program` takes to its command line, which is then checked as a whole too; `options` must
 // outlive the parsing.

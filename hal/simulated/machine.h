@@ -1,0 +1,48 @@
+// A machine room to be simulated: computers with nodes of the job on them, the network between them, and what work
+// costs there. Times are in seconds, rates in seconds a byte.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace mars::simulated {
+
+// What a message costs the processor at one of its ends, by its length.
+struct EndCost {
+  std::size_t from = 0;  // bytes: of messages of so many and more
+  double seconds = 0;
+};
+
+enum class Topology {
+  one_switch,  // each computer has one port of a switch that is never short of rate
+  hypercube,   // e-cube routes; a message holds all channels of its way at once
+  fat_tree,    // switches of `leaf` computers; `uplink` may be slower than the leaf's ports together
+  dragonfly,   // all groups of `leaf` computers are joined in pairs, by one link of `uplink` each
+};
+
+struct Network {
+  Topology topology = Topology::one_switch;
+  double latency = 0;        // from end to end
+  double hop = 0;            // for each switch or channel on the way
+  double byte = 0;           // of a port or channel
+  double uplink = 0;         // seconds a byte, of a leaf's or a pair's links together
+  int leaf = 0;              // computers
+  double local_latency = 0;  // between ranks of one computer
+  double local_byte = 0;
+  double host_latency = 0;  // beside the hypercube's node 0; else the host has a port like others
+  double host_byte = 0;
+  double copy_byte = 0;                    // of the processor, at each end
+  std::vector<EndCost> send{}, receive{};  // ascending
+  std::vector<EndCost> host_end{};         // of the host, whether it sends or receives; empty: as the nodes'
+};
+
+struct Machine {
+  int nodes = 1;               // of the job on a computer, the last has the rest
+  int processors = 1;          // of a computer
+  bool host_apart = false;     // the host has a computer of its own; else it is on the first node's
+  int host_processors = 1;     // of that
+  std::vector<double> work{};  // by kind, seconds a unit (Backend::charge)
+  Network network{};
+};
+
+}  // namespace mars::simulated

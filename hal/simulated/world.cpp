@@ -1,0 +1,238 @@
+#include "hal/simulated/world.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "hal/failure/failure.h"
+#include "hal/messages/pages.h"
+
+namespace mars::simulated {
+namespace {
+
+int computers_of(const Machine& machine, int nodes) { return (nodes + machine.nodes - 1) / machine.nodes; }
+
+}  // namespace
+
+World::World(const Machine& machine, int nodes)
+    : machine_(machine),
+      nodes_(nodes),
+      routes_(machine.network, computers_of(machine, nodes), machine.host_apart ? computers_of(machine, nodes) : 0),
+      left_(nodes + 1) {
+  check(nodes >= 1 && machine.nodes >= 1 && machine.processors >= 1, "there are a node and a processor");
+  const int computers = computers_of(machine, nodes);
+  processors_.assign(static_cast<std::size_t>(computers), std::vector<double>(machine.processors));
+  if (machine.host_apart) processors_.emplace_back(machine.host_processors);
+  for (int rank = 0; rank <= nodes; ++rank) {
+    ranks_.push_back(std::make_unique<Rank>());
+    if (rank < nodes) queue_.emplace(0, rank);
+  }
+}
+
+int World::computer_of(int rank) const {
+  if (rank < nodes_) return rank / machine_.nodes;
+  return machine_.host_apart ? computers_of(machine_, nodes_) : 0;
+}
+
+int World::nodes_on(int computer) const { return std::clamp(nodes_ - computer * machine_.nodes, 0, machine_.nodes); }
+
+// Ranks with a processor each never wait for one.
+void World::work(int rank, double seconds) {
+  Rank& self = *ranks_[rank];
+  const int computer = computer_of(rank);
+  std::vector<double>& processors = processors_[computer];
+  const std::size_t workers = static_cast<std::size_t>(nodes_on(computer)) + (computer_of(nodes_) == computer ? 1 : 0);
+  if (workers <= processors.size()) {
+    self.clock += seconds;
+    return;
+  }
+  let_earlier_run(rank);
+  double& free = *std::ranges::min_element(processors);
+  self.clock = free = std::max(self.clock, free) + seconds;
+}
+
+double World::reserve(int rank, double seconds) {
+  let_earlier_run(rank);
+  double& free = *std::ranges::min_element(processors_[computer_of(rank)]);
+  return free = std::max(clock(rank), free) + seconds;
+}
+
+double World::seconds_of(const std::vector<EndCost>& costs, std::size_t length) const {
+  double seconds = 0;
+  for (const EndCost& cost : costs)
+    if (length >= cost.from) seconds = cost.seconds;
+  return seconds + machine_.network.copy_byte * static_cast<double>(length);
+}
+
+double World::end_seconds(int rank, const std::vector<EndCost>& costs, std::size_t length) const {
+  const bool as_host = rank == nodes_ && !machine_.network.host_end.empty();
+  return seconds_of(as_host ? machine_.network.host_end : costs, length);
+}
+
+void World::send(int from, int to, int type, const void* data, std::size_t length) {
+  check_running();
+  work(from, end_seconds(from, machine_.network.send, length));
+  let_earlier_run(from);
+  const double now = clock(from);
+  const double arrival = from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now);
+  Message message{arrival, messages_++, {from, type, length}, nullptr};
+  if (length > 0) {
+    message.bytes = std::make_unique_for_overwrite<std::byte[]>(length);
+    std::memcpy(message.bytes.get(), data, length);
+  }
+  Rank& receiver = *ranks_[to];
+  receiver.coming.push_back(std::move(message));
+  std::ranges::push_heap(receiver.coming, Later());
+  if (receiver.waits && arrival < receiver.due) set_due(to, arrival);
+}
+
+void World::note_arrivals(Rank& self) {
+  while (!self.coming.empty() && self.coming.front().arrival <= self.clock) {
+    std::ranges::pop_heap(self.coming, Later());
+    self.arrived.push_back(std::move(self.coming.back()));
+    self.coming.pop_back();
+  }
+}
+
+std::optional<messages::Envelope> World::peek(int rank) {
+  let_earlier_run(rank);
+  check_running();
+  Rank& self = *ranks_[rank];
+  note_arrivals(self);
+  if (self.arrived.empty()) return std::nullopt;
+  return self.arrived.front().envelope;
+}
+
+void World::take(int rank, void* buffer) {
+  Rank& self = *ranks_[rank];
+  const Message message = std::move(self.arrived.front());
+  self.arrived.pop_front();
+  if (message.envelope.length > 0) std::memcpy(buffer, message.bytes.get(), message.envelope.length);
+  work(rank, end_seconds(rank, machine_.network.receive, message.envelope.length));
+}
+
+void World::set_alarm(int rank, double time) {
+  Rank& other = *ranks_[rank];
+  other.alarms.insert(time);
+  if (other.waits && time < other.due) set_due(rank, std::max(time, other.clock));
+}
+
+void World::wait(int rank, double seconds) {
+  check_running();
+  Rank& self = *ranks_[rank];
+  double until = self.clock + seconds;
+  if (!self.coming.empty()) until = std::min(until, self.coming.front().arrival);
+  if (!self.alarms.empty()) until = std::min(until, *self.alarms.begin());
+  self.waits = true;
+  set_due(rank, std::max(until, self.clock));
+  pass_turn(rank);
+  self.waits = false;
+  note_arrivals(self);
+  self.alarms.erase(self.alarms.begin(), self.alarms.upper_bound(self.clock));
+  check_running();
+}
+
+void World::let_earlier_run(int rank) {
+  const Rank& self = *ranks_[rank];
+  if (queue_.empty() || *queue_.begin() > std::pair(self.clock, rank)) return;
+  set_due(rank, self.clock);
+  pass_turn(rank);
+}
+
+void World::set_due(int rank, double due) {
+  Rank& self = *ranks_[rank];
+  queue_.erase({self.due, rank});
+  self.due = due;
+  if (due < kNever) queue_.emplace(due, rank);
+}
+
+// The first of the queue goes on, which may be the caller itself.
+void World::pass_turn(int rank) {
+  const int next = next_rank();
+  if (next != rank) {
+    ranks_[next]->turn.release();
+    ranks_[rank]->turn.acquire();
+  }
+  Rank& self = *ranks_[rank];
+  self.clock = std::max(self.clock, self.due);
+}
+
+int World::next_rank() {
+  if (queue_.empty()) {
+    stop(std::make_exception_ptr(Failure("all ranks wait, and no message is on its way", "",
+                                         "find the message that is missing; see docs/nx.md on strict mode")));
+  }
+  const int next = queue_.begin()->second;
+  queue_.erase(queue_.begin());
+  return next;
+}
+
+void World::end(int rank) {
+  ranks_[rank]->ended = true;
+  if (--left_ > 0) ranks_[next_rank()]->turn.release();
+}
+
+void World::leave_out(int rank) {
+  ranks_[rank]->ended = true;
+  --left_;
+  set_due(rank, kNever);
+}
+
+void World::check_running() const {
+  if (failure_ != nullptr) std::rethrow_exception(failure_);
+}
+
+// All go on, to end.
+void World::stop(std::exception_ptr reason) {
+  if (failure_ == nullptr) failure_ = std::move(reason);
+  for (int rank = 0; rank <= nodes_; ++rank)
+    if (!ranks_[rank]->ended && ranks_[rank]->due == kNever) set_due(rank, ranks_[rank]->clock);
+}
+
+void World::finish_one() {
+  if (++finished_ < static_cast<int>(ranks_.size())) return;
+  double last = 0;
+  for (const auto& rank : ranks_) last = std::max(last, rank->clock);
+  for (int rank = 0; rank <= nodes_; ++rank) set_alarm(rank, last);
+}
+
+std::shared_ptr<std::byte> World::share(int rank, int index, std::size_t bytes) {
+  const int computer = computer_of(rank);
+  const auto [found, fresh] = blocks_.try_emplace({computer, index});
+  Block& block = found->second;
+  if (fresh) block = {messages::map_pages(bytes), bytes, 0};
+  check(block.size == bytes, "all nodes of a machine share the same number of bytes");
+  if (block.bytes == nullptr) throw messages::too_much_to_share(bytes, "");
+  std::shared_ptr<std::byte> mine = block.bytes;
+  if (++block.holders == nodes_on(computer)) blocks_.erase(found);
+  return mine;
+}
+
+std::shared_ptr<std::byte> World::replica(std::uint64_t key, std::size_t bytes) {
+  std::weak_ptr<std::byte>& known = replicas_[key];
+  if (std::shared_ptr<std::byte> there = known.lock()) return there;
+  std::shared_ptr<std::byte> made = messages::map_pages(bytes);
+  known = made;
+  return made;
+}
+
+messages::Offer World::offer(int rank, std::size_t bytes) {
+  std::shared_ptr<std::byte> block = messages::map_pages(bytes);
+  if (block == nullptr) return {};
+  // A handle of its rank's own: the bytes may outlive it at others, but nobody attaches them any more.
+  std::shared_ptr<std::byte> handle(block.get(), [block](std::byte*) mutable { block.reset(); });
+  std::erase_if(offered_, [](const auto& old) { return old.second.offer.expired(); });
+  const std::uint64_t number = offers_++;
+  offered_[number] = {handle, block};
+  return {{{number, static_cast<std::uint64_t>(rank), bytes, reinterpret_cast<std::uintptr_t>(block.get())}}, handle};
+}
+
+std::shared_ptr<std::byte> World::attach(int rank, int offerer, const messages::MemoryName& name) {
+  if (computer_of(rank) != computer_of(offerer)) return nullptr;
+  const auto found = offered_.find(name.words[0]);
+  if (found == offered_.end() || found->second.offer.expired()) return nullptr;
+  std::shared_ptr<std::byte> bytes = found->second.bytes.lock();
+  const bool same = reinterpret_cast<std::uintptr_t>(bytes.get()) == name.words[3];
+  return same ? bytes : nullptr;
+}
+
+}  // namespace mars::simulated

@@ -1,0 +1,128 @@
+#include "host/experiments/platform.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
+#include "node/wire/work.h"
+
+namespace mars::experiments {
+namespace {
+
+using document::Fields;
+using document::Keys;
+using std::string_view;
+
+constexpr string_view kPlatformNames[] = {"name", "about", "computers", "host", "network", "work"};
+constexpr string_view kComputerNames[] = {"nodes", "processors", "memory"};
+constexpr string_view kHostNames[] = {"apart", "processors"};
+constexpr string_view kNetworkNames[] = {"topology",  "latency",    "hop",           "rate",        "uplink",
+                                         "leaf",      "send",       "receive",       "host_end",    "copy_rate",
+                                         "host_rate", "local_rate", "local_latency", "host_latency"};
+constexpr Keys kPlatformKeys{"platform", kPlatformNames};
+constexpr Keys kComputerKeys{"computer", kComputerNames};
+constexpr Keys kHostKeys{"host", kHostNames};
+constexpr Keys kNetworkKeys{"network", kNetworkNames};
+constexpr Keys kWorkKeys{"work", wire::kWorkNames};
+constexpr std::array<string_view, 4> kTopologies{"switch", "hypercube", "fat tree", "dragonfly"};
+
+constexpr document::Range kSeconds{0, 1e6};
+constexpr document::Range kRates{1, 1e15};  // bytes a second
+constexpr std::uint32_t kMany = 1 << 20;
+
+// Seconds a byte; 0 where the rate is not given: as fast as can be.
+double byte_seconds(const Fields& fields, string_view key) {
+  const auto rate = fields.find(key);
+  return rate ? 1 / document::read_number(*rate, kRates) : 0;
+}
+
+// [bytes, seconds] pairs, or one number for messages of any length.
+std::vector<simulated::EndCost> read_costs(const Fields& fields, string_view key) {
+  std::vector<simulated::EndCost> costs;
+  const auto list = fields.find(key);
+  if (!list) return costs;
+  if (list->kind() == document::Kind::number) return {{0, document::read_number(*list, kSeconds)}};
+  document::require_kind(*list, document::Kind::list);
+  for (const document::Element pair : *list) {
+    document::require_size(pair, 2);
+    auto item = pair.begin();
+    const auto from = static_cast<std::size_t>(document::read_count(*item, 0, 1u << 31));
+    if (!costs.empty() && from <= costs.back().from) pair.refuse("is not in order", "sort the costs by their bytes");
+    costs.push_back({from, document::read_number(*++item, kSeconds)});
+  }
+  return costs;
+}
+
+simulated::Network read_network(const document::Element& element) {
+  const Fields fields(element, kNetworkKeys);
+  simulated::Network network;
+  network.topology = static_cast<simulated::Topology>(fields.choice("topology", 0, kTopologies));
+  network.latency = fields.number("latency", 0, kSeconds);
+  network.hop = fields.number("hop", 0, kSeconds);
+  network.byte = byte_seconds(fields, "rate");
+  network.uplink = byte_seconds(fields, "uplink");
+  network.leaf = static_cast<int>(fields.count("leaf", 1, 1, kMany));
+  network.local_latency = fields.number("local_latency", 0, kSeconds);
+  network.local_byte = byte_seconds(fields, "local_rate");
+  network.host_latency = fields.number("host_latency", 0, kSeconds);
+  network.host_byte = byte_seconds(fields, "host_rate");
+  network.copy_byte = byte_seconds(fields, "copy_rate");
+  network.send = read_costs(fields, "send");
+  network.receive = read_costs(fields, "receive");
+  network.host_end = read_costs(fields, "host_end");
+  return network;
+}
+
+std::vector<double> read_work(const document::Element& element) {
+  const Fields fields(element, kWorkKeys);
+  std::vector<double> work;
+  for (const string_view name : wire::kWorkNames) work.push_back(fields.number(name, 0, kSeconds));
+  return work;
+}
+
+Platform read(const document::Element& root) {
+  const Fields fields(root, kPlatformKeys);
+  Platform platform;
+  platform.name = document::read_text(fields.required("name"));
+  platform.about = fields.text("about", "");
+  const Fields computers(fields.required("computers"), kComputerKeys);
+  platform.memory = static_cast<std::uint64_t>(computers.number("memory", 1 << 30, {1 << 20, 1e15}));
+  platform.machine.nodes = static_cast<int>(computers.count("nodes", 1, 1, kMany));
+  platform.machine.processors = static_cast<int>(computers.count("processors", 1, 1, kMany));
+  const Fields host(fields.required("host"), kHostKeys);
+  platform.machine.host_apart = host.find("apart") && host.find("apart")->boolean();
+  platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
+  platform.machine.network = read_network(fields.required("network"));
+  platform.machine.work = read_work(fields.required("work"));
+  return platform;
+}
+
+// Those that there are, for messages.
+std::string names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem());
+  std::ranges::sort(names);
+  return document::joined(names, " or ");
+}
+
+}  // namespace
+
+Platform read_platform(const std::string& name, const std::filesystem::path& folder) {
+  const bool is_file = name.find('/') != std::string::npos || name.ends_with(".json");
+  const std::filesystem::path file = is_file ? std::filesystem::path(name) : folder / (name + ".json");
+  if (!is_file && !std::filesystem::exists(file))
+    throw Failure("there is no platform '" + name + "'", "", "use " + names_in(folder) + ", or a file NAME.json");
+  const document::Document document = document::read_document(file);
+  return read(document.root());
+}
+
+std::filesystem::path platforms_folder(const std::filesystem::path& self) {
+  return self.parent_path().parent_path() / "share" / "mars" / "platforms";
+}
+
+}  // namespace mars::experiments

@@ -1,0 +1,26 @@
+// Platforms: machines on which a rendering is simulated or forecast, one JSON file each. A named one lies in
+// share/mars/platforms.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "hal/simulated/machine.h"
+
+namespace mars::experiments {
+
+struct Platform {
+  std::string name;
+  std::string about;         // what it is, and where its numbers come from
+  std::uint64_t memory = 0;  // bytes that a node may use for its frames
+  simulated::Machine machine;
+};
+
+// `name`: a file, or the name of one in `folder` without its ending. Throws Failure.
+Platform read_platform(const std::string& name, const std::filesystem::path& folder);
+
+// Beside `self`, a program of MARS.
+std::filesystem::path platforms_folder(const std::filesystem::path& self);
+
+}  // namespace mars::experiments

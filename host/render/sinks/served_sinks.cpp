@@ -1,0 +1,37 @@
+#include "host/render/sinks/served_sinks.h"
+
+#include <algorithm>
+
+#include "hal/nx/nx_messages.h"
+
+namespace mars::sinks {
+
+void ServedSinks::submit(compositor::Frame* frame) {
+  sink().take(*frame);
+  const double now = dclock(),
+               ended = serve_(shape().width * std::uint64_t{shape().height} * wire::pixel_bytes(shape().format));
+  served_.push_back({frame, {frame->number, 0, now, now, ended}});
+}
+
+std::vector<SinkPool::Taken> ServedSinks::taken() {
+  std::vector<Taken> all;
+  const double now = dclock();
+  const auto ended = std::ranges::stable_partition(served_, [&](const Served& s) { return s.taken.ended > now; });
+  for (const Served& served : ended) {
+    all.push_back(served.taken);
+    give_back(served.frame);
+  }
+  served_.erase(ended.begin(), ended.end());
+  std::ranges::sort(all, {}, &Taken::ended);
+  return all;
+}
+
+// Farm asks for what was taken afterwards.
+void ServedSinks::finish() {
+  const auto under_way = [&] {
+    return std::ranges::any_of(served_, [now = dclock()](const Served& s) { return s.taken.ended > now; });
+  };
+  while (under_way()) flick();
+}
+
+}  // namespace mars::sinks
