@@ -3,7 +3,8 @@
 A file of results has objects
   {"table": "4.1", "source": "thesis", "cells": [{"row": 1300, "kind": "keyframe", "nodes": 2, "ms": 2449}, ...]},
 alone or in a list. row: polygons that move (4.1, 4.2), all polygons (4.3) or the film's number (4.4); kind: keyframe, or
-inbetween: milliseconds a frame at the nodes' throughput."""
+inbetween: milliseconds a frame at the nodes' throughput. "parameters" may say how they came about. Objects with a title,
+note, header and rows are further tables, shown as they are."""
 import json
 import os
 import statistics
@@ -20,6 +21,9 @@ class Trouble(Exception):
     """Something that ends the benchmark; its text is for a person."""
 
 
+CELLS, SHEET = {"table", "source", "cells"}, {"title", "note", "header", "rows"}
+
+
 def load(path):
     """The objects of a file, in a list."""
     try:
@@ -29,18 +33,25 @@ def load(path):
         raise Trouble(f"{path}: cannot be read: {error}") from error
     found = found if isinstance(found, list) else [found]
     for number, part in enumerate(found):
-        if part.get("table") not in TITLES or not {"source", "cells"} <= part.keys():
-            raise Trouble(f"{path}: object {number} needs a table of {', '.join(TITLES)}, a source and cells")
+        if not (SHEET <= part.keys() or (CELLS <= part.keys() and part["table"] in TITLES)):
+            raise Trouble(f"{path}: object {number} is none of cells ({', '.join(sorted(CELLS))}: one of "
+                          f"{', '.join(TITLES)}) and no table ({', '.join(sorted(SHEET))})")
     return found
 
 
 def text_of(parts):
-    """As a file, a cell on each line."""
+    """As a file, a cell or a row on each line."""
     def part_text(part):
-        rest = {key: value for key, value in part.items() if key != "cells"}
-        rows = ",\n".join("   " + json.dumps(cell) for cell in part["cells"])
-        return f'{json.dumps(rest)[:-1]}, "cells": [\n{rows}\n ]}}'
+        long = "cells" if "cells" in part else "rows"
+        rest = {key: value for key, value in part.items() if key != long}
+        lines = ",\n".join("   " + json.dumps(line) for line in part[long])
+        return f'{json.dumps(rest)[:-1]}, "{long}": [\n{lines}\n ]}}'
     return "[\n " + ",\n ".join(map(part_text, parts)) + "\n]\n"
+
+
+def beside_thesis(parts):
+    """The tables that any source but the thesis has."""
+    return [table for table in TITLES if any(part["table"] == table and part["source"] != "thesis" for part in parts)]
 
 
 class Cells:

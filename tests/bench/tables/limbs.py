@@ -1,6 +1,7 @@
 """A limb in the unit cube, z up, as a closed mesh of a wanted number of triangles and as Bezier patches.
 
 Both follow one profile: thick at the joint (z = 1), thin at the other end, with round ends."""
+import functools
 import math
 
 ROUNDNESS = 0.7  # exponent of a superellipse: 1 is an ellipsoid, 0 a cylinder
@@ -49,6 +50,7 @@ def stitched(lower, upper):
     return faces
 
 
+@functools.lru_cache
 def mesh(triangles, slender=1.0):
     """A limb of exactly so many triangles. `slender`: rings to sides of a ring."""
     sizes = ring_sizes(triangles, slender)

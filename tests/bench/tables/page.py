@@ -6,7 +6,7 @@ import cells
 PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem;text-align:right;border-bottom:1px solid #ddd}
-td:first-child,th:first-child,.name{text-align:left}tr.first td{border-top:2px solid #999}small{color:#777}
+.name{text-align:left}tr.first td{border-top:2px solid #999}small{color:#777}
 figure{margin:1rem 0}svg{max-width:100%;height:auto}"""
 
 
@@ -36,7 +36,8 @@ def sheet_of(table, kind):
             rows.append([row if place == 0 else "", source] + [cell_text(table, source, row, kind, n) for n in nodes] +
                         [table.best_nodes(source, row, kind)])
     return {"title": f"Table {table.table}: {cells.TITLES[table.table]}; {kind}s, ms a frame", "note": summary(table, kind),
-            "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows}
+            "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows,
+            "picture": f"table-{table.table}-{kind}s"}
 
 
 def summary(table, kind):
@@ -58,9 +59,12 @@ def summary(table, kind):
 
 def sheets_of(parts):
     """All tables that any source but the thesis has."""
-    wanted = [table for table in cells.TITLES if any(part["table"] == table and part["source"] != "thesis"
-                                                     for part in parts)]
-    return [sheet_of(cells.Cells(table, parts), kind) for table in wanted for kind in cells.KINDS[table]]
+    tables = cells.beside_thesis(parts)
+    sheets = [sheet_of(cells.Cells(table, parts), kind) for table in tables for kind in cells.KINDS[table]]
+    if "4.3" in tables:
+        sheets.append({"title": "Figure 4.12: nodes, polygons and milliseconds", "note": "Table 4.3, drawn.", "header": [],
+                       "rows": [], "picture": "figure-4.12"})
+    return sheets
 
 
 def parameters_of(parts):
@@ -71,24 +75,43 @@ def parameters_of(parts):
                       for (source, name), value in rows.items()]}] if rows else []
 
 
+def is_text(sheet, column):
+    """Whether a column has words, which stand at the left."""
+    values = [row[column] for row in sheet["rows"] if row[column] not in ("", None)]
+    return bool(values) and isinstance(values[0], str) and not values[0][0].isdigit()
+
+
 def markdown(intro, sheets, pictures):
-    """`pictures`: title and file name of each."""
-    text = intro + "\n\n" + "".join(f"![{title}]({file})\n\n" for title, file in pictures)
+    """`pictures`: by name."""
+    text = intro + "\n\n"
     for sheet in sheets:
-        lines = ["| " + " | ".join(number(value) for value in row) + " |" for row in [sheet["header"], *sheet["rows"]]]
-        lines.insert(1, "|" + "--:|" * len(sheet["header"]))
-        text += f"### {sheet['title']}\n\n" + (sheet["note"] + "\n\n" if sheet["note"] else "") + "\n".join(lines) + "\n\n"
-    return text
+        text += f"### {sheet['title']}\n\n" + (sheet["note"] + "\n\n" if sheet["note"] else "")
+        if sheet.get("picture") in pictures:
+            text += f"![{sheet['title']}]({sheet['picture']}.svg)\n\n"
+        if sheet["rows"]:
+            sides = [":--" if is_text(sheet, column) else "--:" for column in range(len(sheet["header"]))]
+            lines = [[number(value) for value in row] for row in [sheet["header"], sides, *sheet["rows"]]]
+            text += "".join("| " + " | ".join(line) + " |\n" for line in lines) + "\n"
+    return text.rstrip() + "\n"
+
+
+def html_table(sheet):
+    sides = [" class=\"name\"" if is_text(sheet, column) else "" for column in range(len(sheet["header"]))]
+
+    def row_text(row, tag):
+        first = ' class="first"' if tag == "td" and row[0] != "" else ""
+        fields = [f"<{tag}{side}>{html.escape(number(value))}</{tag}>" for side, value in zip(sides, row)]
+        return f"<tr{first}>{''.join(fields)}</tr>\n"
+    return "<table>\n" + row_text(sheet["header"], "th") + "".join(row_text(row, "td") for row in sheet["rows"]) + "</table>\n"
 
 
 def page(intro, sheets, pictures):
-    """`pictures`: title and SVG of each."""
-    def row_text(row, tag):
-        first = ' class="first"' if tag == "td" and row[0] != "" else ""
-        return f"<tr{first}>" + "".join(f"<{tag}>{html.escape(number(value))}</{tag}>" for value in row) + "</tr>\n"
-    text = "".join(f"<figure>{svg}<figcaption>{html.escape(title)}</figcaption></figure>\n" for title, svg in pictures)
+    """One HTML file with everything. `pictures`: the SVG of each name."""
+    text = ""
     for sheet in sheets:
-        text += f"<h2>{html.escape(sheet['title'])}</h2>\n<p>{html.escape(sheet['note'])}</p>\n<table>\n"
-        text += row_text(sheet["header"], "th") + "".join(row_text(row, "td") for row in sheet["rows"]) + "</table>\n"
+        text += f"<h2>{html.escape(sheet['title'])}</h2>\n" + (f"<p>{html.escape(sheet['note'])}</p>\n" if sheet["note"] else "")
+        if sheet.get("picture") in pictures:
+            text += f"<figure>{pictures[sheet['picture']]}</figure>\n"
+        text += html_table(sheet) if sheet["rows"] else ""
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>1992\'s tables</title>\n<style>{STYLE}</style>'
             f"</head>\n<body>\n<h1>1992's tables</h1>\n<p>{html.escape(intro)}</p>\n{text}</body></html>\n")

@@ -1,5 +1,6 @@
-"""Pictures of the tables as SVG, by matplotlib: times over nodes, and figure 4.12."""
+"""Pictures of the tables as SVG: times over nodes, and figure 4.12. Without matplotlib there are none."""
 import io
+import math
 import re
 
 import cells
@@ -8,14 +9,9 @@ try:
     import matplotlib
     matplotlib.use("Agg")
     matplotlib.rcParams.update({"svg.hashsalt": "mars", "svg.fonttype": "none", "font.size": 9})
-    from matplotlib import pyplot
+    from matplotlib import pyplot, ticker
 except ImportError:
     pyplot = None
-
-
-def needed():
-    if pyplot is None:
-        raise cells.Trouble("Python's matplotlib is missing (./bootstrap bench installs it)")
 
 
 def svg_of(figure):
@@ -25,13 +21,31 @@ def svg_of(figure):
     return re.sub(r"^.*?(?=<svg)", "", out.getvalue(), flags=re.S)  # without the XML header, to stand in a page
 
 
+def shown(table, kind=None):
+    """Sources that have a panel: of several from this machine, those that say most."""
+    return [source for source, of in table.sources.items() if not source.endswith((", best", ", patches")) and
+            any(kind in (None, k) for _, k, _ in of)]
+
+
 def lines_of(table, source, kind):
-    """Nodes and milliseconds of each row."""
+    """Row, and nodes and milliseconds along it."""
     for row in table.rows(kind):
         points = [(n, table.ms(source, row, kind, n)) for n in table.nodes(kind)]
         points = [(n, ms) for n, ms in points if ms]
         if points:
             yield row, list(zip(*points))
+
+
+def equal_decades(panels, spans):
+    """Gives all panels the same factor from bottom to top, so that slopes compare."""
+    reach = 1.15 * math.sqrt(max(high / low for low, high in spans))
+    for axes, (low, high) in zip(panels, spans):
+        axes.set_yscale("log")
+        middle = math.sqrt(low * high)
+        axes.set_ylim(middle / reach, middle * reach)
+        axes.yaxis.set_major_locator(ticker.LogLocator(base=10, subs=(1, 2, 5), numticks=20))
+        axes.yaxis.set_major_formatter(ticker.FuncFormatter(lambda ms, _: f"{ms:g}"))
+        axes.yaxis.set_minor_locator(ticker.NullLocator())
 
 
 def nodes_axis(axes, nodes):
@@ -44,21 +58,21 @@ def nodes_axis(axes, nodes):
 def over_nodes(parts, table_name, kind):
     """A panel for each source: a line for each row of the table."""
     table = cells.Cells(table_name, parts)
-    sources = [source for source in table.sources if any(lines_of(table, source, kind))]
-    figure, panels = pyplot.subplots(1, len(sources), figsize=(2.9 * len(sources), 2.7), squeeze=False)
-    rows = table.rows(kind)
-    colors = pyplot.get_cmap("viridis")
-    for axes, source in zip(panels[0], sources):
+    sources, rows = shown(table, kind), table.rows(kind)
+    figure, (panels,) = pyplot.subplots(1, len(sources), figsize=(2.7 * len(sources) + 0.6, 2.8), squeeze=False)
+    spans = []
+    for axes, source in zip(panels, sources):
         for row, (nodes, ms) in lines_of(table, source, kind):
             axes.plot(nodes, ms, marker="o", markersize=3, linewidth=1.2, label=str(row),
-                      color=colors(0.9 * rows.index(row) / max(1, len(rows) - 1)))
+                      color=pyplot.get_cmap("viridis")(0.9 * rows.index(row) / max(1, len(rows) - 1)))
+        times = [ms for (_, k, _), ms in table.sources[source].items() if k == kind]
+        spans.append((min(times), max(times)))
         nodes_axis(axes, table.nodes(kind))
-        axes.set_yscale("log")
         axes.set_title(source)
         axes.grid(alpha=0.3)
-    panels[0][0].set_ylabel("ms a frame")
-    panels[0][-1].legend(title=cells.ROWS[table_name], fontsize=6, title_fontsize=7, loc="center left",
-                         bbox_to_anchor=(1, 0.5))
+    equal_decades(panels, spans)
+    panels[0].set_ylabel("ms a frame")
+    panels[0].legend(title=cells.ROWS[table_name], fontsize=5 if len(rows) > 8 else 7, title_fontsize=7)
     figure.tight_layout()
     return svg_of(figure)
 
@@ -66,7 +80,7 @@ def over_nodes(parts, table_name, kind):
 def in_three_dimensions(parts):
     """Figure 4.12: nodes, polygons and time, a panel for each source of table 4.3."""
     table = cells.Cells("4.3", parts)
-    sources = [source for source in table.sources if table.sources[source]]
+    sources = shown(table)
     figure = pyplot.figure(figsize=(4.2 * len(sources), 3.8))
     for number, source in enumerate(sources):
         axes = figure.add_subplot(1, len(sources), number + 1, projection="3d")
@@ -82,15 +96,16 @@ def in_three_dimensions(parts):
         axes.set_ylabel("thousand polygons")
         axes.set_zlabel("ms")
         axes.set_title(source)
-    figure.subplots_adjust(wspace=0.25)
+        axes.set_box_aspect(None, zoom=0.85)
     return svg_of(figure)
 
 
 def all_pictures(parts):
-    """Name, title and SVG of each, for the tables that have another source than the thesis."""
-    measured = {part["table"] for part in parts if part["source"] != "thesis"}
-    found = [(f"table-{table}-{kind}s", f"Table {table}, {kind}s: ms over nodes", over_nodes(parts, table, kind))
-             for table in cells.TITLES if table in measured for kind in cells.KINDS[table]]
-    if "4.3" in measured:
-        found.append(("figure-4.12", "Figure 4.12: nodes, polygons and time", in_three_dimensions(parts)))
+    """The SVG of each, by name, for the tables that have another source than the thesis; none without matplotlib."""
+    if pyplot is None:
+        return {}
+    tables = cells.beside_thesis(parts)
+    found = {f"table-{table}-{kind}s": over_nodes(parts, table, kind) for table in tables for kind in cells.KINDS[table]}
+    if "4.3" in tables:
+        found["figure-4.12"] = in_three_dimensions(parts)
     return found

@@ -171,7 +171,7 @@ def write(films, folder):
     for name, scene in films.items():
         assert polygon_count(scene) == size_of(name), name
         with open(os.path.join(folder, name + ".json"), "w") as file:
-            json.dump(scene, file)
+            file.write(json.dumps(scene))
 
 
 def main():

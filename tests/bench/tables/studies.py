@@ -22,7 +22,7 @@ MARKED = {"color": [1, 0, 1], "ambient": 1, "diffuse": 0, "specular": 0}  # a mo
 def save(film, folder, name):
     path = os.path.join(folder, name + ".json")
     with open(path, "w") as file:
-        json.dump(film, file)
+        file.write(json.dumps(film))
     return path
 
 
@@ -134,7 +134,8 @@ def blocks(machine, folder, program, films):
         if done.returncode != 0:
             raise cells.Trouble(done.stderr.strip())
         for line in done.stdout.splitlines():
-            rows.append([film] + [float(word) for word in line.split()])
+            side, *measured = line.split()
+            rows.append([film, int(side), *map(float, measured)])
     return {"title": "Blocks of the host's flags",
             "note": "An inbetween on the host, on average: setting and checking flags, and all of it: pasting the moving "
                     "pixels, and restoring the flagged blocks that they do not fill again.",

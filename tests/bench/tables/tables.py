@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The tables and figures of 1992's thesis (chapter 4), measured on this machine, beside the thesis's own numbers and
-those of other sources. It writes tables.md, tables.html, cells.json (what was measured) and pictures into a folder.
+those of other sources. It writes tables.md, tables.html, results.json (what was measured) and pictures into a folder.
 
 With more nodes than cores, times on the wall say little about a machine with so many cores: "own work" says what the
 slowest node computes, without waiting and messages. README.md beside this program tells more."""
@@ -27,19 +27,25 @@ def measured_tables(wanted, machine, folder):
     tables = [table for table in wanted.parts if table in cells.TITLES]
     if not tables:
         return []
-    measure.write_films(many, 3 if wanted.quick else 5, 32 if wanted.quick else 128)
-    measure.write_films(few, 3 if wanted.quick else 9, 8)
-    found = [measure.Table(table, machine, many if "inbetween" in cells.KINDS[table] else few, wanted.nodes,
-                           QUICK_ROWS[table] if wanted.quick else None) for table in tables]
+    measure.write_films(many, ["4.1", "4.2"], *((3, 32) if wanted.quick else (5, 128)))
+    measure.write_films(few, ["4.3", "4.4"], 3 if wanted.quick else 9, 8)
+    found = []
+    for table in tables:
+        with_inbetweens = "inbetween" in cells.KINDS[table]
+        found += [measure.Table(table, machine, many if with_inbetweens else few, wanted.nodes,
+                                QUICK_ROWS[table] if wanted.quick else None, of_patches)
+                  for of_patches in ([False, True] if with_inbetweens else [False])]
     for _ in range(wanted.rounds):
         for table in found:
             table.measure_round()
-    return [part for table in found for part in table.sources()]
+    parameters = {"machine": f"{platform.node()}, {len(os.sched_getaffinity(0))} cores", "backend": wanted.backend,
+                  "rounds": wanted.rounds}
+    return [part for table in found for part in table.sources(parameters)]
 
 
 def studied(wanted, machine, folder):
     """The other comparisons of chapter 4, as tables for a person."""
-    measure.write_films(folder, 3, 32)
+    measure.write_films(folder, ["4.2", "4.3"], 3, 32)
     blocks = os.path.join(wanted.build, "bench", "tables", "bench-blocks")
     films = ["4.2-10400"] if wanted.quick else ["4.2-10400", "4.3-165944"]
     makers = {"positions": lambda: studies.positioning(machine, folder, [n for n in wanted.nodes if n <= 8]),
@@ -49,33 +55,29 @@ def studied(wanted, machine, folder):
     return [makers[part]() for part in wanted.parts if part in STUDIES]
 
 
-def about(wanted):
-    return (f"Milliseconds of this machine: {platform.node()}, {platform.machine()}, {len(os.sched_getaffinity(0))} cores; "
-            f"backend {wanted.backend}, {wanted.rounds} rounds. \"best\" and \"median\" are times on the wall; with more nodes "
-            "than cores they say how well so many nodes share these cores. \"own work\" is what the slowest node computes, "
-            "without waiting and messages: a lower bound for a machine with a core for each node. 512x480 pixels, data "
-            "size read as polygons.")
+ABOUT = ("Data size is read as polygons, and pictures have 512x480 pixels. \"here, best\" and \"here, median\" are times on the "
+         "wall; with more nodes than cores they say how so many nodes share these cores. \"here, own work\" is what the "
+         "slowest node computes, without waiting and messages: a lower bound for a machine with a core for each node.")
 
 
-def write(path, text):
-    with open(path, "w") as file:
-        file.write(text)
-
-
-def write_results(wanted, measured, sheets):
-    parts = cells.load(cells.THESIS) + measured + [part for file in wanted.beside for part in cells.load(file)]
+def write_results(wanted, measured):
+    """`measured`: objects of a file of results."""
+    found = measured + [part for file in wanted.beside for part in cells.load(file)]
+    parts = cells.load(cells.THESIS) + [part for part in found if "cells" in part]
+    sheets = page.sheets_of(parts) + [part for part in found if "rows" in part] + page.parameters_of(parts)
     drawn = pictures.all_pictures(parts)
+    if pictures.pyplot is None:
+        print("mars bench tables: no pictures, as Python's matplotlib is missing (./bootstrap bench)", file=sys.stderr)
     os.makedirs(wanted.output, exist_ok=True)
-    for name, _, svg in drawn:
-        write(os.path.join(wanted.output, name + ".svg"), svg)
-    sheets = page.sheets_of(parts) + sheets + page.parameters_of(parts)
-    text = page.markdown(about(wanted), sheets, [(title, name + ".svg") for name, title, _ in drawn])
-    write(os.path.join(wanted.output, "tables.md"), text)
-    write(os.path.join(wanted.output, "tables.html"), page.page(about(wanted), sheets, [drawing[1:] for drawing in drawn]))
+    files = {name + ".svg": svg for name, svg in drawn.items()}
+    files["tables.md"] = page.markdown(ABOUT, sheets, drawn)
+    files["tables.html"] = page.page(ABOUT, sheets, drawn)
     if measured:
-        write(os.path.join(wanted.output, "cells.json"), cells.text_of(measured))
-    print(text)
-    print(f"{wanted.output}/tables.html shows this with pictures.")
+        files["results.json"] = cells.text_of(measured)
+    for name, text in files.items():
+        with open(os.path.join(wanted.output, name), "w") as file:
+            file.write(text)
+    print(f"{files['tables.md']}\n{wanted.output}/tables.html shows this with pictures.")
 
 
 def read_command_line():
@@ -88,7 +90,7 @@ def read_command_line():
     parser.add_argument("--backend", default="threads", choices=["threads", "mpi"], help="default: threads")
     parser.add_argument("--rounds", type=int, default=3, help="over all tables; default: 3")
     parser.add_argument("--quick", action="store_true", help="a few rows, one round, at most 4 nodes: seconds")
-    parser.add_argument("--beside", nargs="+", default=[], metavar="FILE", help="cells of other sources to show as well")
+    parser.add_argument("--beside", nargs="+", default=[], metavar="FILE", help="results of other sources or earlier runs, to show beside")
     parser.add_argument("-o", "--output", default="tables", metavar="FOLDER", help="default: tables")
     wanted = parser.parse_args()
     if unknown := set(wanted.parts) - {*parts, "none"}:
@@ -101,11 +103,9 @@ def read_command_line():
 
 def main():
     wanted = read_command_line()
-    pictures.needed()
     with tempfile.TemporaryDirectory() as folder:
         machine = runs.Machine(wanted.build, wanted.backend, folder)
-        measured = measured_tables(wanted, machine, folder)
-        write_results(wanted, measured, studied(wanted, machine, folder))
+        write_results(wanted, measured_tables(wanted, machine, folder) + studied(wanted, machine, folder))
 
 
 if __name__ == "__main__":
