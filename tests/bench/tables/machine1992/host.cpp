@@ -35,7 +35,7 @@ void Host::show_keyframe(std::uint32_t frame, std::uint32_t strips) {
   work_.emplace_back();
   std::ranges::fill(written_, std::uint8_t{0});
   for (std::uint32_t k = 0; k < strips; ++k) {
-    const StripHead head = receive(kStrip);
+    const StripHead head = receive(kKeyframe);
     head.moving == 1 ? write_moving(head) : write_constant(head);
   }
   show_(frame, screen_);
@@ -50,7 +50,9 @@ void Host::show_inbetween(std::uint32_t frame) {
 }
 
 StripHead Host::receive(long type) {
-  crecv(type, received_.data(), static_cast<long>(4 * received_.size()));
+  crecv(type, nullptr, 0);
+  csend(kReady, nullptr, 0, infonode(), 0);
+  crecv(kStrip, received_.data(), static_cast<long>(4 * received_.size()));
   StripHead head;
   std::copy_n(received_.data(), sizeof(head) / 4, reinterpret_cast<std::uint32_t*>(&head));
   return head;
@@ -63,32 +65,38 @@ void Host::write_constant(const StripHead& head) {
                     last = std::size_t{head.last_line} * film_.settings().width;
   for (std::size_t at = first; at < last; ++at, ++from)
     screen_[at] = background_[at] = *from != 0 ? *from & ~kDrawn : plain_;
-  work_.back()[Work::copy] += last - first;
+  WorkCounts work;
+  work[Work::copy] = last - first;
+  spend(work, work_.back());
 }
 
 void Host::write_moving(const StripHead& head) {
+  WorkCounts work;
   const std::uint32_t* from = pixels();
   for (std::uint32_t line = head.first_line; line < head.last_line; ++line) {
     const std::size_t begin = std::size_t{line} * film_.settings().width;
     for (std::size_t at = begin + head.first_column; at < begin + head.last_column; ++at, ++from) {
-      ++work_.back()[Work::look];
+      ++work[Work::look];
       if (*from == 0) continue;
       screen_[at] = *from & ~kDrawn;
       written_[at / kBlock] = 1;
-      ++work_.back()[Work::copy];
+      ++work[Work::copy];
     }
   }
+  spend(work, work_.back());
 }
 
 void Host::restore() {
+  WorkCounts work;
   for (std::size_t block = 0; block < written_.size(); ++block) {
     if (std::exchange(written_[block], std::uint8_t{0}) == 0) continue;
     const std::size_t first = block * kBlock, count = std::min(kBlock, screen_.size() - first);
     std::copy_n(background_.begin() + static_cast<std::ptrdiff_t>(first), count,
                 screen_.begin() + static_cast<std::ptrdiff_t>(first));
-    work_.back()[Work::copy] += count;
+    work[Work::copy] += count;
   }
-  work_.back()[Work::look] += written_.size();
+  work[Work::look] = written_.size();
+  spend(work, work_.back());
 }
 
 }  // namespace mars::machine1992

@@ -9,9 +9,14 @@
 namespace mars::machine1992 {
 
 // Message types. There is no receive by source: a sender is packed into the type.
-inline constexpr long kEdgeBoxes = 1000;    // + the sender's number; an array of SentBox
-inline constexpr long kStrip = 1;           // of a keyframe, from any node
-inline constexpr long kInbetween = 100000;  // + the frame's number, from its node
+inline constexpr long kEdgeBoxes = 1000;  // + the sender's number; an array of SentBox
+
+// Strips go to the host as long messages do on the iPSC/2, in three steps: a node says that it has one, and waits; the
+// host says when it is ready, and the strip comes.
+inline constexpr long kKeyframe = 1;        // a node has a strip of a keyframe
+inline constexpr long kInbetween = 100000;  // + the frame's number: of an inbetween
+inline constexpr long kReady = 2;
+inline constexpr long kStrip = 3;
 
 // An edge box with what is interpolated along it.
 struct SentBox {

@@ -57,9 +57,9 @@ void Node::draw_keyframe(std::uint32_t frame) {
   exchange_boxes();
   draw_lines(lines);
   const geometry::LineRange columns{0, film_.settings().width};
-  send_strip(kStrip, false, lines, columns);
+  send_strip(kKeyframe, false, lines, columns);
   if (std::ranges::any_of(scene_.film().segments(), [&, s = 0u](const auto&) mutable { return scene_.moves(s++); }))
-    send_strip(kStrip, true, lines, columns);
+    send_strip(kKeyframe, true, lines, columns);
   exchange_depths();
 }
 
@@ -71,7 +71,9 @@ void Node::begin_record(std::uint32_t frame, bool keyframe) {
 
 void Node::make_lists() {
   const node::Scatter scatter{static_cast<std::uint32_t>(mynode()), static_cast<std::uint32_t>(numnodes())};
-  own_ = share_.edge_boxes(scene_, scatter, true, records_.back().lists);
+  WorkCounts work;
+  own_ = share_.edge_boxes(scene_, scatter, true, work);
+  spend(work, records_.back().lists);
   boxes_on_line_.assign(film_.settings().height, 0);
   for (const SentBox& box : own_) boxes_on_line_[box.line] += 1;
 }
@@ -84,7 +86,7 @@ geometry::LineRange Node::find_home() {
   std::vector<std::uint64_t> totals(1, 0);
   for (const double boxes : boxes_on_line_) totals.push_back(static_cast<std::uint64_t>(boxes));
   group::map_greedy(totals, homes_);
-  work()[Work::line] += boxes_on_line_.size();
+  spend_one(Work::line, boxes_on_line_.size());
   return homes_[self()];
 }
 
@@ -100,6 +102,10 @@ void Node::exchange_boxes() {
     else
       pack(box, to_[node]);
   }
+  for (const auto& boxes : to_) {
+    records_.back().sent.push_back(boxes.size());
+    spend_one(Work::pass_on, boxes.size() / kSentBoxBytes);
+  }
   std::vector<long> sends;
   for (std::size_t k = 1; k < to_.size(); ++k) {
     const std::size_t node = (self() + k) % to_.size();
@@ -108,10 +114,6 @@ void Node::exchange_boxes() {
   }
   for (std::size_t k = 1; k < to_.size(); ++k) receive_boxes(static_cast<int>((self() + to_.size() - k) % to_.size()));
   for (const long send : sends) msgwait(send);
-  for (const auto& boxes : to_) {
-    records_.back().sent.push_back(boxes.size());
-    work()[Work::pass_on] += boxes.size() / kSentBoxBytes;
-  }
 }
 
 void Node::receive_boxes(int from) {
@@ -119,16 +121,18 @@ void Node::receive_boxes(int from) {
   std::vector<std::byte> boxes(static_cast<std::size_t>(infocount()));
   crecv(kEdgeBoxes + from, boxes.data(), static_cast<long>(boxes.size()));
   for (std::size_t at = 0; at < boxes.size(); at += kSentBoxBytes) lists_.add(unpacked(boxes.data() + at));
-  work()[Work::pass_on] += boxes.size() / kSentBoxBytes;
+  spend_one(Work::pass_on, boxes.size() / kSentBoxBytes);
 }
 
 void Node::draw_lines(const geometry::LineRange& lines) {
   const shading::Shading shading = shading::shading_of(scene_);
   buffers_.constant.clear(lines);
   buffers_.moving.clear(lines);
-  work()[Work::clear] += 2ull * lines.count() * film_.settings().width;
-  scanlines_.draw_stationary(lists_, lines, shading, buffers_, work());
-  scanlines_.draw_moving(lists_, lines, shading, buffers_, work());
+  WorkCounts work;
+  work[Work::clear] = 2ull * lines.count() * film_.settings().width;
+  scanlines_.draw_stationary(lists_, lines, shading, buffers_, work);
+  scanlines_.draw_moving(lists_, lines, shading, buffers_, work);
+  spend(work, records_.back().lines);
 }
 
 // All nodes' parts of the CZB, which tile the picture in the nodes' order, become everybody's.
@@ -141,6 +145,7 @@ void Node::exchange_depths() {
   const std::vector<float> mine(depths.begin(), depths.begin() + own.count() * film_.settings().width);
   gcolx(mine.data(), bytes.data(), buffers_.constant.depths.data());
   records_.back().depths = static_cast<std::uint64_t>(bytes[self()]);
+  spend_one(Work::depth, buffers_.constant.depths.size() - mine.size());
 }
 
 void Node::draw_inbetween(std::uint32_t frame) {
@@ -148,10 +153,12 @@ void Node::draw_inbetween(std::uint32_t frame) {
   begin_record(frame, false);
   const std::uint32_t width = film_.settings().width, height = film_.settings().height;
   lists_.clear();
-  for (const SentBox& box : share_.edge_boxes(scene_, {0, 1}, false, records_.back().lists)) lists_.add(box);
+  WorkCounts work;
+  for (const SentBox& box : share_.edge_boxes(scene_, {0, 1}, false, work)) lists_.add(box);
   buffers_.moving.clear({0, height});
-  work()[Work::clear] += std::uint64_t{width} * height;
-  scanlines_.draw_moving(lists_, {0, height}, shading::shading_of(scene_), buffers_, work());
+  work[Work::clear] = std::uint64_t{width} * height;
+  scanlines_.draw_moving(lists_, {0, height}, shading::shading_of(scene_), buffers_, work);
+  spend(work, records_.back().lines);
   const auto [lines, columns] = moving_box();
   const auto drawn = std::ranges::count_if(buffers_.moving.pixels, [](std::uint32_t pixel) { return pixel != 0; });
   records_.back().moving = {4ull * width * height, 4ull * width * lines.count(), 4ull * columns.count() * lines.count(),
@@ -169,7 +176,7 @@ std::pair<geometry::LineRange, geometry::LineRange> Node::moving_box() {
       columns = {std::min(columns.first, column), std::max(columns.last, column + 1)};
     }
   }
-  work()[Work::look] += buffers_.moving.pixels.size();
+  spend_one(Work::look, buffers_.moving.pixels.size());
   return lines.last == 0 ? std::pair<geometry::LineRange, geometry::LineRange>() : std::pair(lines, columns);
 }
 
@@ -182,7 +189,15 @@ void Node::send_strip(long type, bool moving, const geometry::LineRange& lines, 
   for (std::uint32_t line = lines.first; line < lines.last; ++line, to += 4ull * columns.count())
     std::memcpy(to, layer.pixels_of(line).data() + columns.first, 4ull * columns.count());
   records_.back().strips.push_back(message.size());
-  csend(type, message.data(), static_cast<long>(message.size()), myhost(), 0);
+  csend(type, nullptr, 0, myhost(), 0);
+  crecv(kReady, nullptr, 0);
+  csend(kStrip, message.data(), static_cast<long>(message.size()), myhost(), 0);
+}
+
+void Node::spend_one(Work kind, std::uint64_t units) {
+  WorkCounts work;
+  work[kind] = units;
+  spend(work, records_.back().lines);
 }
 
 }  // namespace mars::machine1992

@@ -37,7 +37,7 @@ class Node {
   void draw_lines(const geometry::LineRange& lines);
   void exchange_depths();
   void send_strip(long type, bool moving, const geometry::LineRange& lines, const geometry::LineRange& columns);
-  WorkCounts& work() { return records_.back().lines; }
+  void spend_one(Work kind, std::uint64_t units);
   // The least lines, and columns as another range, on which the MFB has something.
   std::pair<geometry::LineRange, geometry::LineRange> moving_box();
 

@@ -1,6 +1,4 @@
-// What the 1992 program's steps are counted in, and the processor's operations that one of each takes: those of the
-// plain algorithms in single precision, written down in operations.cpp. `mars bench tables` weighs them by published
-// cycles of the 80386 and 80387.
+// What the 1992 program's work is counted in. costs.py says what a unit costs.
 #pragma once
 
 #include <array>
@@ -22,20 +20,26 @@ enum class Work : int {
   clear,     // of a pixel: colour and depth
   look,      // at a pixel: whether something was drawn there
   copy,      // of a pixel
+  depth,     // of another node's part of the CZB, that comes
 };
-inline constexpr std::size_t kWorks = 12;
+inline constexpr std::size_t kWorks = 13;
 
-inline constexpr std::array<const char*, kWorks> kWorkNames = {
-    "vertex", "polygon", "set_up", "edge_box", "pass_on", "line", "span", "pixel", "shading", "clear", "look", "copy"};
+inline constexpr std::array<const char*, kWorks> kWorkNames = {"vertex", "polygon", "set_up", "edge_box", "pass_on",
+                                                               "line",   "span",    "pixel",  "shading",  "clear",
+                                                               "look",   "copy",    "depth"};
 
 class WorkCounts {
  public:
   std::uint64_t& operator[](Work work) { return units_[static_cast<std::size_t>(work)]; }
   std::uint64_t operator[](Work work) const { return units_[static_cast<std::size_t>(work)]; }
+  WorkCounts& operator+=(const WorkCounts& other);
   bool operator==(const WorkCounts&) const = default;
 
  private:
   std::array<std::uint64_t, kWorks> units_{};
 };
+
+// The calling process has done `work` (messages::charge), which is added to `sum`.
+void spend(const WorkCounts& work, WorkCounts& sum);
 
 }  // namespace mars::machine1992
