@@ -28,6 +28,7 @@ void Host::show_interval(std::uint32_t number, std::uint32_t inbetweens) {
   plain_ = static_cast<std::uint32_t>(color::pixel_of(encoding, film_.settings().background.data()));
   const auto nodes = static_cast<std::uint32_t>(numnodes());
   show_keyframe(interval.first_frame, interval.moving_count > 0 ? 2 * nodes : nodes);
+  csend(kGoOn, nullptr, 0, -1, 0);
   for (std::uint32_t k = 0; k < inbetweens; ++k) show_inbetween(interval.first_frame + 1 + k);
 }
 

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""The tables of 1992 on a simulated iPSC/2, by the thesis's algorithms: simulate.py --build BUILD FILE.
+
+Writes FILE, with all cells, the fitted parameters and their uncertainty, and prints how far the cells are from the
+thesis's. README.md says what is fitted on what."""
+import argparse
+import concurrent.futures
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(HERE))
+
+import cells as tables  # noqa: E402
+import fit  # noqa: E402
+import records  # noqa: E402
+import replay  # noqa: E402
+import scenes  # noqa: E402
+from costs import WORKS  # noqa: E402
+
+INBETWEENS = 32
+CORRECTIONS = 2  # of what is replayed, by what is simulated
+
+
+class Simulator:
+    """Films and programs. `folder`: for films and costs."""
+
+    def __init__(self, build, folder):
+        self.program = os.path.join(build, "bench", "tables", "machine1992")
+        self.folder = folder
+        films = scenes.all_films(scenes.Cut(2, INBETWEENS))
+        scenes.write({name: still(film) if name.startswith("4.3") else film for name, film in films.items()}, folder)
+
+    def film(self, table, row):
+        return os.path.join(self.folder, f"{table}-{row}.json")
+
+    def record(self, table, row, measured):
+        """By nodes, the jobs that the row's cells need."""
+        nodes = sorted({cell[2] for cell in measured if cell[0] == row})
+        if "inbetween" not in tables.KINDS[table]:
+            return records.record(self.program, self.film(table, row), nodes, 0)
+        most = [max(nodes)]
+        return {**records.record(self.program, self.film(table, row), nodes[:-1], 0),
+                **records.record(self.program, self.film(table, row), most, INBETWEENS)}
+
+    def times(self, table, measured, parameters):
+        """Milliseconds of the cells, simulated."""
+        costs = fit.costs_of(parameters)
+        file = os.path.join(self.folder, "costs.json")
+        with open(file, "w") as to:
+            json.dump({"work": dict(zip(WORKS, map(float, costs.work))), "host_byte": costs.host_byte,
+                       "host_message": costs.host_message}, to)
+
+        def row_times(row):
+            nodes = sorted({cell[2] for cell in measured if cell[0] == row})
+            words = [self.program, "time", self.film(table, row), ",".join(map(str, nodes)),
+                     repr(parameters["scale"]), replay.IPSC2, file]
+            found = json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
+            keyframe = {("keyframe", int(one["count"])): one["keyframe"] for one in found}
+            inbetween = {("inbetween", int(one["count"])): (one["interval"] - one["keyframe"]) / one["count"]
+                         for one in found}
+            return row, {**keyframe, **inbetween}
+        by_row = dict(in_pairs(row_times, rows_of(measured)))
+        return [1000 * by_row[row][kind, nodes] for row, kind, nodes, _ in measured]
+
+
+def still(film):
+    """With nothing that moves, all in its first pose."""
+    def at_rest(actor):
+        first = actor.get("keys", [{"pose": {}}])[0]["pose"]
+        return {**{name: value for name, value in actor.items() if name != "keys"},
+                "pose": {**actor.get("pose", {}), **first}}
+    return {**film, "actors": [at_rest(actor) for actor in film["actors"]]}
+
+
+def rows_of(measured):
+    return sorted({cell[0] for cell in measured})
+
+
+def in_pairs(function, items):
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        return list(pool.map(function, items))
+
+
+def measured_cells():
+    """By table, [row, kind, nodes, ms]."""
+    return {part["table"]: [(cell["row"], cell["kind"], cell["nodes"], cell["ms"]) for cell in part["cells"]]
+            for part in tables.load(tables.THESIS)}
+
+
+def corrected(simulator, table, cells, found):
+    """Fits once more what is nearest to the simulated times; returns those of `found`."""
+    times = simulator.times(table, cells.cells, found)
+    cells.ratio *= times / cells.times(fit.costs_of(found), found["scale"])
+    return times
+
+
+def simulate(simulator, wanted, measured):
+    """The parts of the file, a table each; 4.1 is the first, by which costs are fitted."""
+    network = replay.Network()
+    parts, costs, spread = [], None, {}
+    for table in wanted:
+        rows = rows_of(measured[table])
+        films = dict(zip(rows, in_pairs(lambda row, of=table: simulator.record(of, row, measured[of]), rows)))
+        cells = fit.Cells(measured[table], films, network)
+        for turn in range(CORRECTIONS + 1):
+            if table == "4.1":
+                costs = fit.fit_costs(cells, costs)
+                found = costs
+            else:
+                found = {**costs, "scale": fit.fit_scale(cells, fit.costs_of(costs))}
+            times = corrected(simulator, table, cells, found)
+        if table == "4.1":
+            spread = fit.uncertainty(cells, costs)
+        parts.append(part_of(table, measured[table], times, found, spread))
+    return parts
+
+
+def part_of(table, measured, times, found, spread):
+    listed = [{"row": row, "kind": kind, "nodes": nodes, "ms": round(ms, 1)}
+              for (row, kind, nodes, _), ms in zip(measured, times)]
+    fitted = {name: {"value": float(f"{value:.4g}"), "deviation": float(f"{spread[name]:.2g}")}
+              for name, value in found.items() if name != "scale" or table == "4.1"}
+    fitted.setdefault("scale", {"value": round(found["scale"], 4), "fitted_on": f"{fit.NODES_OF_COLUMN} nodes"})
+    return {"table": table, "source": "simulated-thesis", "parameters": fitted, "cells": listed}
+
+
+def report(part, measured):
+    """Deviations from the thesis, for a person: a line a row, percent by nodes."""
+    table, lines = part["table"], [f"Table {part['table']}: " + ", ".join(
+        f"{name} {value['value']:g}" + (f" +- {value['deviation']:g}" if "deviation" in value else "")
+        for name, value in part["parameters"].items())]
+    times = {(cell["row"], cell["kind"], cell["nodes"]): cell["ms"] for cell in part["cells"]}
+    for kind in tables.KINDS[table]:
+        of = {cell[:3]: times[cell[:3]] / cell[3] - 1 for cell in measured if cell[1] == kind}
+        predicted = [abs(error) for key, error in of.items() if table == "4.1" or key[2] != fit.NODES_OF_COLUMN]
+        lines.append(f"  {kind}s: median error {100 * statistics.median(predicted):.1f} % of {len(predicted)} "
+                     f"{'fitted' if table == '4.1' else 'predicted'} cells")
+        for row in rows_of(measured):
+            errors = "  ".join(f"{nodes}: {100 * error:+.0f}" for (r, _, nodes), error in of.items() if r == row)
+            lines.append(f"    {row:>7}  {errors}" + (best_of(row, measured, times) if kind == "keyframe" else ""))
+    return "\n".join(lines)
+
+
+def best_of(row, measured, times):
+    """How much longer than the least the thesis measured at the best number of nodes by simulation."""
+    of = {nodes: (times[row, kind, nodes], ms) for r, kind, nodes, ms in measured if r == row and kind == "keyframe"}
+    best = min(of, key=lambda nodes: of[nodes][0])
+    loss = of[best][1] / min(ms for _, ms in of.values()) - 1
+    return f"   best at {best}, measured there {100 * loss:+.0f} % of the least"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True)
+    parser.add_argument("file")
+    parser.add_argument("--tables", default=",".join(sorted(tables.TITLES)), help="4.1 and others; default all")
+    wanted = parser.parse_args()
+    measured = measured_cells()
+    with tempfile.TemporaryDirectory(prefix="machine1992-") as folder:
+        names = sorted({"4.1", *wanted.tables.split(",")})
+        parts = simulate(Simulator(wanted.build, folder), names, measured)
+    with open(wanted.file, "w") as file:
+        file.write(tables.text_of(parts))
+    for part in parts:
+        print(report(part, measured[part["table"]]))
+
+
+if __name__ == "__main__":
+    main()
