@@ -3,12 +3,12 @@ import math
 
 import numpy
 
+import records
 import replay
 
 NODES_OF_COLUMN = 8  # the column by which other tables' figures get their scale
 # Where the fit begins: the published clocks, the rate of a channel, and guesses.
 FIRST = {"speed": 1.0, "host_byte": 0.4e-6, "host_message": 0.02, "depth": 2e-6, "scale": 0.2}
-LEAST_SCALE = 0.035
 
 
 class Cells:
@@ -39,7 +39,7 @@ class Cells:
         """Those cells for which wanted(cell) holds."""
         keep = [k for k, cell in enumerate(self.cells) if wanted(cell)]
         some = Cells([self.cells[k] for k in keep], self.films, self.network)
-        some.ratio = self.ratio[keep]
+        some.ms, some.ratio = self.ms[keep], self.ratio[keep]
         return some
 
 
@@ -59,14 +59,18 @@ def fit_costs(cells, first=None, fixed=()):
     names = [name for name in FIRST if name not in fixed]
 
     def parameters(logs):
-        found = {**first, **dict(zip(names, map(float, numpy.exp(logs))))}
-        return {**found, "scale": min(max(found["scale"], LEAST_SCALE), 1.0)}
-    logs = least_squares(lambda logs: residuals(cells, parameters(logs)), numpy.log([first[name] for name in names]))
-    return parameters(logs)
+        return {**first, **dict(zip(names, map(float, numpy.exp(logs))))}
+
+    def within(logs):
+        low, high = math.log(min(records.SCALES)), math.log(max(records.SCALES))
+        return numpy.array([min(max(log, low), high) if name == "scale" else log for name, log in zip(names, logs)])
+    return parameters(least_squares(lambda logs: residuals(cells, parameters(logs)),
+                                    numpy.log([first[name] for name in names]), within))
 
 
-def least_squares(function, at, rounds=40):
-    """Levenberg and Marquardt's method with differences for derivatives."""
+def least_squares(function, at, within, rounds=40):
+    """Levenberg and Marquardt's method with differences for derivatives. within(x): the place next to x that is allowed."""
+    at = within(at)
     damping, now = 1e-2, function(at)
     for _ in range(rounds):
         slopes = numpy.stack([(function(at + step) - now) / 1e-4 for step in 1e-4 * numpy.eye(len(at))], axis=1)
@@ -74,7 +78,7 @@ def least_squares(function, at, rounds=40):
         gained = 0.0
         while gained <= 0 and damping < 1e8:
             step = numpy.linalg.solve(normal + damping * numpy.diag(numpy.diag(normal) + 1e-9), -slopes.T @ now)
-            step = numpy.clip(step, -1, 1)
+            step = within(at + numpy.clip(step, -1, 1)) - at
             after = function(at + step)
             gained = now @ now - after @ after
             damping *= 4
@@ -108,7 +112,8 @@ def fit_scale(cells, costs):
 
     def error(scale):
         return float((numpy.log(column.times(costs, scale) / column.ms)**2).sum())
-    coarse = numpy.exp(numpy.linspace(math.log(LEAST_SCALE), 0, 30))
+    least, most = min(records.SCALES), max(records.SCALES)
+    coarse = numpy.geomspace(least, most, 30)
     best = min(coarse, key=error)
     step = coarse[1] / coarse[0]
-    return float(min(numpy.clip(best * numpy.geomspace(1 / step, step, 21), LEAST_SCALE, 1), key=error))
+    return float(min(numpy.clip(best * numpy.geomspace(1 / step, step, 21), least, most), key=error))

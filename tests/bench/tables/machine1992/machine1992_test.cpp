@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "hal/simulated/run_simulated.h"
 #include "hal/threads/run_threads.h"
 #include "tests/bench/tables/machine1992/job.h"
 #include "tests/render/film_run.h"
@@ -76,6 +77,46 @@ TEST_P(Machine1992, SendsWhatTheThesisSays) {
 TEST_P(Machine1992, CountsTheSameAgain) {
   const test::FilmBlock block(film());
   EXPECT_EQ(draw(block, GetParam()).records, draw(block, GetParam()).records);
+}
+
+struct Timed {
+  Drawn drawn;
+  double seconds;
+};
+
+Timed draw_simulated(const test::FilmBlock& film, int nodes, double unit) {
+  simulated::Machine machine;
+  machine.host_apart = true;
+  machine.network = {.topology = simulated::Topology::hypercube, .hop = 30e-6, .byte = 1 / 2.8e6, .host_byte = 1e-6};
+  machine.network.host_end = {{0, 0}, {1, 0.02}};
+  machine.work.assign(kWorks, unit);
+  Timed timed{};
+  const Run run = [&](int count, const auto& host, const auto& node) {
+    timed.seconds = simulated::run_simulated(
+        machine, count, [&](simulated::World&) { host(); }, node);
+  };
+  timed.drawn.records =
+      run_job({film.view(), 0, kInbetweens}, nodes, run,
+              [&](std::uint32_t frame, const auto& screen) { timed.drawn.run.frames[frame] = screen; });
+  return timed;
+}
+
+// Its time is at least the host's: whole CFB and MFB over its link, a cost for each strip, its own work.
+TEST_P(Machine1992, TakesTheSameSimulatedTimeAgain) {
+  const test::FilmBlock block(film());
+  const double unit = 1e-6;
+  const Timed once = draw_simulated(block, GetParam(), unit), again = draw_simulated(block, GetParam(), unit);
+  test::expect_same(once.drawn.run, test::run_film(block.bytes()), block.view().settings(), "simulated1992");
+  EXPECT_EQ(once.seconds, again.seconds);
+  EXPECT_EQ(once.drawn.records, draw(block, GetParam()).records);
+  double least = 0;
+  for (const auto& node : once.drawn.records.nodes)
+    for (const NodeRecord& frame : node)
+      for (const std::uint64_t bytes : frame.strips) least += 0.02 + 1e-6 * static_cast<double>(bytes);
+  for (const WorkCounts& frame : once.drawn.records.host)
+    least += unit * static_cast<double>(frame[Work::copy] + frame[Work::look]);
+  EXPECT_GT(once.seconds, least);
+  EXPECT_GT(draw_simulated(block, GetParam(), 2 * unit).seconds, once.seconds);
 }
 
 INSTANTIATE_TEST_SUITE_P(Nodes, Machine1992, testing::Values(1, 2, 3, 8));

@@ -45,6 +45,7 @@ void Node::draw_interval(std::uint32_t interval, std::uint32_t inbetweens) {
   const std::uint32_t keyframe = film_.intervals()[interval].first_frame;
   scene_.set_interval(interval);
   draw_keyframe(keyframe);
+  gsync();
   crecv(kGoOn, nullptr, 0);
   for (auto k = static_cast<std::uint32_t>(mynode()); k < inbetweens; k += static_cast<std::uint32_t>(numnodes()))
     draw_inbetween(keyframe + 1 + k);

@@ -27,13 +27,14 @@ CORRECTIONS = 2  # of what is replayed, by what is simulated
 
 
 class Simulator:
-    """Films and programs. `folder`: for films and costs."""
+    """Films and programs. `folder`: for films and costs. `names`: of the films; all if none are given."""
 
-    def __init__(self, build, folder):
+    def __init__(self, build, folder, names=None):
         self.program = os.path.join(build, "bench", "tables", "machine1992")
         self.folder = folder
         films = scenes.all_films(scenes.Cut(2, INBETWEENS))
-        scenes.write({name: still(film) if name.startswith("4.3") else film for name, film in films.items()}, folder)
+        scenes.write({name: still(film) if name.startswith("4.3") else film for name, film in films.items()
+                      if names is None or name in names}, folder)
 
     def film(self, table, row):
         return os.path.join(self.folder, f"{table}-{row}.json")
@@ -123,17 +124,21 @@ def simulate(simulator, wanted, measured):
 def part_of(table, measured, times, found, spread):
     listed = [{"row": row, "kind": kind, "nodes": nodes, "ms": round(ms, 1)}
               for (row, kind, nodes, _), ms in zip(measured, times)]
-    fitted = {name: {"value": float(f"{value:.4g}"), "deviation": float(f"{spread[name]:.2g}")}
-              for name, value in found.items() if name != "scale" or table == "4.1"}
-    fitted.setdefault("scale", {"value": round(found["scale"], 4), "fitted_on": f"{fit.NODES_OF_COLUMN} nodes"})
-    return {"table": table, "source": "simulated-thesis", "parameters": fitted, "cells": listed}
+    parameters = {f"scale of {table}": rounded(found["scale"])}
+    if table == "4.1":
+        parameters |= {name: rounded(found[name]) for name in replay.Costs.NAMES}
+        parameters |= {f"{name}, standard deviation": rounded(spread[name]) for name in replay.Costs.NAMES}
+    return {"table": table, "source": "simulated-thesis", "parameters": parameters, "cells": listed}
+
+
+def rounded(value):
+    return float(f"{value:.4g}")
 
 
 def report(part, measured):
     """Deviations from the thesis, for a person: a line a row, percent by nodes."""
-    table, lines = part["table"], [f"Table {part['table']}: " + ", ".join(
-        f"{name} {value['value']:g}" + (f" +- {value['deviation']:g}" if "deviation" in value else "")
-        for name, value in part["parameters"].items())]
+    table = part["table"]
+    lines = [f"Table {table}: " + ", ".join(f"{name} {value:g}" for name, value in part["parameters"].items())]
     times = {(cell["row"], cell["kind"], cell["nodes"]): cell["ms"] for cell in part["cells"]}
     for kind in tables.KINDS[table]:
         of = {cell[:3]: times[cell[:3]] / cell[3] - 1 for cell in measured if cell[1] == kind}
