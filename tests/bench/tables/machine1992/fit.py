@@ -9,6 +9,7 @@ import replay
 NODES_OF_COLUMN = 8  # the column by which other tables' figures get their scale
 # Where the fit begins: the published clocks, the rate of a channel, and guesses.
 FIRST = {"speed": 1.0, "host_byte": 0.4e-6, "host_message": 0.02, "depth": 2e-6, "scale": 0.2}
+FIRST_SCALES = [0.05, 0.2, 0.6]
 
 
 class Cells:
@@ -52,10 +53,14 @@ def residuals(cells, parameters):
     return numpy.log(cells.times(costs_of(parameters), parameters["scale"]) / cells.ms)
 
 
-def fit_costs(cells, first=None, fixed=()):
-    """The parameters with the least sum of squares of residuals; all are positive. `fixed`: names that keep their first
-    value."""
-    first = first or FIRST
+def fit_costs(cells):
+    """The parameters with the least sum of squares of residuals; all are positive."""
+    fits = [fit_from(cells, {**FIRST, "scale": scale}) for scale in FIRST_SCALES]
+    return min(fits, key=lambda found: float((residuals(cells, found)**2).sum()))
+
+
+def fit_from(cells, first, fixed=()):
+    """The same, from some values on. `fixed`: names that keep theirs."""
     names = [name for name in FIRST if name not in fixed]
 
     def parameters(logs):
@@ -94,7 +99,7 @@ def uncertainty(cells, found):
     """The standard deviation of each parameter, by the jackknife over the table's columns: cells of one
     column err alike, so they are left out together."""
     columns = sorted({(cell[1], cell[2]) for cell in cells.cells})
-    fits = [fit_costs(cells.only(lambda cell, column=column: (cell[1], cell[2]) != column), found) for column in columns]
+    fits = [fit_from(cells.only(lambda cell, column=column: (cell[1], cell[2]) != column), found) for column in columns]
 
     def spread(name):
         values = numpy.array([fit[name] for fit in fits])

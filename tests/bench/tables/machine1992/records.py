@@ -11,6 +11,8 @@ from costs import WORKS
 
 SCALES = [0.035, 0.055, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7, 1.0]
 
+PARTS = ["whole", "lines", "box", "pixels"]  # of an inbetween's MFB that might be sent
+
 
 class Job:
     """A keyframe, and perhaps inbetweens, by some nodes. Arrays have a row a node or inbetween, a column a kind of work;
@@ -30,6 +32,7 @@ class Job:
             "host": table(recorded["host"]),
             "inbetweens": table(frame["lines"] for frame in inbetweens),
             "moving": numpy.array([frame["strips"][0] for frame in inbetweens], float),
+            **{"moving_" + part: numpy.array([frame["moving"][part] for frame in inbetweens], float) for part in PARTS},
         }
 
     def __getattr__(self, name):

@@ -108,10 +108,9 @@ def simulate(simulator, wanted, measured):
         rows = rows_of(measured[table])
         films = dict(zip(rows, in_pairs(lambda row, of=table: simulator.record(of, row, measured[of]), rows)))
         cells = fit.Cells(measured[table], films, network)
-        for turn in range(CORRECTIONS + 1):
+        for _ in range(CORRECTIONS + 1):
             if table == "4.1":
-                costs = fit.fit_costs(cells, costs)
-                found = costs
+                found = costs = fit.fit_from(cells, costs) if costs else fit.fit_costs(cells)
             else:
                 found = {**costs, "scale": fit.fit_scale(cells, fit.costs_of(costs))}
             times = corrected(simulator, table, cells, found)
