@@ -2,9 +2,9 @@
 
 A file of results has objects
   {"table": "4.1", "source": "thesis", "cells": [{"row": 1300, "kind": "keyframe", "nodes": 2, "ms": 2449}, ...]},
-alone or in a list. row: polygons that move (4.1, 4.2), all polygons (4.3) or the film's number (4.4); kind: keyframe, or
-inbetween: milliseconds a frame at the nodes' throughput. "parameters" may say how they came about. Objects with a title,
-note, header and rows are further tables, shown as they are."""
+alone or in a list. row: polygons that move (4.1, 4.2), all polygons (4.3) or the film's number (4.4); kind: keyframe,
+or inbetween: milliseconds a frame at the nodes' throughput. "parameters" may say how they came about. Objects with a
+title, note, header and rows are further tables, shown as they are."""
 import json
 import os
 import statistics

@@ -108,5 +108,8 @@ def as_one_segment(patches):
     """A model of one segment with these patches."""
     points = [point for patch in patches for point in patch]
     low, high = ([pick(p[axis] for p in points) for axis in range(3)] for pick in (min, max))
-    unit = [[[round((x - a) / (b - a), 7) for x, a, b in zip(point, low, high)] for point in patch] for patch in patches]
-    return {"shapes": {"all": unit}, "joints": [joint("all", None, [0, 0, 0], [low, high], "cloth", "all")]}
+
+    def in_cube(point):
+        return [round((x - a) / (b - a), 7) for x, a, b in zip(point, low, high)]
+    return {"shapes": {"all": [[in_cube(point) for point in patch] for patch in patches]},
+            "joints": [joint("all", None, [0, 0, 0], [low, high], "cloth", "all")]}

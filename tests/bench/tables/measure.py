@@ -30,8 +30,10 @@ class Table:
 
     def measure(self, row, nodes):
         name = f"{self.table}-{row}" + ("-patches" if self.of_patches else "")
-        frames = self.machine.render(os.path.join(self.films, name + ".json"), nodes)
-        self.add((row, "keyframe", nodes), runs.wall_of_keyframes(frames), runs.busy_of_keyframe(frames))
+        film = os.path.join(self.films, name + ".json")
+        frames, scratch = self.machine.render(film, nodes), self.machine.render(film, nodes, *runs.SCRATCH)
+        own = runs.busy_of_keyframe(runs.keyframes(frames))
+        self.add((row, "keyframe", nodes), runs.wall_from_scratch(scratch), own)
         if "inbetween" in cells.KINDS[self.table]:
             self.add((row, "inbetween", nodes), runs.wall_of_inbetweens(frames), runs.busy_of_inbetweens(frames, nodes))
 

@@ -105,7 +105,8 @@ def all_pictures(parts):
     if pyplot is None:
         return {}
     tables = cells.beside_thesis(parts)
-    found = {f"table-{table}-{kind}s": over_nodes(parts, table, kind) for table in tables for kind in cells.KINDS[table]}
+    found = {f"table-{table}-{kind}s": over_nodes(parts, table, kind)
+             for table in tables for kind in cells.KINDS[table]}
     if "4.3" in tables:
         found["figure-4.12"] = in_three_dimensions(parts)
     return found

@@ -7,8 +7,18 @@ import subprocess
 from cells import Trouble
 
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-WORK = ["dice", "map", "fill", "scanline"]           # phases in which a node waits for nobody
-WARM_UP = 1                                          # intervals at a run's beginning that do not count
+WORK = ["dice", "map", "fill", "scanline"]  # phases in which a node waits for nobody
+WARM_UP = 1  # intervals at a run's beginning that do not count
+SKIPPED = 2  # likewise frames, where all are drawn from scratch
+SCRATCH = ["--no-coherence", "--frames", "0-24"]
+
+
+def run(words, **options):
+    """The program's standard output."""
+    done = subprocess.run(words, capture_output=True, text=True, **options)
+    if done.returncode != 0:
+        raise Trouble(done.stderr.strip())
+    return done.stdout
 
 
 class Machine:
@@ -23,9 +33,7 @@ class Machine:
         report = os.path.join(self.folder, "report.json")
         words = [self.mars, "render", film, "--backend", self.backend, "--nodes", str(nodes), "--groups", "1",
                  "--sink", "none", "--quiet", "--report", report, *options]
-        done = subprocess.run(words, env={**os.environ, **ROOT}, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise Trouble(done.stderr.strip())
+        run(words, env={**os.environ, **ROOT})
         with open(report) as file:
             return json.load(file)["frames"]
 
@@ -38,10 +46,12 @@ def inbetweens(frames):
     return [frame for frame in frames if frame["kind"] == "inbetween" and frame["interval"] >= WARM_UP]
 
 
-def wall_of_keyframes(frames):
-    """Milliseconds of each: from when the last node began it until all were through. All phases of that node count: the
-    others waited for it longer."""
-    return [1000 * min(sum(node["seconds"].values()) for node in frame["nodes"]) for frame in keyframes(frames)]
+def wall_from_scratch(frames):
+    """Milliseconds of each frame of a run without coherence: from one frame's arrival at the host to the next one's.
+    Keyframes among inbetweens have no such beginning, for nodes that are done with theirs begin it while others still
+    draw."""
+    arrivals = sorted(frame["seconds"] for frame in frames)[SKIPPED:]
+    return [1000 * (after - before) for before, after in zip(arrivals, arrivals[1:])]
 
 
 def wall_of_inbetweens(frames):
@@ -58,7 +68,7 @@ def working(node, phases):
 
 
 def least_by_node(frames, phases):
-    """Milliseconds of each node in these phases, the least over the keyframes: the system may have stopped it in others."""
+    """Milliseconds of each node in these phases, its least of all frames: the system may have stopped it in others."""
     least = {}
     for frame in frames:
         for node in frame["nodes"]:
@@ -66,10 +76,9 @@ def least_by_node(frames, phases):
     return list(least.values())
 
 
-def busy_of_keyframe(frames):
-    """Milliseconds if each node had a core to itself and messages took no time: the slowest node's making of triangles,
-    then the slowest one's scanlines."""
-    own = keyframes(frames)
+def busy_of_keyframe(own):
+    """Milliseconds of these keyframes if each node had a core to itself and messages took no time: the slowest node's
+    making of triangles, then the slowest one's scanlines."""
     return max(least_by_node(own, ["dice"])) + max(least_by_node(own, ["map", "fill", "scanline"]))
 
 
