@@ -10,7 +10,7 @@ ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 WORK = ["dice", "map", "fill", "scanline"]  # phases in which a node waits for nobody
 WARM_UP = 1  # intervals at a run's beginning that do not count
 SKIPPED = 2  # likewise frames, where all are drawn from scratch
-SCRATCH = ["--no-coherence", "--frames", "0-24"]
+SCRATCH = ["--no-coherence", "--frames", "0-59"]
 
 
 def run(words, **options):
@@ -47,20 +47,21 @@ def inbetweens(frames):
 
 
 def wall_from_scratch(frames):
-    """Milliseconds of each frame of a run without coherence: from one frame's arrival at the host to the next one's.
-    Keyframes among inbetweens have no such beginning, for nodes that are done with theirs begin it while others still
-    draw."""
+    """Milliseconds a frame of a run without coherence: the time between the arrivals of its first and its last frame at
+    the host, shared out. Keyframes among inbetweens have no such time, for nodes that are done with theirs begin one
+    while others still draw."""
     arrivals = sorted(frame["seconds"] for frame in frames)[SKIPPED:]
-    return [1000 * (after - before) for before, after in zip(arrivals, arrivals[1:])]
+    return 1000 * (arrivals[-1] - arrivals[0]) / (len(arrivals) - 1)
 
 
 def wall_of_inbetweens(frames):
-    """Milliseconds a frame, of each interval: from the keyframe's arrival at the host to the last inbetween's."""
+    """Milliseconds a frame: in each interval from the keyframe's arrival at the host to the last inbetween's, all added
+    up and shared out."""
     begins = {frame["interval"]: frame["seconds"] for frame in keyframes(frames)}
-    arrivals = {}
+    ends = dict.fromkeys(begins, 0)
     for frame in inbetweens(frames):
-        arrivals.setdefault(frame["interval"], []).append(frame["seconds"])
-    return [1000 * (max(of) - begins[interval]) / len(of) for interval, of in arrivals.items()]
+        ends[frame["interval"]] = max(ends[frame["interval"]], frame["seconds"])
+    return 1000 * sum(ends[interval] - begins[interval] for interval in begins) / len(inbetweens(frames))
 
 
 def working(node, phases):

@@ -28,15 +28,16 @@ def measured_tables(wanted, machine, folder):
     if not tables:
         return []
     measure.write_films(many, ["4.1", "4.2"], *((3, 32) if wanted.quick else (5, 128)))
-    measure.write_films(few, ["4.3", "4.4"], 3 if wanted.quick else 9, 8)
+    measure.write_films(few, ["4.3", "4.4"], 8, 8)
     found = []
     for table in tables:
         with_inbetweens = "inbetween" in cells.KINDS[table]
         found += [measure.Table(table, machine, many if with_inbetweens else few, wanted.nodes,
                                 QUICK_ROWS[table] if wanted.quick else None, of_patches)
                   for of_patches in ([False, True] if with_inbetweens else [False])]
-    for _ in range(wanted.rounds):
+    for number in range(wanted.rounds):
         for table in found:
+            print(f"round {number + 1} of {wanted.rounds}: table {table.table}", file=sys.stderr)
             table.measure_round()
     parameters = {"machine": f"{platform.node()}, {len(os.sched_getaffinity(0))} cores", "backend": wanted.backend,
                   "rounds": wanted.rounds}
@@ -90,7 +91,8 @@ def read_command_line():
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     parser.add_argument("parts", nargs="*", metavar="PART",
                         help=f"what to measure: {', '.join(parts)}, or none; default: all")
-    parser.add_argument("--nodes", default="1,2,4,8,16,32", type=lambda text: [int(n) for n in text.split(",")])
+    parser.add_argument("--nodes", default="1,2,4,8,16,32", type=lambda text: [int(n) for n in text.split(",")],
+                        help="default: 1,2,4,8,16,32, as in the thesis and one")
     parser.add_argument("--backend", default="threads", choices=["threads", "mpi"], help="default: threads")
     parser.add_argument("--rounds", type=int, default=3, help="over all tables; default: 3")
     parser.add_argument("--quick", action="store_true", help="a few rows, one round, at most 4 nodes: seconds")
