@@ -88,3 +88,15 @@ class Cells:
     def median_error(self, source, kind):
         errors = [abs(deviation) for deviation in self.deviations(source, kind).values()]
         return statistics.median(errors) if errors else None
+
+    def regrets(self, source, kind):
+        """Of each row: by how much the thesis's time with the source's best number of nodes exceeds its least time; of
+        the numbers of nodes that both have."""
+        rows = {}
+        for row, nodes in self.deviations(source, kind):
+            rows.setdefault(row, []).append(nodes)
+        found = {}
+        for row, both in rows.items():
+            chosen = min(both, key=lambda nodes: self.ms(source, row, kind, nodes))
+            found[row] = self.ms("thesis", row, kind, chosen) / min(self.ms("thesis", row, kind, n) for n in both) - 1
+        return found

@@ -4,6 +4,7 @@ import html
 import cells
 
 PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
+NEAR = 0.05
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
 table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem}
 td,th{text-align:right;border-bottom:1px solid #ddd}
@@ -50,8 +51,11 @@ def summary(table, kind):
             continue
         if source.startswith(PREDICTS):
             (row, nodes), worst = max(deviations.items(), key=lambda item: abs(item[1]))
+            regrets = table.regrets(source, kind).values()
+            near = sum(regret <= NEAR for regret in regrets)
             said.append(f"{source}: median error {100 * table.median_error(source, kind):.0f} %, at most "
-                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}).")
+                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}); its best P takes within {100 * NEAR:.0f} % of "
+                        f"the thesis's least time in {near} of {len(regrets)} rows.")
         else:
             factors = sorted(1 / (1 + deviation) for deviation in deviations.values())
             said.append(f"{source}: {number(factors[0])} to {number(factors[-1])} times as fast as the thesis.")
