@@ -1,6 +1,4 @@
-"""Figures of 1992's size: models whose segments have a wanted number of polygons each.
-
-A `limb` is what makes a shape of a segment: limbs.mesh or limbs.patches."""
+"""Figures of 1992's size: models whose segments are limbs of a wanted number of polygons, or of patches."""
 import math
 
 import limbs
@@ -55,9 +53,11 @@ def segment_size(box):
 
 
 def slender(box):
-    """Rings to sides of a ring, so that triangles are about as high as wide."""
+    """Rings to sides of a ring: length over girth, and more, as rings crowd at the ends; so triangles of all segments
+    have about the same shape."""
     width, depth, height = segment_size(box)
-    return max(0.2, min(6.0, height / (1.57 * (width + depth)) * 1.6))
+    girth = 1.57 * (width + depth)
+    return max(0.2, min(6.0, height / girth * 1.6))
 
 
 def even_shares(total, count):
