@@ -26,7 +26,7 @@ using compositor::BlockFlags;
 using images::Image;
 
 constexpr std::uint32_t kMoving = 0xff00ff;
-constexpr int kRounds = 60;
+constexpr int kRounds = 20;
 
 // Pixels of one frame as a node sends them.
 struct Pixels {

@@ -2,9 +2,9 @@
 
 A file of results has objects
   {"table": "4.1", "source": "thesis", "cells": [{"row": 1300, "kind": "keyframe", "nodes": 2, "ms": 2449}, ...]},
-alone or in a list. row: polygons that move (4.1, 4.2), all polygons (4.3) or the film's number (4.4); kind: keyframe, or
-inbetween: milliseconds a frame at the nodes' throughput. "parameters" may say how they came about. Objects with a title,
-note, header and rows are further tables, shown as they are."""
+alone or in a list. row: polygons that move (4.1, 4.2), all polygons (4.3) or the film's number (4.4); kind: keyframe,
+or inbetween: milliseconds a frame at the nodes' throughput. "parameters" may say how they came about. Objects with a
+title, note, header and rows are further tables, shown as they are."""
 import json
 import os
 import statistics
@@ -88,3 +88,15 @@ class Cells:
     def median_error(self, source, kind):
         errors = [abs(deviation) for deviation in self.deviations(source, kind).values()]
         return statistics.median(errors) if errors else None
+
+    def regrets(self, source, kind):
+        """Of each row: by how much the thesis's time with the source's best number of nodes exceeds its least time; of
+        the numbers of nodes that both have."""
+        rows = {}
+        for row, nodes in self.deviations(source, kind):
+            rows.setdefault(row, []).append(nodes)
+        found = {}
+        for row, both in rows.items():
+            chosen = min(both, key=lambda nodes: self.ms(source, row, kind, nodes))
+            found[row] = self.ms("thesis", row, kind, chosen) / min(self.ms("thesis", row, kind, n) for n in both) - 1
+        return found

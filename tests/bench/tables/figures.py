@@ -1,6 +1,4 @@
-"""Figures of 1992's size: models whose segments have a wanted number of polygons each.
-
-A `limb` is what makes a shape of a segment: limbs.mesh or limbs.patches."""
+"""Figures of 1992's size: models whose segments are limbs of a wanted number of polygons, or of patches."""
 import math
 
 import limbs
@@ -55,9 +53,11 @@ def segment_size(box):
 
 
 def slender(box):
-    """Rings to sides of a ring, so that triangles are about as high as wide."""
+    """Rings to sides of a ring: length over girth, and more, as rings crowd at the ends; so triangles of all segments
+    have about the same shape."""
     width, depth, height = segment_size(box)
-    return max(0.2, min(6.0, height / (1.57 * (width + depth)) * 1.6))
+    girth = 1.57 * (width + depth)
+    return max(0.2, min(6.0, height / girth * 1.6))
 
 
 def even_shares(total, count):
@@ -108,5 +108,8 @@ def as_one_segment(patches):
     """A model of one segment with these patches."""
     points = [point for patch in patches for point in patch]
     low, high = ([pick(p[axis] for p in points) for axis in range(3)] for pick in (min, max))
-    unit = [[[round((x - a) / (b - a), 7) for x, a, b in zip(point, low, high)] for point in patch] for patch in patches]
-    return {"shapes": {"all": unit}, "joints": [joint("all", None, [0, 0, 0], [low, high], "cloth", "all")]}
+
+    def in_cube(point):
+        return [round((x - a) / (b - a), 7) for x, a, b in zip(point, low, high)]
+    return {"shapes": {"all": [[in_cube(point) for point in patch] for patch in patches]},
+            "joints": [joint("all", None, [0, 0, 0], [low, high], "cloth", "all")]}

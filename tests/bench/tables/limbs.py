@@ -30,7 +30,7 @@ def ring_point(t, turn):
 
 
 def ring_sizes(triangles, slender):
-    """Sides of each ring. A closed mesh of rings between two poles has twice as many triangles as its rings have sides."""
+    """Sides of each ring. A closed mesh of rings between two poles has two triangles for each side of a ring."""
     assert triangles >= 8 and triangles % 2 == 0, f"{triangles} triangles do not close a limb"
     sides = triangles // 2
     rings = max(1, min(sides // 3, round(math.sqrt(sides * slender))))

@@ -21,7 +21,7 @@ class Table:
     def __init__(self, table, machine, films, nodes, rows=None, of_patches=False):
         self.table, self.machine, self.films, self.nodes, self.of_patches = table, machine, films, nodes, of_patches
         self.rows = rows or rows_of(table)
-        self.found = {}  # by row, kind and nodes: lists of milliseconds on the wall, and of own work
+        self.found = {}  # by row, kind and nodes: milliseconds on the wall of each round, and of own work
 
     def measure_round(self):
         for row in self.rows:
@@ -30,15 +30,17 @@ class Table:
 
     def measure(self, row, nodes):
         name = f"{self.table}-{row}" + ("-patches" if self.of_patches else "")
-        frames = self.machine.render(os.path.join(self.films, name + ".json"), nodes)
-        self.add((row, "keyframe", nodes), runs.wall_of_keyframes(frames), runs.busy_of_keyframe(frames))
+        film = os.path.join(self.films, name + ".json")
+        frames, scratch = self.machine.render(film, nodes), self.machine.render(film, nodes, *runs.SCRATCH)
+        own = runs.busy_of_keyframe(runs.keyframes(frames))
+        self.add((row, "keyframe", nodes), runs.wall_from_scratch(scratch), own)
         if "inbetween" in cells.KINDS[self.table]:
             self.add((row, "inbetween", nodes), runs.wall_of_inbetweens(frames), runs.busy_of_inbetweens(frames, nodes))
 
-    def add(self, key, walls, busy):
-        all_walls, all_busy = self.found.setdefault(key, ([], []))
-        all_walls += walls
-        all_busy.append(busy)
+    def add(self, key, wall, busy):
+        walls, busies = self.found.setdefault(key, ([], []))
+        walls.append(wall)
+        busies.append(busy)
 
     def sources(self, parameters):
         """As a file of results has them."""

@@ -4,8 +4,10 @@ import html
 import cells
 
 PREDICTS = "simulated-thesis"  # sources of this name show by how much they miss the thesis
+NEAR = 0.05
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;color:#222}
-table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem;text-align:right;border-bottom:1px solid #ddd}
+table{border-collapse:collapse;margin:.6rem 0 1.6rem}td,th{padding:.15rem .6rem}
+td,th{text-align:right;border-bottom:1px solid #ddd}
 .name{text-align:left}tr.first td{border-top:2px solid #999}small{color:#777}
 figure{margin:1rem 0}svg{max-width:100%;height:auto}"""
 
@@ -35,9 +37,9 @@ def sheet_of(table, kind):
         for place, source in enumerate(sources):
             rows.append([row if place == 0 else "", source] + [cell_text(table, source, row, kind, n) for n in nodes] +
                         [table.best_nodes(source, row, kind)])
-    return {"title": f"Table {table.table}: {cells.TITLES[table.table]}; {kind}s, ms a frame", "note": summary(table, kind),
-            "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows,
-            "picture": f"table-{table.table}-{kind}s"}
+    return {"title": f"Table {table.table}: {cells.TITLES[table.table]}; {kind}s, ms a frame",
+            "note": summary(table, kind), "picture": f"table-{table.table}-{kind}s",
+            "header": [cells.ROWS[table.table], "source"] + [f"P = {n}" for n in nodes] + ["best P"], "rows": rows}
 
 
 def summary(table, kind):
@@ -49,8 +51,11 @@ def summary(table, kind):
             continue
         if source.startswith(PREDICTS):
             (row, nodes), worst = max(deviations.items(), key=lambda item: abs(item[1]))
+            regrets = table.regrets(source, kind).values()
+            near = sum(regret <= NEAR for regret in regrets)
             said.append(f"{source}: median error {100 * table.median_error(source, kind):.0f} %, at most "
-                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}).")
+                        f"{100 * worst:+.0f} % (row {row}, P = {nodes}); its best P takes within {100 * NEAR:.0f} % of "
+                        f"the thesis's least time in {near} of {len(regrets)} rows.")
         else:
             factors = sorted(1 / (1 + deviation) for deviation in deviations.values())
             said.append(f"{source}: {number(factors[0])} to {number(factors[-1])} times as fast as the thesis.")
@@ -62,8 +67,8 @@ def sheets_of(parts):
     tables = cells.beside_thesis(parts)
     sheets = [sheet_of(cells.Cells(table, parts), kind) for table in tables for kind in cells.KINDS[table]]
     if "4.3" in tables:
-        sheets.append({"title": "Figure 4.12: nodes, polygons and milliseconds", "note": "Table 4.3, drawn.", "header": [],
-                       "rows": [], "picture": "figure-4.12"})
+        sheets.append({"title": "Figure 4.12: nodes, polygons and milliseconds", "note": "Table 4.3, drawn.",
+                       "picture": "figure-4.12", "header": [], "rows": []})
     return sheets
 
 
@@ -102,16 +107,19 @@ def html_table(sheet):
         first = ' class="first"' if tag == "td" and row[0] != "" else ""
         fields = [f"<{tag}{side}>{html.escape(number(value))}</{tag}>" for side, value in zip(sides, row)]
         return f"<tr{first}>{''.join(fields)}</tr>\n"
-    return "<table>\n" + row_text(sheet["header"], "th") + "".join(row_text(row, "td") for row in sheet["rows"]) + "</table>\n"
+    rows = row_text(sheet["header"], "th") + "".join(row_text(row, "td") for row in sheet["rows"])
+    return f"<table>\n{rows}</table>\n"
 
 
 def page(intro, sheets, pictures):
     """One HTML file with everything. `pictures`: the SVG of each name."""
     text = ""
     for sheet in sheets:
-        text += f"<h2>{html.escape(sheet['title'])}</h2>\n" + (f"<p>{html.escape(sheet['note'])}</p>\n" if sheet["note"] else "")
+        text += f"<h2>{html.escape(sheet['title'])}</h2>\n"
+        text += f"<p>{html.escape(sheet['note'])}</p>\n" if sheet["note"] else ""
         if sheet.get("picture") in pictures:
             text += f"<figure>{pictures[sheet['picture']]}</figure>\n"
         text += html_table(sheet) if sheet["rows"] else ""
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>1992\'s tables</title>\n<style>{STYLE}</style>'
-            f"</head>\n<body>\n<h1>1992's tables</h1>\n<p>{html.escape(intro)}</p>\n{text}</body></html>\n")
+    return ("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>1992's tables</title>\n"
+            f"<style>{STYLE}</style></head>\n<body>\n<h1>1992's tables</h1>\n<p>{html.escape(intro)}</p>\n{text}"
+            "</body></html>\n")

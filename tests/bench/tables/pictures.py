@@ -72,8 +72,9 @@ def over_nodes(parts, table_name, kind):
         axes.grid(alpha=0.3)
     equal_decades(panels, spans)
     panels[0].set_ylabel("ms a frame")
-    panels[0].legend(title=cells.ROWS[table_name], fontsize=5 if len(rows) > 8 else 7, title_fontsize=7)
     figure.tight_layout()
+    panels[0].legend(title=cells.ROWS[table_name], fontsize=6, title_fontsize=7, loc="center left",
+                     bbox_to_anchor=(1, 0.5), bbox_transform=panels[-1].transAxes)
     return svg_of(figure)
 
 
@@ -94,8 +95,7 @@ def in_three_dimensions(parts):
         axes.set_xticks([n.bit_length() - 1 for n in columns], [str(n) for n in columns])
         axes.set_xlabel("nodes")
         axes.set_ylabel("thousand polygons")
-        axes.set_zlabel("ms")
-        axes.set_title(source)
+        axes.set_title(f"{source}, ms")
         axes.set_box_aspect(None, zoom=0.85)
     return svg_of(figure)
 
@@ -105,7 +105,8 @@ def all_pictures(parts):
     if pyplot is None:
         return {}
     tables = cells.beside_thesis(parts)
-    found = {f"table-{table}-{kind}s": over_nodes(parts, table, kind) for table in tables for kind in cells.KINDS[table]}
+    found = {f"table-{table}-{kind}s": over_nodes(parts, table, kind)
+             for table in tables for kind in cells.KINDS[table]}
     if "4.3" in tables:
         found["figure-4.12"] = in_three_dimensions(parts)
     return found

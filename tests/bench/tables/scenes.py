@@ -43,7 +43,8 @@ def swinging(pose, joints, cut):
     frame is the same whatever moves."""
     def key(number):
         swing = SWING * (number % 2)
-        return {"frame": number * cut.length, "pose": {name: swung(pose.get(name, [0, 0, 0]), swing) for name in joints}}
+        turned = {name: swung(pose.get(name, [0, 0, 0]), swing) for name in joints}
+        return {"frame": number * cut.length, "pose": turned}
     return {"pose": {name: angles for name, angles in pose.items() if name not in joints},
             "keys": [key(number) for number in range(cut.intervals + 1)]}
 
@@ -105,7 +106,7 @@ def company(size, width):
 
 
 def in_rows(count):
-    """Places of so many bodies in rows, one behind and above the other, the front row first; and the front row's width."""
+    """Places of so many bodies in rows, one behind and above the other; and the width of the front row, the first."""
     columns = math.ceil(math.sqrt(count))
     rows = math.ceil(count / columns)
     sizes = [count * (row + 1) // rows - count * row // rows for row in range(rows)]

@@ -4,15 +4,12 @@ Each study is a table: a title, what it shows, a header and rows."""
 import json
 import os
 import re
-import subprocess
 
-import cells
 import figures
 import limbs
 import runs
 import scenes
 
-ROUNDS = 3
 LIMB = ("limb", None, [0, 0, 0], [[-0.12, -0.12, -1.0], [0.12, 0.12, 1.0]], "skin")
 MAPPINGS = ["greedy", "optimal", "cost"]
 BLOCKS = [1, 2, 4, 8, 16, 32, 64]
@@ -26,36 +23,15 @@ def save(film, folder, name):
     return path
 
 
-def repeated(machine, film, nodes, *options):
-    """The frames of several runs, one after another."""
-    return [frame for _ in range(ROUNDS) for frame in machine.render(film, nodes, *options)]
-
-
 def total(frame, key):
     return sum(node["work"][key] for node in frame["nodes"])
 
 
-def alone(model, cut, roll=0):
-    """A film of one figure that stands still in all but its camera's field of view, so that every frame is drawn."""
+def alone(model, roll=0):
+    """A film of one figure, to be drawn from scratch frame by frame."""
     bounds = scenes.corners([[-1.1, -0.3, -1.1], [1.1, 0.3, 1.1]], [0, 0, 0])
-    return scenes.film(cut, {"figure": model}, [{"name": "figure", "model": "figure", "turn": [0, roll, 0]}], bounds, 1)
-
-
-def positioning(machine, folder, nodes):
-    """Figure 4.11."""
-    model = {"shapes": {"limb": limbs.mesh(scenes.SEGMENT)}, "joints": [figures.joint(*LIMB, "limb")]}
-    rows = []
-    for name, roll in (("vertical", 0), ("horizontal", 90)):
-        film = save(alone(model, scenes.Cut(1, 29), roll), folder, "4.11-" + name)
-        for count in nodes:
-            frames = [{**frame, "kind": "keyframe", "interval": runs.WARM_UP}
-                      for frame in repeated(machine, film, count, "--no-coherence")]
-            walls = runs.wall_of_keyframes(frames)
-            rows.append([name, count, frames[-1]["edge_box_total"], total(frames[-1], "pixels"),
-                         min(walls), runs.busy_of_keyframe(frames)])
-    return {"title": "Figure 4.11: one limb of 1300 polygons, vertical and horizontal",
-            "note": "The same limb, turned by 90 degrees in the picture's plane.",
-            "header": ["limb", "nodes", "edge boxes", "pixels", "keyframe, best ms", "own work, ms"], "rows": rows}
+    return scenes.film(scenes.Cut(), {"figure": model}, [{"name": "figure", "model": "figure", "turn": [0, roll, 0]}],
+                       bounds, 1)
 
 
 def dealt(items, nodes):
@@ -68,76 +44,94 @@ def dealt(items, nodes):
     return [tiles[k % nodes][k // nodes] for k in range(len(items))]
 
 
-def distribution(machine, folder, nodes):
-    """Figure 4.4: patches scattered, and in tiles."""
-    patches = figures.standing_patches(figures.MAN, figures.MAN_POSE)
-    rows = []
-    for count in (n for n in nodes if n > 1):
-        for name, order in (("scattered", patches), ("tiled", dealt(patches, count))):
-            film = save(alone(figures.as_one_segment(order), scenes.Cut(1, 29)), folder, f"4.4-{name}-{count}")
-            frames = [{**frame, "kind": "keyframe", "interval": runs.WARM_UP}
-                      for frame in repeated(machine, film, count, "--no-coherence")]
-            times = runs.least_by_node(frames, ["dice"])
-            rows.append([count, name, runs.load_ratio(frames[-1], lambda node: node["work"]["edge_boxes_diced"]),
-                         max(times) * len(times) / sum(times), max(times)])
-    return {"title": "Figure 4.4: patches scattered and in tiles",
-            "note": "208 patches of the man of table 4.2, as one segment whose patches stand in another order. MARS gives "
-                    "node i the patches i, i + P, ...; in tiles node i has neighbours. Load ratio: greatest over "
-                    "average of the nodes, in edge boxes made and in the time of making them.",
-            "header": ["nodes", "patches", "load ratio, edge boxes", "load ratio, time", "slowest node, ms"],
-            "rows": rows}
+class Study:
+    """Renders on `machine`, with films and pictures in `folder`."""
 
+    def __init__(self, machine, folder, rounds):
+        self.machine, self.folder, self.rounds = machine, folder, rounds
 
-def mappings(machine, folder, nodes, films):
-    """Figure 4.7's heuristic beside the exact mappings."""
-    rows = []
-    for film in films:
+    def repeated(self, film, nodes, *options):
+        """The frames of several runs, one after another, without their beginnings."""
+        rounds = [self.machine.render(film, nodes, *options) for _ in range(self.rounds)]
+        return [frame for frames in rounds for frame in frames[runs.SKIPPED:]]
+
+    def positioning(self, nodes):
+        """Figure 4.11."""
+        model = {"shapes": {"limb": limbs.mesh(scenes.SEGMENT)}, "joints": [figures.joint(*LIMB, "limb")]}
+        rows = []
+        for name, roll in (("vertical", 0), ("horizontal", 90)):
+            film = save(alone(model, roll), self.folder, "4.11-" + name)
+            for count in nodes:
+                frames = self.repeated(film, count, *runs.SCRATCH)
+                rows.append([name, count, frames[-1]["edge_box_total"], total(frames[-1], "pixels"),
+                             runs.busy_of_keyframe(frames)])
+        return {"title": "Figure 4.11: one limb of 1300 polygons, vertical and horizontal",
+                "note": "The same limb, turned by 90 degrees in the picture's plane.",
+                "header": ["limb", "nodes", "edge boxes", "pixels", "own work, ms"], "rows": rows}
+
+    def distribution(self, nodes):
+        """Figure 4.4: patches scattered, and in tiles."""
+        patches = figures.standing_patches(figures.MAN, figures.MAN_POSE)
+        rows = []
         for count in (n for n in nodes if n > 1):
-            for mapping in MAPPINGS:
-                frames = repeated(machine, os.path.join(folder, film + ".json"), count, "--mapping", mapping)
-                times = runs.least_by_node(runs.keyframes(frames), ["fill", "scanline"])
-                rows.append([film, count, mapping,
-                             runs.load_ratio(runs.keyframes(frames)[-1], lambda node: node["work"]["edge_boxes"]),
-                             max(times) * len(times) / sum(times), runs.busy_of_keyframe(frames)])
-    return {"title": "Mapping of scanlines: the thesis's heuristic and the exact ones",
-            "note": "greedy is figure 4.7's; optimal has the least possible load ratio in edge boxes; cost, MARS's own "
-                    "choice, weighs pixels too. Keyframes; load ratio: greatest over average of the nodes.",
-            "header": ["film", "nodes", "mapping", "load ratio, edge boxes", "load ratio, time", "own work, ms"],
-            "rows": rows}
+            for name, order in (("scattered", patches), ("tiled", dealt(patches, count))):
+                film = save(alone(figures.as_one_segment(order)), self.folder, f"4.4-{name}-{count}")
+                frames = self.repeated(film, count, *runs.SCRATCH)
+                times = runs.least_by_node(frames, ["dice"])
+                rows.append([count, name, runs.load_ratio(frames[-1], lambda node: node["work"]["edge_boxes_diced"]),
+                             max(times) * len(times) / sum(times), max(times)])
+        return {"title": "Figure 4.4: patches scattered and in tiles",
+                "note": "The 208 patches of table 4.2's man as one segment. MARS gives node i the patches i, i + P, "
+                        "...: scattered is their order along the body; tiled, another order gives each node "
+                        "neighbours. Load ratio: greatest over average of the nodes, in edge boxes made and in the "
+                        "time of making them.",
+                "header": ["nodes", "patches", "load ratio, edge boxes", "load ratio, time", "slowest node, ms"],
+                "rows": rows}
 
+    def mappings(self, nodes, films):
+        """Figure 4.7's heuristic beside the exact mappings."""
+        rows = []
+        for film in films:
+            for count in (n for n in nodes if n > 1):
+                for mapping in MAPPINGS:
+                    path = os.path.join(self.folder, film + ".json")
+                    frames = self.repeated(path, count, "--mapping", mapping, *runs.SCRATCH)
+                    times = runs.least_by_node(frames, ["fill", "scanline"])
+                    rows.append([film, count, mapping,
+                                 runs.load_ratio(frames[-1], lambda node: node["work"]["edge_boxes"]),
+                                 max(times) * len(times) / sum(times), runs.busy_of_keyframe(frames)])
+        return {"title": "Mapping of scanlines: the thesis's heuristic and the exact ones",
+                "note": "greedy is figure 4.7's; optimal has the least possible load ratio in edge boxes; cost, MARS's "
+                        "own choice, weighs pixels too. Load ratio: greatest over average of the nodes.",
+                "header": ["film", "nodes", "mapping", "load ratio, edge boxes", "load ratio, time", "own work, ms"],
+                "rows": rows}
 
-def masks(machine, folder, film_path, frames):
-    """Pictures of the film's frames in which moving segments have a colour of their own."""
-    with open(film_path) as file:
-        film = json.load(file)
-    moving = {joint for actor in film["actors"] for key in actor.get("keys", []) for joint in key["pose"]}
-    film["materials"]["moving"] = MARKED
-    for model in film["models"].values():
-        for joint in model["joints"]:
-            if joint["name"] in moving:
-                joint["segment"]["material"] = "moving"
-    out = os.path.join(folder, "masks")
-    path = save(film, folder, "masks")
-    done = subprocess.run([machine.mars, "render", path, "--backend", "threads", "--nodes", "1", "--quiet", "-o", out,
-                           "--frames", f"0-{frames - 1}"], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise cells.Trouble(done.stderr.strip())
-    return [os.path.join(out, name) for name in sorted(os.listdir(out)) if re.fullmatch(r"frame-\d+\.png", name)]
+    def masks(self, film_path, frames):
+        """Pictures of the film's frames in which moving segments have a colour of their own."""
+        with open(film_path) as file:
+            film = json.load(file)
+        moving = {joint for actor in film["actors"] for key in actor.get("keys", []) for joint in key["pose"]}
+        film["materials"]["moving"] = MARKED
+        for model in film["models"].values():
+            for joint in model["joints"]:
+                if joint["name"] in moving:
+                    joint["segment"]["material"] = "moving"
+        name = "masks-" + os.path.basename(film_path).removesuffix(".json")
+        path, out = save(film, self.folder, name), os.path.join(self.folder, name)
+        runs.run([self.machine.mars, "render", path, "--backend", "threads", "--nodes", "1", "--quiet", "-o", out,
+                  "--frames", f"0-{frames - 1}"])
+        return [os.path.join(out, name) for name in sorted(os.listdir(out)) if re.fullmatch(r"frame-\d+\.png", name)]
 
-
-def blocks(machine, folder, program, films):
-    """Thesis 4.10: how large the blocks of the host's flags should be."""
-    rows = []
-    for film in films:
-        pictures = masks(machine, folder, os.path.join(folder, film + ".json"), 33)
-        done = subprocess.run([program, *map(str, BLOCKS), "--", *pictures], capture_output=True, text=True)
-        if done.returncode != 0:
-            raise cells.Trouble(done.stderr.strip())
-        for line in done.stdout.splitlines():
-            side, *measured = line.split()
-            rows.append([film, int(side), *map(float, measured)])
-    return {"title": "Blocks of the host's flags",
-            "note": "An inbetween on the host, on average: setting and checking flags, and all of it: pasting the moving "
-                    "pixels, and restoring the flagged blocks that they do not fill again.",
-            "header": ["film", "block side", "blocks flagged", "pixels restored", "flags, µs", "all, µs"],
-            "rows": rows}
+    def blocks(self, program, films):
+        """Thesis 4.10: how large the blocks of the host's flags should be."""
+        rows = []
+        for film in films:
+            pictures = self.masks(os.path.join(self.folder, film + ".json"), 33)
+            for line in runs.run([program, *map(str, BLOCKS), "--", *pictures]).splitlines():
+                side, *measured = line.split()
+                rows.append([film, int(side), *map(float, measured)])
+        return {"title": "Blocks of the host's flags",
+                "note": "An inbetween on the host, on average. Flags: setting and checking them. All: that, pasting "
+                        "the moving pixels, and restoring flagged blocks that they do not fill again.",
+                "header": ["film", "block side", "blocks flagged", "pixels restored", "flags, µs", "all, µs"],
+                "rows": rows}

@@ -28,15 +28,16 @@ def measured_tables(wanted, machine, folder):
     if not tables:
         return []
     measure.write_films(many, ["4.1", "4.2"], *((3, 32) if wanted.quick else (5, 128)))
-    measure.write_films(few, ["4.3", "4.4"], 3 if wanted.quick else 9, 8)
+    measure.write_films(few, ["4.3", "4.4"], 8, 8)
     found = []
     for table in tables:
         with_inbetweens = "inbetween" in cells.KINDS[table]
         found += [measure.Table(table, machine, many if with_inbetweens else few, wanted.nodes,
                                 QUICK_ROWS[table] if wanted.quick else None, of_patches)
                   for of_patches in ([False, True] if with_inbetweens else [False])]
-    for _ in range(wanted.rounds):
+    for number in range(wanted.rounds):
         for table in found:
+            print(f"round {number + 1} of {wanted.rounds}: table {table.table}", file=sys.stderr)
             table.measure_round()
     parameters = {"machine": f"{platform.node()}, {len(os.sched_getaffinity(0))} cores", "backend": wanted.backend,
                   "rounds": wanted.rounds}
@@ -47,17 +48,20 @@ def studied(wanted, machine, folder):
     """The other comparisons of chapter 4, as tables for a person."""
     measure.write_films(folder, ["4.2", "4.3"], 3, 32)
     blocks = os.path.join(wanted.build, "bench", "tables", "bench-blocks")
-    films = ["4.2-10400"] if wanted.quick else ["4.2-10400", "4.3-165944"]
-    makers = {"positions": lambda: studies.positioning(machine, folder, [n for n in wanted.nodes if n <= 8]),
-              "patches": lambda: studies.distribution(machine, folder, wanted.nodes),
-              "mappings": lambda: studies.mappings(machine, folder, wanted.nodes, films),
-              "blocks": lambda: studies.blocks(machine, folder, blocks, ["4.2-1300", "4.2-5200", "4.2-10400"])}
+    mapped = ["4.2-10400"] if wanted.quick else ["4.2-10400", "4.3-165944"]
+    composed = ["4.2-5200"] if wanted.quick else ["4.2-1300", "4.2-5200", "4.2-10400"]
+    few = [nodes for nodes in wanted.nodes if nodes <= 8]
+    study = studies.Study(machine, folder, wanted.rounds)
+    makers = {"positions": lambda: study.positioning(few), "patches": lambda: study.distribution(wanted.nodes),
+              "mappings": lambda: study.mappings(wanted.nodes, mapped),
+              "blocks": lambda: study.blocks(blocks, composed)}
     return [makers[part]() for part in wanted.parts if part in STUDIES]
 
 
-ABOUT = ("Data size is read as polygons, and pictures have 512x480 pixels. \"here, best\" and \"here, median\" are times on the "
-         "wall; with more nodes than cores they say how so many nodes share these cores. \"here, own work\" is what the "
-         "slowest node computes, without waiting and messages: a lower bound for a machine with a core for each node.")
+ABOUT = ("Data size is read as polygons, and pictures have 512x480 pixels. \"here, best\" and \"here, median\" are "
+         "times on the wall; with more nodes than cores they say how so many nodes share these cores. \"here, own "
+         "work\" is what the slowest node computes, without waiting and messages: a lower bound for a machine with a "
+         "core for each node.")
 
 
 def write_results(wanted, measured):
@@ -85,12 +89,15 @@ def read_command_line():
     parser = argparse.ArgumentParser(prog="mars bench tables", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"what to measure: {', '.join(parts)}, or none; default: all")
-    parser.add_argument("--nodes", default="1,2,4,8,16,32", type=lambda text: [int(n) for n in text.split(",")])
+    parser.add_argument("parts", nargs="*", metavar="PART",
+                        help=f"what to measure: {', '.join(parts)}, or none; default: all")
+    parser.add_argument("--nodes", default="1,2,4,8,16,32", type=lambda text: [int(n) for n in text.split(",")],
+                        help="default: 1,2,4,8,16,32, as in the thesis and one")
     parser.add_argument("--backend", default="threads", choices=["threads", "mpi"], help="default: threads")
     parser.add_argument("--rounds", type=int, default=3, help="over all tables; default: 3")
     parser.add_argument("--quick", action="store_true", help="a few rows, one round, at most 4 nodes: seconds")
-    parser.add_argument("--beside", nargs="+", default=[], metavar="FILE", help="results of other sources or earlier runs, to show beside")
+    parser.add_argument("--beside", nargs="+", default=[], metavar="FILE",
+                        help="results of other sources or earlier runs, to show as well")
     parser.add_argument("-o", "--output", default="tables", metavar="FOLDER", help="default: tables")
     wanted = parser.parse_args()
     if unknown := set(wanted.parts) - {*parts, "none"}:
