@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of 1992 on a simulated iPSC/2, by the thesis's algorithms: simulate.py --build BUILD FILE.
+"""The tables of 1992 on a simulated iPSC/2, by the thesis's algorithms: mars bench machine1992 FILE.
 
 Writes FILE, with all cells, the fitted parameters and their uncertainty, and prints how far the cells are from the
 thesis's. README.md says what is fitted on what."""
@@ -159,9 +159,10 @@ def best_of(row, measured, times):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True)
-    parser.add_argument("file")
+    parser = argparse.ArgumentParser(prog="mars bench machine1992", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("file", help="for `mars bench tables --beside`")
     parser.add_argument("--tables", default=",".join(sorted(tables.TITLES)), help="4.1 and others; default all")
     wanted = parser.parse_args()
     measured = measured_cells()

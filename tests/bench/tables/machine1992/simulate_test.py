@@ -12,6 +12,7 @@ sys.path[:0] = [HERE, os.path.dirname(HERE), os.path.join(HERE, "..", "..", ".."
 import cases  # noqa: E402
 import costs  # noqa: E402
 import fit  # noqa: E402
+import product  # noqa: E402
 import records  # noqa: E402
 import replay  # noqa: E402
 import scenes  # noqa: E402
@@ -67,6 +68,17 @@ class Simulating(unittest.TestCase):
         twice = costs.seconds(2, 0)
         for work, one, two in zip(costs.WORKS[:-1], costs.seconds(1, 0), twice):
             self.assertEqual((2 * one, one), (two, costs.clocks_of(work) / 16e6), work)
+
+    def test_the_product_is_faster_on_the_same_machine(self):
+        film = self.simulator.film("4.1", 2600)
+        mars = product.Product(BUILD, self.simulator.folder, product.platform_of(TRUE))
+        product.INBETWEENS_A_NODE = 4
+        seconds = mars.seconds(film, 4, True)
+        self.assertEqual(seconds, mars.seconds(film, 4, True))
+        self.assertGreater(seconds["inbetween"], TRUE["host_message"])
+        measured = [(2600, kind, 4, 1.0) for kind in ("keyframe", "inbetween")]
+        for kind, then in zip(("keyframe", "inbetween"), self.simulator.times("4.1", measured, {**TRUE, "scale": 1.0})):
+            self.assertLess(1000 * seconds[kind], then, kind)
 
     def test_films_at_rest_have_the_first_pose(self):
         film = simulate.still(scenes.all_films(scenes.Cut(2, 32))["4.3-5200"])

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""MARS itself on the machine that simulate.py has fitted: product.py --build BUILD SIMULATED FILE.
+
+Renders the same films with `mars render --backend simulated`, in pictures of the same size, and writes FILE with the
+cells' times (source simulated-product). Inbetweens: of 20 a node. What work costs are the clocks of costs.py for MARS's
+own algorithms; the network, the host's link and cost a message are those of SIMULATED, which simulate.py wrote."""
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+
+import costs
+import replay
+import simulate
+
+INBETWEENS_A_NODE = 20
+OPERATIONS = {
+    "segment": {"multiply": 36, "add": 27, "load": 36, "store": 12},
+    "patch": {"multiply": 72, "add": 72, "load": 24, "compare": 12},  # eight corners of its box
+    "vertex": costs.OPERATIONS["vertex"],
+    "triangle_tested": costs.OPERATIONS["polygon"],
+    # Planes of 4 values: two steps each, by one division.
+    "triangle": {"multiply": 22, "add": 21, "divide": 1, "load": 20, "store": 12, "move": 8},
+    "edge_box_made": {"add": 2, "load": 2, "store": 2, "integer": 2, "move": 6, "step": 2},  # columns alone
+    "edge_box_filled": {"move": 6, "step": 2},
+    "line_mapped": costs.OPERATIONS["line"],
+    "edge_box": {"multiply": 2, "add": 2, "load": 4, "store": 2, "move": 6, "step": 2},
+    "sample": {"multiply": 1, "add": 1, "load": 1, "store": 1, "compare": 1, "step": 1},  # depth alone
+    # The normal from its planes and the place from the depth, both made units; bytes.
+    "pixel": {"multiply": 23, "add": 15, "root": 2, "divide": 2, "integer": 3, "compare": 3, "load": 12, "store": 10,
+              "move": 8, "step": 1},
+    "light": {"multiply": 16, "add": 10, "compare": 2, "load": 8, "store": 5},
+    "still_byte": {"move": 0.5, "step": 0.25},
+    "host_byte": {"move": 0.5, "step": 0.25},
+    "host_frame": {"move": 960, "step": 960},  # flags of its blocks
+}
+
+
+def platform_of(parameters):
+    """The iPSC/2 with fitted costs, as a platform file has it. As for the 1992 program, a message of up to 100 bytes costs
+    the host nothing."""
+    with open(replay.IPSC2) as file:
+        platform = json.load(file)
+    platform["network"] |= {"host_rate": 1 / parameters["host_byte"],
+                            "host_end": [[0, 0], [101, parameters["host_message"]]]}
+    platform["work"] = {work: parameters["speed"] / costs.HERTZ * sum(costs.CLOCKS[name] * n for name, n in of.items())
+                        for work, of in OPERATIONS.items()}
+    return platform
+
+
+class Product:
+    def __init__(self, build, folder, platform):
+        self.mars, self.folder = os.path.join(build, "bin", "mars"), folder
+        self.platform = os.path.join(folder, "platform.json")
+        with open(self.platform, "w") as file:
+            json.dump(platform, file)
+
+    def frames(self, film, nodes, count):
+        """Of the report: the first `count` of a film."""
+        report = os.path.join(self.folder, f"report-{os.path.basename(film)}-{nodes}")
+        subprocess.run([self.mars, "render", film, "--backend", "simulated", "--platform", self.platform, "--nodes",
+                        str(nodes), "--groups", "1", "--frames", f"0-{count - 1}", "--sink", "none", "--quiet",
+                        "--report", report], check=True, capture_output=True, text=True)
+        with open(report) as file:
+            return json.load(file)["frames"]
+
+    def seconds(self, film, nodes, with_inbetweens):
+        """By kind, of a frame."""
+        inbetweens = INBETWEENS_A_NODE * nodes if with_inbetweens else 1
+        keyframe, *others = self.frames(film, nodes, 1 + inbetweens)
+        found = {"keyframe": max([keyframe["seconds"], *(sum(node["seconds"].values()) for node in keyframe["nodes"])])}
+        if with_inbetweens:
+            found["inbetween"] = (max(frame["seconds"] for frame in others) - found["keyframe"]) / inbetweens
+        return found
+
+
+def cells_of(product, table, measured, scale, folder):
+    with_inbetweens = "inbetween" in simulate.tables.KINDS[table]
+    most = INBETWEENS_A_NODE * max(cell[2] for cell in measured)
+    films = simulate.scenes.all_films(simulate.scenes.Cut(1, most), scale)
+    simulate.scenes.write({name: film for name, film in films.items()
+                           if name in {f"{table}-{row}" for row in simulate.rows_of(measured)}}, folder)
+
+    def times(place):
+        row, nodes = place
+        seconds = product.seconds(os.path.join(folder, f"{table}-{row}.json"), nodes, with_inbetweens)
+        return [{"row": row, "kind": kind, "nodes": nodes, "ms": round(1000 * of, 1)} for kind, of in seconds.items()]
+    places = sorted({(row, nodes) for row, _, nodes, _ in measured})
+    return [cell for cells in simulate.in_pairs(times, places) for cell in cells]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True)
+    parser.add_argument("simulated")
+    parser.add_argument("file")
+    wanted = parser.parse_args()
+    measured, parts = simulate.measured_cells(), []
+    simulated = simulate.tables.load(wanted.simulated)
+    costs_there = next(part["parameters"] for part in simulated if part["table"] == "4.1")
+    with tempfile.TemporaryDirectory(prefix="machine1992-") as folder:
+        product = Product(wanted.build, folder, platform_of(costs_there))
+        for part in simulated:
+            table = part["table"]
+            cells = cells_of(product, table, measured[table], part["parameters"][f"scale of {table}"], folder)
+            parts.append({"table": table, "source": "simulated-product", "cells": cells})
+    with open(wanted.file, "w") as file:
+        file.write(simulate.tables.text_of(parts))
+
+
+if __name__ == "__main__":
+    main()
