@@ -2,6 +2,7 @@
 """What else the 1992 program may have done, fitted on table 4.1: assumptions.py --build BUILD. Prints, for each
 assumption, the fitted parameters and the median errors of keyframes and inbetweens (replayed, not simulated)."""
 import argparse
+import copy
 import statistics
 import tempfile
 
@@ -10,16 +11,11 @@ import replay
 import simulate
 
 
-class Sending:
-    """A film's jobs if inbetweens send another part of the MFB."""
-
-    def __init__(self, scaled, part):
-        self.scaled, self.part = scaled, part
-
-    def at(self, scale):
-        job = self.scaled.at(scale)
-        job.values = {**job.values, "moving": job.values["moving_" + self.part]}
-        return job
+def sending(job, part):
+    """The job if inbetweens send another part of the MFB."""
+    other = copy.copy(job)
+    other.values = {**job.values, "moving": job.values["moving_" + part]}
+    return other
 
 
 def line(name, cells, found):
@@ -46,10 +42,11 @@ def main():
     cells = fit.Cells(measured, films, network)
     print(line("as simulated: of an inbetween's MFB the box round what was drawn", cells, fit.fit_costs(cells)))
     for part in ("whole", "lines", "pixels"):
-        others = {row: {nodes: Sending(scaled, part) for nodes, scaled in jobs.items()} for row, jobs in films.items()}
-        sending = fit.Cells(measured, others, network)
-        print(line(f"of an inbetween's MFB: {part}", sending, fit.fit_costs(sending)))
-    print(line("figures fill the picture", cells, fit.fit_from(cells, {**fit.FIRST, "scale": 1.0}, ["scale"])))
+        others = {row: {nodes: {scale: sending(job, part) for scale, job in jobs.items()} for nodes, jobs in of.items()}
+                  for row, of in films.items()}
+        other = fit.Cells(measured, others, network)
+        print(line(f"of an inbetween's MFB: {part}", other, fit.fit_costs(other)))
+    print(line("figures fill the picture", cells, fit.fit_costs(cells, [1.0])))
 
 
 if __name__ == "__main__":

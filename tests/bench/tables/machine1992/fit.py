@@ -8,13 +8,12 @@ import replay
 
 NODES_OF_COLUMN = 8  # the column by which other tables' figures get their scale
 # Where the fit begins: the published clocks, the rate of a channel, and guesses.
-FIRST = {"speed": 1.0, "host_byte": 0.4e-6, "host_message": 0.02, "depth": 2e-6, "scale": 0.2}
-FIRST_SCALES = [0.05, 0.2, 0.6]
+FIRST = {"speed": 1.0, "host_byte": 0.4e-6, "host_message": 0.02, "depth": 2e-6}
 
 
 class Cells:
-    """Measured cells of one table, [row, kind, nodes, ms] each, and what the program does for them. `films`: by row, the
-    Scaled jobs by nodes. A cell's `ratio` corrects what replay.py leaves out: simulated / replayed."""
+    """Measured cells of one table, [row, kind, nodes, ms] each, and what the program does for them. `films`: by row,
+    nodes and scale, the jobs. A cell's `ratio` corrects what replay.py leaves out: simulated / replayed."""
 
     def __init__(self, measured, films, network):
         self.cells, self.films, self.network = measured, films, network
@@ -23,17 +22,11 @@ class Cells:
 
     def times(self, costs, scale):
         """Milliseconds, replayed and corrected."""
-        jobs = {}
-
-        def job(row, nodes):
-            if (row, nodes) not in jobs:
-                jobs[row, nodes] = self.films[row][nodes].at(scale)
-            return jobs[row, nodes]
-
         def seconds(row, kind, nodes):
+            films = self.films[row]
             if kind == "keyframe":
-                return replay.keyframe(job(row, nodes), costs, self.network)
-            return replay.inbetween(job(row, max(self.films[row])), nodes, costs, self.network)
+                return replay.keyframe(films[nodes][scale], costs, self.network)
+            return replay.inbetween(films[max(films)][scale], nodes, costs, self.network)
         return 1000 * self.ratio * numpy.array([seconds(*cell[:3]) for cell in self.cells])
 
     def only(self, wanted):
@@ -53,29 +46,33 @@ def residuals(cells, parameters):
     return numpy.log(cells.times(costs_of(parameters), parameters["scale"]) / cells.ms)
 
 
-def fit_costs(cells):
-    """The parameters with the least sum of squares of residuals; all are positive."""
-    fits = [fit_from(cells, {**FIRST, "scale": scale}) for scale in FIRST_SCALES]
-    return min(fits, key=lambda found: float((residuals(cells, found)**2).sum()))
+def fit_costs(cells, scales=None):
+    """The parameters with the least sum of squares of residuals; all are positive. The scale is one of `scales`; of all
+    if none are given."""
+    found = FIRST
+    fits = []
+    for scale in scales or records.SCALES:
+        found = fit_at(cells, {**found, "scale": scale})
+        fits.append(found)
+    return min(fits, key=lambda found: squares(residuals(cells, found)))
 
 
-def fit_from(cells, first, fixed=()):
-    """The same, from some values on. `fixed`: names that keep theirs."""
-    names = [name for name in FIRST if name not in fixed]
+def fit_at(cells, first):
+    """The same, from some values on, at their scale."""
+    names = replay.Costs.NAMES
 
     def parameters(logs):
         return {**first, **dict(zip(names, map(float, numpy.exp(logs))))}
-
-    def within(logs):
-        low, high = math.log(min(records.SCALES)), math.log(max(records.SCALES))
-        return numpy.array([min(max(log, low), high) if name == "scale" else log for name, log in zip(names, logs)])
     return parameters(least_squares(lambda logs: residuals(cells, parameters(logs)),
-                                    numpy.log([first[name] for name in names]), within))
+                                    numpy.log([first[name] for name in names])))
 
 
-def least_squares(function, at, within, rounds=40):
-    """Levenberg and Marquardt's method with differences for derivatives. within(x): the place next to x that is allowed."""
-    at = within(at)
+def squares(values):
+    return float((values**2).sum())
+
+
+def least_squares(function, at, rounds=40):
+    """Levenberg and Marquardt's method with differences for derivatives."""
     damping, now = 1e-2, function(at)
     for _ in range(rounds):
         slopes = numpy.stack([(function(at + step) - now) / 1e-4 for step in 1e-4 * numpy.eye(len(at))], axis=1)
@@ -83,7 +80,7 @@ def least_squares(function, at, within, rounds=40):
         gained = 0.0
         while gained <= 0 and damping < 1e8:
             step = numpy.linalg.solve(normal + damping * numpy.diag(numpy.diag(normal) + 1e-9), -slopes.T @ now)
-            step = within(at + numpy.clip(step, -1, 1)) - at
+            step = numpy.clip(step, -1, 1)
             after = function(at + step)
             gained = now @ now - after @ after
             damping *= 4
@@ -99,7 +96,9 @@ def uncertainty(cells, found):
     """The standard deviation of each parameter, by the jackknife over the table's columns: cells of one
     column err alike, so they are left out together."""
     columns = sorted({(cell[1], cell[2]) for cell in cells.cells})
-    fits = [fit_from(cells.only(lambda cell, column=column: (cell[1], cell[2]) != column), found) for column in columns]
+    near = max(records.SCALES.index(found["scale"]) - 1, 0)
+    fits = [fit_costs(cells.only(lambda cell, column=column: (cell[1], cell[2]) != column), records.SCALES[near:near + 3])
+            for column in columns]
 
     def spread(name):
         values = numpy.array([fit[name] for fit in fits])
@@ -115,10 +114,4 @@ def fit_scale(cells, costs):
     """Of a table's figures, by the column of NODES_OF_COLUMN."""
     column = cells.only(in_column)
 
-    def error(scale):
-        return float((numpy.log(column.times(costs, scale) / column.ms)**2).sum())
-    least, most = min(records.SCALES), max(records.SCALES)
-    coarse = numpy.geomspace(least, most, 30)
-    best = min(coarse, key=error)
-    step = coarse[1] / coarse[0]
-    return float(min(numpy.clip(best * numpy.geomspace(1 / step, step, 21), least, most), key=error))
+    return min(records.SCALES, key=lambda scale: squares(numpy.log(column.times(costs, scale) / column.ms)))

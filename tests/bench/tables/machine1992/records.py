@@ -1,15 +1,13 @@
-"""What the 1992 program does on each node (record.h), for figures of any size in the picture: recorded at some scales,
-and interpolated between them."""
-import bisect
+"""What the 1992 program does on each node (record.h), for figures of some sizes in the picture."""
 import json
-import math
 import subprocess
 
 import numpy
 
 from costs import WORKS
 
-SCALES = [0.035, 0.055, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7, 1.0]
+SCALES = [0.035, 0.042, 0.05, 0.06, 0.07, 0.085, 0.1, 0.12, 0.145, 0.17, 0.21, 0.25, 0.3, 0.35, 0.42, 0.5, 0.6, 0.7, 0.85,
+          1.0]
 
 PARTS = ["whole", "lines", "box", "pixels"]  # of an inbetween's MFB that might be sent
 
@@ -46,34 +44,12 @@ def table(counts):
     return numpy.array([[of.get(work, 0) for work in WORKS] for of in counts], float)
 
 
-def between(a, b, part):
-    """The job `part` of the way from one to the other."""
-    job = object.__new__(Job)
-    job.nodes = a.nodes
-    job.values = {name: (1 - part) * value + part * b.values[name] for name, value in a.values.items()}
-    return job
-
-
-class Scaled:
-    """A film's jobs on some nodes by the scale of its figures."""
-
-    def __init__(self, jobs):
-        self.scales = sorted(jobs)
-        self.jobs = [jobs[scale] for scale in self.scales]
-
-    def at(self, scale):
-        scale = min(max(scale, self.scales[0]), self.scales[-1])
-        upper = min(max(bisect.bisect_left(self.scales, scale), 1), len(self.scales) - 1)
-        low, high = self.scales[upper - 1:upper + 1]
-        return between(self.jobs[upper - 1], self.jobs[upper], math.log(scale / low) / math.log(high / low))
-
-
 def record(program, film, nodes, inbetweens, scales=None):
-    """By nodes, what a film's first interval takes."""
+    """By nodes and scale, what a film's first interval takes."""
     scales = scales or SCALES
     words = [program, "count", film, ",".join(map(str, nodes)), ",".join(map(str, scales)), str(inbetweens)]
     found = json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
     by_nodes = {count: {} for count in nodes}
     for one in found:
         by_nodes[int(one["count"])][one["scale"]] = Job(one)
-    return {count: Scaled(jobs) for count, jobs in by_nodes.items()}
+    return by_nodes

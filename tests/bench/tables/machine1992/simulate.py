@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+import numpy
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 
@@ -93,11 +95,17 @@ def measured_cells():
             for part in tables.load(tables.THESIS)}
 
 
-def corrected(simulator, table, cells, found):
-    """Fits once more what is nearest to the simulated times; returns those of `found`."""
-    times = simulator.times(table, cells.cells, found)
-    cells.ratio *= times / cells.times(fit.costs_of(found), found["scale"])
-    return times
+def best_fit(simulator, table, cells, fitted, by):
+    """Parameters and simulated times. fitted(cells) gives parameters for what is replayed, which is corrected by what is
+    simulated. Of some rounds the one whose simulated cells are nearest to the measured ones among those of by(cell)."""
+    rounds = []
+    for _ in range(CORRECTIONS + 1):
+        found = fitted(cells)
+        times = numpy.array(simulator.times(table, cells.cells, found))
+        cells.ratio *= times / cells.times(fit.costs_of(found), found["scale"])
+        error = fit.squares(numpy.log(times / cells.ms)[[by(cell) for cell in cells.cells]])
+        rounds.append((error, found, times))
+    return min(rounds, key=lambda of: of[0])[1:]
 
 
 def simulate(simulator, wanted, measured):
@@ -108,14 +116,12 @@ def simulate(simulator, wanted, measured):
         rows = rows_of(measured[table])
         films = dict(zip(rows, in_pairs(lambda row, of=table: simulator.record(of, row, measured[of]), rows)))
         cells = fit.Cells(measured[table], films, network)
-        for _ in range(CORRECTIONS + 1):
-            if table == "4.1":
-                found = costs = fit.fit_from(cells, costs) if costs else fit.fit_costs(cells)
-            else:
-                found = {**costs, "scale": fit.fit_scale(cells, fit.costs_of(costs))}
-            times = corrected(simulator, table, cells, found)
         if table == "4.1":
-            spread = fit.uncertainty(cells, costs)
+            costs, times = best_fit(simulator, table, cells, fit.fit_costs, lambda cell: True)
+            found, spread = costs, fit.uncertainty(cells, costs)
+        else:
+            found, times = best_fit(simulator, table, cells, lambda of, known=costs: {
+                **known, "scale": fit.fit_scale(of, fit.costs_of(known))}, fit.in_column)
         parts.append(part_of(table, measured[table], times, found, spread))
     return parts
 
