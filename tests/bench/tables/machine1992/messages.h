@@ -15,9 +15,11 @@ inline constexpr long kEdgeBoxes = 1000;  // + the sender's number; an array of 
 // host says when it is ready, and the strip comes.
 inline constexpr long kKeyframe = 1;        // a node has a strip of a keyframe
 inline constexpr long kInbetween = 100000;  // + the frame's number: of an inbetween
-inline constexpr long kGoOn = 4;            // to all nodes: the keyframe is shown, inbetweens may begin
 inline constexpr long kReady = 2;
 inline constexpr long kStrip = 3;
+
+// To all nodes: the keyframe is shown, inbetweens may begin.
+inline constexpr long kGoOn = 4;
 
 // An edge box with what is interpolated along it.
 struct SentBox {

@@ -42,16 +42,16 @@ Node::Node(const wire::FilmView& film)
 }
 
 void Node::draw_interval(std::uint32_t interval, std::uint32_t inbetweens) {
-  const std::uint32_t keyframe = film_.intervals()[interval].first_frame;
+  const wire::Interval& frames = film_.intervals()[interval];
   scene_.set_interval(interval);
-  draw_keyframe(keyframe);
+  draw_keyframe(frames.first_frame, frames.moving_count > 0);
   gsync();
   crecv(kGoOn, nullptr, 0);
   for (auto k = static_cast<std::uint32_t>(mynode()); k < inbetweens; k += static_cast<std::uint32_t>(numnodes()))
-    draw_inbetween(keyframe + 1 + k);
+    draw_inbetween(frames.first_frame + 1 + k);
 }
 
-void Node::draw_keyframe(std::uint32_t frame) {
+void Node::draw_keyframe(std::uint32_t frame, bool moves) {
   scene_.set_frame(frame);
   begin_record(frame, true);
   make_lists();
@@ -60,8 +60,7 @@ void Node::draw_keyframe(std::uint32_t frame) {
   draw_lines(lines);
   const geometry::LineRange columns{0, film_.settings().width};
   send_strip(kKeyframe, false, lines, columns);
-  if (std::ranges::any_of(scene_.film().segments(), [&, s = 0u](const auto&) mutable { return scene_.moves(s++); }))
-    send_strip(kKeyframe, true, lines, columns);
+  if (moves) send_strip(kKeyframe, true, lines, columns);
   exchange_depths();
 }
 

@@ -26,7 +26,7 @@ class Node {
   const std::vector<NodeRecord>& records() const { return records_; }
 
  private:
-  void draw_keyframe(std::uint32_t frame);
+  void draw_keyframe(std::uint32_t frame, bool moves);
   void draw_inbetween(std::uint32_t frame);
 
   void begin_record(std::uint32_t frame, bool keyframe);
