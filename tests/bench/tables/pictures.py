@@ -23,7 +23,7 @@ def svg_of(figure):
 
 def shown(table, kind=None):
     """Sources that have a panel: of several from this machine, those that say most."""
-    return [source for source, of in table.sources.items() if not source.endswith((", best", ", patches")) and
+    return [source for source, of in table.sources.items() if not source.endswith((", median", ", patches")) and
             any(kind in (None, k) for _, k, _ in of)]
 
 
