@@ -64,8 +64,9 @@ class Point:
 class Line:
     """One series over its numbers of nodes."""
 
-    def __init__(self, title, kind, points):
-        self.title, self.kind = title, kind
+    def __init__(self, series, points, varied=study.AXES):
+        self.series, self.kind = series, series.kind
+        self.title, self.choice = series.title(varied), series.choice(varied)
         self.points = sorted(points, key=lambda point: point.nodes)
         self.nodes = [point.nodes for point in self.points]
 
@@ -133,7 +134,7 @@ class Results:
     def line(self, series):
         own = [run for run in self.runs if series_of(run) == series]
         points = [Point([run for run in own if run["nodes"] == nodes]) for nodes in {run["nodes"] for run in own}]
-        return Line(series.title(self.varied), series.kind, points)
+        return Line(series, points, self.varied)
 
     @cached_property
     def hosts(self):

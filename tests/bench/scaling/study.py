@@ -3,6 +3,7 @@
 A series is one film with one choice of settings, strong or weak; its configurations differ in the number of nodes."""
 import itertools
 import math
+import os
 import random
 from dataclasses import dataclass
 
@@ -22,9 +23,16 @@ class Series:
     settings: tuple = ()  # pairs (axis, value), those that were asked for
 
     def title(self, varied=AXES):
-        """Names the settings that differ within a study."""
-        shown = [f"{axis} {value}" for axis, value in self.settings if axis in varied]
-        return ", ".join([self.film, self.kind, *shown])
+        """Names those of the settings."""
+        return ", ".join(filter(None, [self.name(), self.kind, self.choice(varied)]))
+
+    def name(self):
+        """The film's, without folders; of pairs each one's."""
+        return " ".join(os.path.splitext(os.path.basename(word))[0] if ":" not in word else os.path.basename(word)
+                        for word in self.film.split(" "))
+
+    def choice(self, varied=AXES):
+        return ", ".join(f"{axis} {value}" for axis, value in self.settings if axis in varied)
 
 
 @dataclass(frozen=True)
