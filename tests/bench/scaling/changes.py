@@ -1,6 +1,7 @@
 """What changed between two studies beyond noise: the time of each configuration, the time by step over all of them, and the
 time that each machine computes."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy
 
@@ -8,7 +9,7 @@ import noise
 from results import STEPS, WAITS, steps_of
 from runs import KINDS
 
-LEAST = 0.02  # smaller changes are not reported: between two studies a quiet machine drifts as much
+LEAST = 0.02  # of a time; smaller changes are not reported: between two studies a quiet machine drifts as much
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,7 @@ class Change:
     after: float
     best: float    # ratio of the best times, after / before
     probability: float  # of ranks so different by chance, corrected for all that were compared with it
+    least: float = 0  # smaller differences are not reported, seconds
     wanted: int = 0  # repeats that would suffice, where so few can show nothing
 
     @property
@@ -25,7 +27,7 @@ class Change:
         return self.after / self.before if self.before > 0 else float("inf" if self.after > 0 else 1)
 
     def holds(self, level):
-        return self.probability <= level and abs(self.ratio - 1) >= LEAST
+        return self.probability <= level and abs(self.after - self.before) >= self.least
 
     @property
     def slower(self):
@@ -49,42 +51,43 @@ class Comparison:
         strata = [([of_run(run) for run in a.runs], [of_run(run) for run in b.runs]) for a, b in pairs]
         total = lambda side, statistic: float(sum(statistic(stratum[side]) for stratum in strata))
         before = total(0, min)
-        return Change(name, total(0, numpy.median), total(1, numpy.median), total(1, min) / before if before > 0 else 1,
-                      noise.differ(strata))
+        middle = total(0, numpy.median)
+        return Change(name, middle, total(1, numpy.median), total(1, min) / before if before > 0 else 1,
+                      noise.differ(strata), LEAST * middle)
 
     def corrected(self, changes):
         """With Holm's correction for all of them."""
-        return [Change(**{**vars(change), "probability": probability})
+        return [replace(change, probability=probability)
                 for change, probability in zip(changes, noise.holm([change.probability for change in changes]))]
 
-    def film(self):
-        """The time over all configurations."""
-        return self.change("all configurations", lambda run: run["seconds"], list(self.pairs.values()))
-
-    def configurations(self):
-        changes = [self.change(f"{title}, nodes {nodes}", lambda run: run["seconds"], [pair])
-                   for (title, nodes), pair in self.pairs.items()]
-        return [Change(**{**vars(change), "wanted": self.repeats_wanted(pair)})
-                for change, pair in zip(self.corrected(changes), self.pairs.values())]
+    @cached_property
+    def times(self):
+        """Of all configurations together, then of each."""
+        everything = [("all configurations", list(self.pairs.values()))]
+        each = [(f"{title}, nodes {nodes}", [pair]) for (title, nodes), pair in self.pairs.items()]
+        corrected = self.corrected([self.change(name, lambda run: run["seconds"], pairs) for name, pairs in everything + each])
+        wanted = [0, *map(self.repeats_wanted, self.pairs.values())]
+        return [replace(change, wanted=repeats) for change, repeats in zip(corrected, wanted)]
 
     def repeats_wanted(self, pair):
         """Where even the clearest difference of so few runs would be lost among so many comparisons; else 0."""
-        possible = lambda a, b: len(self.pairs) * noise.least_possible(a, b) <= self.level
+        possible = lambda a, b: (1 + len(self.pairs)) * noise.least_possible(a, b) <= self.level
         if possible(len(pair[0].runs), len(pair[1].runs)):
             return 0
         return next(repeats for repeats in range(2, 100) if possible(repeats, repeats))
 
+    @cached_property
     def steps(self):
         """Over all configurations; those that compute first, then by seconds gained or lost. Waiting follows from what
-        other nodes do."""
+        other nodes do. What is little beside the film's time is not reported."""
+        least = self.times[0].least
         pairs = list(self.pairs.values())
         changes = self.corrected([self.change(step, lambda run, step=step: steps_of(run)[step], pairs) for step in STEPS])
-        return sorted(changes, key=lambda change: (change.name in WAITS, -abs(change.after - change.before)))
+        return sorted([replace(change, least=least) for change in changes], key=lambda change: (change.name in WAITS, -abs(change.after - change.before)))
 
     def cause(self):
         """The step that changed most in the film's direction, of those that compute if any did; None if none did."""
-        film = self.film()
-        same_way = [step for step in self.steps() if step.holds(self.level) and step.slower == film.slower]
+        same_way = [step for step in self.steps if step.holds(self.level) and step.slower == self.times[0].slower]
         share = lambda step: abs(step.after - step.before)
         computing = [step for step in same_way if step.name not in WAITS]
         largest = max(same_way, key=share, default=None)
@@ -92,6 +95,7 @@ class Comparison:
         causes = [step for step in computing if share(step) > 0.1 * share(largest)]
         return max(causes, key=share, default=largest)
 
+    @cached_property
     def machines(self):
         """The time that each machine's nodes compute, over the configurations in which both studies have it."""
         changes = []

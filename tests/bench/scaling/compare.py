@@ -39,17 +39,15 @@ def rows(title, compared, level):
 
 
 def summary(comparison):
-    film, level = comparison.film(), comparison.level
-    if not film.holds(level):
-        yield "Over all configurations: no change beyond noise."
-        return
-    how = "slower" if film.slower else "faster"
-    yield f"Over all configurations: {how}, {film.ratio:.3f} of the time before."
-    cause = comparison.cause()
+    film, cause = comparison.times[0], comparison.cause()
+    if film.holds(comparison.level):
+        how = "slower" if film.slower else "faster"
+        yield f"Over all configurations: {how}, {film.ratio:.3f} of the time before."
+    else:
+        yield "Over all configurations: no change of the film's time beyond noise."
     if cause:
-        share = (cause.after - cause.before) / (film.after - film.before)
-        yield (f"Step: {cause.name} ({seconds_text(cause.before)} to {seconds_text(cause.after)} a mean node, "
-               f"{fraction_text(share)} of the change).")
+        yield (f"Step: {cause.name}, {'slower' if cause.slower else 'faster'}: {seconds_text(cause.before)} to "
+               f"{seconds_text(cause.after)} of a mean node.")
 
 
 def slow_machines(after):
@@ -72,13 +70,12 @@ def main():
     comparison = changes.Comparison(before, after, wanted.level)
     if not comparison.pairs:
         raise study.Trouble("the two files have no configuration in common")
-    configurations, hosts = comparison.configurations(), comparison.machines()
-    tables = [("configuration", configurations), ("step", comparison.steps())]
-    tables += [("machine, computing", hosts)] if len(hosts) > 1 else []
+    tables = [("configuration", comparison.times), ("step", comparison.steps)]
+    tables += [("machine, computing", comparison.machines)] if len(comparison.machines) > 1 else []
     for title, compared in tables:
         print("\n".join(rows(title, compared, wanted.level)) + "\n")
     print("\n".join([*summary(comparison), *slow_machines(after), *caveats(comparison)]))
-    return int(any(change.holds(wanted.level) and change.slower for change in [comparison.film(), *configurations]))
+    return int(any(change.holds(wanted.level) and change.slower for change in comparison.times))
 
 
 if __name__ == "__main__":

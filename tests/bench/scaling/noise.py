@@ -5,7 +5,7 @@ import math
 
 import numpy
 
-EXACT = 20000   # rearrangements that are all tried; of more, as many are drawn
+EXACT = 5000  # rearrangements that are all tried; of more, as many are drawn
 SEED = 1
 
 
