@@ -3,14 +3,10 @@ import os
 import sys
 import unittest
 
+import numpy
+
 sys.path.append(os.path.join(os.path.dirname(__file__), "..", ".."))
 import cases  # noqa: E402
-
-try:
-    import numpy
-except ImportError:
-    print("SKIPPED: Matplotlib is not installed")
-    sys.exit(0)
 
 import changes  # noqa: E402
 import findings  # noqa: E402

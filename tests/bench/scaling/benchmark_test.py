@@ -1,6 +1,6 @@
 """`mars bench scaling` and `compare` on a small film: runs, table, report; and planted slowdowns, which they find.
 
-Started as: scaling_test.py BUILD_FOLDER."""
+Started as: benchmark_test.py BUILD_FOLDER."""
 import contextlib
 import io
 import json
