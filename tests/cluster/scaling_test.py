@@ -5,7 +5,7 @@ import subprocess
 
 from virtual_cluster import CLUSTER, HOSTS, SECONDS, SOURCES, TESTBED, ClusterTest, run_on_cluster, wait_until
 
-# On a host: holds its nodes three quarters of the time, as long as the file SLOW is there.
+# On a host: lets its nodes run a sixteenth of the time, as long as the file SLOW is there.
 HOLD = """
 import os, signal, time
 def send(what):
@@ -17,9 +17,9 @@ def send(what):
             pass  # it has ended
 while os.path.exists("SLOW"):
     send(signal.SIGSTOP)
-    time.sleep(0.015)
+    time.sleep(0.15)
     send(signal.SIGCONT)
-    time.sleep(0.005)
+    time.sleep(0.01)
 """
 EXAMPLES = SOURCES / "examples"
 SMALL = ["--study", "strong", "--backend", "mpi", "-o", "study"]
@@ -53,8 +53,10 @@ class Scaling(ClusterTest):
         holder = subprocess.Popen([TESTBED, "exec", "n3", "python3", "-c", HOLD], cwd=self.folder, env=CLUSTER)
         self.addCleanup(holder.wait)
         self.addCleanup(slow.unlink, missing_ok=True)
-        told = self.on("n1", "mars", "bench", "scaling", EXAMPLES / "s3.json", *SMALL, "--hostfile", self.hostfile, "--nodes",
-                       "7", "--repeats", "6", "--size", "320x180", "--", "--frames", "0-3", "--no-coherence").stdout
+        hostfile = self.write("hosts", "n1 slots=2\nn2 slots=1\nn3 slots=1\nn4 slots=1\n")
+        told = self.on("n1", "mars", "bench", "scaling", EXAMPLES / "s3.json", *SMALL, "--hostfile", hostfile, "--nodes", "4",
+                       "--repeats", "6", "--warm-up", "0", "--size", "320x180", "--dice", "32", "--", "--frames", "0-2",
+                       "--no-coherence").stdout
         slow.unlink()
         self.assertEqual([self.hosts_of(run) for run in self.runs()], [set(HOSTS)] * 6)
         self.assertRegex(told, r"\nn3 is slow: it takes \d+\.\d\d times as long as the others")

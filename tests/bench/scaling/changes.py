@@ -86,8 +86,11 @@ class Comparison:
         return sorted([replace(change, least=least) for change in changes], key=lambda change: (change.name in WAITS, -abs(change.after - change.before)))
 
     def cause(self):
-        """The step that changed most in the film's direction, of those that compute if any did; None if none did."""
-        same_way = [step for step in self.steps if step.holds(self.level) and step.slower == self.times[0].slower]
+        """The step that changed most, of those that compute if any did, and in the film's direction if that is known; None
+        if no step changed."""
+        film = self.times[0]
+        same_way = [step for step in self.steps
+                    if step.holds(self.level) and (step.slower == film.slower or not film.holds(self.level))]
         share = lambda step: abs(step.after - step.before)
         computing = [step for step in same_way if step.name not in WAITS]
         largest = max(same_way, key=share, default=None)

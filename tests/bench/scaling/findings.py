@@ -3,6 +3,8 @@ import machines
 import results as of
 from fits import karp_flatt
 
+WIDE = 0.5  # bounds of a fraction
+
 
 def nodes_text(count):
     return "1 node" if count == 1 else f"{count} nodes"
@@ -38,12 +40,15 @@ def laws(results):
 def amdahl(line):
     fraction, (low, high), _ = line.amdahl
     where = ", ".join(str(point.nodes) for point in line.fitted)
-    if fraction <= 0:
+    if high - low > WIDE:
+        yield (f"{line.title}: the runs on {where} nodes differ too much to tell a serial fraction by Amdahl's law (95 % "
+               f"bounds {100 * low:.0f} to {100 * high:.0f} %).")
+    elif fraction <= 0:
         yield f"{line.title}: on {where} nodes the film scales better than Amdahl's law allows: no serial part shows."
     else:
         yield (f"{line.title}: by Amdahl's law on {where} nodes {100 * fraction:.1f} % of the work is serial (95 % bounds "
-               f"{100 * low:.1f} to {100 * high:.1f} %); no number of nodes would be more than {1 / fraction:.0f} times as "
-               f"fast as one.")
+               f"{100 * low:.1f} to {100 * high:.1f} %): however many nodes are at most {1 / fraction:.1f} times as fast as "
+               f"one.")
     yield from trend(line)
 
 

@@ -1,4 +1,4 @@
-// Linked into a test's node program with --wrap: the last node takes four times as long for every step that computes.
+// Linked into a test's node program with --wrap: the last node takes ten times as long for every step that computes.
 #include <chrono>
 #include <thread>
 
@@ -16,7 +16,7 @@ void __wrap__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(mars::node::FrameRe
   __real__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(report, phase);
   const bool computes = phase == Phase::dice || phase == Phase::fill || phase == Phase::scanline;
   if (!computes || mynode() != numnodes() - 1) return;
-  std::this_thread::sleep_for(std::chrono::duration<double>(3 * (seconds - before)));
+  std::this_thread::sleep_for(std::chrono::duration<double>(9 * (seconds - before)));
   __real__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(report, phase);
 }
 }
