@@ -26,6 +26,7 @@ BUILD = os.path.abspath(sys.argv[1])
 TEAPOT = os.path.join(HERE, "..", "..", "..", "examples", "teapot.json")
 SMALL = ["--size", "160x90", "--backend", "threads"]
 WHOLE = ["--", "--frames", "0-4", "--no-coherence"]  # every frame is a keyframe
+NAMESPACES = {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}  # of SVG: names, which nothing loads
 needs_matplotlib = unittest.skipUnless(scaling.PLOTTED, "Matplotlib is not installed")
 
 
@@ -52,8 +53,8 @@ class Study(unittest.TestCase):
 class Command(Study):
     @needs_matplotlib
     def test_a_study_and_its_report(self):
-        told = self.bench("scaling", TEAPOT, *SMALL, "--nodes", "1,2", "--mapping", "cost,greedy", "--dice", "4", "--repeats",
-                          "2", "-o", "study", *WHOLE)
+        told = self.bench("scaling", TEAPOT, *SMALL, "--nodes", "1,2", "--mapping", "cost,greedy", "--dice", "4",
+                          "--repeats", "2", "-o", "study", *WHOLE)
         header, runs = self.runs("study")
         self.assertEqual((header["repeats"], header["seed"]), (2, 1))
         self.assertIn("--mapping cost,greedy", header["command"])
@@ -80,7 +81,7 @@ class Command(Study):
         self.assertTrue(run["environment"]["cpu"] and run["environment"]["mars"]["version"])
 
     def check_page(self, page):
-        self.assertEqual(set(re.findall(r"\w+://[^\s\"'<>]*", page)), {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
+        self.assertEqual(set(re.findall(r"\w+://[^\s\"'<>]*", page)), NAMESPACES)
         self.assertEqual(page.count("<svg"), 4)
         for part in ("What it shows", "teapot, strong scaling", "To repeat it", "Environment", "mars bench scaling"):
             self.assertIn(part, page)
@@ -123,7 +124,8 @@ class Planted(Study):
         for configuration, repeat in study.turns(configurations, 0, repeats, seed=1):
             for build, runner in runners.items():
                 lines[build].append(json.dumps(runner.run(configuration, repeat)))
-        return [self.write(f"{k}.jsonl", [json.dumps({"format": runs.FORMAT}), *own]) for k, own in enumerate(lines.values())]
+        header = json.dumps({"format": runs.FORMAT})
+        return [self.write(f"{k}.jsonl", [header, *own]) for k, own in enumerate(lines.values())]
 
     def write(self, name, lines):
         with open(self.path(name), "w") as file:

@@ -1,5 +1,5 @@
-"""What changed between two studies beyond noise: the time of each configuration, the time by step over all of them, and the
-time that each machine computes."""
+"""What changed between two studies beyond noise: the time of each configuration, the time by step over all of them, and
+the time that each machine computes."""
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -65,7 +65,8 @@ class Comparison:
         """Of all configurations together, then of each."""
         everything = [("all configurations", list(self.pairs.values()))]
         each = [(f"{title}, nodes {nodes}", [pair]) for (title, nodes), pair in self.pairs.items()]
-        corrected = self.corrected([self.change(name, lambda run: run["seconds"], pairs) for name, pairs in everything + each])
+        seconds = lambda run: run["seconds"]
+        corrected = self.corrected([self.change(name, seconds, pairs) for name, pairs in everything + each])
         wanted = [0, *map(self.repeats_wanted, self.pairs.values())]
         return [replace(change, wanted=repeats) for change, repeats in zip(corrected, wanted)]
 
@@ -83,11 +84,12 @@ class Comparison:
         least = self.times[0].least
         pairs = list(self.pairs.values())
         changes = self.corrected([self.change(step, lambda run, step=step: steps_of(run)[step], pairs) for step in STEPS])
-        return sorted([replace(change, least=least) for change in changes], key=lambda change: (change.name in WAITS, -abs(change.after - change.before)))
+        order = lambda change: (change.name in WAITS, -abs(change.after - change.before))
+        return sorted([replace(change, least=least) for change in changes], key=order)
 
     def cause(self):
-        """The step that changed most, of those that compute if any did, and in the film's direction if that is known; None
-        if no step changed."""
+        """The step that changed most, of those that compute if any did, and in the film's direction if that is known;
+        None if no step changed."""
         film = self.times[0]
         same_way = [step for step in self.steps
                     if step.holds(self.level) and (step.slower == film.slower or not film.holds(self.level))]

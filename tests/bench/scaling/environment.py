@@ -6,8 +6,8 @@ import socket
 import subprocess
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
-SETTINGS = ("MARS_", "OMPI_MCA_", "PRTE_MCA_", "SLURM_JOB_ID", "SLURM_JOB_NODELIST", "SLURM_NTASKS", "SLURM_JOB_PARTITION",
-            "SLURM_CPUS_PER_TASK")
+SETTINGS = ("MARS_", "OMPI_MCA_", "PRTE_MCA_", "SLURM_JOB_ID", "SLURM_JOB_NODELIST", "SLURM_NTASKS",
+            "SLURM_JOB_PARTITION", "SLURM_CPUS_PER_TASK")
 
 
 def content(path):

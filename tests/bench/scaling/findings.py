@@ -2,6 +2,7 @@
 import machines
 import results as of
 from fits import karp_flatt
+from table import seconds_text
 
 WIDE = 0.5  # bounds of a fraction
 
@@ -11,13 +12,13 @@ def nodes_text(count):
 
 
 def all_of(results):
-    return [*failures(results), *slow(results), *laws(results), *oversubscription(results), *noise(results),
-            *busy(results)]
+    return [finding for kind in (failures, slow, outcomes, laws, oversubscription, noise, busy) for finding in kind(results)]
 
 
 def failures(results):
     for run in results.failures:
-        yield f"A run of {run['film']} on {nodes_text(run['nodes'])} failed and does not count: {run['failure'].splitlines()[0]}"
+        why = run["failure"].splitlines()[0]
+        yield f"A run of {run['film']} on {nodes_text(run['nodes'])} failed and does not count: {why}"
 
 
 def slow(results):
@@ -29,6 +30,22 @@ def slow(results):
     if not results.slow and len(results.hosts) > 1:
         yield (f"No machine of {', '.join(results.hosts)} is slower than the others by more than noise and "
                f"{100 * (machines.NOTABLE - 1):.0f} %.")
+
+
+def outcomes(results):
+    """How far each line comes with a processor for each node."""
+    for line in results.lines:
+        if line.nodes[0] != 1 or len(line.fitted) < 2:
+            continue
+        one, most = line.points[0], line.fitted[-1]
+        took = f"{seconds_text(most.time.median)} instead of {seconds_text(one.time.median)}"
+        efficiency = f"efficiency {100 * line.efficiency(most):.0f} %"
+        if line.kind == "strong":
+            yield (f"{line.title}: {nodes_text(most.nodes)} take {took}, {line.middle[most.nodes]:.2f} times as fast as one "
+                   f"({efficiency}; best runs {line.best[most.nodes]:.2f}).")
+        else:
+            yield (f"{line.title}: {nodes_text(most.nodes)} with {line.work(most):.1f} times the work take {took} "
+                   f"({efficiency}).")
 
 
 def laws(results):
@@ -66,8 +83,8 @@ def oversubscription(results):
         here = results.environments[0]
         yield (f"There are {here['processors']} processors ({here['processors_are']}): runs of "
                f"{', '.join(map(str, counts))} nodes share them. They show what more nodes cost, not how fast they would "
-               f"be on processors of their own; no law is fitted to them. Of them, the time of a step includes that in which "
-               f"other nodes had the processor.")
+               f"be on processors of their own; no law is fitted to them. Their steps include the time in which other "
+               f"nodes had the processor.")
 
 
 def noise(results):

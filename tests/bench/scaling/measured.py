@@ -1,7 +1,8 @@
 """Runs as a study would have measured them, for tests: made of known times and seeded noise."""
 import numpy
 
-PHASES = {"dice": 0.3, "sum": 0.05, "map": 0.01, "exchange": 0.04, "fill": 0.1, "scanline": 0.45, "depth": 0.03, "credit": 0.02}
+PHASES = {"dice": 0.3, "sum": 0.05, "map": 0.01, "exchange": 0.04, "fill": 0.1, "scanline": 0.45,
+          "depth": 0.03, "credit": 0.02}
 WORK = {"vertices": 1000, "edge_boxes_diced": 1000, "edge_boxes": 1000, "samples": 3000, "bytes_to_nodes": 10,
         "bytes_to_host": 100}
 NONE = {"frames": 0, "seconds": dict.fromkeys(PHASES, 0.0), "work": {}}

@@ -24,7 +24,8 @@ WIDTH, HEIGHT = 9.6, 3.5  # inches
 def svg(figure):
     """As it stands in a page: without what stands before the element, and without links."""
     file = io.StringIO()
-    figure.savefig(file, format="svg", bbox_inches="tight", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    no_links = dict.fromkeys(["Date", "Creator", "Format", "Type"])
+    figure.savefig(file, format="svg", bbox_inches="tight", metadata=no_links)
     pyplot.close(figure)
     text = file.getvalue()
     return text[text.index("<svg"):]
@@ -48,17 +49,24 @@ def shade_sharing(axes, lines):
     if shared:
         left = (max(alone) * min(shared)) ** 0.5 if alone else min(shared) / 1.15
         axes.axvspan(left, max(shared) * 1.15, color="#f4f1ea", zorder=0, linewidth=0)
-        axes.text(0.985, 0.02, "more nodes than processors", ha="right", va="bottom", fontsize=8, color="#8b7f66",
+        axes.text(1, 1.02, "more nodes than processors", ha="right", va="bottom", fontsize=8, color="#8b7f66",
                   transform=axes.transAxes)
 
 
-def draw_line(axes, line, values, colour, label):
+def beside(lines):
+    """By how much each line's points are moved to the right, so that none hides another's."""
+    return [2 ** (0.05 * (place - (len(lines) - 1) / 2)) for place in range(len(lines))]
+
+
+def draw_line(axes, line, values, shift, colour, label):
     """`values`: of a point's seconds, that of the axes. The median with its quartiles, the best time hollow."""
+    places = [nodes * shift for nodes in line.nodes]
     at = lambda seconds: [values(point, seconds(point)) for point in line.points]
-    middle, ends = at(lambda point: point.time.median), [at(lambda point: point.time.upper), at(lambda point: point.time.lower)]
+    middle = at(lambda point: point.time.median)
+    ends = at(lambda point: point.time.upper), at(lambda point: point.time.lower)
     bars = [[abs(end - value) for end, value in zip(each, middle)] for each in ends]
-    axes.errorbar(line.nodes, middle, yerr=bars, color=colour, marker="o", capsize=2.5, elinewidth=1, label=label)
-    axes.plot(line.nodes, at(lambda point: point.time.best), color=colour, marker="o", markerfacecolor="white",
+    axes.errorbar(places, middle, yerr=bars, color=colour, marker="o", capsize=2.5, elinewidth=1, label=label)
+    axes.plot(places, at(lambda point: point.time.best), color=colour, marker="o", markerfacecolor="white",
               linestyle="none", markersize=4)
 
 
@@ -77,14 +85,14 @@ def scaling(lines):
         shade_sharing(axes, lines)
     left.plot(counts, counts, color=QUIET, linestyle=(0, (1, 2)), linewidth=1.2, label="ideal")
     right.axhline(1, color=QUIET, linestyle=(0, (1, 2)), linewidth=1.2)
-    for line, colour in zip(lines, LINES * len(lines)):
+    for line, shift, colour in zip(lines, beside(lines), LINES * len(lines)):
         speed_up = speed_up_of(line)
-        draw_line(left, line, speed_up, colour, line.choice or "measured")
-        draw_line(right, line, lambda point, seconds: speed_up(point, seconds) / point.nodes, colour, None)
+        draw_line(left, line, speed_up, shift, colour, line.choice or "measured")
+        draw_line(right, line, lambda point, seconds: speed_up(point, seconds) / point.nodes, shift, colour, None)
         draw_amdahl(left, line, colour)
     left.set_yscale("log", base=2)
     left.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
-    right.yaxis.set_major_formatter(ticker.PercentFormatter(1, decimals=0))
+    right.yaxis.set_major_formatter(ticker.PercentFormatter(1, decimals=0, symbol=" %"))
     right.set_ylim(0, max(1.1, right.get_ylim()[1]))
     left.legend(loc="upper left")
     return svg(figure)
@@ -93,24 +101,25 @@ def scaling(lines):
 def draw_amdahl(axes, line, colour):
     if line.amdahl and len(line.fitted) > 2:
         fraction, _, _ = line.amdahl
-        counts = [count for count in line.nodes]
-        axes.plot(counts, [1 / (fraction + (1 - fraction) / count) for count in counts], color=colour, linewidth=1,
+        axes.plot(line.nodes, [1 / (fraction + (1 - fraction) / nodes) for nodes in line.nodes], color=colour, linewidth=1,
                   linestyle=(0, (5, 3)), label="Amdahl's law")
 
 
 def steps(lines):
     """The time of a mean node by step, a column of each point: one panel a line."""
-    columns = min(3, len(lines))
+    columns = min(3, len(lines)) if len(lines) != 4 else 2
     rows = -(-len(lines) // columns)
-    figure, panels = pyplot.subplots(rows, columns, figsize=(WIDTH, 3.4 * rows), squeeze=False,
-                                     gridspec_kw={"wspace": 0.28, "hspace": 0.5})
+    height = 3.3 * rows + 0.4
+    figure, panels = pyplot.subplots(rows, columns, figsize=(WIDTH, height), squeeze=False,
+                                     gridspec_kw={"wspace": 0.22, "hspace": 0.45, "top": 1 - 0.75 / height})
     for axes in panels.flat[len(lines):]:
         axes.set_axis_off()
     for axes, line in zip(panels.flat, lines):
         draw_steps(axes, line)
-    panels[0][0].set_ylabel("seconds of a mean node")
+    for row in panels:
+        row[0].set_ylabel("seconds of a mean node")
     handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=len(STEPS), bbox_to_anchor=(0.5, 1 - 0.02 / rows),
+    figure.legend(handles, labels, loc="upper center", ncol=len(STEPS), bbox_to_anchor=(0.5, 1),
                   handlelength=1, handleheight=1, columnspacing=1.3)
     return svg(figure)
 
@@ -137,7 +146,8 @@ def balance(lines):
         for to, style in (("nodes", "-"), ("host", (0, (4, 2)))):
             right.plot(line.nodes, [point.bytes(to) / 1e6 for point in line.points], color=colour, linestyle=style,
                        marker="o", markersize=4)
-    left.set_ylim(bottom=1)
+    left.set_ylim(1, max(1.1, left.get_ylim()[1]))
+    left.yaxis.set_major_locator(ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
     left.legend(loc="upper left")
     right.set_ylim(bottom=0)
     for to, style in (("to other nodes", "-"), ("to the host", (0, (4, 2)))):

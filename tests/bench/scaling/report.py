@@ -8,6 +8,8 @@ import table
 from results import STEPS, WAITS
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+DRAWN = ("Dots are medians, bars their quartiles, circles the best runs: all relative to the first point's median. Dashed, "
+         "where it is fitted: Amdahl's law.")
 HEADINGS = ("nodes", "best", "median", "quartiles", "speed-up", "efficiency", "serial fraction", "load ratio",
             "to nodes", "to host")
 
@@ -32,7 +34,7 @@ def films(results):
 
 
 def film_section(name, kind, lines, picture):
-    heading = f"<h2>{escape(name)}, {kind} scaling</h2>\n<figure>{picture}</figure>\n"
+    heading = f"<h2>{escape(name)}, {kind} scaling</h2>\n<figure>{picture}<figcaption>{DRAWN}</figcaption></figure>\n"
     return heading + "".join(html_table(HEADINGS, [table.row_of(line, point) for point in line.points], caption_of(line))
                              for line in lines)
 
@@ -41,7 +43,7 @@ def caption_of(line):
     first = line.points[0].runs[0]
     size = "{}x{}".format(*first["size"])
     frames = f"{sum(first['frames'].values())} frames, {first['frames']['keyframe']} of them keyframes"
-    grows = f"{size} on {line.points[0].nodes}, growing with the nodes" if line.kind == "weak" else size
+    grows = f"{size} on {findings.nodes_text(line.nodes[0])}, growing with the nodes" if line.kind == "weak" else size
     return ", ".join(filter(None, [line.choice, grows, frames, first["backend"]]))
 
 
@@ -55,11 +57,11 @@ def step_rows(line):
 def steps_section(results, picture):
     tables = "".join(html_table(("nodes", *STEPS, "a keyframe", "an inbetween"), step_rows(line), line.title)
                      for line in results.lines)
-    return (f"<h2>Where the time goes</h2>\n<p>Seconds of the film that the mean node spends in each step. In cold colours it "
-            f"computes; in {', '.join(WAITS[:-1])} it waits for other nodes or the host. <i>host</i> is the rest: the node has "
-            f"no task, or has done its last and the host composes. The last two columns are a node's own time for one "
-            f"frame, of a keyframe that of its slowest node.</p>\n<figure>{picture}</figure>\n"
-            f"<details><summary>The figures</summary>{tables}</details>\n")
+    return (f"<h2>Where the time goes</h2>\n<p>Seconds of the film that the mean node spends in each step. In cold colours "
+            f"it computes; in {', '.join(WAITS[:-1])} it waits for other nodes or the host. <i>host</i> is the rest: the "
+            f"node has no task, or has done its last and the host composes. In the tables, the last two columns are a node's "
+            f"own time for one frame, of a keyframe that of its slowest node.</p>\n<figure>{picture}</figure>\n"
+            f"<details open><summary>The figures</summary>{tables}</details>\n")
 
 
 def machine_section(results):
@@ -95,21 +97,34 @@ def repeat_section(results):
     return f"<h2>To repeat it</h2>\n{text}<h2>Environment</h2>\n" + "".join(map(environment_section, results.environments))
 
 
-def page(results, pictures):
-    with open(os.path.join(HERE, "report.css")) as style, open(os.path.join(HERE, "method.html")) as method:
-        style, method = style.read(), method.read()
-    names = ", ".join(dict.fromkeys(line.series.name() for line in results.lines))
+def names_of(results):
+    return escape(", ".join(dict.fromkeys(line.series.name() for line in results.lines)))
+
+
+def heading_section(results):
     here = results.environments[0]
-    sections = [film_section(name, kind, lines, pictures[f"{name}-{kind}"]) for (name, kind), lines in films(results).items()]
+    machines = "1 machine" if len(results.hosts) == 1 else f"{len(results.hosts)} machines"
+    version = (here["mars"]["version"] or "mars").replace("mars", "MARS")
+    told = ", ".join([here["cpu"], machines, version, results.headers[0]["began"][:10]])
     noted = "".join(f"<li>{escape(finding)}</li>\n" for finding in findings.all_of(results))
-    return (f"<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><title>Scaling of {escape(names)}</title>\n"
-            f"<meta name='viewport' content='width=device-width'><style>{style}</style></head><body>\n<header><h1>Scaling of "
-            f"{escape(names)}</h1>\n<p>{escape(here['cpu'])}, {len(results.hosts)} "
-            f"{'machine' if len(results.hosts) == 1 else 'machines'}, {escape(here['mars']['version'] or 'MARS')}, "
-            f"{escape(results.headers[0]['began'][:10])}</p></header>\n<section class='findings'><h2>What it shows</h2>"
-            f"<ul>{noted}</ul></section>\n{''.join(sections)}{steps_section(results, pictures['steps'])}"
-            f"<h2>Balance and messages</h2>\n<figure>{pictures['balance']}</figure>\n{machine_section(results)}{method}"
-            f"{repeat_section(results)}</body></html>\n")
+    return (f"<header><h1>Scaling of {names_of(results)}</h1>\n<p>{escape(told)}</p></header>\n"
+            f"<section class='findings'><h2>What it shows</h2><ul>{noted}</ul></section>\n")
+
+
+def part(name):
+    with open(os.path.join(HERE, name)) as file:
+        return file.read()
+
+
+def page(results, pictures):
+    sections = [film_section(name, kind, lines, pictures[f"{name}-{kind}"])
+                for (name, kind), lines in films(results).items()]
+    body = "".join([heading_section(results), *sections, steps_section(results, pictures["steps"]),
+                    f"<h2>Balance and messages</h2>\n<figure>{pictures['balance']}</figure>\n",
+                    machine_section(results), part("method.html"), repeat_section(results)])
+    return (f"<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><title>Scaling of {names_of(results)}</title>\n"
+            f"<meta name='viewport' content='width=device-width'><style>{part('report.css')}</style></head>\n"
+            f"<body>\n{body}</body></html>\n")
 
 
 def write(results, folder):

@@ -2,7 +2,9 @@
 
 
 def seconds_text(seconds):
-    return f"{seconds:.3f} s" if seconds >= 1 else f"{1000 * seconds:.3g} ms"
+    if seconds >= 1:
+        return f"{seconds:.3f} s"
+    return f"{1e3 * seconds:.3g} ms" if seconds >= 1e-3 else f"{1e6 * seconds:.3g} \u00b5s"
 
 
 def fraction_text(fraction):
@@ -17,12 +19,13 @@ COLUMNS = ("nodes", "best", "median", "quartiles", "speed-up", "efficiency", "se
 
 
 def row_of(line, point):
-    """A point in words, by COLUMNS."""
-    time = point.time
-    return (str(point.nodes) + ("*" if point.oversubscribed else ""), seconds_text(time.best), seconds_text(time.median),
-            f"{seconds_text(time.lower)} to {seconds_text(time.upper)}", f"{line.middle[point.nodes]:.2f}",
-            fraction_text(line.efficiency(point)), fraction_text(line.serial_fraction_at(point)),
-            f"{point.load_ratio:.2f}", bytes_text(point.bytes("nodes")), bytes_text(point.bytes("host")))
+    """A point in words, by COLUMNS. One that has none to be compared with has no speed-up."""
+    time, alone = point.time, len(line.points) == 1 and point.nodes > 1
+    return (f"{point.nodes}{'*' if point.oversubscribed else ''}", seconds_text(time.best), seconds_text(time.median),
+            f"{seconds_text(time.lower)} to {seconds_text(time.upper)}",
+            "" if alone else f"{line.middle[point.nodes]:.2f}", "" if alone else fraction_text(line.efficiency(point)),
+            fraction_text(line.serial_fraction_at(point)), f"{point.load_ratio:.2f}", bytes_text(point.bytes("nodes")),
+            bytes_text(point.bytes("host")))
 
 
 def text(results):
