@@ -84,7 +84,7 @@ def environment_section(here):
         ("memory", f"{memory / 2**20:.1f} GiB" if memory else "not known"), ("system", here["system"]),
         ("MPI", here["mpi"] or "none"), ("MARS", f"{mars['version']}, sources {mars['commit'] or 'not known'}"),
         ("built", f"{mars['build_type']}, {mars['compiler']}"),
-        ("machines", listed(here["hosts"]) if here["hosts"] else "as MPI chose"), ("variables", listed(here["variables"]))])
+        ("machines", listed(here["hosts"]) if here["hosts"] else "none named"), ("variables", listed(here["variables"]))])
 
 
 def repeat_section(results):
@@ -93,7 +93,8 @@ def repeat_section(results):
         text += f"<pre>{escape(header['command'])}</pre>\n" + facts([
             ("folder", header["folder"]), ("began", header["began"]),
             ("runs", f"{header['repeats']} of each configuration that count, {header['warm_up']} before that do not"),
-            ("order", f"shuffled in every repeat, seed {header['seed']}")])
+            ("order", f"shuffled in every repeat, seed {header['seed']}"),
+            ("load average", f"{results.before} before the first run")])
     return f"<h2>To repeat it</h2>\n{text}<h2>Environment</h2>\n" + "".join(map(environment_section, results.environments))
 
 
