@@ -64,12 +64,17 @@ class Command(Study):
             self.check(run)
         for title in ("teapot, strong, mapping cost\n", "teapot, weak, mapping greedy\n"):
             self.assertIn(title, told)
-        with open(self.path("study", "report.html")) as file:
-            self.check_page(file.read())
+        self.check_page(self.page("study"))
+        self.bench("scaling", "--read", "study/runs.jsonl", "-o", "again")
+        self.assertEqual(self.page("again"), self.page("study"))
         pictures = [name for name in os.listdir(self.path("study")) if name.endswith(".svg")]
         self.assertEqual(len(pictures), 4)
         for picture in pictures:
             ElementTree.parse(self.path("study", picture))
+
+    def page(self, folder):
+        with open(self.path(folder, "report.html")) as file:
+            return file.read()
 
     def check(self, run):
         self.assertEqual(len(run["per_node"]), run["nodes"])
@@ -135,6 +140,7 @@ class Planted(Study):
     def test_a_sleep_in_a_phase_is_found_and_named(self):
         phases = ("dice", "exchange")
         before, *after = self.measure([BUILD, *(self.planted(f"slow-{phase}") for phase in phases)], [1, 2], 6)
+        self.assertIn("no change of the film's time beyond noise", self.bench("compare", before, before))
         for phase, slow in zip(phases, after):
             told = self.bench("compare", before, slow, code=1)
             self.assertIn("Over all configurations: slower", told)

@@ -27,7 +27,11 @@ def slow(results):
         steps = ", ".join(f"{step} {times:.2f}" for step, times in each.steps.items())
         yield (f"{each.name} is slow: it takes {each.times:.2f} times as long as the others for the same work ({steps}; "
                f"{each.runs} runs, probability by chance below {max(each.probability, 0.0002):.2g}).")
-    if not results.slow and len(results.hosts) > 1:
+    if results.slow or len(results.hosts) == 1:
+        return
+    if not machines.can_tell(results.runs, results.hosts):
+        yield f"Too few runs on all of {', '.join(results.hosts)} to tell whether one is slow: take more repeats."
+    else:
         yield (f"No machine of {', '.join(results.hosts)} is slower than the others by more than noise and "
                f"{100 * (machines.NOTABLE - 1):.0f} %.")
 

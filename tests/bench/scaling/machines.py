@@ -71,6 +71,12 @@ def slow_ones(runs, name_of=by_machine):
     return among(runs, names, name_of) if len(names) > 1 else []
 
 
+def can_tell(runs, hosts):
+    """Whether there are runs enough on all of the machines for the slowest to be told from chance."""
+    on_all = [run for run in runs if {node["host"] for node in run["per_node"]} == set(hosts)]
+    return len(hosts) ** (1 - len(on_all)) <= LEVEL
+
+
 def among(runs, names, name_of):
     only = [{**run, "per_node": [node for node in run["per_node"] if name_of(node) in names]} for run in runs]
     rows = [row for row in (slowness(run, name_of) for run in only) if set(row) == set(names)]

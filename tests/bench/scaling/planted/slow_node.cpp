@@ -6,6 +6,7 @@
 #include "node/frame_report.h"
 
 // FrameReport::clock by its linker's name, and in its place.
+// NOLINTBEGIN(bugprone-reserved-identifier): --wrap makes these names.
 extern "C" {
 void __real__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(mars::node::FrameReport* report, mars::wire::Phase phase);
 
@@ -20,3 +21,4 @@ void __wrap__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(mars::node::FrameRe
   __real__ZN4mars4node11FrameReport5clockENS_4wire5PhaseE(report, phase);
 }
 }
+// NOLINTEND(bugprone-reserved-identifier)
