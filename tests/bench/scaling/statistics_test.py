@@ -1,7 +1,12 @@
 """The figures of scaling studies on data with known answers: laws, spreads, tests for noise, slow machines, changes."""
+import contextlib
+import io
+import json
 import os
 import sys
+import tempfile
 import unittest
+import unittest.mock
 
 import numpy
 
@@ -9,12 +14,14 @@ sys.path.append(os.path.join(os.path.dirname(__file__), "..", ".."))
 import cases  # noqa: E402
 
 import changes  # noqa: E402
+import compare  # noqa: E402
 import findings  # noqa: E402
 import fits  # noqa: E402
 import machines  # noqa: E402
 import measured  # noqa: E402
 import noise  # noqa: E402
 import results  # noqa: E402
+import runs  # noqa: E402
 import study  # noqa: E402
 
 FOUR_HOSTS = dict(host_of=lambda node: f"n{node % 4 + 1}")
@@ -116,6 +123,21 @@ class Changes(unittest.TestCase):
             same = compared(measured.study(2 * seed + 100), measured.study(2 * seed + 101))
             cries += any(change.holds(0.05) for change in same.times)
         self.assertLessEqual(cries, 11)
+
+    def exit_code(self, *studies):
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            paths = [os.path.join(folder, f"{k}.jsonl") for k in range(len(studies))]
+            for path, (_, lines) in zip(paths, studies):
+                with open(path, "w") as file:
+                    file.write("\n".join(map(json.dumps, [{"format": runs.FORMAT}, *lines])))
+            with unittest.mock.patch.object(sys, "argv", ["compare", *paths]):
+                return compare.main()
+
+    def test_exit_codes(self):
+        slow = measured.study(2, times=lambda host, phase: 1.2)
+        self.assertEqual(self.exit_code(measured.study(1), slow), 1)
+        self.assertEqual(self.exit_code(slow, measured.study(1)), 0)
+        self.assertEqual(self.exit_code(slow, slow), 0)
 
     def test_a_machine_that_became_slow_is_named(self):
         after = measured.study(2, **FOUR_HOSTS, times=lambda host, phase: 1.5 if host == "n3" else 1)
