@@ -78,9 +78,8 @@ class Product:
 def cells_of(product, table, measured, scale, folder):
     with_inbetweens = "inbetween" in simulate.tables.KINDS[table]
     most = INBETWEENS_A_NODE * max(cell[2] for cell in measured)
-    films = simulate.scenes.all_films(simulate.scenes.Cut(1, most), scale)
-    simulate.scenes.write({name: film for name, film in films.items()
-                           if name in {f"{table}-{row}" for row in simulate.rows_of(measured)}}, folder)
+    names = {f"{table}-{row}" for row in simulate.rows_of(measured)}
+    simulate.write_films(simulate.scenes.Cut(1, most), scale, names, folder)
 
     def times(place):
         row, nodes = place

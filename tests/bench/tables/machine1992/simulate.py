@@ -34,9 +34,7 @@ class Simulator:
     def __init__(self, build, folder, names=None):
         self.program = os.path.join(build, "bench", "tables", "machine1992")
         self.folder = folder
-        films = scenes.all_films(scenes.Cut(2, INBETWEENS))
-        scenes.write({name: still(film) if name.startswith("4.3") else film for name, film in films.items()
-                      if names is None or name in names}, folder)
+        write_films(scenes.Cut(2, INBETWEENS), 1.0, names, folder)
 
     def film(self, table, row):
         return os.path.join(self.folder, f"{table}-{row}.json")
@@ -69,6 +67,12 @@ class Simulator:
             return row, {**keyframe, **inbetween}
         by_row = dict(in_pairs(row_times, rows_of(measured)))
         return [1000 * by_row[row][kind, nodes] for row, kind, nodes, _ in measured]
+
+
+def write_films(cut, scale, names, folder):
+    """Those of table 4.3 with nothing that moves."""
+    scenes.write({name: still(film) if name.startswith("4.3") else film
+                  for name, film in scenes.all_films(cut, scale).items() if names is None or name in names}, folder)
 
 
 def still(film):
