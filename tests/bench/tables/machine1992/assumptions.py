@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What else the 1992 program may have done, fitted on table 4.1: assumptions.py --build BUILD. Prints, for each
+"""What else the 1992 program may have done, fitted on table 4.1: mars bench machine1992-assumptions. Prints, for each
 assumption, the fitted parameters and the median errors of keyframes and inbetweens (replayed, not simulated)."""
 import argparse
 import copy
@@ -28,8 +28,9 @@ def line(name, cells, found):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True)
+    parser = argparse.ArgumentParser(prog="mars bench machine1992-assumptions", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
     build = parser.parse_args().build
     measured = simulate.measured_cells()["4.1"]
     with tempfile.TemporaryDirectory(prefix="machine1992-") as folder:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""MARS itself on the machine that simulate.py has fitted: product.py --build BUILD SIMULATED FILE.
+"""MARS itself on the machine that simulate.py has fitted: mars bench machine1992-product SIMULATED FILE.
 
 Renders the same films with `mars render --backend simulated`, in pictures of the same size, and writes FILE with the
 cells' times (source simulated-product). Inbetweens: of 20 a node. What work costs are the clocks of costs.py for MARS's
@@ -90,10 +90,11 @@ def cells_of(product, table, measured, scale, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True)
-    parser.add_argument("simulated")
-    parser.add_argument("file")
+    parser = argparse.ArgumentParser(prog="mars bench machine1992-product", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("simulated", help="of mars bench machine1992")
+    parser.add_argument("file", help="for `mars bench tables --beside`")
     wanted = parser.parse_args()
     measured, parts = simulate.measured_cells(), []
     simulated = simulate.tables.load(wanted.simulated)
