@@ -75,6 +75,7 @@ class Renderer {
   void send_strip(const geometry::LineRange& lines, bool last);
 
   std::size_t member() const;  // the caller's index in the group
+  std::size_t group_size() const;
   std::span<geometry::LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
   bool triangles_travel() const;  // to nodes of the group that cannot read the caller's memory
   shading::Shading shading() const;
