@@ -83,6 +83,7 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
     draw_lines(exchange_triangles(own.polygons, pass), pass);
     if (!pass.is_last()) send_trace();
   }
+  charge_frame();
   report_.end();
   memory_.end_frame();
   outbox_.discard_sent();
@@ -243,6 +244,13 @@ void Renderer::charge_strip(const geometry::LineRange& lines, const raster::Stri
   charge(wire::Work::sample, sums_.samples_on(lines));
   charge(wire::Work::pixel, pixels);
   charge(wire::Work::light, pixels * scene_.lights().size());
+}
+
+// Its own lines of a keyframe, an inbetween whole.
+void Renderer::charge_frame() {
+  const std::uint64_t lines = homes()[member()].count();
+  charge(wire::Work::node_frame, 1);
+  charge(wire::Work::node_frame_byte, lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_));
 }
 
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,

@@ -37,7 +37,10 @@ void Routes::add(std::uint64_t kind, std::uint64_t a, std::uint64_t b, double by
 void Routes::find_way(int from, int to) {
   if (network_.topology == Topology::hypercube) return add_cube_way(from, to);
   const auto a = static_cast<std::uint64_t>(from), b = static_cast<std::uint64_t>(to);
-  add(kOut, a, 0, network_.byte);
+  const auto port = [&](int computer) {
+    return computer == host_ && host_ == computers_ && network_.host_byte > 0 ? network_.host_byte : network_.byte;
+  };
+  add(kOut, a, 0, port(from));
   if (network_.topology != Topology::one_switch) {
     const std::uint64_t leaf = static_cast<std::uint64_t>(network_.leaf), leaf_a = a / leaf, leaf_b = b / leaf;
     if (leaf_a != leaf_b && network_.topology == Topology::fat_tree) {
@@ -47,7 +50,7 @@ void Routes::find_way(int from, int to) {
       add(kPair, leaf_a, leaf_b, network_.uplink);
     }
   }
-  add(kIn, b, 0, network_.byte);
+  add(kIn, b, 0, port(to));
 }
 
 // The lowest differing bit first. The host is beside computer 0.

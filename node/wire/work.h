@@ -27,12 +27,14 @@ enum class Work : int {
   host_frame,       // that it begins and finishes
   sink_frame,       // that a sink takes
   sink_byte,        // of these
+  node_frame,       // that a node would write itself, were frames written by nodes
+  node_frame_byte,  // of these
 };
 
 // As platform files name them.
-inline constexpr std::array<std::string_view, 19> kWorkNames{
+inline constexpr std::array<std::string_view, 21> kWorkNames{
     "frame",           "segment",     "patch",      "vertex",     "triangle_tested", "triangle", "edge_box_made",
     "edge_box_filled", "line_mapped", "edge_box",   "sample",     "pixel",           "light",    "still_byte",
-    "host_strip",      "host_byte",   "host_frame", "sink_frame", "sink_byte"};
+    "host_strip",      "host_byte",   "host_frame", "sink_frame", "sink_byte", "node_frame", "node_frame_byte"};
 
 }  // namespace mars::wire

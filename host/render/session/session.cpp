@@ -23,7 +23,7 @@
 namespace mars::session {
 namespace {
 
-constexpr int kMostSinks = 16;
+constexpr int kMostSinks = 64;
 
 // Where the frames go: a folder with its sink, or nowhere.
 class Destination {
