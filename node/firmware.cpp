@@ -12,6 +12,7 @@
 #include "hal/messages/shared_memory.h"
 #include "hal/nx/nx_global.h"
 #include "hal/nx/nx_messages.h"
+#include "node/film_receiver.h"
 #include "node/renderer.h"
 #include "node/simd/instruction_set.h"
 #include "node/wire/commands.h"
@@ -41,7 +42,6 @@ class Firmware {
  private:
   std::span<const std::byte> receive(long type);
   void load();
-  void receive_film(std::span<std::byte> block);
   void render();
   void send_time();
   Renderer& renderer();
@@ -103,7 +103,7 @@ void Firmware::load() {
   const auto [load, machines] = wire::read_load(receive(wire::kLoad), static_cast<int>(numnodes()), name_);
   film_block_.emplace(kFilmReplica, load.film_bytes);
   const auto block = film_block_->bytes();
-  if (messages::neighbourhood().index == 0) receive_film(block);
+  if (messages::neighbourhood().index == 0) receive_film(block, machines);
   gsync();
   film_.emplace(block, "film", true);
   renderer_.emplace(*film_, load, machines, instruction_set_);
@@ -112,15 +112,6 @@ void Firmware::load() {
   wire::Loaded loaded{renderer_->outbox().slots(), {}};
   copy_text(renderer_->refusal(), loaded.apart);
   csend(wire::kLoaded, &loaded, sizeof loaded, myhost(), 0);
-}
-
-void Firmware::receive_film(std::span<std::byte> block) {
-  while (!block.empty()) {
-    const std::size_t bytes = std::min<std::size_t>(block.size(), wire::kFilmPiece);
-    crecv(wire::kFilmBlock, block.data(), static_cast<long>(bytes));
-    wire::check_size("FilmBlock", static_cast<std::size_t>(infocount()), bytes);
-    block = block.subspan(bytes);
-  }
 }
 
 void Firmware::render() {

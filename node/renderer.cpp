@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "node/group/mapping.h"
 #include "node/shading/shading_of.h"
@@ -23,16 +24,17 @@ Renderer::Renderer(const wire::FilmView& film, const wire::Load& load, std::span
       still_(neighbours_, film.settings().width, film.settings().height, scene_.pattern(), load.still_memory),
       memory_(neighbours_, load.memory),
       sums_(film.settings().height),
-      triangle_exchange_(machines.size(), film.settings().height),
+      triangle_exchange_(group_size(), film.settings().height),
       still_exchange_(neighbours_, film.settings().samples, film.settings().height),
       outbox_(film.settings().width, load.pixel_format, load.credits),
-      contributes_(machines.size()),
+      contributes_(group_size()),
       line_loads_(film.settings().height),
       line_totals_(film.settings().height + 1),
       wanted_lines_(film.settings().height),
       wanted_still_lines_(film.settings().height),
-      homes_(machines.size()),
-      pass_homes_(machines.size()) {
+      homes_(group_size()),
+      pass_homes_(group_size()) {
+  messages::keep_to(neighbours_.group().first, neighbours_.group().count);
   parts_.reserve(neighbours_.nodes().size() + 1);
   if (load.traced == 1) tracer_.emplace();
 }
@@ -82,7 +84,10 @@ void Renderer::draw_frame(wire::FrameKind kind, std::uint32_t interval, std::uin
     draw_lines(exchange_triangles(own.polygons, pass), pass);
     if (!pass.is_last()) send_trace();
   }
+  charge_frame();
   report_.end();
+  memory_.end_frame();
+  outbox_.discard_sent();
   send_trace();
 }
 
@@ -254,6 +259,13 @@ void Renderer::charge_strip(const geometry::LineRange& lines, const raster::Stri
   charge(wire::Work::still_byte, drawn.still_bytes);
 }
 
+// Its own lines of a keyframe, an inbetween whole.
+void Renderer::charge_frame() {
+  const std::uint64_t lines = homes()[member()].count();
+  report_.charge(wire::Work::file_frame, 1);
+  report_.charge(wire::Work::file_byte, lines * scene_.film().settings().width * wire::pixel_bytes(pixel_format_));
+}
+
 std::uint32_t Renderer::draw_strip(const geometry::LineRange& lines, const shading::Shading& shading,
                                    raster::StripBuffer& out) {
   std::uint32_t line = lines.first;
@@ -283,6 +295,8 @@ void Renderer::send_strip(const geometry::LineRange& lines, bool last) {
   ++report_.strip().number;
   report_.skip_clock();  // sending belongs to no phase
 }
+
+std::size_t Renderer::group_size() const { return static_cast<std::size_t>(neighbours_.group().count); }
 
 std::size_t Renderer::member() const { return static_cast<std::size_t>(mynode() - group_.first); }
 

@@ -56,6 +56,7 @@ class Renderer {
   // What was done, for machines that are simulated (wire/work.h).
   void charge_tessellation(const Tessellation& own);
   void charge_strip(const geometry::LineRange& lines, const raster::StripBuffer& strip);
+  void charge_frame();
   std::span<const std::uint8_t> unkept_lines();
   // Whether own triangles are all there and can be put into their lines. Else several passes follow, or a Failure where
   // a line has more than can be counted.
@@ -75,6 +76,7 @@ class Renderer {
   void send_strip(const geometry::LineRange& lines, bool last);
 
   std::size_t member() const;  // the caller's index in the group
+  std::size_t group_size() const;
   std::span<geometry::LineRange> homes() { return std::span(homes_).first(static_cast<std::size_t>(group_.count)); }
   bool triangles_travel() const;  // to nodes of the group that cannot read the caller's memory
   shading::Shading shading() const;

@@ -9,12 +9,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "hal/messages/neighbourhood.h"
 #include "hal/messages/offer.h"
 
 namespace mars::messages {
+
+class MessagePool;
 
 struct Envelope {
   int from = 0;
@@ -89,6 +92,13 @@ class Backend {
   // The rank has just done so many units of work of a kind, by the program's own numbers: where ranks live by another
   // clock, it goes on by what they cost.
   virtual void charge(int /*kind*/, std::uint64_t /*units*/) {}
+  // From now on the rank exchanges messages with ranks [first, first + count), itself among them, and with the host
+  // alone: what others do in the meantime does not matter to it.
+  virtual void keep_to(int /*first*/, int /*count*/) {}
+  // Nobody will read these bytes before they are written again: the machine may have their pages back.
+  virtual void discard(std::span<std::byte> /*bytes*/) {}
+  // Where ranks never run at the same time they may have one pool for all of them; nullptr: each has its own.
+  virtual MessagePool* pool() { return nullptr; }
 
   // All nodes of this node's machine.
   virtual Neighbourhood neighbourhood() = 0;

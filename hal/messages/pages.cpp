@@ -18,6 +18,14 @@ bool twice_fits(std::size_t bytes) {
   return true;
 }
 
+// About the whole pages.
+void advise(std::span<std::byte> block, int advice) {
+  void* first = block.data();
+  std::size_t left = block.size();
+  constexpr std::size_t kPage = 4096;
+  if (std::align(kPage, kPage, first, left) != nullptr) madvise(first, left / kPage * kPage, advice);
+}
+
 }  // namespace
 
 std::shared_ptr<std::byte> map_pages(std::size_t bytes, std::optional<int> file) {
@@ -30,12 +38,9 @@ std::shared_ptr<std::byte> map_pages(std::size_t bytes, std::optional<int> file)
 }
 
 // The machine need not.
-void prefer_large_pages(std::span<std::byte> block) {
-  void* first = block.data();
-  std::size_t left = block.size();
-  constexpr std::size_t kPage = 4096;
-  if (std::align(kPage, kPage, first, left) != nullptr) madvise(first, left / kPage * kPage, MADV_HUGEPAGE);
-}
+void prefer_large_pages(std::span<std::byte> block) { advise(block, MADV_HUGEPAGE); }
+
+void give_pages_back(std::span<std::byte> bytes) { advise(bytes, MADV_DONTNEED); }
 
 Failure too_much_to_share(std::size_t bytes, const std::string& where) {
   return within_limits("the nodes of a machine cannot share " + std::to_string(bytes) + " bytes", where,

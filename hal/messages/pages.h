@@ -20,6 +20,9 @@ std::shared_ptr<std::byte> map_pages(std::size_t bytes, std::optional<int> file 
 // touched.
 void prefer_large_pages(std::span<std::byte> block);
 
+// The whole pages in `bytes`, which nobody will read before they are written again, need no memory until then.
+void give_pages_back(std::span<std::byte> bytes);
+
 // Of a block that a machine's nodes cannot share; `where` names the one that throws it.
 Failure too_much_to_share(std::size_t bytes, const std::string& where);
 

@@ -31,6 +31,10 @@ double seconds() { return bound_process == nullptr ? machine_seconds() : bound_p
 
 void charge(int kind, std::uint64_t units) { process().backend().charge(kind, units); }
 
+void keep_to(int first, int count) { process().backend().keep_to(first, count); }
+
+void discard(std::span<std::byte> bytes) { process().backend().discard(bytes); }
+
 const Traffic& traffic() { return process().traffic(); }
 
 Process::Process(Backend& backend) : Progress(backend) {

@@ -121,6 +121,10 @@ double seconds();
 // The calling process has done so many units of work of a kind (Backend::charge).
 void charge(int kind, std::uint64_t units);
 
+// As the Backend's of these names.
+void keep_to(int first, int count);
+void discard(std::span<std::byte> bytes);
+
 // The messages that the calling process has sent so far.
 const Traffic& traffic();
 

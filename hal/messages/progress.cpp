@@ -22,7 +22,11 @@ void describe(const Envelope& envelope, long* info) {
 }  // namespace
 
 Progress::Progress(Backend& backend)
-    : Caller(backend), acknowledgement_(kFirstInternalType + backend.nodes()), ledger_(backend.host()) {}
+    : Caller(backend),
+      acknowledgement_(kFirstInternalType + backend.nodes()),
+      own_pool_(backend.pool() == nullptr ? std::make_unique<MessagePool>() : nullptr),
+      pool_(own_pool_ ? *own_pool_ : *backend.pool()),
+      ledger_(backend.host()) {}
 
 Request& Progress::checked(const char* call, Request* request) const {
   if (request == nullptr) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "hal/messages/arguments.h"
 #include "hal/messages/backend.h"
@@ -70,7 +71,8 @@ class Progress : public Caller {
   void acknowledge(const Envelope& envelope, std::uint32_t number);
 
   const int acknowledgement_;  // the type of internal messages that say: received
-  MessagePool pool_;
+  std::unique_ptr<MessagePool> own_pool_;
+  MessagePool& pool_;
   Matching matching_;
   RequestTable requests_;
   HandlerQueue handlers_;

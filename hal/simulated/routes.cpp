@@ -13,18 +13,21 @@ enum Kind : std::uint64_t { kMemory, kOut, kIn, kUp, kDown, kPair, kChannel, kHo
 Routes::Routes(const Network& network, int computers, int host)
     : network_(network), computers_(computers), host_(host) {}
 
-double Routes::arrival(int from, int to, std::size_t bytes, double time) {
+double Routes::arrival(int from, int to, std::size_t bytes, double time, double floor) {
   way_.clear();
+  double latency = network_.local_latency;
   if (from == to) {
     add(kMemory, static_cast<std::uint64_t>(from), 0, network_.local_byte);
-    return through_queues(bytes, time) + network_.local_latency;
+  } else {
+    find_way(from, to);
+    const bool with_host = host_ == computers_ && (from == host_ || to == host_);
+    latency = network_.latency + network_.hop * static_cast<double>(way_.size()) +
+              (with_host ? network_.host_latency : 0);
   }
-  find_way(from, to);
-  const double hops = network_.hop * static_cast<double>(way_.size());
-  const bool with_host = host_ == computers_ && (from == host_ || to == host_);
-  const double latency = network_.latency + hops + (with_host ? network_.host_latency : 0);
-  const bool circuit = network_.topology == Topology::hypercube;
-  return (circuit ? through_channels(bytes, time) : through_queues(bytes, time)) + latency;
+  const bool circuit = network_.topology == Topology::hypercube && from != to;
+  const double end = circuit ? through_channels(bytes, time) : through_ports(bytes, time, floor);
+  double& last = last_[static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint64_t>(to)];
+  return last = std::max(last, end + latency);
 }
 
 void Routes::add(std::uint64_t kind, std::uint64_t a, std::uint64_t b, double byte) {
@@ -34,7 +37,10 @@ void Routes::add(std::uint64_t kind, std::uint64_t a, std::uint64_t b, double by
 void Routes::find_way(int from, int to) {
   if (network_.topology == Topology::hypercube) return add_cube_way(from, to);
   const auto a = static_cast<std::uint64_t>(from), b = static_cast<std::uint64_t>(to);
-  add(kOut, a, 0, network_.byte);
+  const auto port = [&](int computer) {
+    return computer == host_ && host_ == computers_ && network_.host_byte > 0 ? network_.host_byte : network_.byte;
+  };
+  add(kOut, a, 0, port(from));
   if (network_.topology != Topology::one_switch) {
     const std::uint64_t leaf = static_cast<std::uint64_t>(network_.leaf), leaf_a = a / leaf, leaf_b = b / leaf;
     if (leaf_a != leaf_b && network_.topology == Topology::fat_tree) {
@@ -44,7 +50,7 @@ void Routes::find_way(int from, int to) {
       add(kPair, leaf_a, leaf_b, network_.uplink);
     }
   }
-  add(kIn, b, 0, network_.byte);
+  add(kIn, b, 0, port(to));
 }
 
 // The lowest differing bit first. The host is beside computer 0.
@@ -73,13 +79,12 @@ double Routes::through_channels(std::size_t bytes, double time) {
 }
 
 // One part after the other; a part passes bytes on while more of them come.
-double Routes::through_queues(std::size_t bytes, double time) {
+double Routes::through_ports(std::size_t bytes, double time, double floor) {
   double end = time;
   for (const Part& part : way_) {
-    double& busy = busy_[part.name];
-    time = std::max(time, busy);
-    busy = time + part.byte * static_cast<double>(bytes);
-    end = std::max(end, busy);
+    const double seconds = part.byte * static_cast<double>(bytes);
+    time = calendars_[part.name].book(time, seconds, floor);
+    end = std::max(end, time + seconds);
   }
   return end;
 }

@@ -1,5 +1,5 @@
-// When messages arrive: each part of a network that messages share (port, channel, link) is a queue that is busy until
-// some time. Messages are given in the order of their times.
+// When messages arrive: each part of a network that messages share (port, channel, link) passes one on at a time.
+// Where messages hold all channels of their way at once they must be given in the order of their times; else in any.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "hal/simulated/calendar.h"
 #include "hal/simulated/machine.h"
 
 namespace mars::simulated {
@@ -17,8 +18,8 @@ class Routes {
   Routes(const Network& network, int computers, int host);
 
   // When the last byte of a message arrives that `from` begins to send at `time`. Between two computers messages
-  // arrive in the order in which they are given.
-  double arrival(int from, int to, std::size_t bytes, double time);
+  // arrive in the order in which they are given. No message will be given with a time before `floor`.
+  double arrival(int from, int to, std::size_t bytes, double time, double floor);
 
  private:
   struct Part {
@@ -30,12 +31,15 @@ class Routes {
   void add_cube_way(int from, int to);
   void add(std::uint64_t kind, std::uint64_t a, std::uint64_t b, double byte);
   double through_channels(std::size_t bytes, double time);
-  double through_queues(std::size_t bytes, double time);
+  double through_ports(std::size_t bytes, double time, double floor);
 
   const Network network_;
   const int computers_;
   const int host_;
-  std::unordered_map<std::uint64_t, double> busy_;  // until; parts that carried something
+  // Of parts that carried something: when they are busy; of channels, until when.
+  std::unordered_map<std::uint64_t, Calendar> calendars_;
+  std::unordered_map<std::uint64_t, double> busy_;
+  std::unordered_map<std::uint64_t, double> last_;  // arrival, by sender and receiver
   std::vector<Part> way_;                           // of the message in hand
 };
 

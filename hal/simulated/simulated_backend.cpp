@@ -23,7 +23,7 @@ messages::Ticket SimulatedBackend::start_send(int to, int type, const void* data
 
 void SimulatedBackend::idle(int, std::chrono::microseconds longest) {
   const double seconds = std::chrono::duration<double>(longest).count();
-  world_.wait(rank_, longest >= kPatient ? World::kNever : seconds);
+  world_.wait(rank_, finishing_ || longest >= kPatient ? World::kNever : seconds);
 }
 
 void SimulatedBackend::charge(int kind, std::uint64_t units) {

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "hal/messages/backend.h"
+#include "hal/messages/pages.h"
 #include "hal/simulated/world.h"
 
 namespace mars::simulated {
@@ -27,6 +29,9 @@ class SimulatedBackend : public messages::Backend {
   void idle(int turn, std::chrono::microseconds longest) override;
   double seconds() const override { return world_.clock(rank_); }
   void charge(int kind, std::uint64_t units) override;
+  void keep_to(int first, int) override { world_.keep_to(rank_, first); }
+  void discard(std::span<std::byte> bytes) override { messages::give_pages_back(bytes); }
+  messages::MessagePool* pool() override { return &world_.pool(); }
   messages::Neighbourhood neighbourhood() override;
   std::shared_ptr<std::byte> share(std::size_t bytes) override;
   std::shared_ptr<std::byte> replica(std::uint64_t key, std::size_t bytes) override;

@@ -35,13 +35,16 @@ int World::computer_of(int rank) const {
 
 int World::nodes_on(int computer) const { return std::clamp(nodes_ - computer * machine_.nodes, 0, machine_.nodes); }
 
+std::size_t World::workers_on(int computer) const {
+  return static_cast<std::size_t>(nodes_on(computer)) + (computer_of(nodes_) == computer ? 1 : 0);
+}
+
 // Ranks with a processor each never wait for one.
 void World::work(int rank, double seconds) {
   Rank& self = *ranks_[rank];
   const int computer = computer_of(rank);
   std::vector<double>& processors = processors_[computer];
-  const std::size_t workers = static_cast<std::size_t>(nodes_on(computer)) + (computer_of(nodes_) == computer ? 1 : 0);
-  if (workers <= processors.size()) {
+  if (workers_on(computer) <= processors.size()) {
     self.clock += seconds;
     return;
   }
@@ -73,22 +76,17 @@ void World::send(int from, int to, int type, const void* data, std::size_t lengt
   work(from, end_seconds(from, machine_.network.send, length));
   let_earlier_run(from);
   const double now = clock(from);
-  const double arrival = from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now);
-  Message message{arrival, messages_++, {from, type, length}, nullptr};
-  if (length > 0) {
-    message.bytes = std::make_unique_for_overwrite<std::byte[]>(length);
-    std::memcpy(message.bytes.get(), data, length);
-  }
+  const double arrival = from == to ? now : routes_.arrival(computer_of(from), computer_of(to), length, now, floor_at(now));
   Rank& receiver = *ranks_[to];
-  receiver.coming.push_back(std::move(message));
+  receiver.coming.push_back({arrival, messages_++, pool_.copy({from, type, length}, data)});
   std::ranges::push_heap(receiver.coming, Later());
-  if (receiver.waits && arrival < receiver.due) set_due(to, arrival);
+  if (receiver.waits && arrival < receiver.due) set_due(to, std::max(arrival, receiver.clock));
 }
 
 void World::note_arrivals(Rank& self) {
   while (!self.coming.empty() && self.coming.front().arrival <= self.clock) {
     std::ranges::pop_heap(self.coming, Later());
-    self.arrived.push_back(std::move(self.coming.back()));
+    self.arrived.push_back(self.coming.back());
     self.coming.pop_back();
   }
 }
@@ -99,15 +97,17 @@ std::optional<messages::Envelope> World::peek(int rank) {
   Rank& self = *ranks_[rank];
   note_arrivals(self);
   if (self.arrived.empty()) return std::nullopt;
-  return self.arrived.front().envelope;
+  return self.arrived.front().message->envelope;
 }
 
 void World::take(int rank, void* buffer) {
   Rank& self = *ranks_[rank];
-  const Message message = std::move(self.arrived.front());
+  messages::Message* const message = self.arrived.front().message;
   self.arrived.pop_front();
-  if (message.envelope.length > 0) std::memcpy(buffer, message.bytes.get(), message.envelope.length);
-  work(rank, end_seconds(rank, machine_.network.receive, message.envelope.length));
+  const std::size_t length = message->envelope.length;
+  if (length > 0) std::memcpy(buffer, message->bytes(), length);
+  pool_.release(message);
+  work(rank, end_seconds(rank, machine_.network.receive, length));
 }
 
 void World::set_alarm(int rank, double time) {
@@ -120,6 +120,7 @@ void World::wait(int rank, double seconds) {
   check_running();
   Rank& self = *ranks_[rank];
   double until = self.clock + seconds;
+  self.timed = until < kNever;
   if (!self.coming.empty()) until = std::min(until, self.coming.front().arrival);
   if (!self.alarms.empty()) until = std::min(until, *self.alarms.begin());
   self.waits = true;
@@ -133,21 +134,30 @@ void World::wait(int rank, double seconds) {
 
 void World::let_earlier_run(int rank) {
   const Rank& self = *ranks_[rank];
-  if (queue_.empty() || *queue_.begin() > std::pair(self.clock, rank)) return;
+  const Queue& others = others_of(self);
+  if (others.empty() || *others.begin() > std::pair(self.clock, rank)) return;
   set_due(rank, self.clock);
   pass_turn(rank);
 }
 
 void World::set_due(int rank, double due) {
   Rank& self = *ranks_[rank];
-  queue_.erase({self.due, rank});
+  drop(rank);
   self.due = due;
-  if (due < kNever) queue_.emplace(due, rank);
+  if (due == kNever) return;
+  queue_.emplace(due, rank);
+  if (self.community != nullptr) self.community->emplace(due, rank);
+}
+
+void World::drop(int rank) {
+  const Rank& self = *ranks_[rank];
+  queue_.erase({self.due, rank});
+  if (self.community != nullptr) self.community->erase({self.due, rank});
 }
 
 // The first of the queue goes on, which may be the caller itself.
 void World::pass_turn(int rank) {
-  const int next = next_rank();
+  const int next = next_rank(*ranks_[rank]);
   if (next != rank) {
     ranks_[next]->turn.release();
     ranks_[rank]->turn.acquire();
@@ -156,19 +166,36 @@ void World::pass_turn(int rank) {
   self.clock = std::max(self.clock, self.due);
 }
 
-int World::next_rank() {
+int World::next_rank(const Rank& last) {
   if (queue_.empty()) {
     stop(std::make_exception_ptr(Failure("all ranks wait, and no message is on its way", "",
                                          "find the message that is missing; see docs/nx.md on strict mode")));
   }
-  const int next = queue_.begin()->second;
-  queue_.erase(queue_.begin());
+  const int next = first_after(last);
+  drop(next);
   return next;
+}
+
+// Of the last one's community, unless that has only ranks that let time pass: this may take others.
+int World::first_after(const Rank& last) const {
+  const Queue& community = others_of(last);
+  const bool ahead = !community.empty() && !ranks_[community.begin()->second]->timed;
+  return (ahead ? community : queue_).begin()->second;
+}
+
+// Nothing that begins now will have been given an earlier time.
+double World::floor_at(double now) const { return queue_.empty() ? now : std::min(now, queue_.begin()->first); }
+
+// Ranks that share processors, or channels that a message holds all at once, must keep the order of time.
+void World::keep_to(int rank, int first) {
+  for (int computer = 0; computer < computers_of(machine_, nodes_); ++computer)
+    if (workers_on(computer) > processors_[computer].size()) return;
+  if (machine_.network.topology != Topology::hypercube) ranks_[rank]->community = &communities_[first];
 }
 
 void World::end(int rank) {
   ranks_[rank]->ended = true;
-  if (--left_ > 0) ranks_[next_rank()]->turn.release();
+  if (--left_ > 0) ranks_[next_rank(*ranks_[rank])]->turn.release();
 }
 
 void World::leave_out(int rank) {

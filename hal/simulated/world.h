@@ -2,6 +2,10 @@
 // A rank runs on until it sends, looks for messages, waits or works on a processor that it shares: then ranks that are
 // behind catch up first, so that everything that ranks have in common happens in the order of simulated time, and every
 // run of a program gives the same times. Among equal times the lower rank is first.
+//
+// Ranks that keep to themselves (keep_to) are a community: it runs ahead of others until its ranks all wait, so that
+// few communities hold the memory of work in hand. Others meet it at the host, which waits until all have come to its
+// time, and in the network, where a message takes the first free stretch whenever it is given.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +23,7 @@
 #include <vector>
 
 #include "hal/messages/backend.h"
+#include "hal/messages/message_pool.h"
 #include "hal/simulated/machine.h"
 #include "hal/simulated/routes.h"
 
@@ -38,6 +43,8 @@ class World {
   // Of the running rank.
 
   double clock(int rank) const { return ranks_[rank]->clock; }
+  // With others of the same `first`.
+  void keep_to(int rank, int first);
   // Work on one of the computer's processors, when one is free.
   void work(int rank, double seconds);
   void send(int from, int to, int type, const void* data, std::size_t length);
@@ -63,6 +70,7 @@ class World {
 
   std::shared_ptr<std::byte> share(int rank, int index, std::size_t bytes);
   std::shared_ptr<std::byte> replica(std::uint64_t key, std::size_t bytes);
+  messages::MessagePool& pool() { return pool_; }
   messages::Offer offer(int rank, std::size_t bytes);
   std::shared_ptr<std::byte> attach(int rank, int offerer, const messages::MemoryName& name);
 
@@ -75,11 +83,11 @@ class World {
   void leave_out(int rank);
 
  private:
+  using Queue = std::set<std::pair<double, int>>;  // due, rank
   struct Message {
     double arrival;
     std::uint64_t number;  // among all
-    messages::Envelope envelope;
-    std::unique_ptr<std::byte[]> bytes;
+    messages::Message* message;
   };
   struct Later {
     bool operator()(const Message& a, const Message& b) const {
@@ -90,10 +98,12 @@ class World {
     double clock = 0;
     double due = 0;      // when it goes on, where another runs
     bool waits = false;  // for messages
+    bool timed = false;  // but not for ever
     bool ended = false;
     std::vector<Message> coming;  // a heap, the earliest arrival first
     std::deque<Message> arrived;  // and noted
     std::multiset<double> alarms;
+    Queue* community = nullptr;  // none: it is of no community
     std::binary_semaphore turn{0};
   };
   struct Block {
@@ -106,19 +116,26 @@ class World {
     std::weak_ptr<std::byte> bytes;  // when all have
   };
 
+  std::size_t workers_on(int computer) const;
   static void note_arrivals(Rank& self);
+  const Queue& others_of(const Rank& self) const { return self.community == nullptr ? queue_ : *self.community; }
   void let_earlier_run(int rank);
   void pass_turn(int rank);
-  int next_rank();
+  int next_rank(const Rank& last);
+  int first_after(const Rank& last) const;
   void set_due(int rank, double due);
+  void drop(int rank);
+  double floor_at(double now) const;
   double seconds_of(const std::vector<EndCost>& costs, std::size_t length) const;
   double end_seconds(int rank, const std::vector<EndCost>& costs, std::size_t length) const;
 
   const Machine machine_;
   const int nodes_;
   Routes routes_;
+  messages::MessagePool pool_;  // of messages on their way, and all ranks'
   std::vector<std::unique_ptr<Rank>> ranks_;
-  std::set<std::pair<double, int>> queue_;       // due, rank: all that neither run nor wait for ever
+  Queue queue_;                                  // all that neither run nor wait for ever
+  std::map<int, Queue> communities_;             // of these, by their first rank
   std::vector<std::vector<double>> processors_;  // by computer: busy until
   std::uint64_t messages_ = 0;                   // sent so far
   int finished_ = 0;

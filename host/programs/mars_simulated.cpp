@@ -1,4 +1,7 @@
 // mars-simulated: host and nodes on simulated machines, in this process. Frames are drawn; their times are counted.
+#include <malloc.h>
+#include <sys/prctl.h>
+
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -35,6 +38,7 @@ double serve_files(simulated::World& world, images::PictureFormat format, std::u
 void run(const options::RenderOptions& options, const experiments::Platform& platform) {
   const auto host = [&](simulated::World& world) {
     session::RenderJob job = job::job_of(options, "simulated");
+    job.host = {platform.host_memory, platform.machine.host_processors};
     const auto serve = [&world, files = !job.folder.empty(), format = job.format](std::uint64_t bytes) {
       return files ? serve_files(world, format, bytes) : world.clock(world.nodes());
     };
@@ -50,11 +54,20 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
   simulated::run_simulated(platform.machine, static_cast<int>(options.nodes), host, node);
 }
 
+// One rank runs at a time and gives its memory back: large pages would keep more of it than is used, and a heap for
+// each thread as much as its ranks ever used.
+void spare_memory() {
+  prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_THRESHOLD, 1 << 25);
+}
+
 }  // namespace
 }  // namespace mars::programs
 
 int main(int argc, char** argv) {
   using namespace mars;
+  programs::spare_memory();
   child::open_standard_streams();
   constexpr const char* kPurpose =
       "Host and nodes on simulated machines: mars-simulated FILM --sink none --nodes 64 --platform fat-tree";

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 
 namespace mars::group {
@@ -53,6 +54,11 @@ void FrameMemory::begin_frame() {
   if (std::exchange(is_read_, false)) turn_ = 1 - turn_;
   arena().clear();
   if (!readers_.empty()) head_ = arena().take<Published>(1).data();
+}
+
+// What neighbours read is theirs until the next frame but one begins.
+void FrameMemory::end_frame() {
+  if (!is_read_) messages::discard(arena().all());
 }
 
 bool FrameMemory::reads(int node) const { return std::ranges::binary_search(readers_, node); }

@@ -36,6 +36,8 @@ class FrameMemory {
   raster::Arena& arena() { return arenas_[turn_]; }
   // Forgets what is in the arena, or gives the other part its turn.
   void begin_frame();
+  // The caller needs it no more.
+  void end_frame();
   // Of the block: triangles count from here.
   geometry::Triangle* first_triangle() const { return reinterpret_cast<geometry::Triangle*>(block_.data()); }
 

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
 #include "node/wire/commands.h"
 
@@ -63,6 +64,14 @@ void Outbox::receive_credit() {
 
 std::span<std::byte> Outbox::memory_of(std::size_t slot) const {
   return memory_.bytes().subspan(slot * wire::kSlotBytes, wire::kSlotBytes);
+}
+
+void Outbox::discard_sent() {
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    if (slots_[slot].by_message == 0 || slots_[slot].message < 0 || !msgdone(slots_[slot].message)) continue;
+    slots_[slot].message = -1;
+    messages::discard(memory_of(slot));
+  }
 }
 
 void Outbox::flush() {

@@ -29,6 +29,8 @@ class Outbox {
 
   // Receives one Credit message, waiting for it.
   void receive_credit();
+  // What is gone by message, the caller needs no more.
+  void discard_sent();
   // Waits until all is gone.
   void flush();
 

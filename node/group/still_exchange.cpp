@@ -12,8 +12,14 @@ namespace mars::group {
 // The lines that each node sends, and their receivers.
 class StillExchange::Plan {
  public:
-  Plan(const StillNeeds& needs, const geometry::LineRange& lines, const raster::Neighbours& neighbours)
-      : needs_(needs), lines_(lines), neighbours_(neighbours) {}
+  // `collectors`: as many as the group has nodes, to be used.
+  Plan(const StillNeeds& needs, const geometry::LineRange& lines, const raster::Neighbours& neighbours,
+       std::span<std::uint8_t> collectors)
+      : needs_(needs), lines_(lines), neighbours_(neighbours), collectors_(collectors) {
+    std::ranges::fill(collectors_, std::uint8_t{0});
+    for (int node = first(); node < last(); ++node)
+      if (contributes(node)) collectors_[index(neighbours_.head_of(node))] = 1;
+  }
 
   int self() const { return static_cast<int>(mynode()); }
   int first() const { return needs_.group.first; }
@@ -22,12 +28,7 @@ class StillExchange::Plan {
   bool contributes(int node) const { return needs_.contributes[index(node)] == 1; }
   bool share_a_machine(int a, int b) const { return neighbours_.are(a, b); }
   // Whether it is the head of a machine with contributors.
-  bool collects(int node) const {
-    if (neighbours_.head_of(node) != node) return false;
-    for (int other = first(); other < last(); ++other)
-      if (contributes(other) && share_a_machine(node, other)) return true;
-    return false;
-  }
+  bool collects(int node) const { return collectors_[index(node)] == 1; }
 
   // Needed lines that `node` is home of.
   geometry::LineRange lines_of(int node) const { return geometry::overlap(needs_.homes[index(node)], lines_); }
@@ -38,13 +39,17 @@ class StillExchange::Plan {
   const StillNeeds& needs_;
   const geometry::LineRange lines_;  // that inbetweens may touch
   const raster::Neighbours& neighbours_;
+  const std::span<std::uint8_t> collectors_;
 };
 
 StillExchange::StillExchange(const raster::Neighbours& neighbours, std::uint32_t samples, std::size_t height)
-    : neighbours_(neighbours), one_each_(samples > 1), pending_(height) {}
+    : neighbours_(neighbours),
+      one_each_(samples > 1),
+      pending_(height),
+      collectors_(static_cast<std::size_t>(neighbours.group().count)) {}
 
 void StillExchange::complete(const StillNeeds& needs, raster::StillLines& still) {
-  const Plan plan(needs, still.lines(), neighbours_);
+  const Plan plan(needs, still.lines(), neighbours_, collectors_);
   const int self = plan.self();
   send_home_lines(plan, still);
   if (plan.collects(self)) {

@@ -48,6 +48,7 @@ class StillExchange {
   const raster::Neighbours& neighbours_;
   bool one_each_;  // a message has one line
   PendingMessages pending_;
+  std::vector<std::uint8_t> collectors_;  // Plan's
   std::vector<std::byte> line_;  // that was received
 };
 

@@ -27,6 +27,7 @@ class Arena {
 
   void clear() { front_ = 0, back_ = block_.size(), peak_ = 0; }
 
+  std::span<std::byte> all() const { return block_; }
   std::size_t size() const { return block_.size(); }
   std::size_t peak() const { return peak_; }  // most bytes in use since clear()
   // Bytes that were in use for the first time ever since it was asked last.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/collectives/group.h"
 #include "hal/messages/private_memory.h"
 #include "hal/messages/shared_memory.h"
 
@@ -18,8 +19,10 @@ class Neighbours {
   // Of the caller, one of the nodes, each on its machine, that form `groups` groups side by side.
   Neighbours(std::span<const std::int32_t> machines, int groups);
 
-  // The first node of `node`'s group on its machine.
-  int head_of(int node) const { return heads_[static_cast<std::size_t>(node)]; }
+  // The caller's.
+  const collectives::Group& group() const { return group_; }
+  // The first of the group's nodes on the machine of `node`, one of them.
+  int head_of(int node) const { return heads_[static_cast<std::size_t>(node - group_.first)]; }
   bool are(int a, int b) const { return head_of(a) == head_of(b); }
   // Of the caller's group on its machine, in order, itself among them.
   std::span<const int> nodes() const { return nodes_; }
@@ -31,12 +34,12 @@ class Neighbours {
 
   static constexpr std::uint64_t kFirstReplica = 1;
 
-  std::vector<int> heads_;  // by node
+  collectives::Group group_;
+  std::vector<int> heads_;  // by node of the group
   std::vector<int> nodes_;
   std::size_t most_ = 0;
   std::size_t shared_blocks_ = 0;  // of the caller's machine: groups with several nodes there
   std::size_t own_block_ = 0;      // the caller's group's number among them
-  std::uint64_t group_ = 0;        // the caller's group's first node
 };
 
 // Memory that a group's nodes on a machine share; of a node that is alone there, its own.

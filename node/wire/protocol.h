@@ -9,10 +9,10 @@
 // Strip that was made in it, and the host's from then until the next such Credit. On one machine the host reads pixels
 // and runs where they lie; elsewhere they travel in the Strip. The host reads no slot after Stop.
 //
-//   host -> node   Load (+ film block to one node a machine, in pieces), Credit ..., Render ..., Stop
+//   host -> node   Load (+ film block to the first node, in pieces), Credit ..., Render ..., Stop
 //   node -> host   Hello, Loaded, Strip ..., Fault (its last message)
 //   both ways      Clock, when the run is traced; then also node -> host Trace ...
-//   node -> node   counts a line; Triangles and StillLines, in any order of the senders: those of two keyframes, or of
+//   node -> node   film block to one node a machine; counts a line; Triangles and StillLines, in any order of the senders: those of two keyframes, or of
 //                  two passes of one, cannot mix, for all nodes of the group meet between them
 #pragma once
 
@@ -76,14 +76,15 @@ static_assert(offsetof(Hello, host) == sizeof(WireStamp), "where every version h
 
 enum class Mapping : std::uint32_t { greedy, optimal, cost };
 
-// Bytes of the film block in one kFilmBlock message; the last has the rest.
-inline constexpr std::uint64_t kFilmPiece = std::uint64_t{16} << 20;
+// Bytes of the film block in one kFilmBlock message; the last has the rest. Few, for nodes pass on what they have while
+// more comes.
+inline constexpr std::uint64_t kFilmPiece = std::uint64_t{1} << 20;
 
 // Slots that a node has at most.
 inline constexpr std::int32_t kMaxCredits = 4;
 
 // Prepares a film of `film_bytes`. Followed by each node's machine (int32), as in Hello. Nodes that lead a machine get
-// the block next, as kFilmBlock messages.
+// the block next, as kFilmBlock messages, and pass it on (node/film_receiver.h).
 struct Load {
   WireStamp stamp;
   std::uint64_t film_bytes;

@@ -66,8 +66,10 @@ FilmRun render_as_host(std::span<const std::byte> film, const RunOptions& option
   MemorySink sink;
   FilmRun run;
   {
-    sinks::SinkPool pool(sink, {settings.width, settings.height, options.block, 3, 1, 0, options.format});
-    run.report = farm::render_film(film, plan, farm, pool, {});
+    const sinks::SinkPool::Shape shape{settings.width, settings.height, options.block, 3, 1, 0, options.format};
+    const auto pool =
+        options.make_sinks ? options.make_sinks(sink, shape) : std::make_unique<sinks::SinkPool>(sink, shape);
+    run.report = farm::render_film(film, plan, farm, *pool, {});
   }
   run.frames = sink.release();
   return run;

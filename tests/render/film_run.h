@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct RunOptions {
   std::string simd;                  // "" for the widest
   std::uint64_t memory = 256 << 20;  // bytes a node offers
   threads::WrapBackend wrap;
+  // Makes the pool of sinks; none: a thread takes frames.
+  std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
   std::function<void()> around_node;  // called on each node's thread before it runs
 };
 

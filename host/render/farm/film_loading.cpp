@@ -23,14 +23,12 @@ void send_load(const wire::Load& load, std::span<const wire::Hello> hellos) {
     csend(wire::kLoad, message.data(), static_cast<long>(message.size()), hello.node, 0);
 }
 
-// The messages' ids. In pieces, for a message has less than 2 GiB.
-std::vector<long> send_block(std::span<const std::byte> block, std::span<const wire::Hello> hellos) {
+// To the first node, which leads its machine. The messages' ids.
+std::vector<long> send_block(std::span<const std::byte> block) {
   std::vector<long> sends;
   for (std::size_t at = 0; at < block.size(); at += wire::kFilmPiece) {
     const auto piece = block.subspan(at, std::min<std::size_t>(block.size() - at, wire::kFilmPiece));
-    for (const wire::Hello& hello : hellos)
-      if (hello.machine == hello.node)
-        sends.push_back(isend(wire::kFilmBlock, piece.data(), static_cast<long>(piece.size()), hello.node, 0));
+    sends.push_back(isend(wire::kFilmBlock, piece.data(), static_cast<long>(piece.size()), 0, 0));
   }
   return sends;
 }
@@ -42,7 +40,7 @@ bool load_film(std::span<const std::byte> block, wire::Load load, NodeInbox& inb
   load.stamp = wire::own_stamp();
   load.film_bytes = block.size();
   send_load(load, inbox.hellos());
-  const std::vector<long> sends = send_block(block, inbox.hellos());
+  const std::vector<long> sends = send_block(block);
   const bool loaded = inbox.wait_until_loaded();
   for (const long send : sends) msgwait(send);
   return loaded;

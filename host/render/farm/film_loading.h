@@ -1,4 +1,4 @@
-// The film on its way to the nodes: Load to each, the film block to one node a machine.
+// The film on its way to the nodes: Load to each, the film block to the first, from which the others get it.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,8 @@ struct HostMemory {
   std::uint64_t most_bytes() const;
 };
 
-// Backgrounds come first, then credits, then buffers: two more than the sinks have threads, but no more than fit 1 GiB.
+// Backgrounds come first, then credits, then buffers: two more than the sinks have threads, but no more than fit 1 GiB
+// or an eighth of the budget.
 HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, wire::PixelFormat format,
                              std::uint32_t nodes, std::uint32_t groups, std::uint32_t sink_threads);
 

@@ -23,6 +23,8 @@
 namespace mars::session {
 namespace {
 
+constexpr int kMostSinks = 64;
+
 // Where the frames go: a folder with its sink, or nowhere.
 class Destination {
  public:
@@ -55,20 +57,26 @@ class Destination {
   std::unique_ptr<sinks::Sink> sink_;
 };
 
-// Sinks work while nodes wait for credit, so they may have every processor.
-std::uint32_t sink_threads(const topology::Machine& machine) {
-  return static_cast<std::uint32_t>(std::clamp(machine.processors(), 2, 16));
+HostMachine host_machine(HostMachine host) {
+  const topology::Machine here = topology::Machine::here();
+  if (host.memory == 0) host.memory = topology::memory_share(here.memory(), topology::memory_limit(), 1);
+  if (host.processors == 0) host.processors = here.processors();
+  return host;
 }
 
-farm::HostMemory memory_for(const topology::Machine& machine, const wire::FilmSettings& film, wire::PixelFormat format,
+// Sinks work while nodes wait for credit, so they may have every processor.
+std::uint32_t sink_threads(const HostMachine& host) {
+  return static_cast<std::uint32_t>(std::clamp(host.processors, 2, kMostSinks));
+}
+
+farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& film, wire::PixelFormat format,
                             const farm::Plan& plan) {
-  const std::uint64_t budget = topology::memory_share(machine.memory(), topology::memory_limit(), 1);
-  return farm::share_host_memory(budget, film, format, static_cast<std::uint32_t>(numnodes()),
-                                 static_cast<std::uint32_t>(plan.groups.size()), sink_threads(machine));
+  return farm::share_host_memory(host.memory, film, format, static_cast<std::uint32_t>(numnodes()),
+                                 static_cast<std::uint32_t>(plan.groups.size()), sink_threads(host));
 }
 
 // New buffers show the first interval's background.
-sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::FilmView& film, const RenderJob& job,
+sinks::SinkPool::Shape pool_shape(const HostMachine& machine, const wire::FilmView& film, const RenderJob& job,
                                   std::uint32_t frames) {
   const std::uint32_t threads = std::min(sink_threads(machine), frames);
   const wire::PixelFormat format = images::facts_of(job.format).pixels;
@@ -112,7 +120,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) 
   const wire::FilmSettings& settings = view.settings();
   const farm::PlanRequest request{job.frames.of_film(settings.frames), job.coherence, job.groups};
   const farm::Plan plan = farm::make_plan(view, request, static_cast<int>(numnodes()));
-  const topology::Machine machine = topology::Machine::here();
+  const HostMachine machine = host_machine(job.host);
   const farm::HostMemory memory = memory_for(machine, settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too

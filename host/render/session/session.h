@@ -17,6 +17,11 @@
 
 namespace mars::session {
 
+struct HostMachine {
+  std::uint64_t memory = 0;  // bytes; 0: of this machine as much as it may use
+  int processors = 0;        // 0: this machine's
+};
+
 struct RenderJob {
   std::string film;  // its file, as the person gave it
   // Reads and compiles it, which may take long; `warn` takes one line about a probable mistake.
@@ -32,6 +37,7 @@ struct RenderJob {
   std::string trace;                   // file for a picture of the run; "": none
   std::string backend;                 // its name: mpi, threads or simulated
   std::vector<std::string> arguments;  // all this, as it was given to the host
+  HostMachine host;  // that the host has
   // Makes the pool of sinks; none: threads take frames.
   std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
   // The command that renders again, all frames or one, with this number of nodes.

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""mars bench large: the film of 10^7 polygons at 3840x2160 on simulated machines of 16 to 4096 nodes.
+
+Each run is appended to a file of JSON lines, and none that is there is made again. The table and the picture are of all
+runs in the file: for each platform and number of nodes the groups that took the least time.
+"""
+import argparse
+import json
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+import film
+import platforms
+from curve import best_runs, draw, table
+from figures import figures_of
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="mars bench large", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--nodes", default="16,64,256,1024,4096", help="default: %(default)s")
+    parser.add_argument("--platforms", default="fat-tree,dragonfly,ethernet", help="default: %(default)s")
+    parser.add_argument("--groups", help="numbers to try (default: some for each number of nodes)")
+    parser.add_argument("--writers", default="host,nodes", help="who writes the frames (default: %(default)s)")
+    parser.add_argument("--small", action="store_true", help="a film of 126720 polygons and 60 frames")
+    parser.add_argument("--frames", help="only these, as for mars render")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("large"),
+                        help="folder for runs.jsonl, curve.svg and table.md (default: %(default)s)")
+    return parser.parse_args()
+
+
+def groups_to_try(nodes, intervals):
+    """Divisors of the intervals keep groups busy alike. With files of the host any number does."""
+    fitting = [n for n in (intervals, intervals // 2, intervals // 4) if n <= nodes // 4]
+    return fitting[:2] or [max(1, nodes // 4)]
+
+
+def simulate(bin_folder, film_file, platform_file, nodes, groups, frames):
+    with tempfile.NamedTemporaryFile(suffix=".json") as report:
+        command = [bin_folder / "mars-simulated", film_file, "--sink", "none", "--platform", platform_file, "--nodes",
+                   str(nodes), "--groups", str(groups), "--report", report.name]
+        if frames:
+            command += ["--frames", frames]
+        before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        run = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if run.returncode:
+            sys.exit(f"{nodes} nodes in {groups} groups: {run.stderr.strip()[-400:]}")
+        cost = {"wall": time.monotonic() - began, "most_bytes": after.ru_maxrss * 1024,
+                "processor": after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime}
+        return json.loads(pathlib.Path(report.name).read_text()), cost
+
+
+def known_runs(path):
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def main():
+    options = arguments()
+    size = film.SMALL if options.small else film.WHOLE
+    options.output.mkdir(parents=True, exist_ok=True)
+    runs_file = options.output / "runs.jsonl"
+    film_file = options.output / "film.json"
+    film.write_film(film_file, size)
+    runs = known_runs(runs_file)
+    for name in options.platforms.split(","):
+        for writer in options.writers.split(","):
+            platform_file = options.output / f"{name}-{writer}.json"
+            platform = platforms.write_variant(options.build, name, writer, platform_file)
+            for nodes in map(int, options.nodes.split(",")):
+                tries = map(int, options.groups.split(",")) if options.groups else groups_to_try(nodes, size.intervals)
+                for groups in tries:
+                    key = {"platform": name, "writer": writer, "nodes": nodes, "groups": groups,
+                           "frames": options.frames or "all", "small": options.small, "costs": platform}
+                    if any(all(run[part] == key[part] for part in key) for run in runs):
+                        continue
+                    report, cost = simulate(options.build / "bin", film_file, platform_file, nodes, groups,
+                                            options.frames)
+                    runs.append({**key, **figures_of(report, platform, nodes, size), "cost": cost})
+                    with runs_file.open("a") as out:
+                        out.write(json.dumps(runs[-1]) + "\n")
+                    print(f"{name}, {writer} writes, {nodes} nodes, {groups} groups: "
+                          f"{runs[-1]['film_seconds']:.3f} s", flush=True)
+    best = best_runs(runs)
+    (options.output / "table.md").write_text(table(best))
+    draw(best, options.output / "curve.svg")
+    print(table(best))
+
+
+if __name__ == "__main__":
+    main()
