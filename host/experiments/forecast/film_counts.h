@@ -1,0 +1,38 @@
+// What a film's frames have to be drawn: some of them are counted, the others estimated from these.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "host/experiments/forecast/counter.h"
+
+namespace mars::forecast {
+
+// Of a frame that one node draws.
+struct FrameTotals {
+  wire::ShareCounts made;
+  double samples = 0;
+  double pixels = 0;
+  double runs = 0;
+  double groups = 0;
+};
+
+FrameTotals totals_of(const wire::FrameCounts& counts);
+
+struct TaskCounts {
+  std::size_t keyframe;                 // in FilmCounts::keyframes
+  std::vector<FrameTotals> inbetweens;  // of each
+};
+
+struct FilmCounts {
+  std::vector<wire::FrameCounts> keyframes;  // that were counted
+  std::vector<TaskCounts> tasks;
+  std::size_t counted = 0;  // frames
+};
+
+// Which frames are counted depends on the film, the tasks and `budget` alone: seconds of counting on a processor of
+// today, by counted work. Of one task at least the keyframe and one inbetween are counted.
+FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter, double budget);
+
+}  // namespace mars::forecast

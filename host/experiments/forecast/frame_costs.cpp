@@ -1,0 +1,261 @@
+#include "host/experiments/forecast/frame_costs.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "node/group/mapping.h"
+
+namespace mars::forecast {
+namespace {
+
+using wire::Work;
+
+// As nodes have them in memory and send them (node/geometry/triangle.h, node/raster/edge_box.h).
+constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
+constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
+constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
+
+wire::ShareCounts operator+(const wire::ShareCounts& a, const wire::ShareCounts& b) {
+  return {a.patches + b.patches, a.vertices + b.vertices, a.triangles_tested + b.triangles_tested,
+          a.triangles + b.triangles, a.edge_boxes + b.edge_boxes};
+}
+
+wire::ShareCounts operator*(const wire::ShareCounts& a, double part) {
+  return {a.patches * part, a.vertices * part, a.triangles_tested * part, a.triangles * part, a.edge_boxes * part};
+}
+
+// What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
+std::vector<wire::ShareCounts> made_by(const std::vector<wire::ShareCounts>& shares, int nodes) {
+  std::vector<wire::ShareCounts> made(static_cast<std::size_t>(nodes));
+  // Numbers that are `share` modulo so many shares are on nodes that are the same modulo `step`.
+  const std::size_t step = std::gcd(shares.size(), made.size());
+  const double part = static_cast<double>(step) / static_cast<double>(nodes);
+  for (std::size_t node = 0; node < made.size(); ++node)
+    for (std::size_t share = node % step; share < shares.size(); share += step)
+      made[node] = made[node] + shares[share] * part;
+  return made;
+}
+
+// Patches are not divided: a node that makes any of them makes whole ones.
+wire::ShareCounts in_whole_patches(const wire::ShareCounts& made) {
+  return made.patches > 0 ? made * (std::ceil(made.patches - 1e-6) / made.patches) : made;
+}
+
+FrameTotals on_lines(const wire::FrameCounts& counts, const geometry::LineRange& lines) {
+  FrameTotals totals;
+  for (std::uint32_t i = lines.first; i < lines.last; ++i) {
+    const wire::LineCounts& line = counts.lines[i];
+    totals.made.edge_boxes += line.edge_boxes;
+    totals.samples += line.samples;
+    totals.pixels += line.constant_pixels + line.moving_pixels;
+    totals.runs += line.constant_runs + line.moving_runs;
+    totals.groups += line.constant_groups + line.moving_groups;
+  }
+  return totals;
+}
+
+}  // namespace
+
+// The lines of each node of a group, and what is on them.
+struct FrameCosts::Homes {
+  Homes(const wire::FrameCounts& counts, int nodes, wire::Mapping mapping, std::uint32_t samples)
+      : ranges(static_cast<std::size_t>(nodes)) {
+    const FrameTotals all = totals_of(counts);
+    std::vector<std::uint64_t> weights{0};
+    for (const wire::LineCounts& line : counts.lines) {
+      const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes), static_cast<std::uint64_t>(line.samples));
+      weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
+    }
+    group::map_lines(mapping, weights, ranges);
+    edge_boxes = all.made.edge_boxes;
+    const double rows = all.made.triangles > 0 ? edge_boxes / all.made.triangles : 1;  // of samples, of a triangle
+    const double taller = std::max(0.0, rows / samples - 1);                           // in lines
+    for (const geometry::LineRange& range : ranges) {
+      totals.push_back(on_lines(counts, range));
+      const double boxes = totals.back().made.edge_boxes;
+      triangles.push_back(std::min(boxes, boxes / rows * (1 + taller / std::max(1u, range.count()))));
+    }
+  }
+
+  std::vector<geometry::LineRange> ranges;
+  std::vector<FrameTotals> totals;
+  std::vector<double> triangles;  // with an edge box there
+  double edge_boxes;              // on all
+};
+
+GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, bool inbetweens_follow) const {
+  GroupKeyframe keyframe;
+  keyframe.nodes.resize(static_cast<std::size_t>(nodes));
+  const auto made = made_by(counts.shares, nodes);
+  const Homes homes(counts, nodes, setting_.mapping, setting_.film.settings().samples);
+  add_dicing(keyframe, homes, made);
+  if (nodes > 1) add_sum(keyframe, nodes);
+  if (nodes > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made);
+  for (std::size_t n = 0; n < made.size(); ++n) keyframe.nodes[n].strips = strips(homes.totals[n]);
+  if (inbetweens_follow) add_still(keyframe, homes, counts);
+  return keyframe;
+}
+
+NodePart FrameCosts::inbetween(const FrameTotals& totals) const {
+  NodePart part;
+  part.dice = dicing(totals.made) + costs_.of(Work::triangle, totals.made.triangles) +
+              costs_.of(Work::edge_box_made, totals.made.edge_boxes) +
+              costs_.of(Work::edge_box_filled, totals.made.edge_boxes);
+  part.exchange = costs_.of(Work::line_mapped, height());
+  part.strips = strips(totals);
+  part.memory = made_bytes(totals.made);
+  return part;
+}
+
+// What is done again in each pass.
+double FrameCosts::dicing(const wire::ShareCounts& made) const {
+  return costs_.of(Work::frame, 1) + costs_.of(Work::segment, static_cast<double>(setting_.film.segments().size())) +
+         costs_.of(Work::patch, made.patches) + costs_.of(Work::vertex, made.vertices) +
+         costs_.of(Work::triangle_tested, made.triangles_tested);
+}
+
+double FrameCosts::drawing(const FrameTotals& totals) const {
+  const auto lights = static_cast<double>(setting_.film.light_tracks().size());
+  return costs_.of(Work::edge_box, totals.made.edge_boxes) + costs_.of(Work::sample, totals.samples) +
+         costs_.of(Work::pixel, totals.pixels) + costs_.of(Work::light, totals.pixels * lights);
+}
+
+StripCosts FrameCosts::strips(const FrameTotals& totals) const {
+  StripCosts strips{drawing(totals), totals.pixels, 0, 1};
+  const double content =
+      totals.pixels * static_cast<double>(wire::pixel_bytes(setting_.format)) + totals.runs * sizeof(wire::Run);
+  strips.count = 1 + static_cast<std::uint32_t>(content / kFullStrip);
+  strips.bytes = content + strips.count * static_cast<double>(sizeof(wire::Strip));
+  return strips;
+}
+
+// Triangles with their edge boxes, once as made and once in their lines.
+double FrameCosts::made_bytes(const wire::ShareCounts& made) const {
+  return made.triangles * kTriangleBytes + made.edge_boxes * (kUnsortedBoxBytes + kBoxBytes) + 3 * 8 * height();
+}
+
+// As node/group/passes.h bounds them.
+double FrameCosts::passes(const wire::ShareCounts& made, double home_boxes, bool travels) const {
+  const double a_box = kTriangleBytes + kUnsortedBoxBytes;
+  const double bound = made_bytes(made) + (travels ? made.edge_boxes * a_box + home_boxes * (a_box + kBoxBytes) : 0);
+  const auto& settings = setting_.film.settings();
+  const double memory =
+      static_cast<double>(farm::share_node_memory(setting_.platform.memory, std::nullopt, settings).frames) /
+      (setting_.platform.machine.nodes > 1 ? 2 : 1);
+  double passes = 1;
+  while (bound / passes > memory && passes < height()) passes *= 2;
+  return passes;
+}
+
+void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
+                            const std::vector<wire::ShareCounts>& made) const {
+  const auto nodes = static_cast<int>(made.size());
+  const bool travels = nodes > nodes_on_a_computer(nodes);
+  double most = 1;
+  for (std::size_t n = 0; n < made.size(); ++n)
+    most = std::max(most, passes(made[n], homes.totals[n].made.edge_boxes, travels));
+  for (std::size_t n = 0; n < made.size(); ++n) {
+    const wire::ShareCounts whole = in_whole_patches(made[n]);
+    const double once = costs_.of(Work::triangle, whole.triangles) + costs_.of(Work::edge_box_made, whole.edge_boxes);
+    const double filled = costs_.of(Work::edge_box_filled, whole.edge_boxes);
+    keyframe.nodes[n].dice = dicing(whole) + once + filled;
+    if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
+    keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
+    keyframe.nodes[n].memory = made_bytes(made[n]) / most;
+  }
+}
+
+// Across each dimension of the group's hypercube (hal/collectives/reduction.cpp).
+void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
+  const double bytes = 8 * (height() + 2);
+  const int corners = static_cast<int>(std::bit_floor(static_cast<unsigned>(nodes)));
+  const bool halves = bytes >= kShortSum && corners >= 4;
+  double sent = 0;
+  const auto exchange = [&](double so_many, bool same_computer) {
+    keyframe.sum += costs_.to_send(so_many) + costs_.on_the_way(so_many, same_computer) + costs_.to_receive(so_many);
+    sent += so_many;
+  };
+  double part = bytes;
+  for (int bit = 1; bit < corners; bit *= 2) {
+    const bool near = 2 * bit <= nodes_on_a_computer(nodes);
+    if (halves) part /= 2, exchange(part, near);
+    exchange(halves ? part : bytes, near);
+  }
+  if (corners < nodes)
+    for (int way = 0; way < 2; ++way) exchange(bytes, false);
+  for (NodePart& node : keyframe.nodes) node.bytes_to_nodes += sent;
+}
+
+// To homes on other computers. Each node has a part of what is on any home.
+void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
+                              const std::vector<wire::ShareCounts>& made) const {
+  const auto nodes = made.size();
+  const double far = 1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(nodes))) / static_cast<double>(nodes);
+  double home_messages = 0, home_bytes = 0;  // that one node sends, if it has an equal part of all
+  std::vector<double> parcels(nodes), bytes(nodes);
+  for (std::size_t h = 0; h < nodes; ++h) {
+    const double each = 1 / static_cast<double>(nodes);
+    parcels[h] = 1 - std::exp(-homes.triangles[h] * each);
+    bytes[h] = each * (homes.totals[h].made.edge_boxes * kUnsortedBoxBytes + homes.triangles[h] * kTriangleBytes) +
+               parcels[h] * 96;
+    home_messages += parcels[h] * far;
+    home_bytes += bytes[h] * far;
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    NodePart& node = keyframe.nodes[n];
+    const double part = homes.edge_boxes > 0 ? made[n].edge_boxes / homes.edge_boxes * static_cast<double>(nodes) : 0;
+    const double out = home_bytes * part, messages_out = home_messages;
+    const double in = bytes[n] * static_cast<double>(nodes) * far;
+    const double messages_in = parcels[n] * static_cast<double>(nodes) * far;
+    const double boxes_in = homes.totals[n].made.edge_boxes * far;
+    const auto ends = [&](double messages, double all, const auto& cost) {
+      return messages > 0 ? messages * cost(all / messages) : 0;
+    };
+    node.exchange += ends(messages_out, out, [&](double b) { return costs_.to_send(b); }) +
+                     ends(messages_in, in, [&](double b) { return costs_.to_receive(b); }) +
+                     costs_.of(Work::edge_box_filled, boxes_in);
+    node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
+    node.bytes_to_nodes += out;
+    node.memory += made[n].edge_boxes * far * (kUnsortedBoxBytes + kTriangleBytes) + in + boxes_in * kBoxBytes;
+  }
+}
+
+// CZB, and with several samples shaded groups, of the lines that inbetweens may touch, to all other computers.
+void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  const geometry::LineRange needed{counts.first_still_line, counts.last_still_line};
+  const auto nodes = static_cast<int>(keyframe.nodes.size());
+  const double computers = std::ceil(static_cast<double>(nodes) / nodes_on_a_computer(nodes));
+  const auto bytes_of = [&](std::uint32_t line) {
+    const double depths = static_cast<double>(film.width) * film.samples * sizeof(float);
+    if (film.samples == 1) return depths;
+    return wire::kStillHeadBytes + depths + film.width * sizeof(std::uint32_t) +
+           counts.lines[line].constant_groups * sizeof(wire::StillGroup);
+  };
+  double all_bytes = 0, all_messages = 0;
+  std::vector<double> bytes(homes.ranges.size()), messages(bytes.size());
+  for (std::size_t n = 0; n < bytes.size(); ++n) {
+    const geometry::LineRange lines = geometry::overlap(homes.ranges[n], needed);
+    for (std::uint32_t line = lines.first; line < lines.last; ++line) bytes[n] += bytes_of(line);
+    messages[n] = film.samples > 1 ? lines.count() : std::min(1u, lines.count());
+    all_bytes += bytes[n], all_messages += messages[n];
+  }
+  for (std::size_t n = 0; n < bytes.size(); ++n) {
+    NodePart& node = keyframe.nodes[n];
+    if (messages[n] > 0) node.still += (computers - 1) * messages[n] * costs_.to_send(bytes[n] / messages[n]);
+    if (all_messages > 0 && computers > 1) {
+      const double in = all_bytes - bytes[n], messages_in = all_messages - messages[n];
+      if (messages_in > 0) node.still += messages_in * costs_.to_receive(in / messages_in);
+      node.still_wait = costs_.on_the_way(std::max(in, bytes[n] * (computers - 1)), false);
+    }
+    node.bytes_to_nodes += (computers - 1) * bytes[n];
+  }
+}
+
+// Of a group of so many nodes.
+int FrameCosts::nodes_on_a_computer(int nodes) const { return std::min(nodes, setting_.platform.machine.nodes); }
+
+}  // namespace mars::forecast

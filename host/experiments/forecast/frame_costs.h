@@ -1,0 +1,66 @@
+// What a node does for a frame, in seconds of its processor and in bytes: its part of a keyframe in a group of nodes,
+// or an inbetween.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/experiments/forecast/costs.h"
+#include "host/experiments/forecast/film_counts.h"
+#include "host/experiments/forecast/setting.h"
+
+namespace mars::forecast {
+
+// The pixels of a node's part of a frame, on their way to the host.
+struct StripCosts {
+  double seconds = 0;  // of drawing, all strips
+  double pixels = 0;
+  double bytes = 0;
+  std::uint32_t count = 1;
+};
+
+struct NodePart {
+  double dice = 0;           // until the group's sum
+  double exchange = 0;       // mapping, messages and filling
+  double exchange_wait = 0;  // for the network, beyond
+  StripCosts strips;
+  double still = 0;       // lines for inbetweens, sent and received
+  double still_wait = 0;  // for the network, beyond
+  double bytes_to_nodes = 0;
+  double memory = 0;  // bytes of its arena
+};
+
+struct GroupKeyframe {
+  std::vector<NodePart> nodes;
+  double sum = 0;  // seconds of the group's sum, once all have come to it
+};
+
+class FrameCosts {
+ public:
+  explicit FrameCosts(const Setting& setting) : setting_(setting), costs_(setting.platform) {}
+
+  // Of a group of so many nodes.
+  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, bool inbetweens_follow) const;
+  NodePart inbetween(const FrameTotals& totals) const;
+  const Costs& costs() const { return costs_; }
+
+ private:
+  struct Homes;
+
+  double dicing(const wire::ShareCounts& made) const;
+  double drawing(const FrameTotals& totals) const;
+  StripCosts strips(const FrameTotals& totals) const;
+  double made_bytes(const wire::ShareCounts& made) const;
+  double passes(const wire::ShareCounts& made, double home_boxes, bool travels) const;
+  void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::ShareCounts>& made) const;
+  void add_sum(GroupKeyframe& keyframe, int nodes) const;
+  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::ShareCounts>& made) const;
+  void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts) const;
+  int nodes_on_a_computer(int nodes) const;
+  double height() const { return setting_.film.settings().height; }
+
+  const Setting setting_;
+  const Costs costs_;
+};
+
+}  // namespace mars::forecast

@@ -1,0 +1,24 @@
+// What a forecast is made for, beside what the film's frames hold.
+#pragma once
+
+#include <cstdint>
+
+#include "host/experiments/platform.h"
+#include "host/render/farm/host_memory.h"
+#include "host/render/farm/node_memory.h"
+#include "node/wire/film.h"
+#include "node/wire/pixel_format.h"
+#include "node/wire/protocol.h"
+
+namespace mars::forecast {
+
+struct Setting {
+  const wire::FilmView& film;
+  const experiments::Platform& platform;
+  wire::Mapping mapping = wire::Mapping::cost;
+  wire::PixelFormat format = wire::PixelFormat::rgb8;
+  std::uint32_t sink_threads = 2;
+  std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory wants it
+};
+
+}  // namespace mars::forecast
