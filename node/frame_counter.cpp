@@ -55,6 +55,8 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   for (std::size_t line = 0; line < loads_.size(); ++line) {
     counts.lines[line].edge_boxes = static_cast<double>(loads_[line].boxes());
     counts.lines[line].samples = static_cast<double>(loads_[line].samples());
+    counts.lines[line].moving_edge_boxes = static_cast<double>(moving_loads_[line].boxes());
+    counts.lines[line].moving_samples = static_cast<double>(moving_loads_[line].samples());
   }
   estimate_seen(counts.lines, keyframe);
   return counts;
@@ -127,10 +129,8 @@ void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyf
       lines[line].*groups = by.groups * part;
     }
   };
-  const auto moving_samples = [&](std::size_t line) { return static_cast<double>(moving_loads_[line].samples()); };
-  const auto still_samples = [&](std::size_t line) {
-    return static_cast<double>(loads_[line].samples()) - moving_samples(line);
-  };
+  const auto moving_samples = [&](std::size_t line) { return lines[line].moving_samples; };
+  const auto still_samples = [&](std::size_t line) { return lines[line].samples - lines[line].moving_samples; };
   spread(constant, still_samples, &wire::LineCounts::constant_pixels, &wire::LineCounts::constant_runs,
          &wire::LineCounts::constant_groups);
   spread(moving, moving_samples, &wire::LineCounts::moving_pixels, &wire::LineCounts::moving_runs,

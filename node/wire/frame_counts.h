@@ -25,7 +25,9 @@ struct ShareCounts {
 // Of one line of pixels. What is seen of it is decided on some lines and estimated from these on the others.
 struct LineCounts {
   double edge_boxes = 0;
-  double samples = 0;          // that these cover
+  double samples = 0;  // that these cover
+  double moving_edge_boxes = 0;  // of these, moving parts'
+  double moving_samples = 0;
   double constant_pixels = 0;  // that show stationary parts (CFB)
   double moving_pixels = 0;    // that show moving ones (MFB)
   double constant_runs = 0;    // of neighbouring pixels

@@ -86,7 +86,7 @@ struct FrameCosts::Homes {
   double edge_boxes;              // on all
 };
 
-GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, bool inbetweens_follow) const {
+GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const {
   GroupKeyframe keyframe;
   keyframe.nodes.resize(static_cast<std::size_t>(nodes));
   const auto made = made_by(counts.shares, nodes);
@@ -94,20 +94,65 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, b
   add_dicing(keyframe, homes, made);
   if (nodes > 1) add_sum(keyframe, nodes);
   if (nodes > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made);
+  for (NodePart& node : keyframe.nodes) node.memory = std::min(node.memory, arena_bytes());
   for (std::size_t n = 0; n < made.size(); ++n) keyframe.nodes[n].strips = strips(homes.totals[n]);
-  if (inbetweens_follow) add_still(keyframe, homes, counts);
+  if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
   return keyframe;
 }
 
-NodePart FrameCosts::inbetween(const FrameTotals& totals) const {
+NodePart FrameCosts::inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const {
+  const FrameTotals again = drawn_again(keyframe, nodes);
+  const wire::ShareCounts made = totals.made + again.made;
   NodePart part;
-  part.dice = dicing(totals.made) + costs_.of(Work::triangle, totals.made.triangles) +
-              costs_.of(Work::edge_box_made, totals.made.edge_boxes) +
-              costs_.of(Work::edge_box_filled, totals.made.edge_boxes);
+  part.dice = dicing(made) + costs_.of(Work::triangle, made.triangles) +
+              costs_.of(Work::edge_box_made, made.edge_boxes) + costs_.of(Work::edge_box_filled, made.edge_boxes);
   part.exchange = costs_.of(Work::line_mapped, height());
   part.strips = strips(totals);
-  part.memory = made_bytes(totals.made);
+  part.strips.seconds += drawing(again);
+  part.memory = std::min(arena_bytes(), made_bytes(made));
   return part;
+}
+
+FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes) const {
+  const wire::StillPlan plan = still_plan(nodes);
+  double boxes = 0, still_boxes = 0, moving_boxes = 0, samples = 0;
+  for (std::uint32_t i = 0; i < keyframe.lines.size(); ++i) {
+    const wire::LineCounts& line = keyframe.lines[i];
+    still_boxes += line.edge_boxes - line.moving_edge_boxes;
+    moving_boxes += line.moving_edge_boxes;
+    const bool needed = keyframe.first_still_line <= i && i < keyframe.last_still_line;
+    if (!needed || is_kept(keyframe, i, plan)) continue;
+    boxes += line.edge_boxes - line.moving_edge_boxes;
+    samples += line.samples - line.moving_samples;
+  }
+  if (boxes == 0) return {};
+  const wire::ShareCounts all = totals_of(keyframe).made;
+  const wire::ShareCounts still = all * (still_boxes / (still_boxes + moving_boxes));
+  const double part = boxes / still_boxes;
+  return {{still.patches, still.vertices, still.triangles_tested, still.triangles * part, boxes}, samples, 0, 0, 0};
+}
+
+// A line is kept where it has memory for its groups (node/raster/still_lines.h).
+bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  if (film.samples == 1) return true;
+  return line - keyframe.first_still_line < plan.lines &&
+         keyframe.lines[line].constant_groups <= static_cast<double>(film.width) * plan.groups_per_column;
+}
+
+farm::NodeMemory FrameCosts::memory() const {
+  return farm::share_node_memory(setting_.platform.memory, std::nullopt, setting_.film.settings());
+}
+
+wire::StillPlan FrameCosts::still_plan(int nodes) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  return wire::plan_still_lines(film.width, film.height, film.samples,
+                                memory().still * static_cast<std::uint64_t>(nodes_on_a_computer(nodes)));
+}
+
+// Of one frame; where nodes share a computer, two frames' take turns (node/group/frame_memory.h).
+double FrameCosts::arena_bytes() const {
+  return static_cast<double>(memory().frames) / (setting_.platform.machine.nodes > 1 ? 2 : 1);
 }
 
 // What is done again in each pass.
@@ -141,12 +186,8 @@ double FrameCosts::made_bytes(const wire::ShareCounts& made) const {
 double FrameCosts::passes(const wire::ShareCounts& made, double home_boxes, bool travels) const {
   const double a_box = kTriangleBytes + kUnsortedBoxBytes;
   const double bound = made_bytes(made) + (travels ? made.edge_boxes * a_box + home_boxes * (a_box + kBoxBytes) : 0);
-  const auto& settings = setting_.film.settings();
-  const double memory =
-      static_cast<double>(farm::share_node_memory(setting_.platform.memory, std::nullopt, settings).frames) /
-      (setting_.platform.machine.nodes > 1 ? 2 : 1);
   double passes = 1;
-  while (bound / passes > memory && passes < height()) passes *= 2;
+  while (bound / passes > arena_bytes() && passes < height()) passes *= 2;
   return passes;
 }
 
@@ -154,7 +195,7 @@ void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
                             const std::vector<wire::ShareCounts>& made) const {
   const auto nodes = static_cast<int>(made.size());
   const bool travels = nodes > nodes_on_a_computer(nodes);
-  double most = 1;
+  double& most = keyframe.passes;
   for (std::size_t n = 0; n < made.size(); ++n)
     most = std::max(most, passes(made[n], homes.totals[n].made.edge_boxes, travels));
   for (std::size_t n = 0; n < made.size(); ++n) {
@@ -164,7 +205,7 @@ void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
     keyframe.nodes[n].dice = dicing(whole) + once + filled;
     if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
     keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
-    keyframe.nodes[n].memory = made_bytes(made[n]) / most;
+    keyframe.nodes[n].memory = made_bytes(made[n]);
   }
 }
 
@@ -219,40 +260,57 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
                      costs_.of(Work::edge_box_filled, boxes_in);
     node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
     node.bytes_to_nodes += out;
-    node.memory += made[n].edge_boxes * far * (kUnsortedBoxBytes + kTriangleBytes) + in + boxes_in * kBoxBytes;
+    const double travelling = made[n].edge_boxes * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
+    const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
+    node.memory = std::max(keyframe.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
   }
 }
 
-// CZB, and with several samples shaded groups, of the lines that inbetweens may touch, to all other computers.
-void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts) const {
-  const wire::FilmSettings& film = setting_.film.settings();
-  const geometry::LineRange needed{counts.first_still_line, counts.last_still_line};
-  const auto nodes = static_cast<int>(keyframe.nodes.size());
-  const double computers = std::ceil(static_cast<double>(nodes) / nodes_on_a_computer(nodes));
-  const auto bytes_of = [&](std::uint32_t line) {
-    const double depths = static_cast<double>(film.width) * film.samples * sizeof(float);
-    if (film.samples == 1) return depths;
-    return wire::kStillHeadBytes + depths + film.width * sizeof(std::uint32_t) +
-           counts.lines[line].constant_groups * sizeof(wire::StillGroup);
-  };
+// CZB, and with several samples shaded groups, of the lines that inbetweens may touch: to all other computers that
+// draw some. All send to the first of these first.
+void FrameCosts::add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
+                           std::size_t inbetweens) const {
+  const auto nodes = keyframe.nodes.size();
+  const auto near = static_cast<std::size_t>(nodes_on_a_computer(static_cast<int>(nodes)));
+  const std::size_t computers = (nodes + near - 1) / near, collecting = std::min(computers, inbetweens);
+  if (computers == 1) return;
   double all_bytes = 0, all_messages = 0;
-  std::vector<double> bytes(homes.ranges.size()), messages(bytes.size());
-  for (std::size_t n = 0; n < bytes.size(); ++n) {
-    const geometry::LineRange lines = geometry::overlap(homes.ranges[n], needed);
-    for (std::uint32_t line = lines.first; line < lines.last; ++line) bytes[n] += bytes_of(line);
-    messages[n] = film.samples > 1 ? lines.count() : std::min(1u, lines.count());
-    all_bytes += bytes[n], all_messages += messages[n];
+  std::vector<StillLines> still(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    still[n] = still_lines(homes.ranges[n], counts);
+    all_bytes += still[n].bytes, all_messages += still[n].messages;
   }
-  for (std::size_t n = 0; n < bytes.size(); ++n) {
+  const double out_each = all_bytes / static_cast<double>(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
-    if (messages[n] > 0) node.still += (computers - 1) * messages[n] * costs_.to_send(bytes[n] / messages[n]);
-    if (all_messages > 0 && computers > 1) {
-      const double in = all_bytes - bytes[n], messages_in = all_messages - messages[n];
-      if (messages_in > 0) node.still += messages_in * costs_.to_receive(in / messages_in);
-      node.still_wait = costs_.on_the_way(std::max(in, bytes[n] * (computers - 1)), false);
-    }
-    node.bytes_to_nodes += (computers - 1) * bytes[n];
+    const std::size_t computer = n / near;
+    const auto receivers = static_cast<double>(collecting - (computer < collecting ? 1 : 0));
+    const auto& [bytes, messages] = still[n];
+    if (messages > 0) node.still += receivers * messages * costs_.to_send(bytes / messages);
+    node.bytes_to_nodes += receivers * bytes;
+    if (computer >= collecting || n % near != 0 || all_messages <= messages) continue;
+    const double in = all_bytes - bytes, messages_in = all_messages - messages;
+    node.still += messages_in * costs_.to_receive(in / messages_in);
+    node.still_wait = costs_.on_the_way(in + out_each * static_cast<double>(computer), false);
   }
+}
+
+// Of those on `home`, what a node sends to one computer.
+FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  const wire::StillPlan plan = still_plan(1);
+  const geometry::LineRange lines = geometry::overlap(home, {counts.first_still_line, counts.last_still_line});
+  const double depths = static_cast<double>(film.width) * film.samples * sizeof(float);
+  StillLines still;
+  still.messages = film.samples > 1 ? lines.count() : std::min(1u, lines.count());
+  for (std::uint32_t line = lines.first; line < lines.last; ++line) {
+    if (!is_kept(counts, line, plan)) continue;
+    still.bytes += depths;
+    if (film.samples > 1)
+      still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * sizeof(std::uint32_t)) +
+                     counts.lines[line].constant_groups * sizeof(wire::StillGroup);
+  }
+  return still;
 }
 
 // Of a group of so many nodes.

@@ -8,6 +8,7 @@
 #include "host/experiments/forecast/costs.h"
 #include "host/experiments/forecast/film_counts.h"
 #include "host/experiments/forecast/setting.h"
+#include "node/geometry/line_range.h"
 
 namespace mars::forecast {
 
@@ -32,30 +33,44 @@ struct NodePart {
 
 struct GroupKeyframe {
   std::vector<NodePart> nodes;
-  double sum = 0;  // seconds of the group's sum, once all have come to it
+  double sum = 0;     // seconds of the group's sum, once all have come to it
+  double passes = 1;  // over its lines
 };
 
 class FrameCosts {
  public:
   explicit FrameCosts(const Setting& setting) : setting_(setting), costs_(setting.platform) {}
 
-  // Of a group of so many nodes.
-  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, bool inbetweens_follow) const;
-  NodePart inbetween(const FrameTotals& totals) const;
+  // Of a group of so many nodes, which then draw so many inbetweens.
+  GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const;
+  // After such a keyframe, on a node of a group of so many.
+  NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
   const Costs& costs() const { return costs_; }
 
  private:
   struct Homes;
 
+  struct StillLines {
+    double bytes = 0;
+    double messages = 0;
+  };
+  StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
   double dicing(const wire::ShareCounts& made) const;
   double drawing(const FrameTotals& totals) const;
   StripCosts strips(const FrameTotals& totals) const;
+  // Stationary parts on lines that are not kept for inbetweens.
+  FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
+  bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
+  wire::StillPlan still_plan(int nodes) const;
+  farm::NodeMemory memory() const;
   double made_bytes(const wire::ShareCounts& made) const;
+  double arena_bytes() const;
   double passes(const wire::ShareCounts& made, double home_boxes, bool travels) const;
   void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::ShareCounts>& made) const;
   void add_sum(GroupKeyframe& keyframe, int nodes) const;
   void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::ShareCounts>& made) const;
-  void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts) const;
+  void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
+                 std::size_t inbetweens) const;
   int nodes_on_a_computer(int nodes) const;
   double height() const { return setting_.film.settings().height; }
 

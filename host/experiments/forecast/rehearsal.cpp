@@ -1,7 +1,9 @@
 #include "host/experiments/forecast/rehearsal.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -44,7 +46,7 @@ class Rehearsal {
   const NodePart& part_of(const Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
-  void meet(int n, double seconds, void (Rehearsal::*then)(int));
+  void meet(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int));
   void sum(int n);
   void exchange(int n);
   void begin_strips(int n);
@@ -71,7 +73,7 @@ class Rehearsal {
   Clockwork clockwork_;
   Computers computers_;
   simulated::Routes routes_;
-  std::map<std::pair<std::size_t, std::pair<int, bool>>, GroupKeyframe> keyframes_;
+  std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
   std::vector<std::vector<NodePart>> inbetweens_;  // by task
   std::vector<Node> nodes_;
   std::vector<GroupState> groups_;
@@ -105,9 +107,11 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       node.slots = result_.host_memory.credits;
     }
   }
+  const int in_a_group = plan.groups.front().count;
   for (const TaskCounts& task : counts.tasks) {
     std::vector<NodePart>& parts = inbetweens_.emplace_back();
-    for (const FrameTotals& totals : task.inbetweens) parts.push_back(costs_.inbetween(totals));
+    for (const FrameTotals& totals : task.inbetweens)
+      parts.push_back(costs_.inbetween(totals, counts.keyframes[task.keyframe], in_a_group));
   }
 }
 
@@ -121,9 +125,10 @@ Rehearsed Rehearsal::run() {
 
 const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, int nodes) {
   const std::size_t number = counts_.tasks[task].keyframe;
-  const bool followed = !counts_.tasks[task].inbetweens.empty();
-  const auto [found, fresh] = keyframes_.try_emplace({number, {nodes, followed}});
-  if (fresh) found->second = costs_.keyframe(counts_.keyframes[number], nodes, followed);
+  const auto size = static_cast<std::size_t>(nodes);
+  const std::size_t inbetweens = std::min(size, counts_.tasks[task].inbetweens.size());
+  const auto [found, fresh] = keyframes_.try_emplace({number, size, inbetweens});
+  if (fresh) found->second = costs_.keyframe(counts_.keyframes[number], nodes, inbetweens);
   return found->second;
 }
 
@@ -163,19 +168,19 @@ void Rehearsal::begin_task(int n) {
   work(n, part_of(node).dice, &Rehearsal::sum);
 }
 
-// Once all of the group have come, they go on so many seconds later.
-void Rehearsal::meet(int n, double seconds, void (Rehearsal::*then)(int)) {
+// Once all of the group have come, each goes on so many seconds later.
+void Rehearsal::meet(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int)) {
   GroupState& group = groups_[nodes_[static_cast<std::size_t>(n)].group];
   if (++group.come < group.nodes.count) return;
   group.come = 0;
-  for (int member = 0; member < group.nodes.count; ++member)
-    later(group.nodes.first + member, clockwork_.now() + seconds, then);
+  for (int node = group.nodes.first; node < group.nodes.first + group.nodes.count; ++node)
+    later(node, clockwork_.now() + wait(node), then);
 }
 
 void Rehearsal::sum(int n) {
   const GroupKeyframe& keyframe = *nodes_[static_cast<std::size_t>(n)].keyframe;
   if (keyframe.nodes.size() == 1) return exchange(n);
-  meet(n, keyframe.sum, &Rehearsal::exchange);
+  meet(n, [&](int) { return keyframe.sum; }, &Rehearsal::exchange);
 }
 
 void Rehearsal::exchange(int n) {
@@ -214,7 +219,8 @@ void Rehearsal::finish_strip(int n) {
 }
 
 void Rehearsal::meet_for_still(int n) {
-  meet(n, part_of(nodes_[static_cast<std::size_t>(n)]).still_wait, &Rehearsal::send_strip);
+  meet(
+      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).still_wait; }, &Rehearsal::send_strip);
 }
 
 void Rehearsal::send_strip(int n) {
