@@ -9,6 +9,7 @@
 #include "hal/simulated/run_simulated.h"
 #include "host/child/standard_streams.h"
 #include "host/experiments/platform.h"
+#include "host/programs/foresight.h"
 #include "host/render/sinks/served_sinks.h"
 #include "host/shell/job/render_job.h"
 #include "host/shell/options/command_line.h"
@@ -34,6 +35,7 @@ void run(const options::RenderOptions& options, const experiments::Platform& pla
       return std::make_unique<sinks::ServedSinks>(sink, shape,
                                                   [&world](std::uint64_t bytes) { return serve_sink(world, bytes); });
     };
+    foresee_on(platform, job);
     session::run_session(job);
   };
   const auto node = [&] {

@@ -45,9 +45,10 @@ class FilmCount {
   FilmCount(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter)
       : film_(film), tasks_(tasks), counter_(counter), known_(tasks.size()) {}
 
-  FilmCounts count(double budget);
+  FilmCounts count(const Budget& budget);
 
  private:
+  double count_first(const Budget& budget);
   static std::size_t inbetweens_of(const farm::Task& task) { return task.frames.size() - 1; }
   void count_keyframe(std::size_t task);
   void count_inbetween(std::size_t task, std::size_t place);
@@ -59,33 +60,48 @@ class FilmCount {
   const std::span<const farm::Task> tasks_;
   Counter& counter_;
   FilmCounts counts_;
+  std::size_t first_ = 0;          // task that was counted first
+  double keyframe_seconds_ = 0;   // that counting one takes
+  double inbetween_seconds_ = 0;  // likewise
   std::vector<std::size_t> counted_tasks_;  // by keyframe
   std::vector<std::vector<Known>> known_;   // by task, in order
 };
 
-FilmCounts FilmCount::count(double budget) {
-  count_keyframe(0);
-  const double keyframe = counting_seconds(totals_of(counts_.keyframes.front()));
+FilmCounts FilmCount::count(const Budget& budget) {
   const auto fit = [](double seconds, double each) { return static_cast<std::size_t>(std::max(1.0, seconds / each)); };
-  const std::size_t keyframes = std::min(tasks_.size(), fit(budget / 2, keyframe));
+  const double left = count_first(budget);
+  const std::size_t keyframes = std::min(tasks_.size(), fit(left / 2, keyframe_seconds_));
   std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < keyframes; ++i) chosen.push_back(i * tasks_.size() / keyframes);
-  std::size_t inbetweens = 0;
-  for (const std::size_t task : chosen) inbetweens += inbetweens_of(tasks_[task]);
-  double each = keyframe;
+  for (std::size_t i = 0; i < keyframes; ++i) chosen.push_back((first_ + i * tasks_.size() / keyframes) % tasks_.size());
+  double inbetweens = 0;
+  for (const std::size_t task : chosen) inbetweens += static_cast<double>(inbetweens_of(tasks_[task]));
   for (const std::size_t task : chosen) {
-    if (task != 0) count_keyframe(task);
+    if (task != first_) count_keyframe(task);
     const std::size_t all = inbetweens_of(tasks_[task]);
     if (all == 0) continue;
-    if (counts_.counted == 1 || known_.front().empty()) {
-      count_inbetween(task, all / 2);
-      each = counting_seconds(known_[task].front().totals);
-    }
-    const double part = static_cast<double>(all) / static_cast<double>(inbetweens);
-    count_inbetweens(task, std::min(all, fit(budget / 2 * part, each)));
+    const double part = static_cast<double>(all) / inbetweens;
+    count_inbetweens(task, std::min(all, fit(left / 2 * part, inbetween_seconds_)));
   }
   for (std::size_t task = 0; task < tasks_.size(); ++task) estimate(task);
   return std::move(counts_);
+}
+
+// The first task with inbetweens tells what counting takes. The seconds that are left for it.
+double FilmCount::count_first(const Budget& budget) {
+  while (first_ + 1 < tasks_.size() && inbetweens_of(tasks_[first_]) == 0) ++first_;
+  if (inbetweens_of(tasks_[first_]) == 0) first_ = 0;
+  count_keyframe(first_);
+  keyframe_seconds_ = counting_seconds(totals_of(counts_.keyframes.front()));
+  inbetween_seconds_ = keyframe_seconds_;
+  const std::size_t all = inbetweens_of(tasks_[first_]);
+  if (all > 0) {
+    count_inbetween(first_, all / 2);
+    inbetween_seconds_ = counting_seconds(known_[first_].front().totals);
+  }
+  double whole = 0;
+  for (const farm::Task& task : tasks_)
+    whole += keyframe_seconds_ + static_cast<double>(inbetweens_of(task)) * inbetween_seconds_;
+  return std::min(budget.seconds, budget.part * whole);
 }
 
 void FilmCount::count_keyframe(std::size_t task) {
@@ -116,20 +132,27 @@ double FilmCount::moving_patches(const farm::Task& task) const {
   return patches;
 }
 
-// As in the counted task before; of inbetweens as much as its moving parts are.
+// As in the nearest task whose frames of this kind were counted; of inbetweens as much as its moving parts are.
 void FilmCount::estimate(std::size_t task) {
-  const auto next = std::ranges::upper_bound(counted_tasks_, task);
-  const auto keyframe = static_cast<std::size_t>(next - counted_tasks_.begin()) - 1;
-  TaskCounts counts{keyframe, {}};
-  std::size_t like = counted_tasks_[keyframe];
-  while (known_[like].empty() && like > 0) --like;
+  const auto nearest = [&](const auto& is_known) {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < counted_tasks_.size(); ++i) {
+      const auto away = [&](std::size_t k) {
+        const std::size_t other = counted_tasks_[k];
+        return is_known(other) ? std::max(task, other) - std::min(task, other) : tasks_.size();
+      };
+      if (away(i) < away(best)) best = i;
+    }
+    return best;
+  };
+  TaskCounts counts{nearest([](std::size_t) { return true; }), {}};
+  const std::size_t like = counted_tasks_[nearest([&](std::size_t other) { return !known_[other].empty(); })];
   const std::size_t all = inbetweens_of(tasks_[task]), there = inbetweens_of(tasks_[like]);
   const double scale = moving_patches(tasks_[task]) / moving_patches(tasks_[like]);
-  for (std::size_t i = 0; i < all && !known_[like].empty(); ++i) {
+  for (std::size_t i = 0; i < all; ++i) {
     const double place = static_cast<double>(i) * static_cast<double>(there) / static_cast<double>(all);
     counts.inbetweens.push_back(combined(between(known_[like], place), scale, {}, 0));
   }
-  counts.inbetweens.resize(all);
   counts_.tasks.push_back(std::move(counts));
 }
 
@@ -153,7 +176,8 @@ FrameTotals totals_of(const wire::FrameCounts& counts) {
   return totals;
 }
 
-FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter, double budget) {
+FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
+                      const Budget& budget) {
   return FilmCount(film, tasks, counter).count(budget);
 }
 

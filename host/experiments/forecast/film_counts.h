@@ -31,8 +31,14 @@ struct FilmCounts {
   std::size_t counted = 0;  // frames
 };
 
-// Which frames are counted depends on the film, the tasks and `budget` alone: seconds of counting on a processor of
-// today, by counted work. Of one task at least the keyframe and one inbetween are counted.
-FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter, double budget);
+// What counting may take, by the work that it does: so that the same frames are counted every time.
+struct Budget {
+  double seconds;   // on a processor of today, about
+  double part = 1;  // of what it would take to count all frames
+};
+
+// Of one task at least, the keyframe and one inbetween are counted.
+FilmCounts count_film(const wire::FilmView& film, std::span<const farm::Task> tasks, Counter& counter,
+                      const Budget& budget);
 
 }  // namespace mars::forecast

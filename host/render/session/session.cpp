@@ -55,22 +55,14 @@ class Destination {
   std::unique_ptr<sinks::Sink> sink_;
 };
 
-// Sinks work while nodes wait for credit, so they may have every processor.
-std::uint32_t sink_threads(const topology::Machine& machine) {
-  return static_cast<std::uint32_t>(std::clamp(machine.processors(), 2, 16));
-}
-
-farm::HostMemory memory_for(const topology::Machine& machine, const wire::FilmSettings& film, wire::PixelFormat format,
-                            const farm::Plan& plan) {
-  const std::uint64_t budget = topology::memory_share(machine.memory(), topology::memory_limit(), 1);
-  return farm::share_host_memory(budget, film, format, static_cast<std::uint32_t>(numnodes()),
-                                 static_cast<std::uint32_t>(plan.groups.size()), sink_threads(machine));
+farm::HostMemory memory_for(const wire::FilmSettings& film, wire::PixelFormat format, const farm::Plan& plan) {
+  return farm::share_host_memory(host_budget(), film, format, static_cast<std::uint32_t>(numnodes()),
+                                 static_cast<std::uint32_t>(plan.groups.size()), sink_threads());
 }
 
 // New buffers show the first interval's background.
-sinks::SinkPool::Shape pool_shape(const topology::Machine& machine, const wire::FilmView& film, const RenderJob& job,
-                                  std::uint32_t frames) {
-  const std::uint32_t threads = std::min(sink_threads(machine), frames);
+sinks::SinkPool::Shape pool_shape(const wire::FilmView& film, const RenderJob& job, std::uint32_t frames) {
+  const std::uint32_t threads = std::min(sink_threads(), frames);
   const wire::PixelFormat format = images::facts_of(job.format).pixels;
   const std::uint64_t background = farm::background_pixel(film, film.intervals().front(), format);
   return {film.settings().width, film.settings().height, job.block, frames, threads, background, format};
@@ -105,21 +97,31 @@ film::CompiledFilm load_film(const RenderJob& job, const EventReporter& reporter
   return film;
 }
 
+// By what is foreseen of it, unless the person says how many groups.
+farm::Plan plan_of(const wire::FilmView& film, const RenderJob& job, EventReporter& reporter) {
+  const auto nodes = static_cast<int>(numnodes());
+  farm::PlanRequest request{job.frames.of_film(film.settings().frames), job.coherence, job.groups};
+  if (job.foresee) {
+    Foresight foresight = job.foresee(film, request, nodes);
+    if (request.groups == 0) request.groups = foresight.groups;
+    reporter.expect(std::move(foresight.course));
+  }
+  return farm::make_plan(film, request, nodes);
+}
+
 void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace) {
   double load_seconds = 0;
   const film::CompiledFilm film = load_film(job, reporter, load_seconds);
   const wire::FilmView view = film.view();
   const wire::FilmSettings& settings = view.settings();
-  const farm::PlanRequest request{job.frames.of_film(settings.frames), job.coherence, job.groups};
-  const farm::Plan plan = farm::make_plan(view, request, static_cast<int>(numnodes()));
-  const topology::Machine machine = topology::Machine::here();
-  const farm::HostMemory memory = memory_for(machine, settings, images::facts_of(job.format).pixels, plan);
+  const farm::Plan plan = plan_of(view, job, reporter);
+  const farm::HostMemory memory = memory_for(settings, images::facts_of(job.format).pixels, plan);
 
   if (!job.report.empty()) document::check_can_write(job.report);  // early too
-  Destination destination(job, film, request.frames);
+  Destination destination(job, film, job.frames.of_film(settings.frames));
   // Only now: before, the host may have waited for its turn in the folder, and not for nodes.
   reporter.report(events::Loaded{load_seconds});
-  const auto pool = make_sinks(job, destination.sink(), pool_shape(machine, view, job, memory.frames));
+  const auto pool = make_sinks(job, destination.sink(), pool_shape(view, job, memory.frames));
   const farm::FarmReport report = farm::render_film(film.block(), plan, farm_options(job, memory, trace), *pool,
                                                     reporter.listener(view.intervals().size()));
   destination.finish();
@@ -157,6 +159,15 @@ void write_failed_trace(const std::string& reason, const RenderJob& job, const E
 }
 
 }  // namespace
+
+// Sinks work while nodes wait for credit, so they may have every processor.
+std::uint32_t sink_threads() {
+  return static_cast<std::uint32_t>(std::clamp(topology::Machine::here().processors(), 2, 16));
+}
+
+std::uint64_t host_budget() {
+  return topology::memory_share(topology::Machine::here().memory(), topology::memory_limit(), 1);
+}
 
 void run_session(const RenderJob& job) {
   EventReporter reporter(job.backend);

@@ -12,10 +12,18 @@
 #include "host/content/film/compile.h"
 #include "host/content/film/frame_set.h"
 #include "host/images/picture_format.h"
+#include "host/render/events/course.h"
+#include "host/render/farm/plan.h"
 #include "host/render/sinks/sink_pool.h"
 #include "node/wire/protocol.h"
 
 namespace mars::session {
+
+// What is known of a rendering before it begins.
+struct Foresight {
+  std::uint32_t groups = 0;  // that make it shortest; 0: as make_groups says
+  events::Course course;     // of its frames
+};
 
 struct RenderJob {
   std::string film;  // its file, as the person gave it
@@ -34,9 +42,15 @@ struct RenderJob {
   std::vector<std::string> arguments;  // all this, as it was given to the host
   // Makes the pool of sinks; none: threads take frames.
   std::function<std::unique_ptr<sinks::SinkPool>(sinks::Sink& sink, const sinks::SinkPool::Shape& shape)> make_sinks;
+  // Asked once, before the film goes to nodes; none, or 0 groups and no course: nothing is foreseen.
+  std::function<Foresight(const wire::FilmView& film, const farm::PlanRequest& request, int nodes)> foresee;
   // The command that renders again, all frames or one, with this number of nodes.
   std::function<std::string(std::uint32_t nodes, std::optional<std::uint32_t> frame)> replay;
 };
+
+// What of this machine the host uses.
+std::uint32_t sink_threads();
+std::uint64_t host_budget();  // bytes, for share_host_memory
 
 // The calling HAL process is the host. Reports events on standard output. A failure is reported as a fault event, and
 // thrown for the caller, which ends the run.

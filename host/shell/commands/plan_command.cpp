@@ -18,7 +18,7 @@
 namespace mars::commands {
 namespace {
 
-constexpr double kCounting = 0.7;  // seconds, about
+constexpr double kCounting = 0.5;  // seconds, about
 
 struct Words {
   options::RenderOptions options;
@@ -37,7 +37,7 @@ void plan(const Words& words, const forecast::MakeCounter& make_counter) {
       experiments::read_platform(platform_name, experiments::platforms_folder(child::own_file()));
   const std::vector<farm::Task> tasks =
       farm::make_tasks(view, options.frames.of_film(view.settings().frames), !options.no_coherence);
-  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *make_counter(view), kCounting);
+  const forecast::FilmCounts counts = forecast::count_film(view, tasks, *make_counter(view), {kCounting});
   const forecast::Setting setting{view, platform, options.mapping, images::facts_of(options.format).pixels};
   const int nodes = options.nodes == 0 ? topology::Machine::here().processors() : static_cast<int>(options.nodes);
   const forecast::Forecast f = forecast::forecast(counts, tasks, setting, nodes, options.groups);
