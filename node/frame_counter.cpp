@@ -67,9 +67,9 @@ wire::ShareCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) 
   auto* const first = reinterpret_cast<geometry::Triangle*>(memory_.bytes().data());
   const std::span<const std::uint8_t> all = all_lines_;
   wire::WorkCounts work{};
-  const Tessellation made =
-      tessellator_.tessellate(scene_, {share, wire::kCountedShares},
-                              {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_}, {arena, first}, work);
+  const Tessellation made = tessellator_.tessellate(
+      scene_, {share, wire::kCountedShares}, {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_},
+      {arena, first}, work);
   for (std::size_t line = 0; line < loads_.size(); ++line) loads_[line] += share_loads_[line];
   for (const raster::UnsortedEdgeBox& box : made.polygons.moving)
     moving_loads_[box.line] += raster::LineLoad(1, box.box.width());

@@ -28,8 +28,8 @@ forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView
 session::Foresight foresee(const session::RenderJob& job, const experiments::Platform& platform,
                            const wire::FilmView& film, const farm::PlanRequest& request, int nodes) {
   const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
-  const forecast::FilmCounts counts = forecast::count_film(film, tasks, *make_node_counter(film),
-                                                           {kMostCounting, kCountedPart / nodes});
+  const forecast::FilmCounts counts =
+      forecast::count_film(film, tasks, *make_node_counter(film), {kMostCounting, kCountedPart / nodes});
   const forecast::Forecast best =
       forecast::forecast(counts, tasks, setting_of(job, film, platform), nodes, request.groups);
   std::vector<events::ExpectedFrame> frames;

@@ -25,7 +25,7 @@ struct ShareCounts {
 // Of one line of pixels. What is seen of it is decided on some lines and estimated from these on the others.
 struct LineCounts {
   double edge_boxes = 0;
-  double samples = 0;  // that these cover
+  double samples = 0;            // that these cover
   double moving_edge_boxes = 0;  // of these, moving parts'
   double moving_samples = 0;
   double constant_pixels = 0;  // that show stationary parts (CFB)
@@ -39,8 +39,8 @@ struct LineCounts {
 struct FrameCounts {
   FrameKind kind = FrameKind::keyframe;
   std::uint32_t frame = 0;
-  std::vector<ShareCounts> shares;  // kCountedShares; an inbetween's of moving parts only, as its lines
-  std::vector<LineCounts> lines;    // of the picture
+  std::vector<ShareCounts> shares;     // kCountedShares; an inbetween's of moving parts only, as its lines
+  std::vector<LineCounts> lines;       // of the picture
   std::uint32_t first_still_line = 0;  // of those that inbetweens may touch (keyframes)
   std::uint32_t last_still_line = 0;
 };

@@ -126,8 +126,8 @@ TEST(Boundaries, NodeOpensNoFileAndPrintsNothing) {
   for (const std::string& file : files_including(world)) EXPECT_FALSE(begins(file, "node/")) << file;
 }
 
-// Of the node, the host knows the wire, pure shape, what a pixel is and how lines are divided; only programs link both sides, and choose a
-// transport.
+// Of the node, the host knows the wire, pure shape, what a pixel is and how lines are divided; only programs link both
+// sides, and choose a transport.
 TEST(Boundaries, HostAndNodeShareTheWire) {
   for (const Source& source : sources()) {
     if (!begins(source.path, "host/") || begins(source.path, "host/programs/")) continue;

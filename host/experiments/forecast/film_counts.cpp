@@ -35,8 +35,7 @@ FrameTotals between(const std::vector<Known>& known, double place) {
   if (after == known.begin()) return after->totals;
   if (after == known.end()) return known.back().totals;
   const Known& before = *(after - 1);
-  const double part =
-      (place - static_cast<double>(before.place)) / static_cast<double>(after->place - before.place);
+  const double part = (place - static_cast<double>(before.place)) / static_cast<double>(after->place - before.place);
   return combined(before.totals, 1 - part, after->totals, part);
 }
 
@@ -60,9 +59,9 @@ class FilmCount {
   const std::span<const farm::Task> tasks_;
   Counter& counter_;
   FilmCounts counts_;
-  std::size_t first_ = 0;          // task that was counted first
-  double keyframe_seconds_ = 0;   // that counting one takes
-  double inbetween_seconds_ = 0;  // likewise
+  std::size_t first_ = 0;                   // task that was counted first
+  double keyframe_seconds_ = 0;             // that counting one takes
+  double inbetween_seconds_ = 0;            // likewise
   std::vector<std::size_t> counted_tasks_;  // by keyframe
   std::vector<std::vector<Known>> known_;   // by task, in order
 };
@@ -72,7 +71,8 @@ FilmCounts FilmCount::count(const Budget& budget) {
   const double left = count_first(budget);
   const std::size_t keyframes = std::min(tasks_.size(), fit(left / 2, keyframe_seconds_));
   std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < keyframes; ++i) chosen.push_back((first_ + i * tasks_.size() / keyframes) % tasks_.size());
+  for (std::size_t i = 0; i < keyframes; ++i)
+    chosen.push_back((first_ + i * tasks_.size() / keyframes) % tasks_.size());
   double inbetweens = 0;
   for (const std::size_t task : chosen) inbetweens += static_cast<double>(inbetweens_of(tasks_[task]));
   for (const std::size_t task : chosen) {

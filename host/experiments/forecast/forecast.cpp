@@ -6,10 +6,10 @@
 namespace mars::forecast {
 namespace {
 
-// All of the first few, then a quarter more each time.
+// All of the first few, then half as many more each time.
 std::vector<int> numbers_of_groups(int most) {
   std::vector<int> numbers;
-  for (int groups = 1; groups < most; groups += std::max(1, groups / 4)) numbers.push_back(groups);
+  for (int groups = 1; groups < most; groups += std::max(1, groups / 2)) numbers.push_back(groups);
   numbers.push_back(most);
   return numbers;
 }
@@ -35,10 +35,10 @@ Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks
 }
 
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
-                                      const Setting& setting, int most) {
+                                      const Setting& setting, int most, std::uint32_t groups) {
   std::vector<Forecast> all;
   for (int nodes = 1; nodes < most; nodes *= 2) all.push_back(forecast(counts, tasks, setting, nodes, 0));
-  all.push_back(forecast(counts, tasks, setting, most, 0));
+  all.push_back(forecast(counts, tasks, setting, most, groups));
   return all;
 }
 

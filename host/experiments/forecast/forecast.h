@@ -23,8 +23,8 @@ struct Forecast {
 Forecast forecast(const FilmCounts& counts, const std::vector<farm::Task>& tasks, const Setting& setting, int nodes,
                   std::uint32_t groups);
 
-// By numbers of nodes: powers of two below `most`, and `most`.
+// By numbers of nodes: powers of two below `most`, and `most`; `groups` of it, where they are given.
 std::vector<Forecast> forecasts_up_to(const FilmCounts& counts, const std::vector<farm::Task>& tasks,
-                                      const Setting& setting, int most);
+                                      const Setting& setting, int most, std::uint32_t groups);
 
 }  // namespace mars::forecast

@@ -66,7 +66,8 @@ struct FrameCosts::Homes {
     const FrameTotals all = totals_of(counts);
     std::vector<std::uint64_t> weights{0};
     for (const wire::LineCounts& line : counts.lines) {
-      const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes), static_cast<std::uint64_t>(line.samples));
+      const raster::LineLoad load(static_cast<std::uint64_t>(line.edge_boxes),
+                                  static_cast<std::uint64_t>(line.samples));
       weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
     }
     group::map_lines(mapping, weights, ranges);

@@ -63,7 +63,8 @@ double HostSide::give(std::size_t group) {
   const int nodes = plan_.groups[group].count;
   task.group = group;
   task.left = frames.size();
-  for (std::size_t frame = 0; frame < frames.size(); ++frame) task.frames.push_back({frame == 0 ? nodes : 1, false, {}, {}});
+  for (std::size_t frame = 0; frame < frames.size(); ++frame)
+    task.frames.push_back({frame == 0 ? nodes : 1, false, {}, {}});
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
   return nodes * costs_.host_to_send(static_cast<double>(sizeof(wire::Render) + frames.size() * sizeof(std::uint32_t)));

@@ -74,7 +74,7 @@ class Rehearsal {
   Computers computers_;
   simulated::Routes routes_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
-  std::vector<std::vector<NodePart>> inbetweens_;  // by task
+  std::vector<std::vector<NodePart>> inbetweens_;                  // by task
   std::vector<Node> nodes_;
   std::vector<GroupState> groups_;
   Rehearsed result_;
@@ -95,9 +95,10 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       routes_(setting.platform.machine.network, computers_.count(), computers_.of(nodes)),
       nodes_(static_cast<std::size_t>(nodes)),
       result_{0, {}, 0, 0, 0, host_memory(plan, setting, nodes)},
-      host_(clockwork_, computers_, plan, setting, result_.host_memory, nodes,
-            {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
-             [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
+      host_(
+          clockwork_, computers_, plan, setting, result_.host_memory, nodes,
+          {[this](std::size_t group, std::size_t task) { receive_task(group, task); },
+           [this](int node) { later(node, way_from_host(node, sizeof(wire::Credit)), &Rehearsal::receive_credit); }}) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     groups_.push_back({plan.groups[g]});
     for (int member = 0; member < plan.groups[g].count; ++member) {
@@ -139,7 +140,8 @@ const NodePart& Rehearsal::part_of(const Node& node) {
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
   const collectives::Group& nodes = groups_[group].nodes;
-  const double bytes = static_cast<double>(sizeof(wire::Render) + plan_.tasks[task].frames.size() * sizeof(std::uint32_t));
+  const double bytes =
+      static_cast<double>(sizeof(wire::Render) + plan_.tasks[task].frames.size() * sizeof(std::uint32_t));
   const double each = costs_.costs().host_to_send(bytes);
   for (int member = 0; member < nodes.count; ++member) {
     const int n = nodes.first + member;
@@ -180,7 +182,8 @@ void Rehearsal::meet(int n, const std::function<double(int)>& wait, void (Rehear
 void Rehearsal::sum(int n) {
   const GroupKeyframe& keyframe = *nodes_[static_cast<std::size_t>(n)].keyframe;
   if (keyframe.nodes.size() == 1) return exchange(n);
-  meet(n, [&](int) { return keyframe.sum; }, &Rehearsal::exchange);
+  meet(
+      n, [&](int) { return keyframe.sum; }, &Rehearsal::exchange);
 }
 
 void Rehearsal::exchange(int n) {
@@ -220,7 +223,8 @@ void Rehearsal::finish_strip(int n) {
 
 void Rehearsal::meet_for_still(int n) {
   meet(
-      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).still_wait; }, &Rehearsal::send_strip);
+      n, [this](int node) { return part_of(nodes_[static_cast<std::size_t>(node)]).still_wait; },
+      &Rehearsal::send_strip);
 }
 
 void Rehearsal::send_strip(int n) {
