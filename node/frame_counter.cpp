@@ -10,6 +10,8 @@ namespace {
 constexpr std::uint32_t kSampledLines = 64;
 constexpr std::size_t kShareBytes = std::size_t{64} << 20;  // what does not fit is counted, and taken for unseen
 
+constexpr std::uint32_t kBlock = 16;  // side of the compositor's blocks, by default
+
 double share_of(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 }  // namespace
@@ -25,6 +27,7 @@ FrameCounter::FrameCounter(const wire::FilmView& film, simd::InstructionSet set)
       share_loads_(film.settings().height),
       loads_(film.settings().height),
       moving_loads_(film.settings().height),
+      moving_columns_(film.settings().height),
       sampled_((film.settings().height + step_ - 1) / step_),
       ids_(std::size_t{stride_} * film.settings().samples),
       depths_(ids_.size()) {}
@@ -49,6 +52,7 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
   for (SampledLine& line : sampled_) line.stationary.clear(), line.moving.clear();
   std::ranges::fill(loads_, raster::LineLoad());
   std::ranges::fill(moving_loads_, raster::LineLoad());
+  std::ranges::fill(moving_columns_, Columns());
   wire::FrameCounts counts{kind, frame, {}, std::vector<wire::LineCounts>(loads_.size())};
   for (std::uint32_t share = 0; share < wire::kCountedShares; ++share)
     counts.shares.push_back(count_share(share, keyframe));
@@ -57,12 +61,13 @@ wire::FrameCounts FrameCounter::count(wire::FrameKind kind, std::uint32_t frame)
     counts.lines[line].samples = static_cast<double>(loads_[line].samples());
     counts.lines[line].moving_edge_boxes = static_cast<double>(moving_loads_[line].boxes());
     counts.lines[line].moving_samples = static_cast<double>(moving_loads_[line].samples());
+    counts.lines[line].moving_width = moving_columns_[line].width();
   }
   estimate_seen(counts.lines, keyframe);
   return counts;
 }
 
-wire::ShareCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) {
+wire::UnitCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) {
   raster::Arena arena(memory_.bytes());
   auto* const first = reinterpret_cast<geometry::Triangle*>(memory_.bytes().data());
   const std::span<const std::uint8_t> all = all_lines_;
@@ -71,13 +76,29 @@ wire::ShareCounts FrameCounter::count_share(std::uint32_t share, bool keyframe) 
       scene_, {share, wire::kCountedShares}, {all, keyframe ? all : std::span<const std::uint8_t>(), share_loads_},
       {arena, first}, work);
   for (std::size_t line = 0; line < loads_.size(); ++line) loads_[line] += share_loads_[line];
-  for (const raster::UnsortedEdgeBox& box : made.polygons.moving)
+  for (const raster::UnsortedEdgeBox& box : made.polygons.moving) {
     moving_loads_[box.line] += raster::LineLoad(1, box.box.width());
+    moving_columns_[box.line].add(box.box.first, box.box.last());
+  }
   keep_sampled(made.polygons.stationary, made.polygons.triangles, false);
   keep_sampled(made.polygons.moving, made.polygons.triangles, true);
-  return {static_cast<double>(work.patches), static_cast<double>(work.vertices),
-          static_cast<double>(work.triangles_tested), static_cast<double>(made.made.triangles),
-          static_cast<double>(made.made.edge_boxes)};
+  return units_of(made, work);
+}
+
+wire::UnitCounts FrameCounter::units_of(const Tessellation& made, const wire::WorkCounts& work) const {
+  using wire::Work;
+  wire::UnitCounts units;
+  const auto set = [&](Work kind, std::uint64_t count) { units[kind] = static_cast<double>(count); };
+  set(Work::patch, made.surfaces.patches);
+  set(Work::meshlet, made.surfaces.meshlets);
+  set(Work::vertex, made.surfaces.vertices);
+  set(Work::mesh_vertex, made.surfaces.mesh_vertices);
+  set(Work::triangle_tested, work.triangles_tested);
+  set(Work::row_tested, work.triangles_tested * static_cast<std::uint64_t>(scene_.pattern().count));
+  set(Work::vertex_light, made.surfaces.colored * scene_.lights().size());
+  set(Work::triangle, made.made.triangles);
+  set(Work::edge_box_made, made.made.edge_boxes);
+  return units;
 }
 
 // Boxes of a triangle follow each other.
@@ -97,12 +118,11 @@ std::uint32_t FrameCounter::line_of(std::size_t sampled) const {
   return static_cast<std::uint32_t>(sampled) * step_ + step_ / 2;
 }
 
-// Of the samples that boxes cover, lines about a sampled one are taken to show as many pixels and runs as that does.
+// Of the samples that boxes cover, lines about a sampled one are taken to show as much as that does.
 void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe) {
-  std::vector<Seen> constant(sampled_.size()), moving(sampled_.size());
-  for (std::size_t i = 0; i < sampled_.size(); ++i) {
+  std::vector<wire::SeenCounts> constant(sampled_.size()), moving(sampled_.size());
+  for (std::size_t i = 0; i < sampled_.size() && line_of(i) < lines.size(); ++i) {
     SampledLine& line = sampled_[i];
-    if (line_of(i) >= lines.size()) continue;
     if (keyframe) {
       line.constant_depth.assign(ids_.size(), 0.0f);
       constant[i] = draw(line.stationary, line_of(i), line.constant_depth);
@@ -110,65 +130,69 @@ void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyf
     depths_ = line.constant_depth;
     moving[i] = draw(line.moving, line_of(i), depths_);
   }
-  using Number = double wire::LineCounts::*;
-  const auto spread = [&](const std::vector<Seen>& seen, const auto& samples_of, Number pixels, Number runs,
-                          Number groups) {
-    Seen all;
-    double samples = 0;
-    for (std::size_t i = 0; i < seen.size() && line_of(i) < lines.size(); ++i) {
-      all.pixels += seen[i].pixels, all.runs += seen[i].runs, all.groups += seen[i].groups;
-      samples += samples_of(line_of(i));
-    }
-    for (std::size_t line = 0; line < lines.size(); ++line) {
-      const std::size_t i = line / step_;
-      const double here = line_of(i) < lines.size() ? samples_of(line_of(i)) : 0;
-      const Seen& by = here > 0 ? seen[i] : all;
-      const double part = share_of(samples_of(line), here > 0 ? here : samples);
-      lines[line].*pixels = by.pixels * part;
-      lines[line].*runs = by.runs * part;
-      lines[line].*groups = by.groups * part;
-    }
-  };
-  const auto moving_samples = [&](std::size_t line) { return lines[line].moving_samples; };
-  const auto still_samples = [&](std::size_t line) { return lines[line].samples - lines[line].moving_samples; };
-  spread(constant, still_samples, &wire::LineCounts::constant_pixels, &wire::LineCounts::constant_runs,
-         &wire::LineCounts::constant_groups);
-  spread(moving, moving_samples, &wire::LineCounts::moving_pixels, &wire::LineCounts::moving_runs,
-         &wire::LineCounts::moving_groups);
+  spread(constant, lines, &wire::LineCounts::constant, [](const wire::LineCounts& line) {
+    return line.samples - line.moving_samples;
+  });
+  spread(moving, lines, &wire::LineCounts::moving, [](const wire::LineCounts& line) { return line.moving_samples; });
+}
+
+void FrameCounter::spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
+                          wire::SeenCounts wire::LineCounts::*to, double (*samples_of)(const wire::LineCounts&)) const {
+  wire::SeenCounts all;
+  double all_samples = 0;
+  for (std::size_t i = 0; i < seen.size() && line_of(i) < lines.size(); ++i) {
+    all += seen[i];
+    all_samples += samples_of(lines[line_of(i)]);
+  }
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    const std::size_t i = line / step_;
+    const double here = line_of(i) < lines.size() ? samples_of(lines[line_of(i)]) : 0;
+    const double samples = samples_of(lines[line]);
+    lines[line].*to = here > 0 ? seen[i] * (samples / here) : all * share_of(samples, all_samples);
+  }
 }
 
 // What is seen of these boxes in front of `depths`, which become theirs.
-FrameCounter::Seen FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line,
-                                      std::vector<float>& depths) {
+wire::SeenCounts FrameCounter::draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line,
+                                    std::vector<float>& depths) {
   if (boxes.empty()) return {};
   std::ranges::fill(ids_, shading::kNoTriangle);
   const shading::Extent extent =
       kernels_.draw(triangles_.data(), boxes.data(), static_cast<std::uint32_t>(boxes.size()), line, scene_.pattern(),
                     {depths.data(), ids_.data(), stride_});
-  Seen seen;
+  wire::SeenCounts seen;
   bool before = false;
+  std::uint32_t in_block = 0;
   for (std::uint32_t x = extent.first; x < extent.last; ++x) {
-    const std::uint32_t groups = groups_at(x);
-    const bool shown = groups > 0;
+    const double shaded = seen.shaded;
+    count_groups(x, seen);
+    const bool shown = seen.shaded > shaded;
     seen.pixels += shown ? 1 : 0;
     seen.runs += shown && !before ? 1 : 0;
-    seen.groups += groups;
     before = shown;
+    in_block += shown ? 1 : 0;
+    if ((x + 1) % kBlock != 0 && x + 1 < extent.last) continue;
+    seen.block_pixels += 0 < in_block && in_block < kBlock ? kBlock : 0;
+    in_block = 0;
   }
   return seen;
 }
 
 // Triangles that a pixel shows.
-std::uint32_t FrameCounter::groups_at(std::uint32_t column) const {
+void FrameCounter::count_groups(std::uint32_t column, wire::SeenCounts& seen) const {
   const auto samples = static_cast<std::size_t>(scene_.pattern().count);
-  std::uint32_t groups = 0;
   for (std::size_t s = 0; s < samples; ++s) {
     const std::uint32_t id = ids_[s * stride_ + column];
     bool fresh = id != shading::kNoTriangle;
     for (std::size_t before = 0; before < s && fresh; ++before) fresh = ids_[before * stride_ + column] != id;
-    groups += fresh ? 1 : 0;
+    if (!fresh) continue;
+    ++seen.shaded;
+    const wire::Material& material = scene_.film().materials()[triangles_[id].material];
+    if (material.interpolation != wire::Interpolation::phong) continue;
+    const bool highlight =
+        material.reflection == wire::Reflection::phong || material.reflection == wire::Reflection::blinn_phong;
+    ++(highlight ? seen.highlights : seen.facets);
   }
-  return groups;
 }
 
 }  // namespace mars::node

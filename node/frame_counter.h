@@ -2,6 +2,7 @@
 // share, and decides on some of its lines what is seen. It shades nothing and sends nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,19 +33,24 @@ class FrameCounter {
     std::vector<raster::EdgeBox> stationary, moving;
     std::vector<float> constant_depth;  // CZB of the interval, row by row of the pattern
   };
-  struct Seen {
-    double pixels = 0;
-    double runs = 0;
-    double groups = 0;
+  struct Columns {
+    std::uint32_t first = 0xffffffff;
+    std::uint32_t last = 0;
+
+    void add(std::uint32_t from, std::uint32_t to) { first = std::min(first, from), last = std::max(last, to); }
+    double width() const { return first < last ? last - first : 0; }
   };
 
   wire::FrameCounts count(wire::FrameKind kind, std::uint32_t frame);
-  wire::ShareCounts count_share(std::uint32_t share, bool keyframe);
+  wire::UnitCounts count_share(std::uint32_t share, bool keyframe);
   void keep_sampled(std::span<const raster::UnsortedEdgeBox> boxes, const geometry::Triangle* triangles, bool moving);
+  wire::UnitCounts units_of(const Tessellation& made, const wire::WorkCounts& work) const;
+  void spread(const std::vector<wire::SeenCounts>& seen, std::vector<wire::LineCounts>& lines,
+              wire::SeenCounts wire::LineCounts::*to, double (*samples_of)(const wire::LineCounts&)) const;
   void estimate_seen(std::vector<wire::LineCounts>& lines, bool keyframe);
-  Seen draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line, std::vector<float>& depths);
+  wire::SeenCounts draw(std::span<const raster::EdgeBox> boxes, std::uint32_t line, std::vector<float>& depths);
 
-  std::uint32_t groups_at(std::uint32_t column) const;
+  void count_groups(std::uint32_t column, wire::SeenCounts& seen) const;
 
   std::uint32_t line_of(std::size_t sampled) const;
 
@@ -57,6 +63,7 @@ class FrameCounter {
   std::vector<std::uint8_t> all_lines_;
   std::vector<raster::LineLoad> share_loads_;
   std::vector<raster::LineLoad> loads_;         // of all shares
+  std::vector<Columns> moving_columns_;
   std::vector<raster::LineLoad> moving_loads_;  // of these, moving parts'
   std::vector<geometry::Triangle> triangles_;   // of the sampled lines
   std::vector<SampledLine> sampled_;

@@ -19,7 +19,7 @@ constexpr double kSoon = 1.0;          // seconds, about: not worth a forecast
 
 forecast::Setting setting_of(const session::RenderJob& job, const wire::FilmView& film,
                              const experiments::Platform& platform) {
-  forecast::Setting setting{film, platform, job.mapping, images::facts_of(job.format).pixels};
+  forecast::Setting setting{film, platform, job.mapping, job.format, !job.folder.empty()};
   setting.host_budget = session::host_budget();
   setting.sink_threads = session::sink_threads();
   return setting;
@@ -76,11 +76,11 @@ void render_here(const options::RenderOptions& options, const std::string& backe
     const std::vector<farm::Task> tasks = farm::make_tasks(film, request.frames, request.coherence);
     if (rough_seconds(film, tasks) / nodes < kSoon) return session::Foresight();
     const std::filesystem::path folder = experiments::platforms_folder(child::own_file());
-    const bool calibrated = std::filesystem::exists(folder / "here.json");
+    const bool calibrated = std::filesystem::exists(experiments::calibrated_platform());
     farm::PlanRequest known = request;
     if (!calibrated && request.groups == 0)
       known.groups = static_cast<std::uint32_t>(farm::make_groups(nodes, 0, tasks.size()).size());
-    const experiments::Platform platform = experiments::read_platform(calibrated ? "here" : "fat-tree", folder);
+    const experiments::Platform platform = experiments::read_platform(calibrated ? "here" : "reference", folder);
     return foresee(job, placed_here(platform, nodes), film, known, nodes);
   };
   session::run_session(job);

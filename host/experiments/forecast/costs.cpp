@@ -2,6 +2,12 @@
 
 namespace mars::forecast {
 
+double Costs::of(const wire::UnitCounts& units) const {
+  double seconds = 0;
+  for (std::size_t kind = 0; kind < units.units.size(); ++kind) seconds += machine_.work[kind] * units.units[kind];
+  return seconds;
+}
+
 double Costs::on_the_way(double bytes, bool same_computer) const {
   const simulated::Network& network = machine_.network;
   if (same_computer) return network.local_latency + network.local_byte * bytes;

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "host/experiments/platform.h"
-#include "node/wire/work.h"
+#include "node/wire/frame_counts.h"
 
 namespace mars::forecast {
 
@@ -14,6 +15,7 @@ class Costs {
 
   // Seconds of so much work.
   double of(wire::Work kind, double units) const { return machine_.work[static_cast<std::size_t>(kind)] * units; }
+  double of(const wire::UnitCounts& units) const;
 
   // Seconds that a message of so many bytes takes a node's processor, or the host's.
   double to_send(double bytes) const { return end(machine_.network.send, bytes); }

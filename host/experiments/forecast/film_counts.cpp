@@ -8,19 +8,11 @@ namespace {
 
 // Seconds that counting takes, about.
 double counting_seconds(const FrameTotals& frame) {
-  return 5e-4 + frame.made.patches * 5e-7 + frame.made.vertices * 8e-9 + frame.made.triangles_tested * 5e-9 +
-         frame.made.triangles * 2e-8 + frame.made.edge_boxes * 4e-9;
-}
-
-FrameTotals combined(const FrameTotals& a, double part_a, const FrameTotals& b, double part_b) {
-  const auto both = [&](double x, double y) { return x * part_a + y * part_b; };
-  return {{both(a.made.patches, b.made.patches), both(a.made.vertices, b.made.vertices),
-           both(a.made.triangles_tested, b.made.triangles_tested), both(a.made.triangles, b.made.triangles),
-           both(a.made.edge_boxes, b.made.edge_boxes)},
-          both(a.samples, b.samples),
-          both(a.pixels, b.pixels),
-          both(a.runs, b.runs),
-          both(a.groups, b.groups)};
+  using wire::Work;
+  const wire::UnitCounts& made = frame.made;
+  return 5e-4 + (made[Work::patch] + made[Work::meshlet]) * 1e-6 + made[Work::vertex] * 8e-9 +
+         made[Work::mesh_vertex] * 4e-9 + made[Work::triangle_tested] * 5e-9 + made[Work::triangle] * 2e-8 +
+         made[Work::edge_box_made] * 4e-9;
 }
 
 // Inbetweens of a task that were counted.
@@ -36,7 +28,7 @@ FrameTotals between(const std::vector<Known>& known, double place) {
   if (after == known.end()) return known.back().totals;
   const Known& before = *(after - 1);
   const double part = (place - static_cast<double>(before.place)) / static_cast<double>(after->place - before.place);
-  return combined(before.totals, 1 - part, after->totals, part);
+  return before.totals * (1 - part) + after->totals * part;
 }
 
 class FilmCount {
@@ -151,28 +143,63 @@ void FilmCount::estimate(std::size_t task) {
   const double scale = moving_patches(tasks_[task]) / moving_patches(tasks_[like]);
   for (std::size_t i = 0; i < all; ++i) {
     const double place = static_cast<double>(i) * static_cast<double>(there) / static_cast<double>(all);
-    counts.inbetweens.push_back(combined(between(known_[like], place), scale, {}, 0));
+    counts.inbetweens.push_back(between(known_[like], place) * scale);
   }
   counts_.tasks.push_back(std::move(counts));
 }
 
 }  // namespace
 
-FrameTotals totals_of(const wire::FrameCounts& counts) {
+wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b) {
+  for (std::size_t kind = 0; kind < a.units.size(); ++kind) a.units[kind] += b.units[kind];
+  return a;
+}
+
+wire::UnitCounts operator*(wire::UnitCounts a, double part) {
+  for (double& units : a.units) units *= part;
+  return a;
+}
+
+wire::LineCounts operator+(const wire::LineCounts& a, const wire::LineCounts& b) {
+  wire::LineCounts both{a.edge_boxes + b.edge_boxes,
+                        a.samples + b.samples,
+                        a.moving_edge_boxes + b.moving_edge_boxes,
+                        a.moving_samples + b.moving_samples,
+                        a.moving_width + b.moving_width,
+                        a.constant,
+                        a.moving};
+  both.constant += b.constant;
+  both.moving += b.moving;
+  return both;
+}
+
+FrameTotals operator+(FrameTotals a, const FrameTotals& b) {
+  return {a.made + b.made, a.drawn + b.drawn, a.lines + b.lines};
+}
+
+FrameTotals operator*(FrameTotals a, double part) {
+  wire::LineCounts& drawn = a.drawn;
+  for (double* number : {&drawn.edge_boxes, &drawn.samples, &drawn.moving_edge_boxes, &drawn.moving_samples,
+                         &drawn.moving_width, &a.lines})
+    *number *= part;
+  drawn.constant = drawn.constant * part;
+  drawn.moving = drawn.moving * part;
+  a.made = a.made * part;
+  return a;
+}
+
+FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line) {
   FrameTotals totals;
-  for (const wire::ShareCounts& share : counts.shares) {
-    totals.made.patches += share.patches;
-    totals.made.vertices += share.vertices;
-    totals.made.triangles_tested += share.triangles_tested;
-    totals.made.triangles += share.triangles;
-    totals.made.edge_boxes += share.edge_boxes;
+  for (std::uint32_t line = first_line; line < last_line; ++line) {
+    totals.drawn = totals.drawn + counts.lines[line];
+    totals.lines += counts.lines[line].moving_edge_boxes > 0 ? 1 : 0;
   }
-  for (const wire::LineCounts& line : counts.lines) {
-    totals.samples += line.samples;
-    totals.pixels += line.constant_pixels + line.moving_pixels;
-    totals.runs += line.constant_runs + line.moving_runs;
-    totals.groups += line.constant_groups + line.moving_groups;
-  }
+  return totals;
+}
+
+FrameTotals totals_of(const wire::FrameCounts& counts) {
+  FrameTotals totals = totals_on(counts, 0, static_cast<std::uint32_t>(counts.lines.size()));
+  for (const wire::UnitCounts& share : counts.shares) totals.made = totals.made + share;
   return totals;
 }
 

@@ -9,16 +9,22 @@
 
 namespace mars::forecast {
 
-// Of a frame that one node draws.
+// Of a frame, or of a node's part of it.
 struct FrameTotals {
-  wire::ShareCounts made;
-  double samples = 0;
-  double pixels = 0;
-  double runs = 0;
-  double groups = 0;
+  wire::UnitCounts made;
+  wire::LineCounts drawn;  // on all lines
+  double lines = 0;        // with moving parts
+
+  double pixels() const { return drawn.constant.pixels + drawn.moving.pixels; }
+  double runs() const { return drawn.constant.runs + drawn.moving.runs; }
 };
 
 FrameTotals totals_of(const wire::FrameCounts& counts);
+FrameTotals totals_on(const wire::FrameCounts& counts, std::uint32_t first_line, std::uint32_t last_line);
+FrameTotals operator+(FrameTotals a, const FrameTotals& b);
+FrameTotals operator*(FrameTotals a, double part);
+wire::UnitCounts operator+(wire::UnitCounts a, const wire::UnitCounts& b);
+wire::UnitCounts operator*(wire::UnitCounts a, double part);
 
 struct TaskCounts {
   std::size_t keyframe;                 // in FilmCounts::keyframes

@@ -18,18 +18,9 @@ constexpr double kTriangleBytes = 64, kUnsortedBoxBytes = 12, kBoxBytes = 8;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr double kShortSum = 64 << 10;    // hal/collectives/reduction.cpp
 
-wire::ShareCounts operator+(const wire::ShareCounts& a, const wire::ShareCounts& b) {
-  return {a.patches + b.patches, a.vertices + b.vertices, a.triangles_tested + b.triangles_tested,
-          a.triangles + b.triangles, a.edge_boxes + b.edge_boxes};
-}
-
-wire::ShareCounts operator*(const wire::ShareCounts& a, double part) {
-  return {a.patches * part, a.vertices * part, a.triangles_tested * part, a.triangles * part, a.edge_boxes * part};
-}
-
 // What each of `nodes` nodes makes: whole shares where these divide evenly, else equal parts of several.
-std::vector<wire::ShareCounts> made_by(const std::vector<wire::ShareCounts>& shares, int nodes) {
-  std::vector<wire::ShareCounts> made(static_cast<std::size_t>(nodes));
+std::vector<wire::UnitCounts> made_by(const std::vector<wire::UnitCounts>& shares, int nodes) {
+  std::vector<wire::UnitCounts> made(static_cast<std::size_t>(nodes));
   // Numbers that are `share` modulo so many shares are on nodes that are the same modulo `step`.
   const std::size_t step = std::gcd(shares.size(), made.size());
   const double part = static_cast<double>(step) / static_cast<double>(nodes);
@@ -40,21 +31,9 @@ std::vector<wire::ShareCounts> made_by(const std::vector<wire::ShareCounts>& sha
 }
 
 // Patches are not divided: a node that makes any of them makes whole ones.
-wire::ShareCounts in_whole_patches(const wire::ShareCounts& made) {
-  return made.patches > 0 ? made * (std::ceil(made.patches - 1e-6) / made.patches) : made;
-}
-
-FrameTotals on_lines(const wire::FrameCounts& counts, const geometry::LineRange& lines) {
-  FrameTotals totals;
-  for (std::uint32_t i = lines.first; i < lines.last; ++i) {
-    const wire::LineCounts& line = counts.lines[i];
-    totals.made.edge_boxes += line.edge_boxes;
-    totals.samples += line.samples;
-    totals.pixels += line.constant_pixels + line.moving_pixels;
-    totals.runs += line.constant_runs + line.moving_runs;
-    totals.groups += line.constant_groups + line.moving_groups;
-  }
-  return totals;
+wire::UnitCounts in_whole_patches(const wire::UnitCounts& made) {
+  const double patches = made[Work::patch] + made[Work::meshlet];
+  return patches > 0 ? made * (std::ceil(patches - 1e-6) / patches) : made;
 }
 
 }  // namespace
@@ -71,12 +50,12 @@ struct FrameCosts::Homes {
       weights.push_back(weights.back() + (mapping == wire::Mapping::cost ? group::line_cost(load) : load.boxes()));
     }
     group::map_lines(mapping, weights, ranges);
-    edge_boxes = all.made.edge_boxes;
-    const double rows = all.made.triangles > 0 ? edge_boxes / all.made.triangles : 1;  // of samples, of a triangle
+    edge_boxes = all.drawn.edge_boxes;
+    const double rows = all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
     const double taller = std::max(0.0, rows / samples - 1);                           // in lines
     for (const geometry::LineRange& range : ranges) {
-      totals.push_back(on_lines(counts, range));
-      const double boxes = totals.back().made.edge_boxes;
+      totals.push_back(totals_on(counts, range.first, range.last));
+      const double boxes = totals.back().drawn.edge_boxes;
       triangles.push_back(std::min(boxes, boxes / rows * (1 + taller / std::max(1u, range.count()))));
     }
   }
@@ -95,42 +74,66 @@ GroupKeyframe FrameCosts::keyframe(const wire::FrameCounts& counts, int nodes, s
   add_dicing(keyframe, homes, made);
   if (nodes > 1) add_sum(keyframe, nodes);
   if (nodes > nodes_on_a_computer(nodes)) add_exchange(keyframe, homes, made);
-  for (NodePart& node : keyframe.nodes) node.memory = std::min(node.memory, arena_bytes());
-  for (std::size_t n = 0; n < made.size(); ++n) keyframe.nodes[n].strips = strips(homes.totals[n]);
+  for (std::size_t n = 0; n < made.size(); ++n) {
+    NodePart& node = keyframe.nodes[n];
+    node.memory = std::min(node.memory, arena_bytes());
+    node.strips = strips(homes.totals[n], keyframe_drawing(homes.totals[n], counts, homes.ranges[n]));
+    if (inbetweens > 0) node.strips.pasting += saving(homes.totals[n]);
+  }
   if (inbetweens > 0) add_still(keyframe, homes, counts, inbetweens);
   return keyframe;
 }
 
 NodePart FrameCosts::inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const {
   const FrameTotals again = drawn_again(keyframe, nodes);
-  const wire::ShareCounts made = totals.made + again.made;
+  const wire::UnitCounts made = totals.made + again.made;
+  wire::UnitCounts units = drawn_units(totals + again);
+  units[Work::line] = totals.lines + again.lines;
+  units[Work::still_byte] = totals.drawn.moving_width * setting_.film.settings().samples * sizeof(float);
   NodePart part;
-  part.dice = dicing(made) + costs_.of(Work::triangle, made.triangles) +
-              costs_.of(Work::edge_box_made, made.edge_boxes) + costs_.of(Work::edge_box_filled, made.edge_boxes);
+  part.dice = dicing(made) + setting_up(made) + costs_.of(Work::edge_box_filled, made[Work::edge_box_made]);
   part.exchange = costs_.of(Work::line_mapped, height());
-  part.strips = strips(totals);
-  part.strips.seconds += drawing(again);
+  part.strips = strips(totals, costs_.of(units));
+  part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
   part.memory = std::min(arena_bytes(), made_bytes(made));
   return part;
 }
 
+double FrameCosts::background(const wire::FrameCounts& keyframe) const {
+  const wire::SeenCounts seen = totals_of(keyframe).drawn.constant;
+  return costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
+}
+
+// CFB goes into the saved background too, whose blocks are plain before.
+double FrameCosts::saving(const FrameTotals& totals) const {
+  const wire::SeenCounts& seen = totals.drawn.constant;
+  return costs_.of(Work::host_run, seen.runs) + costs_.of(Work::host_byte, seen.pixels * pixel_bytes()) +
+         costs_.of(Work::host_restored, (seen.pixels + seen.block_pixels / 2) * pixel_bytes());
+}
+
 FrameTotals FrameCosts::drawn_again(const wire::FrameCounts& keyframe, int nodes) const {
   const wire::StillPlan plan = still_plan(nodes);
-  double boxes = 0, still_boxes = 0, moving_boxes = 0, samples = 0;
+  FrameTotals again;
+  double still_boxes = 0, moving_boxes = 0;
   for (std::uint32_t i = 0; i < keyframe.lines.size(); ++i) {
     const wire::LineCounts& line = keyframe.lines[i];
-    still_boxes += line.edge_boxes - line.moving_edge_boxes;
+    const double still = line.edge_boxes - line.moving_edge_boxes;
+    still_boxes += still;
     moving_boxes += line.moving_edge_boxes;
     const bool needed = keyframe.first_still_line <= i && i < keyframe.last_still_line;
     if (!needed || is_kept(keyframe, i, plan)) continue;
-    boxes += line.edge_boxes - line.moving_edge_boxes;
-    samples += line.samples - line.moving_samples;
+    again.drawn.edge_boxes += still;
+    again.drawn.samples += line.samples - line.moving_samples;
+    again.drawn.constant.shaded += line.constant.shaded;
+    again.drawn.constant.highlights += line.constant.highlights;
+    again.drawn.constant.facets += line.constant.facets;
+    again.lines += 1;
   }
-  if (boxes == 0) return {};
-  const wire::ShareCounts all = totals_of(keyframe).made;
-  const wire::ShareCounts still = all * (still_boxes / (still_boxes + moving_boxes));
-  const double part = boxes / still_boxes;
-  return {{still.patches, still.vertices, still.triangles_tested, still.triangles * part, boxes}, samples, 0, 0, 0};
+  if (again.drawn.edge_boxes == 0) return {};
+  again.made = totals_of(keyframe).made * (still_boxes / (still_boxes + moving_boxes));
+  again.made[Work::triangle] *= again.drawn.edge_boxes / still_boxes;
+  again.made[Work::edge_box_made] = again.drawn.edge_boxes;
+  return again;
 }
 
 // A line is kept where it has memory for its groups (node/raster/still_lines.h).
@@ -138,7 +141,7 @@ bool FrameCosts::is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, 
   const wire::FilmSettings& film = setting_.film.settings();
   if (film.samples == 1) return true;
   return line - keyframe.first_still_line < plan.lines &&
-         keyframe.lines[line].constant_groups <= static_cast<double>(film.width) * plan.groups_per_column;
+         keyframe.lines[line].constant.shaded <= static_cast<double>(film.width) * plan.groups_per_column;
 }
 
 farm::NodeMemory FrameCosts::memory() const {
@@ -157,52 +160,81 @@ double FrameCosts::arena_bytes() const {
 }
 
 // What is done again in each pass.
-double FrameCosts::dicing(const wire::ShareCounts& made) const {
+double FrameCosts::dicing(const wire::UnitCounts& made) const {
+  wire::UnitCounts again = made;
+  again[Work::triangle] = again[Work::edge_box_made] = 0;
   return costs_.of(Work::frame, 1) + costs_.of(Work::segment, static_cast<double>(setting_.film.segments().size())) +
-         costs_.of(Work::patch, made.patches) + costs_.of(Work::vertex, made.vertices) +
-         costs_.of(Work::triangle_tested, made.triangles_tested);
+         costs_.of(again);
 }
 
-double FrameCosts::drawing(const FrameTotals& totals) const {
+double FrameCosts::setting_up(const wire::UnitCounts& made) const {
+  return costs_.of(Work::triangle, made[Work::triangle]) + costs_.of(Work::edge_box_made, made[Work::edge_box_made]);
+}
+
+wire::UnitCounts FrameCosts::drawn_units(const FrameTotals& totals) const {
   const auto lights = static_cast<double>(setting_.film.light_tracks().size());
-  return costs_.of(Work::edge_box, totals.made.edge_boxes) + costs_.of(Work::sample, totals.samples) +
-         costs_.of(Work::pixel, totals.pixels) + costs_.of(Work::light, totals.pixels * lights);
+  wire::SeenCounts seen = totals.drawn.constant;
+  seen += totals.drawn.moving;
+  wire::UnitCounts units;
+  units[Work::edge_box] = totals.drawn.edge_boxes;
+  units[Work::sample] = totals.drawn.samples;
+  units[Work::shaded] = seen.shaded;
+  units[Work::light] = seen.highlights * lights;
+  units[Work::facet_light] = seen.facets * lights;
+  units[Work::pixel] = seen.pixels;
+  return units;
 }
 
-StripCosts FrameCosts::strips(const FrameTotals& totals) const {
-  StripCosts strips{drawing(totals), totals.pixels, 0, 1};
-  const double content =
-      totals.pixels * static_cast<double>(wire::pixel_bytes(setting_.format)) + totals.runs * sizeof(wire::Run);
+double FrameCosts::keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
+                                    const geometry::LineRange& lines) const {
+  const wire::FilmSettings& film = setting_.film.settings();
+  wire::UnitCounts units = drawn_units(totals);
+  for (std::uint32_t i = lines.first; i < lines.last; ++i) {
+    const wire::LineCounts& line = counts.lines[i];
+    const bool needed = counts.first_still_line <= i && i < counts.last_still_line;
+    units[Work::line] += needed || line.edge_boxes > 0 ? 1 : 0;
+    if (!needed) continue;
+    units[Work::still_byte] += static_cast<double>(film.width) * film.samples * sizeof(float);
+    if (film.samples > 1) units[Work::still_byte] += line.constant.shaded * sizeof(wire::StillGroup);
+  }
+  return costs_.of(units);
+}
+
+StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
+  StripCosts strips{seconds, 0, 0, 1};
+  const double content = totals.pixels() * pixel_bytes() + totals.runs() * sizeof(wire::Run);
   strips.count = 1 + static_cast<std::uint32_t>(content / kFullStrip);
   strips.bytes = content + strips.count * static_cast<double>(sizeof(wire::Strip));
+  strips.pasting =
+      costs_.of(Work::host_run, totals.runs()) + costs_.of(Work::host_byte, totals.pixels() * pixel_bytes());
   return strips;
 }
 
 // Triangles with their edge boxes, once as made and once in their lines.
-double FrameCosts::made_bytes(const wire::ShareCounts& made) const {
-  return made.triangles * kTriangleBytes + made.edge_boxes * (kUnsortedBoxBytes + kBoxBytes) + 3 * 8 * height();
+double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
+  return made[Work::triangle] * kTriangleBytes + made[Work::edge_box_made] * (kUnsortedBoxBytes + kBoxBytes) + 3 * 8 * height();
 }
 
 // As node/group/passes.h bounds them.
-double FrameCosts::passes(const wire::ShareCounts& made, double home_boxes, bool travels) const {
+double FrameCosts::passes(const wire::UnitCounts& made, double home_boxes, bool travels) const {
   const double a_box = kTriangleBytes + kUnsortedBoxBytes;
-  const double bound = made_bytes(made) + (travels ? made.edge_boxes * a_box + home_boxes * (a_box + kBoxBytes) : 0);
+  const double bound = made_bytes(made) + (travels ? made[Work::edge_box_made] * a_box + home_boxes * (a_box + kBoxBytes) : 0);
   double passes = 1;
   while (bound / passes > arena_bytes() && passes < height()) passes *= 2;
   return passes;
 }
 
 void FrameCosts::add_dicing(GroupKeyframe& keyframe, const Homes& homes,
-                            const std::vector<wire::ShareCounts>& made) const {
+                            const std::vector<wire::UnitCounts>& made) const {
   const auto nodes = static_cast<int>(made.size());
   const bool travels = nodes > nodes_on_a_computer(nodes);
   double& most = keyframe.passes;
   for (std::size_t n = 0; n < made.size(); ++n)
-    most = std::max(most, passes(made[n], homes.totals[n].made.edge_boxes, travels));
+    most = std::max(most, passes(made[n], homes.totals[n].drawn.edge_boxes, travels));
   for (std::size_t n = 0; n < made.size(); ++n) {
-    const wire::ShareCounts whole = in_whole_patches(made[n]);
-    const double once = costs_.of(Work::triangle, whole.triangles) + costs_.of(Work::edge_box_made, whole.edge_boxes);
-    const double filled = costs_.of(Work::edge_box_filled, whole.edge_boxes);
+    const wire::UnitCounts whole = in_whole_patches(made[n]);
+    const double once = setting_up(whole);
+    const double filled = costs_.of(Work::edge_box_filled, whole[Work::edge_box_made]);
     keyframe.nodes[n].dice = dicing(whole) + once + filled;
     if (most > 1) keyframe.nodes[n].dice += most * dicing(whole) + once;
     keyframe.nodes[n].exchange = costs_.of(Work::line_mapped, height());
@@ -233,7 +265,7 @@ void FrameCosts::add_sum(GroupKeyframe& keyframe, int nodes) const {
 
 // To homes on other computers. Each node has a part of what is on any home.
 void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
-                              const std::vector<wire::ShareCounts>& made) const {
+                              const std::vector<wire::UnitCounts>& made) const {
   const auto nodes = made.size();
   const double far = 1 - static_cast<double>(nodes_on_a_computer(static_cast<int>(nodes))) / static_cast<double>(nodes);
   double home_messages = 0, home_bytes = 0;  // that one node sends, if it has an equal part of all
@@ -241,18 +273,18 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
   for (std::size_t h = 0; h < nodes; ++h) {
     const double each = 1 / static_cast<double>(nodes);
     parcels[h] = 1 - std::exp(-homes.triangles[h] * each);
-    bytes[h] = each * (homes.totals[h].made.edge_boxes * kUnsortedBoxBytes + homes.triangles[h] * kTriangleBytes) +
+    bytes[h] = each * (homes.totals[h].drawn.edge_boxes * kUnsortedBoxBytes + homes.triangles[h] * kTriangleBytes) +
                parcels[h] * 96;
     home_messages += parcels[h] * far;
     home_bytes += bytes[h] * far;
   }
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
-    const double part = homes.edge_boxes > 0 ? made[n].edge_boxes / homes.edge_boxes * static_cast<double>(nodes) : 0;
+    const double part = homes.edge_boxes > 0 ? made[n][Work::edge_box_made] / homes.edge_boxes * static_cast<double>(nodes) : 0;
     const double out = home_bytes * part, messages_out = home_messages;
     const double in = bytes[n] * static_cast<double>(nodes) * far;
     const double messages_in = parcels[n] * static_cast<double>(nodes) * far;
-    const double boxes_in = homes.totals[n].made.edge_boxes * far;
+    const double boxes_in = homes.totals[n].drawn.edge_boxes * far;
     const auto ends = [&](double messages, double all, const auto& cost) {
       return messages > 0 ? messages * cost(all / messages) : 0;
     };
@@ -261,7 +293,7 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
                      costs_.of(Work::edge_box_filled, boxes_in);
     node.exchange_wait = costs_.on_the_way(std::max(in, out), false);
     node.bytes_to_nodes += out;
-    const double travelling = made[n].edge_boxes * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
+    const double travelling = made[n][Work::edge_box_made] * far * (kUnsortedBoxBytes + kTriangleBytes) + in;
     const double in_pass = (node.memory + travelling + boxes_in * kBoxBytes) / keyframe.passes;
     node.memory = std::max(keyframe.passes > 1 ? std::min(arena_bytes(), node.memory) : 0, in_pass);
   }
@@ -309,7 +341,7 @@ FrameCosts::StillLines FrameCosts::still_lines(const geometry::LineRange& home, 
     still.bytes += depths;
     if (film.samples > 1)
       still.bytes += wire::kStillHeadBytes + static_cast<double>(film.width * sizeof(std::uint32_t)) +
-                     counts.lines[line].constant_groups * sizeof(wire::StillGroup);
+                     counts.lines[line].constant.shaded * sizeof(wire::StillGroup);
   }
   return still;
 }

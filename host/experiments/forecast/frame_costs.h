@@ -15,8 +15,8 @@ namespace mars::forecast {
 // The pixels of a node's part of a frame, on their way to the host.
 struct StripCosts {
   double seconds = 0;  // of drawing, all strips
-  double pixels = 0;
   double bytes = 0;
+  double pasting = 0;  // seconds of the host
   std::uint32_t count = 1;
 };
 
@@ -45,6 +45,8 @@ class FrameCosts {
   GroupKeyframe keyframe(const wire::FrameCounts& counts, int nodes, std::size_t inbetweens) const;
   // After such a keyframe, on a node of a group of so many.
   NodePart inbetween(const FrameTotals& totals, const wire::FrameCounts& keyframe, int nodes) const;
+  // Seconds of the host, of a buffer that shows the keyframe's background for the first time.
+  double background(const wire::FrameCounts& keyframe) const;
   const Costs& costs() const { return costs_; }
 
  private:
@@ -55,23 +57,28 @@ class FrameCosts {
     double messages = 0;
   };
   StillLines still_lines(const geometry::LineRange& home, const wire::FrameCounts& counts) const;
-  double dicing(const wire::ShareCounts& made) const;
-  double drawing(const FrameTotals& totals) const;
-  StripCosts strips(const FrameTotals& totals) const;
+  double dicing(const wire::UnitCounts& made) const;
+  double setting_up(const wire::UnitCounts& made) const;
+  wire::UnitCounts drawn_units(const FrameTotals& totals) const;
+  double keyframe_drawing(const FrameTotals& totals, const wire::FrameCounts& counts,
+                          const geometry::LineRange& lines) const;
+  StripCosts strips(const FrameTotals& totals, double seconds) const;
+  double saving(const FrameTotals& totals) const;
   // Stationary parts on lines that are not kept for inbetweens.
   FrameTotals drawn_again(const wire::FrameCounts& keyframe, int nodes) const;
   bool is_kept(const wire::FrameCounts& keyframe, std::uint32_t line, const wire::StillPlan& plan) const;
   wire::StillPlan still_plan(int nodes) const;
   farm::NodeMemory memory() const;
-  double made_bytes(const wire::ShareCounts& made) const;
+  double made_bytes(const wire::UnitCounts& made) const;
   double arena_bytes() const;
-  double passes(const wire::ShareCounts& made, double home_boxes, bool travels) const;
-  void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::ShareCounts>& made) const;
+  double passes(const wire::UnitCounts& made, double home_boxes, bool travels) const;
+  void add_dicing(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
   void add_sum(GroupKeyframe& keyframe, int nodes) const;
-  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::ShareCounts>& made) const;
+  void add_exchange(GroupKeyframe& keyframe, const Homes& homes, const std::vector<wire::UnitCounts>& made) const;
   void add_still(GroupKeyframe& keyframe, const Homes& homes, const wire::FrameCounts& counts,
                  std::size_t inbetweens) const;
   int nodes_on_a_computer(int nodes) const;
+  double pixel_bytes() const { return static_cast<double>(wire::pixel_bytes(setting_.pixels())); }
   double height() const { return setting_.film.settings().height; }
 
   const Setting setting_;

@@ -10,6 +10,15 @@ using wire::Work;
 
 constexpr std::size_t kTasksAhead = 2;  // host/render/farm/farm.cpp
 
+Work sink_byte(images::PictureFormat picture) {
+  switch (picture) {
+    case images::PictureFormat::png: break;
+    case images::PictureFormat::png16: return Work::sink_png16_byte;
+    case images::PictureFormat::exr: return Work::sink_exr_byte;
+  }
+  return Work::sink_byte;
+}
+
 }  // namespace
 
 HostSide::HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan& plan, const Setting& setting,
@@ -78,9 +87,7 @@ void HostSide::go_on() {
   }
   const StripSent strip = arrived_.front();
   arrived_.pop_front();
-  const auto pixel = static_cast<double>(wire::pixel_bytes(setting_.format));
-  busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1) +
-           costs_.of(Work::host_byte, strip.pixels * pixel),
+  busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1),
        [this, strip] {
          note(strip);
          go_on();
@@ -141,25 +148,35 @@ bool HostSide::begin_frame(Frame& frame) {
 bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place) {
   TaskState& task = tasks_[number];
   Frame& frame = task.frames[place];
+  double seconds = 0;
   std::vector<int> free;
-  for (const StripSent& strip : std::exchange(frame.strips, {}))
+  for (const StripSent& strip : std::exchange(frame.strips, {})) {
+    seconds += strip.pasting;
     if (!strip.last) free.push_back(strip.node);
-  if (frame.contributors_left > 0) {
-    credit_all(free);
-    return true;
   }
-  for (const int node : free) outward_.credit(node);
-  if (place == 0) task.background_there = true;
-  if (--task.left == 0) groups_[group].tasks.pop_front();
-  busy(costs_.of(Work::host_frame, 1), [this, number, place] { submit(number, place); });
+  seconds += static_cast<double>(free.size()) * costs_.host_to_send(sizeof(wire::Credit));
+  const bool whole = frame.contributors_left == 0;
+  if (whole) {
+    seconds += costs_.of(Work::host_frame, 1);
+    task.background_there |= place == 0;
+    if (--task.left == 0) groups_[group].tasks.pop_front();
+  }
+  busy(seconds, [this, free, whole, number, place] {
+    for (const int node : free) outward_.credit(node);
+    if (whole) return submit(number, place);
+    go_on();
+  });
   return true;
+}
+
+double HostSide::sink_seconds() const {
+  return costs_.of(Work::sink_frame, 1) + costs_.of(sink_byte(setting_.picture), frame_bytes_);
 }
 
 void HostSide::submit(std::size_t task, std::size_t place) {
   const double now = clockwork_.now();
   composed_.push_back({now, place == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
-  const double seconds = costs_.of(Work::sink_frame, 1) + costs_.of(Work::sink_byte, frame_bytes_);
-  const double end = computers_.reserve(self_, now, seconds);
+  const double end = setting_.files ? computers_.reserve(self_, now, sink_seconds()) : now;
   ended_ = std::max(ended_, end);
   clockwork_.at(end, [this, held = std::move(tasks_[task].frames[place].held)] {
     taken_.push_back(held);

@@ -19,8 +19,8 @@ struct StripSent {
   int node;
   std::size_t task;
   std::size_t frame;  // of the task
-  double pixels;
-  double bytes;  // of its message
+  double bytes;    // of its message
+  double pasting;  // seconds
   bool last;     // of the node's for this frame
 };
 
@@ -68,6 +68,7 @@ class HostSide {
   bool compose_one();
   bool begin_frame(Frame& frame);
   bool compose(std::size_t group, std::size_t task, std::size_t number);
+  double sink_seconds() const;
   void submit(std::size_t task, std::size_t number);
   void busy(double seconds, Clockwork::Action then);
   void credit_all(const std::vector<int>& nodes);

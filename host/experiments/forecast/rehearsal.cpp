@@ -35,6 +35,7 @@ class Rehearsal {
     std::size_t task = 0;
     std::size_t frame = 0;  // of the task that it draws
     std::uint32_t strips_left = 0;
+    double memory = 0;  // bytes that it used so far
     const GroupKeyframe* keyframe = nullptr;  // of the task
   };
   struct GroupState {
@@ -44,6 +45,7 @@ class Rehearsal {
 
   const GroupKeyframe& keyframe_of(std::size_t task, int nodes);
   const NodePart& part_of(const Node& node);
+  double fresh_seconds(Node& node);
   void receive_task(std::size_t group, std::size_t task);
   void begin_task(int n);
   void meet(int n, const std::function<double(int)>& wait, void (Rehearsal::*then)(int));
@@ -75,6 +77,7 @@ class Rehearsal {
   simulated::Routes routes_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
   std::vector<std::vector<NodePart>> inbetweens_;                  // by task
+  std::vector<double> backgrounds_;                // by keyframe: seconds of the host
   std::vector<Node> nodes_;
   std::vector<GroupState> groups_;
   Rehearsed result_;
@@ -82,7 +85,7 @@ class Rehearsal {
 };
 
 farm::HostMemory host_memory(const farm::Plan& plan, const Setting& setting, int nodes) {
-  return farm::share_host_memory(setting.host_budget, setting.film.settings(), setting.format,
+  return farm::share_host_memory(setting.host_budget, setting.film.settings(), setting.pixels(),
                                  static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(plan.groups.size()),
                                  setting.sink_threads);
 }
@@ -108,6 +111,7 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       node.slots = result_.host_memory.credits;
     }
   }
+  for (const wire::FrameCounts& keyframe : counts.keyframes) backgrounds_.push_back(costs_.background(keyframe));
   const int in_a_group = plan.groups.front().count;
   for (const TaskCounts& task : counts.tasks) {
     std::vector<NodePart>& parts = inbetweens_.emplace_back();
@@ -136,6 +140,14 @@ const GroupKeyframe& Rehearsal::keyframe_of(std::size_t task, int nodes) {
 const NodePart& Rehearsal::part_of(const Node& node) {
   if (node.frame > 0) return inbetweens_[node.task][node.frame - 1];
   return node.keyframe->nodes[static_cast<std::size_t>(node.member)];
+}
+
+// Of a frame that the node begins: its first, or one that takes more memory than any before.
+double Rehearsal::fresh_seconds(Node& node) {
+  const double memory = part_of(node).memory;
+  const double first = node.memory == 0 ? costs_.costs().of(wire::Work::first_frame, 1) : 0;
+  const double before = std::exchange(node.memory, std::max(node.memory, memory));
+  return first + costs_.costs().of(wire::Work::fresh_byte, node.memory - before);
 }
 
 void Rehearsal::receive_task(std::size_t group, std::size_t task) {
@@ -167,7 +179,7 @@ void Rehearsal::begin_task(int n) {
   node.tasks.pop_front();
   node.frame = 0;
   node.keyframe = &keyframe_of(node.task, groups_[node.group].nodes.count);
-  work(n, part_of(node).dice, &Rehearsal::sum);
+  work(n, part_of(node).dice + fresh_seconds(node), &Rehearsal::sum);
 }
 
 // Once all of the group have come, each goes on so many seconds later.
@@ -233,7 +245,10 @@ void Rehearsal::send_strip(int n) {
   const auto host = static_cast<int>(nodes_.size());
   const bool same_computer = computers_.of(n) == computers_.of(host);
   const double bytes = same_computer ? kOnTheSameComputer : strips.bytes / strips.count;
-  const StripSent strip{n, node.task, node.frame, strips.pixels / strips.count, bytes, --node.strips_left == 0};
+  // In an interval's first inbetweens buffers show the background for the first time.
+  const bool fresh = node.frame > 0 && node.frame < result_.host_memory.frames;
+  const double pasting = strips.pasting + (fresh ? backgrounds_[counts_.tasks[node.task].keyframe] : 0);
+  const StripSent strip{n,     node.task, node.frame, bytes, pasting / strips.count, --node.strips_left == 0};
   const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
   clockwork_.at(sent, [this, strip, host] {
     const double arrival = routes_.arrival(computers_.of(strip.node), computers_.of(host),
@@ -253,7 +268,7 @@ void Rehearsal::end_frame(int n) {
   if (k == task.frames.size() - 1) return begin_task(n);
   node.frame = k + 1;
   const NodePart& part = part_of(node);
-  work(n, part.dice + part.exchange, &Rehearsal::begin_strips);
+  work(n, part.dice + part.exchange + fresh_seconds(node), &Rehearsal::begin_strips);
 }
 
 void Rehearsal::receive_credit(int n) {

@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "host/experiments/platform.h"
+#include "host/images/picture_format.h"
 #include "host/render/farm/host_memory.h"
 #include "host/render/farm/node_memory.h"
 #include "node/wire/film.h"
-#include "node/wire/pixel_format.h"
 #include "node/wire/protocol.h"
 
 namespace mars::forecast {
@@ -16,9 +16,12 @@ struct Setting {
   const wire::FilmView& film;
   const experiments::Platform& platform;
   wire::Mapping mapping = wire::Mapping::cost;
-  wire::PixelFormat format = wire::PixelFormat::rgb8;
+  images::PictureFormat picture = images::PictureFormat::png;
+  bool files = true;  // else frames go nowhere
   std::uint32_t sink_threads = 2;
   std::uint64_t host_budget = std::uint64_t{1} << 30;  // bytes, as share_host_memory wants it
+
+  wire::PixelFormat pixels() const { return images::facts_of(picture).pixels; }
 };
 
 }  // namespace mars::forecast

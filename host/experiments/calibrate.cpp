@@ -1,0 +1,252 @@
+#include "host/experiments/calibrate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
+#include <tuple>
+
+#include "hal/failure/failure.h"
+#include "host/child/child.h"
+#include "host/content/document/whole_file.h"
+#include "host/experiments/calibration_films.h"
+#include "host/experiments/fit.h"
+#include "node/wire/work.h"
+
+namespace mars::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using wire::Work;
+
+// Times of one phase and the kinds of work that are charged in it.
+struct Phase {
+  const char* name;
+  std::vector<const char*> times;  // as reports name them
+  std::vector<Work> kinds;
+};
+
+const Phase kNodePhases[] = {{"dice",
+                              {"dice"},
+                              {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::patch,
+                               Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested, Work::row_tested,
+                               Work::triangle, Work::edge_box_made, Work::vertex_light}},
+                             {"fill", {"fill"}, {Work::edge_box_filled}},
+                             {"map", {"sum", "map"}, {Work::line_mapped}},
+                             {"scanline",
+                              {"scanline"},
+                              {Work::line, Work::edge_box, Work::sample, Work::shaded, Work::light, Work::facet_light,
+                               Work::pixel, Work::still_byte}}};
+const Phase kHostPhase{
+    "host", {"busy"}, {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
+
+// Times below are the clock's and the scheduler's.
+constexpr double kSoft = 1e-4;
+
+// What was seen of one thing, a frame or a run, in all repeats.
+struct Seen {
+  std::map<std::string, std::vector<double>> seconds;
+  json charged;
+
+  void add(const std::string& name, double value) { seconds[name].push_back(value); }
+};
+
+double sum_of_least(const Seen& seen, const Phase& phase) {
+  double sum = 0;
+  for (const char* name : phase.times)
+    if (const auto found = seen.seconds.find(name); found != seen.seconds.end()) sum += std::ranges::min(found->second);
+  return sum;
+}
+
+Measurement measurement_of(const Seen& seen, const Phase& phase) {
+  Measurement measured{{}, sum_of_least(seen, phase)};
+  for (const Work kind : phase.kinds)
+    measured.units.push_back(seen.charged.value(std::string(wire::kWorkNames[static_cast<std::size_t>(kind)]), 0.0));
+  return measured;
+}
+
+class Measuring {
+ public:
+  explicit Measuring(const CalibrationTask& task) : task_(task), films_(calibration_films()) {}
+
+  Calibration run() {
+    for (const CalibrationFilm& film : films_) document::write_whole_file(film_file(film), film.text);
+    for (int repeat = 0; repeat < task_.repeats; ++repeat) {
+      for (const CalibrationFilm& film : films_) render(film);
+      for (const char* format : {"png", "png16", "exr"}) render_files(format);
+    }
+    calibration_.work.assign(wire::kWorkNames.size(), 0);
+    for (const Phase& phase : kNodePhases) fit(phase, frames_);
+    fit(kHostPhase, runs_);
+    set_file_costs();
+    calibration_.spread = spread();
+    return std::move(calibration_);
+  }
+
+ private:
+  fs::path film_file(const CalibrationFilm& film) const { return task_.folder / (film.name + ".json"); }
+
+  json report_of(const CalibrationFilm& film, std::vector<std::string> words) {
+    const fs::path report = task_.folder / "report";
+    words.insert(words.begin(), {task_.renderer.string(), film_file(film).string(), "--nodes", "1"});
+    words.insert(words.end(), {"--report", report.string()});
+    words.insert(words.end(), film.words.begin(), film.words.end());
+    child::Child child({{}, words});
+    std::string trouble;
+    const child::Ending ending =
+        child.wait({[](const std::string&) {}, [&](const std::string& line) { trouble = line; }, {}});
+    child::fail_if_stopped(child);
+    if (!ending.well()) throw Failure("a rendering for the calibration failed", film.name, trouble);
+    if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + 3));
+    std::ifstream file(report);
+    return json::parse(file);
+  }
+
+  void render(const CalibrationFilm& film) {
+    const json report = report_of(film, {"--sink", "none"});
+    Seen& run = runs_[film.name];
+    run.charged = report["host"]["charged"];
+    run.add("busy", report["host"]["busy_seconds"]);
+    for (const json& frame : report["frames"]) {
+      const json& node = frame["nodes"].front();
+      Seen& seen = frames_[film.name + " " + std::to_string(frame["frame"].get<int>())];
+      seen.charged = node["work"]["charged"];
+      for (const auto& [name, seconds] : node["seconds"].items()) seen.add(name, seconds);
+    }
+  }
+
+  const CalibrationFilm& file_film() const { return *std::ranges::find(films_, "balls", &CalibrationFilm::name); }
+
+  // The frames of one film as files.
+  void render_files(const std::string& format) {
+    const fs::path folder = task_.folder / ("frames-" + format);
+    const json report = report_of(file_film(), {"-o", folder.string(), "--format", format});
+    fs::remove_all(folder);
+    file_pixels_ = report["width"].get<double>() * report["height"].get<double>();
+    const auto frames = static_cast<double>(report["frames"].size());
+    file_seconds_[format].push_back(report["host"]["sink_seconds"].get<double>() / frames);
+  }
+
+  void fit(const Phase& phase, const std::map<std::string, Seen>& all) {
+    std::vector<Measurement> measurements;
+    for (const auto& [name, seen] : all) measurements.push_back(measurement_of(seen, phase));
+    const Fit found = fit_costs(measurements, kSoft);
+    for (std::size_t i = 0; i < phase.kinds.size(); ++i)
+      calibration_.work[static_cast<std::size_t>(phase.kinds[i])] = found.costs[i];
+    calibration_.phases.push_back({phase.name, measurements.size(), found.median_error, found.high_error});
+  }
+
+  void set_file_costs() {
+    const std::tuple<const char*, Work, double> kFiles[] = {
+        {"png", Work::sink_byte, 4}, {"png16", Work::sink_png16_byte, 8}, {"exr", Work::sink_exr_byte, 8}};
+    for (const auto& [format, kind, pixel_bytes] : kFiles)
+      calibration_.work[static_cast<std::size_t>(kind)] =
+          std::ranges::min(file_seconds_[format]) / (file_pixels_ * pixel_bytes);
+  }
+
+  // Of the long phases, where the clock does not matter.
+  double spread() const {
+    constexpr double kLong = 1e-3;
+    std::vector<double> spreads;
+    for (const auto& [name, seen] : frames_) {
+      std::vector<double> times = seen.seconds.at("scanline");
+      std::ranges::sort(times);
+      if (times.front() > kLong) spreads.push_back(times[times.size() / 2] / times.front() - 1);
+    }
+    std::ranges::sort(spreads);
+    return spreads.empty() ? 0 : spreads[spreads.size() / 2];
+  }
+
+  const CalibrationTask& task_;
+  const std::vector<CalibrationFilm> films_;
+  std::map<std::string, Seen> frames_;
+  std::map<std::string, Seen> runs_;
+  std::map<std::string, std::vector<double>> file_seconds_;
+  double file_pixels_ = 0;
+  int done_ = 0;
+  Calibration calibration_;
+};
+
+// Bytes a second, of one processor, beyond its caches.
+double copy_rate() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kBytes = 64 << 20;
+  constexpr int kRepeats = 5;
+  const std::vector<char> from(kBytes, 1);
+  std::vector<char> to(kBytes);
+  double least = 1e9;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto begun = Clock::now();
+    std::memcpy(to.data(), from.data(), kBytes);
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  return kBytes / least;
+}
+
+// What a person can read, and three digits are as many as are known.
+double rounded(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return std::stod(text);
+}
+
+// What is left of a long message's time beside the copies that both ends are charged for.
+double wire_rate(double rate, double copy_rate) {
+  constexpr double kFastest = 1e12;
+  return 1 / std::max(1 / rate - 2 / copy_rate, 1 / kFastest);
+}
+
+}  // namespace
+
+Calibration calibrate(const CalibrationTask& task) {
+  Calibration calibration = Measuring(task).run();
+  calibration.copy_rate = copy_rate();
+  return calibration;
+}
+
+std::string platform_text(const Calibration& calibration, const MessageCosts& messages,
+                          const CalibratedMachine& machine) {
+  constexpr int kAllNodes = 1 << 20;  // however many there are: they share its processors
+  nlohmann::ordered_json work;
+  for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
+    work[std::string(wire::kWorkNames[kind])] = rounded(calibration.work[kind]);
+  const nlohmann::ordered_json platform = {
+      {"name", "here"},
+      {"about", machine.about},
+      {"computers", {{"nodes", kAllNodes}, {"processors", machine.processors}, {"memory", machine.memory}}},
+      {"host", {{"apart", false}}},
+      {"network",
+       {{"topology", "switch"},
+        {"local_latency", rounded(messages.latency)},
+        {"local_rate", rounded(wire_rate(messages.rate, calibration.copy_rate))},
+        {"copy_rate", rounded(calibration.copy_rate)},
+        {"send", rounded(messages.end)},
+        {"receive", rounded(messages.end)}}},
+      {"work", work}};
+  return platform.dump(2) + "\n";
+}
+
+std::string table_text(const Calibration& calibration) {
+  std::ostringstream text;
+  text << std::left << std::setw(18) << "work" << std::right << std::setw(14) << "nanoseconds" << '\n' << std::fixed;
+  for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
+    text << std::left << std::setw(18) << wire::kWorkNames[kind] << std::right << std::setw(14) << std::setprecision(3)
+         << 1e9 * calibration.work[kind] << '\n';
+  text << '\n'
+       << std::left << std::setw(18) << "phase" << std::right << std::setw(14) << "measured" << std::setw(16)
+       << "middle error" << std::setw(16) << "9 of 10 below" << '\n'
+       << std::setprecision(0);
+  for (const PhaseFit& phase : calibration.phases)
+    text << std::left << std::setw(18) << phase.phase << std::right << std::setw(14) << phase.measured << std::setw(14)
+         << 100 * phase.median_error << " %" << std::setw(14) << 100 * phase.high_error << " %\n";
+  return text.str();
+}
+
+}  // namespace mars::experiments
