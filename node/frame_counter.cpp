@@ -130,9 +130,8 @@ void FrameCounter::estimate_seen(std::vector<wire::LineCounts>& lines, bool keyf
     depths_ = line.constant_depth;
     moving[i] = draw(line.moving, line_of(i), depths_);
   }
-  spread(constant, lines, &wire::LineCounts::constant, [](const wire::LineCounts& line) {
-    return line.samples - line.moving_samples;
-  });
+  spread(constant, lines, &wire::LineCounts::constant,
+         [](const wire::LineCounts& line) { return line.samples - line.moving_samples; });
   spread(moving, lines, &wire::LineCounts::moving, [](const wire::LineCounts& line) { return line.moving_samples; });
 }
 

@@ -62,7 +62,7 @@ class FrameCounter {
   messages::PrivateMemory memory_;
   std::vector<std::uint8_t> all_lines_;
   std::vector<raster::LineLoad> share_loads_;
-  std::vector<raster::LineLoad> loads_;         // of all shares
+  std::vector<raster::LineLoad> loads_;  // of all shares
   std::vector<Columns> moving_columns_;
   std::vector<raster::LineLoad> moving_loads_;  // of these, moving parts'
   std::vector<geometry::Triangle> triangles_;   // of the sampled lines

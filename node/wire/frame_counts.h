@@ -27,10 +27,10 @@ struct UnitCounts {
 // Of stationary parts (CFB), or of moving ones (MFB), on one line of pixels.
 struct SeenCounts {
   double pixels = 0;
-  double runs = 0;        // of neighbouring pixels
-  double shaded = 0;      // groups of a pixel's samples that show the same triangle
-  double highlights = 0;  // of these, lit by models of highlights
-  double facets = 0;      // and of rough surfaces
+  double runs = 0;          // of neighbouring pixels
+  double shaded = 0;        // groups of a pixel's samples that show the same triangle
+  double highlights = 0;    // of these, lit by models of highlights
+  double facets = 0;        // and of rough surfaces
   double block_pixels = 0;  // of the compositor's blocks on this line, where the pixels do not fill them
 
   SeenCounts& operator+=(const SeenCounts& more) {

@@ -51,8 +51,9 @@ struct FrameCosts::Homes {
     }
     group::map_lines(mapping, weights, ranges);
     edge_boxes = all.drawn.edge_boxes;
-    const double rows = all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
-    const double taller = std::max(0.0, rows / samples - 1);                           // in lines
+    const double rows =
+        all.made[Work::triangle] > 0 ? edge_boxes / all.made[Work::triangle] : 1;  // of samples, of a triangle
+    const double taller = std::max(0.0, rows / samples - 1);                       // in lines
     for (const geometry::LineRange& range : ranges) {
       totals.push_back(totals_on(counts, range.first, range.last));
       const double boxes = totals.back().drawn.edge_boxes;
@@ -212,13 +213,15 @@ StripCosts FrameCosts::strips(const FrameTotals& totals, double seconds) const {
 
 // Triangles with their edge boxes, once as made and once in their lines.
 double FrameCosts::made_bytes(const wire::UnitCounts& made) const {
-  return made[Work::triangle] * kTriangleBytes + made[Work::edge_box_made] * (kUnsortedBoxBytes + kBoxBytes) + 3 * 8 * height();
+  return made[Work::triangle] * kTriangleBytes + made[Work::edge_box_made] * (kUnsortedBoxBytes + kBoxBytes) +
+         3 * 8 * height();
 }
 
 // As node/group/passes.h bounds them.
 double FrameCosts::passes(const wire::UnitCounts& made, double home_boxes, bool travels) const {
   const double a_box = kTriangleBytes + kUnsortedBoxBytes;
-  const double bound = made_bytes(made) + (travels ? made[Work::edge_box_made] * a_box + home_boxes * (a_box + kBoxBytes) : 0);
+  const double bound =
+      made_bytes(made) + (travels ? made[Work::edge_box_made] * a_box + home_boxes * (a_box + kBoxBytes) : 0);
   double passes = 1;
   while (bound / passes > arena_bytes() && passes < height()) passes *= 2;
   return passes;
@@ -280,7 +283,8 @@ void FrameCosts::add_exchange(GroupKeyframe& keyframe, const Homes& homes,
   }
   for (std::size_t n = 0; n < nodes; ++n) {
     NodePart& node = keyframe.nodes[n];
-    const double part = homes.edge_boxes > 0 ? made[n][Work::edge_box_made] / homes.edge_boxes * static_cast<double>(nodes) : 0;
+    const double part =
+        homes.edge_boxes > 0 ? made[n][Work::edge_box_made] / homes.edge_boxes * static_cast<double>(nodes) : 0;
     const double out = home_bytes * part, messages_out = home_messages;
     const double in = bytes[n] * static_cast<double>(nodes) * far;
     const double messages_in = parcels[n] * static_cast<double>(nodes) * far;

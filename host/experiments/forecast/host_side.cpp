@@ -9,6 +9,7 @@ namespace {
 using wire::Work;
 
 constexpr std::size_t kTasksAhead = 2;  // host/render/farm/farm.cpp
+constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
 
 Work sink_byte(images::PictureFormat picture) {
   switch (picture) {
@@ -32,7 +33,7 @@ HostSide::HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan&
       outward_(std::move(outward)),
       frame_bytes_(static_cast<double>(memory.frame_bytes)),
       buffers_(memory.frames),
-      free_buffers_(memory.frames),
+      free_buffers_(memory.frames, kNothing),
       groups_(plan.groups.size()),
       tasks_(plan.tasks.size()) {}
 
@@ -73,7 +74,7 @@ double HostSide::give(std::size_t group) {
   task.group = group;
   task.left = frames.size();
   for (std::size_t frame = 0; frame < frames.size(); ++frame)
-    task.frames.push_back({frame == 0 ? nodes : 1, false, {}, {}});
+    task.frames.push_back({frame == 0 ? nodes : 1, false, 0, {}, {}});
   groups_[group].tasks.push_back(number);
   outward_.task(group, number);
   return nodes * costs_.host_to_send(static_cast<double>(sizeof(wire::Render) + frames.size() * sizeof(std::uint32_t)));
@@ -87,11 +88,10 @@ void HostSide::go_on() {
   }
   const StripSent strip = arrived_.front();
   arrived_.pop_front();
-  busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1),
-       [this, strip] {
-         note(strip);
-         go_on();
-       });
+  busy(costs_.host_to_receive(strip.bytes) + costs_.of(Work::host_strip, 1), [this, strip] {
+    note(strip);
+    go_on();
+  });
 }
 
 void HostSide::note(const StripSent& strip) {
@@ -108,10 +108,10 @@ void HostSide::note(const StripSent& strip) {
 // Of a frame that a sink has taken; whether there was one.
 bool HostSide::take_back() {
   if (taken_.empty()) return false;
-  const std::vector<int> nodes = std::move(taken_.front());
+  const Taken taken = std::move(taken_.front());
   taken_.pop_front();
-  ++free_buffers_;
-  credit_all(nodes);
+  free_buffers_.push_back(taken.task);
+  credit_all(taken.held);
   return true;
 }
 
@@ -128,7 +128,7 @@ bool HostSide::compose_one() {
     for (std::size_t i = 0; i < task.waiting.size(); ++i) {
       const std::size_t frame = task.waiting[i];
       if (frame != 0 && !task.background_there) continue;
-      if (!begin_frame(task.frames[frame])) continue;
+      if (!begin_frame(number, frame)) continue;
       task.waiting.erase(task.waiting.begin() + static_cast<std::ptrdiff_t>(i));
       return compose(group, number, frame);
     }
@@ -137,18 +137,22 @@ bool HostSide::compose_one() {
 }
 
 // As sinks::SinkPool gives buffers to frames that are whole, and earlier to others.
-bool HostSide::begin_frame(Frame& frame) {
+bool HostSide::begin_frame(std::size_t task, std::size_t number) {
+  Frame& frame = tasks_[task].frames[number];
   if (frame.has_picture) return true;
   const std::size_t left = frame.contributors_left == 0 ? 0 : std::max<std::size_t>(1, buffers_ / 2);
-  if (free_buffers_ <= left) return false;
-  --free_buffers_;
+  if (free_buffers_.size() <= left) return false;
+  auto buffer = std::ranges::find(free_buffers_.rbegin(), free_buffers_.rend(), task);
+  if (buffer == free_buffers_.rend()) buffer = free_buffers_.rbegin();
+  if (*buffer != task && number > 0) frame.begun = backgrounds_[task];
+  free_buffers_.erase(std::next(buffer).base());
   return frame.has_picture = true;
 }
 
 bool HostSide::compose(std::size_t group, std::size_t number, std::size_t place) {
   TaskState& task = tasks_[number];
   Frame& frame = task.frames[place];
-  double seconds = 0;
+  double seconds = std::exchange(frame.begun, 0);
   std::vector<int> free;
   for (const StripSent& strip : std::exchange(frame.strips, {})) {
     seconds += strip.pasting;
@@ -178,8 +182,8 @@ void HostSide::submit(std::size_t task, std::size_t place) {
   composed_.push_back({now, place == 0 ? wire::FrameKind::keyframe : wire::FrameKind::inbetween});
   const double end = setting_.files ? computers_.reserve(self_, now, sink_seconds()) : now;
   ended_ = std::max(ended_, end);
-  clockwork_.at(end, [this, held = std::move(tasks_[task].frames[place].held)] {
-    taken_.push_back(held);
+  clockwork_.at(end, [this, task, held = std::move(tasks_[task].frames[place].held)] {
+    taken_.push_back({task, held});
     wake();
   });
   give_tasks();

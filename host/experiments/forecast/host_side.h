@@ -19,9 +19,9 @@ struct StripSent {
   int node;
   std::size_t task;
   std::size_t frame;  // of the task
-  double bytes;    // of its message
-  double pasting;  // seconds
-  bool last;     // of the node's for this frame
+  double bytes;       // of its message
+  double pasting;     // seconds
+  bool last;          // of the node's for this frame
 };
 
 class HostSide {
@@ -35,6 +35,8 @@ class HostSide {
   HostSide(Clockwork& clockwork, Computers& computers, const farm::Plan& plan, const Setting& setting,
            const farm::HostMemory& memory, int nodes, Outward outward);
 
+  // Of each task in order: seconds to show its background in a buffer that shows another.
+  void add_background(double seconds) { backgrounds_.push_back(seconds); }
   void begin();
   void arrive(const StripSent& strip);
 
@@ -46,6 +48,7 @@ class HostSide {
   struct Frame {
     int contributors_left;
     bool has_picture = false;
+    double begun = 0;               // seconds that this took
     std::vector<StripSent> strips;  // that wait
     std::vector<int> held;          // nodes of last strips
   };
@@ -66,7 +69,7 @@ class HostSide {
   double give(std::size_t group);
   bool take_back();
   bool compose_one();
-  bool begin_frame(Frame& frame);
+  bool begin_frame(std::size_t task, std::size_t number);
   bool compose(std::size_t group, std::size_t task, std::size_t number);
   double sink_seconds() const;
   void submit(std::size_t task, std::size_t number);
@@ -83,12 +86,17 @@ class HostSide {
   const Outward outward_;
   const double frame_bytes_;
   const std::size_t buffers_;
-  std::size_t free_buffers_;
+  std::vector<std::size_t> free_buffers_;  // the tasks whose background they show; the one given back last is last
+  std::vector<double> backgrounds_;        // by task
   std::vector<GroupState> groups_;
   std::vector<TaskState> tasks_;
   std::size_t next_task_ = 0;
   std::deque<StripSent> arrived_;
-  std::deque<std::vector<int>> taken_;  // frames by sinks: nodes whose slots they held
+  struct Taken {
+    std::size_t task;
+    std::vector<int> held;  // nodes whose slots its strips have
+  };
+  std::deque<Taken> taken_;  // frames, by sinks
   bool idle_ = true;
   std::vector<ForecastFrame> composed_;
   double ended_ = 0;

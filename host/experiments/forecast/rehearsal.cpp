@@ -35,7 +35,7 @@ class Rehearsal {
     std::size_t task = 0;
     std::size_t frame = 0;  // of the task that it draws
     std::uint32_t strips_left = 0;
-    double memory = 0;  // bytes that it used so far
+    double memory = 0;                        // bytes that it used so far
     const GroupKeyframe* keyframe = nullptr;  // of the task
   };
   struct GroupState {
@@ -77,7 +77,6 @@ class Rehearsal {
   simulated::Routes routes_;
   std::map<std::array<std::size_t, 3>, GroupKeyframe> keyframes_;  // by number, nodes and inbetweens
   std::vector<std::vector<NodePart>> inbetweens_;                  // by task
-  std::vector<double> backgrounds_;                // by keyframe: seconds of the host
   std::vector<Node> nodes_;
   std::vector<GroupState> groups_;
   Rehearsed result_;
@@ -111,7 +110,9 @@ Rehearsal::Rehearsal(const FilmCounts& counts, const farm::Plan& plan, const Set
       node.slots = result_.host_memory.credits;
     }
   }
-  for (const wire::FrameCounts& keyframe : counts.keyframes) backgrounds_.push_back(costs_.background(keyframe));
+  std::vector<double> backgrounds;
+  for (const wire::FrameCounts& keyframe : counts.keyframes) backgrounds.push_back(costs_.background(keyframe));
+  for (const TaskCounts& task : counts.tasks) host_.add_background(backgrounds[task.keyframe]);
   const int in_a_group = plan.groups.front().count;
   for (const TaskCounts& task : counts.tasks) {
     std::vector<NodePart>& parts = inbetweens_.emplace_back();
@@ -245,10 +246,7 @@ void Rehearsal::send_strip(int n) {
   const auto host = static_cast<int>(nodes_.size());
   const bool same_computer = computers_.of(n) == computers_.of(host);
   const double bytes = same_computer ? kOnTheSameComputer : strips.bytes / strips.count;
-  // In an interval's first inbetweens buffers show the background for the first time.
-  const bool fresh = node.frame > 0 && node.frame < result_.host_memory.frames;
-  const double pasting = strips.pasting + (fresh ? backgrounds_[counts_.tasks[node.task].keyframe] : 0);
-  const StripSent strip{n,     node.task, node.frame, bytes, pasting / strips.count, --node.strips_left == 0};
+  const StripSent strip{n, node.task, node.frame, bytes, strips.pasting / strips.count, --node.strips_left == 0};
   const double sent = computers_.work(n, clockwork_.now(), costs_.costs().to_send(bytes));
   clockwork_.at(sent, [this, strip, host] {
     const double arrival = routes_.arrival(computers_.of(strip.node), computers_.of(host),
