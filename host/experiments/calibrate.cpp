@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using wire::Work;
 
-// Times of one phase and the kinds of work that are charged in it.
+// Times of one phase and the kinds of work that explain them. What a frame costs beside its triangles and pixels is
+// spread over phases, and charged when it begins.
 struct Phase {
   const char* name;
   std::vector<const char*> times;  // as reports name them
@@ -38,12 +39,12 @@ const Phase kNodePhases[] = {{"dice",
                               {Work::first_frame, Work::fresh_byte, Work::frame, Work::segment, Work::patch,
                                Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested, Work::row_tested,
                                Work::triangle, Work::edge_box_made, Work::vertex_light}},
-                             {"fill", {"fill"}, {Work::edge_box_filled}},
+                             {"fill", {"fill"}, {Work::fresh_byte, Work::edge_box_filled}},
                              {"map", {"sum", "map"}, {Work::line_mapped}},
                              {"scanline",
                               {"scanline"},
-                              {Work::line, Work::edge_box, Work::sample, Work::shaded, Work::light, Work::facet_light,
-                               Work::pixel, Work::still_byte}}};
+                              {Work::first_frame, Work::frame, Work::line, Work::edge_box, Work::sample, Work::shaded,
+                               Work::light, Work::facet_light, Work::pixel, Work::still_byte}}};
 const Phase kHostPhase{
     "host", {"busy"}, {Work::host_strip, Work::host_run, Work::host_byte, Work::host_restored, Work::host_frame}};
 
@@ -101,7 +102,7 @@ class Measuring {
     child::Child child({{}, words});
     std::string trouble;
     const child::Ending ending =
-        child.wait({[](const std::string&) {}, [&](const std::string& line) { trouble = line; }, {}});
+        child.wait({[](const std::string&) {}, [&](const std::string& line) { trouble = line; }, [] {}});
     child::fail_if_stopped(child);
     if (!ending.well()) throw Failure("a rendering for the calibration failed", film.name, trouble);
     if (task_.progress) task_.progress(++done_, task_.repeats * static_cast<int>(films_.size() + 3));
@@ -139,7 +140,7 @@ class Measuring {
     for (const auto& [name, seen] : all) measurements.push_back(measurement_of(seen, phase));
     const Fit found = fit_costs(measurements, kSoft);
     for (std::size_t i = 0; i < phase.kinds.size(); ++i)
-      calibration_.work[static_cast<std::size_t>(phase.kinds[i])] = found.costs[i];
+      calibration_.work[static_cast<std::size_t>(phase.kinds[i])] += found.costs[i];
     calibration_.phases.push_back({phase.name, measurements.size(), found.median_error, found.high_error});
   }
 
@@ -218,7 +219,7 @@ std::string platform_text(const Calibration& calibration, const MessageCosts& me
   for (std::size_t kind = 0; kind < calibration.work.size(); ++kind)
     work[std::string(wire::kWorkNames[kind])] = rounded(calibration.work[kind]);
   const nlohmann::ordered_json platform = {
-      {"name", "here"},
+      {"name", machine.name},
       {"about", machine.about},
       {"computers", {{"nodes", kAllNodes}, {"processors", machine.processors}, {"memory", machine.memory}}},
       {"host", {{"apart", false}}},

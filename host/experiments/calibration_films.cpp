@@ -14,7 +14,7 @@ struct Bodies {
   const char* shape;
   int side;  // so many rows of so many bodies
   double size;
-  int dice;
+  int dice;  // 0: adaptive
   const char* reflection;
   const char* interpolation;
   int lights;
@@ -23,39 +23,66 @@ struct Bodies {
 };
 
 constexpr Bodies kBodies[] = {
-    {"cube", "box", 1, 6, 1, "phong", "phong", 1, 1, "1280x720"},
-    {"cubes", "box", 3, 2, 1, "blinn-phong", "phong", 3, 4, "960x540"},
-    {"still", "sphere", 12, 0.5, 4, "phong", "phong", 2, 1, "640x360"},
-    {"balls", "sphere", 4, 1.7, 16, "blinn-phong", "phong", 1, 1, "1280x720"},
+    {"cube", "box", 1, 6, 0, "phong", "phong", 1, 1, "1280x720"},
+    {"cubes", "box", 3, 2, 0, "blinn-phong", "phong", 3, 4, "960x540"},
+    {"boxes", "box", 24, 0.2, 0, "phong", "phong", 2, 1, "320x180"},
+    {"still", "sphere", 12, 0.5, 0, "phong", "phong", 2, 1, "640x360"},
+    {"balls", "sphere", 4, 1.7, 0, "blinn-phong", "phong", 3, 1, "1280x720"},
     {"fine", "sphere", 2, 3.4, 64, "phong", "phong", 1, 1, "640x360"},
-    {"teapots", "teapot", 3, 1.6, 16, "metallic-roughness", "phong", 2, 4, "640x360"},
-    {"teapot", "teapot", 1, 6, 32, "cook-torrance", "phong", 3, 1, "960x540"},
-    {"smooth", "teapot", 1, 6, 16, "cook-torrance", "phong", 2, 16, "480x270"},
-    {"many", "sphere", 20, 0.3, 6, "phong", "phong", 1, 4, "480x270"},
+    {"small", "teapot", 3, 1.6, 0, "phong", "phong", 3, 4, "320x180"},
+    {"teapots", "teapot", 3, 1.6, 0, "metallic-roughness", "phong", 2, 4, "640x360"},
+    {"teapot", "teapot", 1, 6, 0, "cook-torrance", "phong", 3, 1, "960x540"},
+    {"smooth", "teapot", 1, 6, 0, "cook-torrance", "phong", 2, 16, "480x270"},
+    {"lit", "teapot", 1, 6, 0, "blinn-phong", "phong", 4, 4, "960x540"},
+    {"many", "sphere", 20, 0.3, 0, "phong", "phong", 1, 4, "480x270"},
     {"grains", "sphere", 6, 0.6, 32, "phong", "phong", 1, 16, "320x180"},
-    {"colored", "teapot", 2, 2.5, 24, "blinn-phong", "gouraud", 4, 1, "640x360"},
+    {"colored", "teapot", 2, 2.5, 0, "blinn-phong", "gouraud", 4, 1, "640x360"},
+    {"sheet", "sheet", 1, 6, 0, "phong", "phong", 2, 4, "640x360"},
+    {"sheets", "sheet", 4, 1.5, 0, "blinn-phong", "phong", 3, 1, "480x270"},
+    {"cloth", "sheet", 2, 3, 0, "metallic-roughness", "phong", 3, 1, "1280x720"},
     {"hills", "hills", 2, 3, 1, "phong", "phong", 2, 1, "960x540"},
-    {"stones", "hills", 8, 0.8, 1, "cook-torrance", "phong", 1, 4, "640x360"},
+    {"dunes", "hills", 8, 0.8, 1, "cook-torrance", "phong", 1, 4, "640x360"},
+    {"stones", "stone", 16, 0.4, 1, "cook-torrance", "phong", 3, 1, "640x360"},
+    {"rubble", "stone", 10, 0.6, 1, "phong", "phong", 2, 16, "320x180"},
     {"facets", "hills", 4, 1.6, 1, "blinn-phong", "flat", 3, 4, "480x270"},
 };
 
-// A wavy mesh of squares, within 0 to 1.
-json hills() {
-  constexpr int kSide = 48;
+double wave(double x, double y) {
+  return 0.5 + 0.4 * std::sin(4 * std::numbers::pi * x) * std::cos(6 * std::numbers::pi * y);
+}
+
+// A wavy mesh of `side` times `side` squares, within 0 to 1.
+json mesh(int side) {
   json vertices = json::array(), faces = json::array();
-  for (int i = 0; i <= kSide; ++i)
-    for (int j = 0; j <= kSide; ++j) {
-      const double x = static_cast<double>(i) / kSide, y = static_cast<double>(j) / kSide;
-      const double wave = std::sin(4 * std::numbers::pi * x) * std::cos(6 * std::numbers::pi * y);
-      vertices.push_back({x, y, 0.5 + 0.4 * wave});
+  for (int i = 0; i <= side; ++i)
+    for (int j = 0; j <= side; ++j) {
+      const double x = static_cast<double>(i) / side, y = static_cast<double>(j) / side;
+      vertices.push_back({x, y, wave(x, y)});
     }
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j) {
-      const int at = i * (kSide + 1) + j;
-      faces.push_back({at, at + kSide + 1, at + kSide + 2, at + 1});
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const int at = i * (side + 1) + j;
+      faces.push_back({at, at + side + 1, at + side + 2, at + 1});
     }
   return {{"mesh", {{"vertices", vertices}, {"faces", faces}, {"crease", 180}}}};
 }
+
+// Many patches.
+json sheet() {
+  constexpr int kSide = 15;
+  json rows = json::array();
+  for (int i = 0; i <= kSide; ++i) {
+    json row = json::array();
+    for (int j = 0; j <= kSide; ++j) {
+      const double x = static_cast<double>(i) / kSide, y = static_cast<double>(j) / kSide;
+      row.push_back({x, y, wave(x, y)});
+    }
+    rows.push_back(row);
+  }
+  return {{"bspline", {{"points", rows}}}};
+}
+
+json own_shapes() { return {{"hills", mesh(48)}, {"stone", mesh(3)}, {"sheet", sheet()}}; }
 
 json lights(int count) {
   const json all[] = {{{"direction", {-0.4, -0.7, 0.8}}},
@@ -84,11 +111,14 @@ std::string film_text(const Bodies& bodies) {
   const json segment = {
       {"shape", bodies.shape}, {"sbb", {{-half, -half, -half}, {half, half, half}}}, {"material", "skin"}};
   json model = {{"joints", {{{"name", "body"}, {"segment", segment}}}}};
-  if (std::string_view(bodies.shape) == "hills") model["shapes"] = {{"hills", hills()}};
+  const json shapes = own_shapes();
+  if (shapes.contains(bodies.shape)) model["shapes"] = {{bodies.shape, shapes[bodies.shape]}};
   const json material = {
       {"color", {0.7, 0.5, 0.3}}, {"reflection", bodies.reflection}, {"interpolation", bodies.interpolation}};
+  const json ambient = {{"sky", {0.8, 0.9, 1}}, {"ground", {0.5, 0.45, 0.4}}};
   return json({{"frames", 8},
-               {"dice", bodies.dice},
+               {"ambient", ambient},
+               {"dice", bodies.dice == 0 ? json("adaptive") : json(bodies.dice)},
                {"camera", {{"eye", {0, -14, 4}}, {"at", {0, 0, 0}}, {"fov", 34}}},
                {"lights", lights(bodies.lights)},
                {"materials", {{"skin", material}}},
